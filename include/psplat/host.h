@@ -1,0 +1,142 @@
+/* host.h: the services that psplat gives to plugins.
+ *
+ * A plugin links neither Embree nor OpenMP nor libpsplat: everything it needs comes through this
+ * table. Words used below. [main thread]: the thread that drives the render; [any thread]: also
+ * from inside a parallel_for body or a callback that is marked [worker]. "Borrowed until X": the
+ * host owns it.
+ */
+#ifndef PSPLAT_HOST_H
+#define PSPLAT_HOST_H
+
+#include <psplat/types.h>
+
+typedef struct ps_host ps_host;
+
+typedef enum ps_log_level { PS_LOG_DEBUG = 0, PS_LOG_INFO = 1, PS_LOG_WARNING = 2 } ps_log_level;
+
+/* One stream of random numbers for each purpose; streams are independent. A plugin takes purposes
+ * from PS_STREAM_PLUGIN upwards for needs of its own. */
+typedef enum ps_stream {
+    PS_STREAM_PIXEL = 0, /* jitter of a pixel */
+    PS_STREAM_EMISSION = 1,
+    PS_STREAM_BOUNCE = 2,
+    PS_STREAM_SPLAT = 3, /* rotation of a splat's frame */
+    PS_STREAM_PATH = 4,  /* path tracing */
+    PS_STREAM_PLUGIN = 64
+} ps_stream;
+
+/* How large a splat is and where its box begins: the parameters that every visibility shares
+ * (PS_BOX_PARAMS in strategy.h gives the rows). Scene units. */
+typedef struct ps_box_settings {
+    double size;            /* half-width R; 0: automatic, 5 % of the scene's radius */
+    double follow;          /* R is at most follow * distance travelled; 0: no limit */
+    double depth;           /* how far the box reaches past the first hit; 0: R tan(theta) + R */
+    double step_back;       /* see step_back_rule */
+    int32_t step_back_rule; /* 0: auto, min(d, R tan(theta) + R/2); 1: full, from the source; -1:
+                               step_back */
+    int32_t reserved;
+} ps_box_settings;
+
+/* What the estimator works on in one pass. */
+typedef struct ps_pass {
+    uint32_t size;
+    uint32_t number;     /* from 0 */
+    uint64_t seed;       /* of the render */
+    uint32_t tile_count; /* tiles of the G-buffer */
+    uint32_t thread_count;
+    float surface_offset; /* how far to move a ray's origin off the surface it leaves, along the normal */
+} ps_pass;
+
+/* A body of parallel_for: item `index`, on worker `worker` < thread_count. */
+typedef void (*ps_body)(void *user, uint64_t index, uint32_t worker);
+
+struct ps_host {
+    uint32_t size;      /* sizeof(ps_host) of the running psplat */
+    uint32_t abi_minor; /* of the running psplat */
+    void *core;         /* the host's own */
+
+    /* Memory, 64-byte aligned, not zeroed, counted in the statistics under `what` (a literal). NULL
+     * when out of memory. release takes what allocate gave, or NULL. [any thread] */
+    void *(*allocate)(const ps_host *host, size_t bytes, const char *what);
+    void (*release)(const ps_host *host, void *memory);
+
+    /* Calls body for every index in [0, count), in any order on the render's threads, and returns
+     * when all are done. Results must not depend on the worker. Not to be nested. [main thread] */
+    void (*parallel_for)(const ps_host *host, uint64_t count, ps_body body, void *user);
+
+    /* First hit of each ray, with the surface's diffuse reflectance. [any thread] */
+    void (*intersect)(const ps_host *host, const ps_ray *rays, size_t n, ps_hit *hits);
+
+    /* Whether something lies on each ray between tnear and tfar: 1 or 0. [any thread] */
+    void (*occluded)(const ps_host *host, const ps_ray *rays, size_t n, uint8_t *blocked);
+
+    /* Traces coherent packets; see ps_packet. The fastest way where 16 rays run close together, in
+     * 4x4 blocks rather than rows. [any thread] */
+    void (*intersect_packets)(const ps_host *host, ps_packet *packets, size_t n);
+
+    /* Four numbers in [0,1) for each index, from the Owen-scrambled Sobol sequence of `stream`
+     * (values of ps_stream); `set` chooses independent groups of four dimensions, for example the
+     * bounce. A pure function of (seed, stream, set, index): the pass belongs into the index. [any
+     * thread] */
+    void (*samples)(const ps_host *host, uint32_t stream, uint32_t set, const uint64_t *indices,
+                    size_t n, float (*samples)[4]);
+
+    /* Starts light paths: chooses lights by power, and for each gives the ray and the power (W)
+     * that it would carry if it were the only one; divide by the number of paths. Zero power where
+     * there are no lights. [any thread] */
+    void (*emit_light)(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
+                       ps_rgb *power);
+
+    /* Direct irradiance (W/m^2) from all lights at points with normals, shadow rays included. [any
+     * thread] */
+    void (*direct_irradiance)(const ps_host *host, const ps_vec3 *positions, const ps_vec3 *normals,
+                              size_t n, ps_rgb *irradiance);
+
+    /* Centre and radius of the sphere around the scene. [any thread] */
+    void (*scene_bounds)(const ps_host *host, ps_vec3 *center, float *radius);
+
+    /* Boxes around the first hits of sources: the geometry that every visibility shares (DESIGN:
+     * frame, size that follows distance, step-back). A hit at INFINITY gives half_width 0. [any
+     * thread] */
+    void (*place_boxes)(const ps_host *host, const ps_box_settings *settings,
+                        const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats);
+
+    /* The pass's next batch of sources, injected and stratified, in path order; n is 0 after the last.
+     * `progress` becomes the share of the pass's paths that are done, 0..1. Borrowed until the next
+     * call. [main thread, inside accumulate] */
+    ps_result (*next_sources)(const ps_host *host, const ps_source **sources, size_t *n,
+                              double *progress);
+
+    /* Carries sources to the surfaces they light, by the chosen visibility. [main thread, inside
+     * accumulate] */
+    ps_result (*place_splats)(const ps_host *host, const ps_source *sources, size_t n,
+                              ps_splat *splats);
+
+    /* Adds the light of splats to the tiles: depth maps by the chosen visibility, weights by the
+     * chosen filter. Irradiance += power * K * V * max(0, -n.w), weight += K * V; bitwise the same
+     * for any number of threads and any batching. Cuts the splats' depth ranges. [main thread,
+     * inside accumulate] */
+    ps_result (*splat)(const ps_host *host, ps_splat *splats, size_t n);
+
+    /* Tile `index` of the pass; one worker at a time may write to it. Borrowed until the pass ends.
+     * [any thread] */
+    ps_tile *(*tile)(const ps_host *host, uint32_t index);
+
+    /* The picture's column and row of lane `lane` of tile `tile`; 0 if it lies outside. [any
+     * thread] */
+    int32_t (*pixel)(const ps_host *host, uint32_t tile, uint32_t lane, uint32_t *x, uint32_t *y);
+
+    /* One line, no newline. [any thread] */
+    void (*log)(const ps_host *host, ps_log_level level, const char *message);
+
+    /* Adds to a named counter (a literal) of the statistics. [main thread] */
+    void (*count)(const ps_host *host, const char *counter, double amount);
+
+    /* Tells how much of the pass's estimate is done, 0..1. [main thread] */
+    void (*progress)(const ps_host *host, double fraction);
+
+    /* Non-zero when the user wants to stop: return PS_CANCELLED soon. [any thread] */
+    int32_t (*cancelled)(const ps_host *host);
+};
+
+#endif

@@ -1,0 +1,12 @@
+/* plugin.h: all that a plugin includes. The interface is described in psplat-plugins(7). */
+#ifndef PSPLAT_PLUGIN_H
+#define PSPLAT_PLUGIN_H
+
+#include <psplat/host.h>
+#include <psplat/math.h>
+#include <psplat/module.h>
+#include <psplat/param.h>
+#include <psplat/strategy.h>
+#include <psplat/types.h>
+
+#endif

@@ -1,0 +1,146 @@
+/* strategy.h: what each kind of strategy does, as a table of functions.
+ *
+ * The pipeline (Hoet 2014, chapter 3):
+ *
+ *     injection -> stratification -> estimator(visibility, filter) -> film -> normalization ->
+ * denoiser
+ *
+ * Callbacks work on batches. [worker]: called on several threads at once, so `state` is const and
+ * results may depend only on the arguments; [main thread]: called once at a time. Arrays are
+ * borrowed for the call.
+ */
+#ifndef PSPLAT_STRATEGY_H
+#define PSPLAT_STRATEGY_H
+
+#include <psplat/host.h>
+#include <psplat/param.h>
+
+/* Takes the sources that an injection makes; copies them. Returns PS_OK or PS_ERROR_MEMORY. */
+typedef struct ps_source_sink {
+    void *core;
+    ps_result (*append)(void *core, const ps_source *sources, size_t n);
+} ps_source_sink;
+
+typedef struct ps_injection_vtable {
+    uint32_t size;
+    uint32_t reserved;
+    /* Light paths in a pass. [main thread] */
+    uint64_t (*path_count)(const void *state);
+    /* Makes the sources of paths [first, first + n), n <= PS_PATH_CHUNK, of the pass, in an order
+     * that depends on these alone. [worker] */
+    ps_result (*emit)(const void *state, const ps_host *host, const ps_pass *pass, uint64_t first,
+                      size_t n, const ps_source_sink *sink);
+} ps_injection_vtable;
+
+#define PS_PATH_CHUNK 256
+
+typedef struct ps_stratification_vtable {
+    uint32_t size;
+    /* 1: combine sees all sources of a pass at once; 0: batch by batch, which bounds memory. */
+    uint32_t whole_pass;
+    /* Combines neighbours in place: the first *n entries of `sources` become the result, *n
+     * shrinks. The sum of powers must stay. [main thread] */
+    ps_result (*combine)(const void *state, const ps_host *host, const ps_pass *pass,
+                         ps_source *sources, size_t *n);
+} ps_stratification_vtable;
+
+typedef struct ps_visibility_vtable {
+    uint32_t size;
+    uint32_t reserved;
+    /* Texels along the side of a depth map, 1..64; 0: everything inside a box is lit. [main thread]
+     */
+    uint32_t (*resolution)(const void *state);
+    /* Boxes of sources whose first hits are known; usually host->place_boxes. [worker] */
+    void (*place)(const void *state, const ps_host *host, const ps_source *sources,
+                  const ps_hit *hits, size_t n, ps_splat *splats);
+    /* Depth maps of n splats: texel (i, j), u along i, at depths[(s * resolution + j) * resolution
+     * + i]; the depth along axis_w relative to the centre, INFINITY where nothing was hit. NULL
+     * where resolution is 0. [worker] */
+    void (*depth_maps)(const void *state, const ps_host *host, const ps_splat *splats, size_t n,
+                       float *depths);
+} ps_visibility_vtable;
+
+typedef struct ps_filter_vtable {
+    uint32_t size;
+    uint32_t reserved;
+    /* Radial weight for squared radii r2 in [0, 1), any scale, >= 0: the core tabulates and
+     * normalizes it. [main thread] */
+    void (*weigh)(const void *state, const float *r2, float *weights, size_t n);
+} ps_filter_vtable;
+
+typedef struct ps_estimator_vtable {
+    uint32_t size;
+    uint32_t reserved;
+    /* Adds the pass's indirect irradiance and weight to the tiles. [main thread] */
+    ps_result (*accumulate)(const void *state, const ps_host *host, const ps_pass *pass);
+} ps_estimator_vtable;
+
+/* The sums of a render's passes, a value for each pixel, row-major. */
+typedef struct ps_film_view {
+    uint32_t size;
+    uint32_t passes;
+    uint64_t pixel_count;
+    const float *color_r, *color_g,
+        *color_b; /* reflected indirect radiance: albedo / pi * irradiance */
+    const float *weight;
+} ps_film_view;
+
+typedef struct ps_normalization_vtable {
+    uint32_t size;
+    uint32_t reserved;
+    /* Indirect radiance of every pixel; anything where the weight is 0. [main thread] */
+    ps_result (*resolve)(const void *state, const ps_host *host, const ps_film_view *film,
+                         float *out_r, float *out_g, float *out_b);
+} ps_normalization_vtable;
+
+/* An image with the averaged G-buffer beside it, row-major. */
+typedef struct ps_image_view {
+    uint32_t size;
+    uint32_t width, height;
+    uint32_t reserved;
+    float *r, *g, *b; /* indirect radiance, to change in place */
+    const float *albedo_r, *albedo_g, *albedo_b;
+    const float *normal_x, *normal_y, *normal_z;
+    const float *position_x, *position_y, *position_z;
+    const float *depth; /* INFINITY where nothing is seen */
+} ps_image_view;
+
+typedef struct ps_denoiser_vtable {
+    uint32_t size;
+    uint32_t reserved;
+    /* Filters in place. [main thread] */
+    ps_result (*filter)(const void *state, const ps_host *host, const ps_image_view *image);
+} ps_denoiser_vtable;
+
+/* The rows that every visibility shares; the plugin's state holds PS_BOX_MEMBERS. */
+#define PS_BOX_MEMBERS                                                                             \
+    ps_number_or_choice size;                                                                      \
+    double follow;                                                                                 \
+    ps_number_or_choice depth;                                                                     \
+    ps_number_or_choice step_back;
+
+#define PS_BOX_CHOICES                                                                             \
+    static const char *const box_auto[] = {"auto", NULL};                                          \
+    static const char *const box_step_back[] = {"auto", "full", NULL};
+
+#define PS_BOX_PARAMS(state, step_back_default)                                                    \
+    PS_NUMBER_OR(state, size, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",     \
+                 "half-width of the box; auto: 5 % of the scene's radius"),                        \
+        PS_NUMBER(state, follow, "0.25", 0, INFINITY, 0, "",                                       \
+                  "limit of size as a fraction of the distance travelled; 0: none"),               \
+        PS_NUMBER_OR(state, depth, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto,               \
+                     "scene units",                                                                \
+                     "reach of the box past the first hit; auto: what the hit's slope needs"),     \
+        PS_NUMBER_OR(                                                                              \
+            state, step_back, step_back_default, 0, INFINITY, 0, box_step_back, "scene units",     \
+            "start of the box before the first hit; auto: by its slope, full: the source")
+
+/* The parameters as host->place_boxes wants them. */
+#define PS_BOX_SETTINGS(state)                                                                     \
+    (ps_box_settings)                                                                              \
+    {                                                                                              \
+        .size = (state)->size.number, .follow = (state)->follow, .depth = (state)->depth.number,   \
+        .step_back = (state)->step_back.number, .step_back_rule = (state)->step_back.choice        \
+    }
+
+#endif

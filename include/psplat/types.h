@@ -1,0 +1,111 @@
+/* types.h: the values that cross between psplat and its plugins.
+ *
+ * Units: lengths in scene units; directions have length 1; radiometry is linear Rec.709 RGB in
+ * watts (power), W/m^2 (irradiance) and W/(m^2 sr) (radiance), where "metre" means the scene unit.
+ * Coordinates are right-handed.
+ */
+#ifndef PSPLAT_TYPES_H
+#define PSPLAT_TYPES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct ps_vec3 {
+    float x, y, z;
+} ps_vec3;
+
+typedef struct ps_rgb {
+    float r, g, b;
+} ps_rgb;
+
+/* What a function that can fail returns; 0 is success. */
+typedef enum ps_result {
+    PS_OK = 0,
+    PS_ERROR_MEMORY = 1,
+    PS_ERROR_INVALID = 2, /* a setting or input that makes no sense */
+    PS_ERROR_IO = 3,
+    PS_CANCELLED = 4
+} ps_result;
+
+typedef struct ps_ray {
+    ps_vec3 origin;
+    float tnear; /* >= 0 */
+    ps_vec3 direction;
+    float tfar; /* > tnear; may be INFINITY */
+} ps_ray;
+
+#define PS_NO_OBJECT UINT32_MAX
+
+/* Where a ray met a surface. `distance` is INFINITY, and `object` PS_NO_OBJECT, where it met none;
+ * the other members are then unset. */
+typedef struct ps_hit {
+    ps_vec3 position;
+    float distance;
+    ps_vec3 normal; /* on the side that the ray came from */
+    uint32_t object;
+    ps_rgb albedo; /* diffuse reflectance, 0..1 */
+    uint32_t material;
+} ps_hit;
+
+/* Sixteen rays, structure of arrays, laid out as the ray tracer wants them. The caller fills
+ * origin, direction, tnear and tfar; tracing shortens tfar to the first hit, or leaves it. `tail`
+ * is the tracer's. Must be aligned to 64 bytes. */
+typedef struct ps_packet {
+    float origin_x[16], origin_y[16], origin_z[16], tnear[16];
+    float direction_x[16], direction_y[16], direction_z[16], time[16];
+    float tfar[16];
+    uint32_t mask[16], id[16], flags[16];
+    uint32_t tail[9 * 16];
+} ps_packet;
+
+/* An indirect light source: one bundled light ray (Hoet 2014, section 3.2). All strategies exchange
+ * these. `power` is what the bundle carries away from `position` along `direction`. */
+typedef struct ps_source {
+    ps_vec3 position;
+    ps_vec3 normal; /* of the surface that the source lies on */
+    ps_vec3 direction;
+    ps_rgb power; /* W */
+    uint32_t
+        bounce;    /* diffuse surfaces met so far, this one included: 1 = lit by a light directly */
+    float merged;  /* how many emitted sources this one stands for (1 when none were merged) */
+    uint64_t path; /* number of the light path, counted over all passes; keys random streams */
+} ps_source;
+
+/* A source carried to the surface that it lights: an orthographic box around the first hit.
+ * A point p lies at depth t = (p - centre).axis_w, and is inside where
+ * |(p - centre).axis_u|, |(p - centre).axis_v| <= half_width and near_depth <= t <= far_depth. */
+typedef struct ps_splat {
+    ps_vec3 centre;
+    float half_width;               /* > 0; a splat with half_width 0 lights nothing */
+    ps_vec3 axis_u, axis_v, axis_w; /* orthonormal; axis_w is the direction of the light */
+    float near_depth, far_depth;    /* relative to the centre; near_depth <= 0 <= far_depth */
+    float start_depth; /* depth at which rays of the bundle start, at the centre, ... */
+    float start_slope_u,
+        start_slope_v;   /* ... and its change along u and v (a tilted start plane) */
+    float bias_constant; /* depth tolerance: constant + slope * tan(theta), */
+    float bias_slope;    /* theta between the light and the receiver's normal */
+    uint32_t two_sided;  /* 1: lit where |t - map| <= bias; 0: lit where t <= map + bias */
+    ps_rgb power;        /* W */
+    uint32_t reserved;
+    uint64_t path;
+} ps_splat;
+
+#define PS_TILE_SIZE 16
+#define PS_TILE_PIXELS 256
+
+/* One 16x16 tile of the G-buffer and of the pass's accumulators, structure of arrays, 64-byte
+ * aligned. Lanes that are no pixel of the picture, or whose pixel sees nothing, have depth
+ * INFINITY, object PS_NO_OBJECT, a normal of 0 and a position far outside of any scene. */
+typedef struct ps_tile {
+    float position_x[PS_TILE_PIXELS], position_y[PS_TILE_PIXELS], position_z[PS_TILE_PIXELS];
+    float normal_x[PS_TILE_PIXELS], normal_y[PS_TILE_PIXELS], normal_z[PS_TILE_PIXELS];
+    float albedo_r[PS_TILE_PIXELS], albedo_g[PS_TILE_PIXELS], albedo_b[PS_TILE_PIXELS];
+    float depth[PS_TILE_PIXELS]; /* distance from the camera */
+    uint32_t object[PS_TILE_PIXELS], material[PS_TILE_PIXELS];
+    /* What an estimator adds to: indirect irradiance (W/m^2), and the weight of what was added, 0
+     * where the pixel learned nothing. */
+    float irradiance_r[PS_TILE_PIXELS], irradiance_g[PS_TILE_PIXELS], irradiance_b[PS_TILE_PIXELS];
+    float weight[PS_TILE_PIXELS];
+} ps_tile;
+
+#endif

@@ -1,0 +1,136 @@
+/* document.c: passes libyaml's events to the builder.
+ *
+ * libyaml's own document interface would be shorter, but it builds the whole tree before anyone
+ * can judge its depth (80 KB of '[' take it seconds), and forgets which scalars were plain.
+ */
+#include "parser/document.h"
+
+#include "parser/builder.h"
+#include <yaml.h>
+
+static struct mark mark_at(const yaml_mark_t *position)
+{
+    return (struct mark){(int)position->line + 1, (int)position->column + 1, 1};
+}
+
+static struct mark mark_event(const yaml_event_t *event)
+{
+    struct mark mark = mark_at(&event->start_mark);
+    const yaml_mark_t *start = &event->start_mark, *end = &event->end_mark;
+    bool word = event->type == YAML_SCALAR_EVENT || event->type == YAML_ALIAS_EVENT;
+    if (word && end->line == start->line && end->column > start->column)
+        mark.width = (int)(end->column - start->column);
+    return mark;
+}
+
+static struct properties properties_of(const yaml_char_t *anchor, const yaml_char_t *tag)
+{
+    return (struct properties){(const char *)anchor, (const char *)tag};
+}
+
+static void take_document_start(struct builder *builder, const yaml_event_t *event)
+{
+    if (!builder->root)
+        return;
+    builder_report(builder, mark_event(event),
+                   "a second document starts here; a scene is one document");
+    builder->result = PS_ERROR_INVALID;
+}
+
+static void take_scalar(struct builder *builder, const yaml_event_t *event)
+{
+    builder_scalar(builder, mark_event(event),
+                   properties_of(event->data.scalar.anchor, event->data.scalar.tag),
+                   (const char *)event->data.scalar.value, event->data.scalar.length,
+                   event->data.scalar.style == YAML_PLAIN_SCALAR_STYLE);
+}
+
+static void take_event(struct builder *builder, const yaml_event_t *event)
+{
+    switch (event->type) {
+    case YAML_DOCUMENT_START_EVENT:
+        take_document_start(builder, event);
+        break;
+    case YAML_SCALAR_EVENT:
+        take_scalar(builder, event);
+        break;
+    case YAML_SEQUENCE_START_EVENT:
+        builder_start(
+            builder, mark_event(event),
+            properties_of(event->data.sequence_start.anchor, event->data.sequence_start.tag),
+            NODE_LIST);
+        break;
+    case YAML_MAPPING_START_EVENT:
+        builder_start(
+            builder, mark_event(event),
+            properties_of(event->data.mapping_start.anchor, event->data.mapping_start.tag),
+            NODE_MAP);
+        break;
+    case YAML_SEQUENCE_END_EVENT:
+    case YAML_MAPPING_END_EVENT:
+        builder_end(builder);
+        break;
+    case YAML_ALIAS_EVENT:
+        builder_alias(builder, mark_event(event), (const char *)event->data.alias.anchor);
+        break;
+    default:
+        break;
+    }
+}
+
+/* libyaml points at where it noticed; its context says where that which is wrong began. */
+static void fail_yaml(struct builder *builder, const yaml_parser_t *parser)
+{
+    if (parser->error == YAML_MEMORY_ERROR) {
+        builder->result = PS_ERROR_MEMORY;
+        return;
+    }
+    struct mark mark = mark_at(&parser->problem_mark);
+    struct mark context = mark_at(&parser->context_mark);
+    const char *problem = parser->problem ? parser->problem : "this is not YAML";
+    if (parser->context)
+        builder_report(builder, mark, "%s, %s that begins at line %d, column %d", problem,
+                       parser->context, context.line, context.column);
+    else
+        builder_report(builder, mark, "%s", problem);
+    builder->result = PS_ERROR_INVALID;
+}
+
+static void read_events(struct builder *builder, yaml_parser_t *parser)
+{
+    bool ended = false;
+    while (!ended && builder->result == PS_OK) {
+        yaml_event_t event;
+        if (!yaml_parser_parse(parser, &event)) {
+            fail_yaml(builder, parser);
+            return;
+        }
+        ended = event.type == YAML_STREAM_END_EVENT;
+        take_event(builder, &event);
+        yaml_event_delete(&event);
+    }
+}
+
+ps_result document_read(const char *file, const char *text, size_t length, struct diagnostics *sink,
+                        struct document *document)
+{
+    static const struct node nothing = {
+        .kind = NODE_SCALAR, .mark = {1, 1, 1}, .plain = true, .text = ""};
+    *document = (struct document){.root = &nothing};
+    struct builder builder = {.file = file, .sink = sink, .arena = &document->arena};
+    yaml_parser_t parser;
+    if (!yaml_parser_initialize(&parser))
+        return PS_ERROR_MEMORY;
+    yaml_parser_set_input_string(&parser, (const unsigned char *)text, length);
+    read_events(&builder, &parser);
+    yaml_parser_delete(&parser);
+    if (builder.root)
+        document->root = builder.root;
+    return builder.result;
+}
+
+void document_release(struct document *document)
+{
+    arena_release(&document->arena);
+    *document = (struct document){0};
+}

@@ -1,0 +1,41 @@
+/* reader.c: see reader.h. */
+#include "parser/reader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct origin reader_origin(const struct reader *reader, const struct node *at)
+{
+    return (struct origin){reader->file, at->mark.line, at->mark.column};
+}
+
+void reader_error(const struct reader *reader, const struct node *at, const char *format, ...)
+{
+    if (at->kind == NODE_BROKEN)
+        return;
+    struct origin origin = reader_origin(reader, at);
+    va_list arguments;
+    va_start(arguments, format);
+    diagnostics_report_list(reader->sink, SEVERITY_ERROR, &origin, at->mark.width, format,
+                            arguments);
+    va_end(arguments);
+}
+
+void *reader_allocate(struct reader *reader, size_t count, size_t size)
+{
+    if (count == 0)
+        return NULL;
+    void *memory = calloc(count, size);
+    if (!memory)
+        reader->out_of_memory = true;
+    return memory;
+}
+
+char *reader_copy(struct reader *reader, const char *text)
+{
+    size_t bytes = strlen(text) + 1;
+    char *copy = reader_allocate(reader, bytes, 1);
+    if (copy)
+        memcpy(copy, text, bytes);
+    return copy;
+}

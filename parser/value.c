@@ -1,0 +1,169 @@
+/* value.c: turns nodes into the text that param_set reads, so that a value is checked by one
+ * parser wherever it is written; only arithmetic and lists are the scene file's own.
+ */
+#include "parser/value.h"
+
+#include "base/text.h"
+#include "parser/arithmetic.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define LONGEST_NUMBER 64 /* that text_to_number takes */
+#define TRIPLE_TEXT (3 * LONGEST_NUMBER + 8)
+#define DOMAIN_TEXT 256
+#define LARGEST_WHOLE 9007199254740992.0 /* 2^53: any double counts up to it in ones */
+
+/* Whole numbers keep all digits, as seeds need; text_from_number may round to what a float holds.
+ */
+static void write_number(double value, char text[VALUE_NUMBER_TEXT])
+{
+    if (value == floor(value) && fabs(value) <= LARGEST_WHOLE)
+        snprintf(text, VALUE_NUMBER_TEXT, "%.0f", value);
+    else
+        text_from_number(value, text, VALUE_NUMBER_TEXT);
+}
+
+/* Points into the scalar where that is possible: it is as long as it looks, on one line. */
+static const char *evaluate(const struct reader *reader, struct subject subject,
+                            const struct node *node, char scratch[VALUE_NUMBER_TEXT])
+{
+    struct error error;
+    size_t position;
+    double value;
+    if (arithmetic_evaluate(node->text + 1, &value, &position, &error) == PS_OK) {
+        write_number(value, scratch);
+        return scratch;
+    }
+    struct node at = *node;
+    size_t quote = node->plain ? 0 : 1, offset = position + 1 + quote;
+    if (strlen(node->text) + 2 * quote == (size_t)node->mark.width &&
+        offset < (size_t)node->mark.width) {
+        at.mark.column += (int)offset;
+        at.mark.width = 1;
+    }
+    reader_error(reader, &at, "%s in %s: %s", subject.key, subject.section, error.text);
+    return NULL;
+}
+
+const char *value_text(const struct reader *reader, struct subject subject, const struct node *node,
+                       const char *expected, char scratch[VALUE_NUMBER_TEXT])
+{
+    if (node->kind == NODE_SCALAR && node->text[0] == '=')
+        return evaluate(reader, subject, node, scratch);
+    if (node->kind == NODE_SCALAR && !node_is_null(node))
+        return node->text;
+    reader_error(reader, node, "%s in %s: expected %s, got %s", subject.key, subject.section,
+                 expected, node_kind_name(node));
+    return NULL;
+}
+
+static bool store(struct reader *reader, struct subject subject, const ps_param *row,
+                  const struct node *node, const char *text, void *state)
+{
+    struct error error;
+    ps_result result = param_set(row, state, text, &error);
+    if (result == PS_ERROR_MEMORY)
+        reader->out_of_memory = true;
+    else if (result != PS_OK)
+        reader_error(reader, node, "%s in %s: %s", subject.key, subject.section, error.text);
+    return result == PS_OK;
+}
+
+static bool set_scalar(struct reader *reader, struct subject subject, const ps_param *row,
+                       const struct node *node, void *state)
+{
+    char scratch[VALUE_NUMBER_TEXT], domain[DOMAIN_TEXT] = "";
+    if (node->kind != NODE_SCALAR || node_is_null(node))
+        param_describe_domain(row, domain, sizeof domain);
+    const char *text = value_text(reader, subject, node, domain, scratch);
+    return text && store(reader, subject, row, node, text, state);
+}
+
+/* Numbers are checked one by one, so that an error points at the one that is wrong. */
+static bool append_number(const struct reader *reader, struct subject subject,
+                          const struct node *node, char text[TRIPLE_TEXT])
+{
+    char scratch[VALUE_NUMBER_TEXT];
+    double number;
+    const char *item = value_text(reader, subject, node, "a number", scratch);
+    if (!item)
+        return false;
+    if (!text_to_number(item, &number)) {
+        reader_error(reader, node, "%s in %s: expected a number, got '%.80s'", subject.key,
+                     subject.section, item);
+        return false;
+    }
+    size_t used = strlen(text);
+    snprintf(text + used, TRIPLE_TEXT - used, "%s%s", used > 1 ? ", " : "", item);
+    return true;
+}
+
+/* Sets a member that holds three numbers, from a list of them. */
+static bool set_triple(struct reader *reader, struct subject subject, const ps_param *row,
+                       const struct node *node, void *state)
+{
+    char text[TRIPLE_TEXT] = "[";
+    bool good = true;
+    if (node->count != 3) {
+        reader_error(reader, node, "%s in %s: expected 3 numbers, got %zu", subject.key,
+                     subject.section, node->count);
+        return false;
+    }
+    for (const struct item *item = node->first; item; item = item->next)
+        good = append_number(reader, subject, item->value, text) && good;
+    strcat(text, "]");
+    return good && store(reader, subject, row, node, text, state);
+}
+
+/* One number for three: what a colour's text allows. */
+static bool set_uniform(struct reader *reader, struct subject subject, const ps_param *row,
+                        const struct node *node, void *state)
+{
+    ps_param uniform = *row;
+    uniform.type = PS_PARAM_COLOR;
+    char scratch[VALUE_NUMBER_TEXT];
+    double number;
+    const char *text = value_text(reader, subject, node, "[x, y, z] or one number", scratch);
+    if (!text)
+        return false;
+    if (!text_to_number(text, &number)) {
+        reader_error(reader, node, "%s in %s: expected [x, y, z] or one number, got '%.80s'",
+                     subject.key, subject.section, text);
+        return false;
+    }
+    return store(reader, subject, &uniform, node, text, state);
+}
+
+bool value_set(struct reader *reader, struct subject subject, const struct schema_row *row,
+               const struct node *node, void *state)
+{
+    const ps_param *param = &row->param;
+    bool triple = param->type == PS_PARAM_VEC3 || param->type == PS_PARAM_COLOR;
+    if (triple && node->kind == NODE_LIST)
+        return set_triple(reader, subject, param, node, state);
+    if (row->form == SCHEMA_SCALE)
+        return set_uniform(reader, subject, param, node, state);
+    return set_scalar(reader, subject, param, node, state);
+}
+
+bool value_indices(struct reader *reader, struct subject subject, const struct node *node,
+                   uint32_t largest, uint32_t indices[3])
+{
+    const ps_param index_row = {
+        .name = subject.key, .type = PS_PARAM_INT, .minimum = 0, .maximum = largest};
+    if (node->kind != NODE_LIST || node->count != 3) {
+        reader_error(reader, node, "%s in %s: expected [i, j, k], got %s", subject.key,
+                     subject.section,
+                     node->kind == NODE_LIST ? "another number of indices" : node_kind_name(node));
+        return false;
+    }
+    bool good = true;
+    size_t i = 0;
+    for (const struct item *item = node->first; item; item = item->next, i++) {
+        int64_t index = 0;
+        good = set_scalar(reader, subject, &index_row, item->value, &index) && good;
+        indices[i] = (uint32_t)index;
+    }
+    return good;
+}

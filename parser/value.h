@@ -1,0 +1,29 @@
+/* value.h: the values of keys, from nodes to parameter text (base/param.h) and into a state. */
+#ifndef PARSER_VALUE_H
+#define PARSER_VALUE_H
+
+#include "parser/reader.h"
+#include "parser/schema.h"
+
+/* Room for a number as text. */
+#define VALUE_NUMBER_TEXT 40
+
+/* Which key of which section a value is for, in messages. */
+struct subject {
+    const char *key, *section;
+};
+
+/* A scalar's text; of arithmetic (`=2*pi`) the result, written to `scratch`. NULL, reported, where
+ * it is no scalar, or the arithmetic is wrong. `expected` says what would have been right. */
+const char *value_text(const struct reader *reader, struct subject subject, const struct node *node,
+                       const char *expected, char scratch[VALUE_NUMBER_TEXT]);
+
+/* Checks the value against the row and stores it in the state; false where it was reported. */
+bool value_set(struct reader *reader, struct subject subject, const struct schema_row *row,
+               const struct node *node, void *state);
+
+/* Reads a list of three integers, 0 to largest. */
+bool value_indices(struct reader *reader, struct subject subject, const struct node *node,
+                   uint32_t largest, uint32_t indices[3]);
+
+#endif

@@ -1,0 +1,27 @@
+/* none.c: every source stays what it is. */
+#include <psplat/plugin.h>
+
+static ps_result combine(const void *state, const ps_host *host, const ps_pass *pass,
+                         ps_source *sources, size_t *n)
+{
+    (void)state;
+    (void)host;
+    (void)pass;
+    (void)sources;
+    (void)n;
+    return PS_OK;
+}
+
+static const ps_stratification_vtable vtable = {.size = sizeof vtable, .combine = combine};
+
+static const ps_descriptor descriptor = {
+    .size = sizeof descriptor,
+    .kind = PS_STRATIFICATION,
+    .name = "none",
+    .version = "1.0",
+    .summary = "keeps every source as it was injected",
+    .paper = "Hoet 2014, section 3.2: stratification is optional",
+    .vtable = &vtable,
+};
+
+PS_MODULE(stratification, none, &descriptor)

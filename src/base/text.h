@@ -1,0 +1,22 @@
+/* text.h: text helpers that the C library lacks or ties to the locale. */
+#ifndef BASE_TEXT_H
+#define BASE_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Reads a whole decimal number ("-1.5e3", ".5", "+2") with '.' whatever the locale says. No
+ * hexadecimal, inf or nan; false where anything else stands in the text, or the value overflows. */
+bool text_to_number(const char *text, double *value);
+
+/* Writes the shortest of %.7g, %.9g and %.17g that reads back as the same float or double. */
+void text_from_number(double value, char *text, size_t size);
+
+/* Optimal string alignment distance (Damerau-Levenshtein without repeated edits), for did-you-mean.
+ */
+size_t text_distance(const char *a, const char *b);
+
+/* Whether `candidate` is near enough to `word` to be offered as what was meant. */
+bool text_is_near(const char *word, const char *candidate);
+
+#endif

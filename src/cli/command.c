@@ -1,0 +1,106 @@
+#include "cli/command.h"
+
+#include "base/text.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const struct command *const commands[] = {&command_render, &command_check, &command_plugins,
+                                          &command_info};
+const size_t command_count = sizeof commands / sizeof commands[0];
+
+void print_error(const char *message)
+{
+    fprintf(stderr, "psplat: error: %s\n", message);
+}
+
+static bool usage_error(const struct command *command, const char *what, const char *word)
+{
+    fprintf(stderr, "psplat: error: %s '%s'", what, word);
+    for (size_t i = 0; i < command->option_count; i++)
+        if (strncmp(word, "--", 2) == 0 && text_is_near(word + 2, command->options[i].name)) {
+            fprintf(stderr, "; did you mean '--%s'?", command->options[i].name);
+            break;
+        }
+    fprintf(stderr, "\nTry 'psplat %s --help'.\n", command->name);
+    return false;
+}
+
+static const struct option *find_long(const struct command *command, const char *name,
+                                      size_t length)
+{
+    for (size_t i = 0; i < command->option_count; i++) {
+        const struct option *option = &command->options[i];
+        if (strlen(option->name) == length && strncmp(option->name, name, length) == 0)
+            return option;
+    }
+    return NULL;
+}
+
+static const struct option *find_letter(const struct command *command, char letter)
+{
+    for (size_t i = 0; i < command->option_count; i++)
+        if (command->options[i].letter == letter)
+            return &command->options[i];
+    return NULL;
+}
+
+/* Reads one option at words[0] (and its value at words[1], or behind '='); returns the words used, 0 on an error. */
+static size_t parse_option(const struct command *command, char *const words[], size_t left,
+                           struct argument *argument)
+{
+    const char *word = words[0], *attached = NULL;
+    if (word[1] == '-') {
+        size_t length = strcspn(word + 2, "=");
+        argument->option = find_long(command, word + 2, length);
+        attached = word[2 + length] == '=' ? word + 3 + length : NULL;
+    } else {
+        argument->option = find_letter(command, word[1]);
+        attached = word[2] ? word + 2 : NULL;
+    }
+    if (!argument->option)
+        return usage_error(command, "unknown option", word);
+    if (!argument->option->argument)
+        return attached ? usage_error(command, "a value is given to option", word) : 1;
+    if (!attached && left < 2)
+        return usage_error(command, "a value is missing after option", word);
+    argument->value = attached ? attached : words[1];
+    return attached ? 1 : 2;
+}
+
+bool command_parse(const struct command *command, char *const words[], size_t count,
+                   struct argument *arguments, size_t *parsed)
+{
+    bool only_operands = false;
+    *parsed = 0;
+    for (size_t i = 0; i < count;) {
+        struct argument *argument = &arguments[*parsed];
+        *argument = (struct argument){.option = NULL};
+        if (!only_operands && strcmp(words[i], "--") == 0) {
+            only_operands = true;
+            i++;
+            continue;
+        }
+        size_t used = 1;
+        if (!only_operands && words[i][0] == '-' && words[i][1])
+            used = parse_option(command, words + i, count - i, argument);
+        else
+            argument->value = words[i];
+        if (used == 0)
+            return false;
+        i += used;
+        (*parsed)++;
+    }
+    return true;
+}
+
+bool parse_whole_number(const char *option, const char *text, double minimum, double maximum,
+                        double *value)
+{
+    if (text_to_number(text, value) && *value >= minimum && *value <= maximum &&
+        floor(*value) == *value)
+        return true;
+    fprintf(stderr, "psplat: error: --%s: expected a whole number %.0f..%.0f, got '%s'\n", option,
+            minimum, maximum, text);
+    return false;
+}

@@ -1,0 +1,102 @@
+/* command_plugins.c: psplat plugins: which strategies there are, and their parameters. */
+#include "base/param.h"
+#include "cli/command.h"
+#include "plugin/strategy.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void print_kind(const struct kind *kind)
+{
+    printf("%-15s %s (default: %s)\n", kind->name, kind->summary, kind->default_strategy);
+}
+
+static void print_line(void *user, const char *name, const ps_descriptor *descriptor,
+                       const char *problem)
+{
+    (void)user;
+    if (descriptor)
+        printf("  %-13s %s\n", name, descriptor->summary);
+    else
+        printf("  %-13s can't be used:%s\n", name, problem);
+}
+
+static int list_kind(struct loader *loader, ps_kind kind)
+{
+    struct error error;
+    print_kind(&kinds[kind]);
+    if (loader_list(loader, kind, print_line, NULL, &error) == PS_OK)
+        return STATUS_OK;
+    print_error(error.text);
+    return STATUS_FAILED;
+}
+
+static void print_parameter(const ps_param *row)
+{
+    char domain[256];
+    param_describe_domain(row, domain, sizeof domain);
+    printf("  %s\n      %s\n      %s%s%s", row->name, row->help, domain, row->unit[0] ? ", in " : "",
+           row->unit);
+    if (row->default_value)
+        printf("; default: %s\n", row->default_value);
+    else
+        printf("; required\n");
+}
+
+static int describe(struct loader *loader, ps_kind kind, const char *name)
+{
+    const ps_descriptor *descriptor;
+    struct error error;
+    if (loader_find(loader, kind, name, &descriptor, &error) != PS_OK) {
+        print_error(error.text);
+        return STATUS_USAGE;
+    }
+    printf("%s=%s, version %s\n%s\nafter: %s\n", kinds[kind].name, descriptor->name,
+           descriptor->version, descriptor->summary, descriptor->paper);
+    struct param_table table = strategy_params(descriptor);
+    printf(table.count ? "parameters:\n" : "no parameters\n");
+    for (size_t i = 0; i < table.count; i++)
+        print_parameter(param_row(&table, i));
+    return STATUS_OK;
+}
+
+/* "injection" or "injection=photon" */
+static int print_one(struct loader *loader, const char *operand)
+{
+    char kind_name[32];
+    size_t length = strcspn(operand, "=");
+    snprintf(kind_name, sizeof kind_name, "%.*s", (int)(length < 31 ? length : 31), operand);
+    ps_kind kind = kind_find(kind_name);
+    if (kind == PS_KINDS) {
+        fprintf(stderr, "psplat: error: no kind of plugin '%s'; the kinds are:", kind_name);
+        for (int i = 0; i < PS_KINDS; i++)
+            fprintf(stderr, " %s", kinds[i].name);
+        fprintf(stderr, "\n");
+        return STATUS_USAGE;
+    }
+    return operand[length] ? describe(loader, kind, operand + length + 1) : list_kind(loader, kind);
+}
+
+static int run(const struct argument *arguments, size_t count)
+{
+    struct loader *loader;
+    struct error error;
+    if (loader_create(&loader, &error) != PS_OK) {
+        print_error(error.text);
+        return STATUS_FAILED;
+    }
+    int status = STATUS_OK;
+    for (size_t i = 0; i < count && status == STATUS_OK; i++)
+        status = print_one(loader, arguments[i].value);
+    for (int kind = 0; kind < PS_KINDS && count == 0 && status == STATUS_OK; kind++)
+        status = list_kind(loader, (ps_kind)kind);
+    loader_destroy(loader);
+    return status;
+}
+
+const struct command command_plugins = {
+    .name = "plugins",
+    .operands = "[KIND[=NAME]]...",
+    .summary = "lists strategies and their parameters",
+    .run = run,
+};

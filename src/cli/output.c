@@ -1,0 +1,127 @@
+#include "cli/output.h"
+
+#include "base/version.h"
+#include "image/tonemap.h"
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool has_suffix(const char *path, const char *suffix)
+{
+    size_t length = strlen(path), suffix_length = strlen(suffix);
+    return length > suffix_length && strcmp(path + length - suffix_length, suffix) == 0;
+}
+
+bool output_is_writable_format(const char *path)
+{
+    return has_suffix(path, ".exr") || has_suffix(path, ".png");
+}
+
+char *output_default_path(const char *scene_path, const char *suffix)
+{
+    const char *slash = strrchr(scene_path, '/');
+    const char *name = slash ? slash + 1 : scene_path;
+    if (strcmp(name, "-") == 0)
+        name = "stdin";
+    size_t length = has_suffix(name, ".psd") ? strlen(name) - 4 : strlen(name);
+    size_t bytes = length + strlen(suffix) + 1;
+    char *path = malloc(bytes);
+    if (path)
+        snprintf(path, bytes, "%.*s%s", (int)length, name, suffix);
+    return path;
+}
+
+static ps_result write_png(const struct image *image, const char *path, double exposure,
+                           struct error *error)
+{
+    size_t pixels = image->width * image->height;
+    uint8_t *rgb = malloc(pixels * 3);
+    if (!rgb)
+        return error_memory(error, pixels * 3, "a PNG");
+    tonemap_planes(image_channel(image, "R"), image_channel(image, "G"), image_channel(image, "B"),
+                   pixels, exposure, TONE_FILMIC, rgb);
+    ps_result result = image_write_png(path, image->width, image->height, rgb, image->attributes,
+                                       image->attribute_count, error);
+    free(rgb);
+    return result;
+}
+
+ps_result output_write(const struct image *image, const char *path, double exposure,
+                       struct error *error)
+{
+    if (has_suffix(path, ".exr"))
+        return image_write_exr(image, path, error);
+    return write_png(image, path, exposure, error);
+}
+
+/* Quotes a word for a shell unless it needs none. */
+static void print_word(FILE *stream, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "_-+=:,./@%";
+    if (word[0] && word[strspn(word, plain)] == '\0') {
+        fputs(word, stream);
+        return;
+    }
+    fputc('\'', stream);
+    for (; *word; word++)
+        if (*word == '\'')
+            fputs("'\\''", stream);
+        else
+            fputc(*word, stream);
+    fputc('\'', stream);
+}
+
+static void print_command(FILE *stream, const struct image *image, const char *scene_path,
+                          const struct render_settings *settings)
+{
+    fprintf(stream, "psplat render ");
+    print_word(stream, scene_path);
+    fprintf(stream, " --size %zux%zu --passes %" PRIu32 " --seed %" PRIu64, image->width,
+            image->height, settings->passes, settings->seed);
+    for (int kind = 0; kind < PS_KINDS; kind++) {
+        char choice[2048], word[2200];
+        strategy_format(&settings->strategies[kind], choice, sizeof choice);
+        snprintf(word, sizeof word, "%s=%s", kinds[kind].name, choice);
+        fprintf(stream, " --plugin ");
+        print_word(stream, word);
+    }
+}
+
+static ps_result set_command(struct image *image, const char *scene_path,
+                             const struct render_settings *settings, struct error *error)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *stream = open_memstream(&text, &length);
+    if (!stream)
+        return error_memory(error, 4096, "the picture's description");
+    print_command(stream, image, scene_path, settings);
+    fclose(stream);
+    ps_result result = image_set_attribute(image, "psplat.command", text, error);
+    free(text);
+    return result;
+}
+
+ps_result output_describe(struct image *image, const char *scene_path,
+                          const struct render_settings *settings, struct error *error)
+{
+    char seed[32], passes[32];
+    snprintf(seed, sizeof seed, "%" PRIu64, settings->seed);
+    snprintf(passes, sizeof passes, "%" PRIu32, settings->passes);
+    const char *const facts[][2] = {{"psplat.version", PSPLAT_VERSION},
+                                    {"psplat.scene", scene_path},
+                                    {"psplat.seed", seed},
+                                    {"psplat.passes", passes}};
+    ps_result result = PS_OK;
+    for (size_t i = 0; i < sizeof facts / sizeof facts[0] && result == PS_OK; i++)
+        result = image_set_attribute(image, facts[i][0], facts[i][1], error);
+    for (int kind = 0; kind < PS_KINDS && result == PS_OK; kind++) {
+        char name[64], value[2048];
+        snprintf(name, sizeof name, "psplat.%s", kinds[kind].name);
+        strategy_format(&settings->strategies[kind], value, sizeof value);
+        result = image_set_attribute(image, name, value, error);
+    }
+    return result == PS_OK ? set_command(image, scene_path, settings, error) : result;
+}

@@ -1,0 +1,22 @@
+/* output.h: writes a rendered picture to the files that were asked for. */
+#ifndef CLI_OUTPUT_H
+#define CLI_OUTPUT_H
+
+#include "image/image.h"
+#include "pipeline/settings.h"
+
+/* Whether a name ends in a format that psplat writes: .exr or .png. */
+bool output_is_writable_format(const char *path);
+
+/* The scene's name with another suffix, in the current folder; "-" gives "stdin". The caller frees it. */
+char *output_default_path(const char *scene_path, const char *suffix);
+
+/* Writes the picture by its name's suffix; exposure in stops, for PNG. */
+ps_result output_write(const struct image *image, const char *path, double exposure,
+                       struct error *error);
+
+/* Attributes that say how the picture was made: version, scene, every setting, and the command that repeats it. */
+ps_result output_describe(struct image *image, const char *scene_path,
+                          const struct render_settings *settings, struct error *error);
+
+#endif

@@ -1,0 +1,21 @@
+/* progress.h: tells how far a render is: a bar where stderr is a terminal, plain lines elsewhere. */
+#ifndef CLI_PROGRESS_H
+#define CLI_PROGRESS_H
+
+#include <stdbool.h>
+
+struct progress {
+    bool quiet, terminal;
+    double start;       /* seconds */
+    double next_update; /* seconds; a bar is not drawn anew before */
+    int last_tenth;     /* of plain lines */
+    char stage[32];
+};
+
+void progress_start(struct progress *progress, bool quiet);
+void progress_update(struct progress *progress, const char *stage, double fraction);
+
+/* Removes the bar, so that other lines can be printed. */
+void progress_clear(struct progress *progress);
+
+#endif

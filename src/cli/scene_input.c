@@ -1,0 +1,69 @@
+#include "cli/scene_input.h"
+
+#include "cli/command.h"
+#include "plugin/kind.h"
+#include <stdio.h>
+#include <string.h>
+
+bool scene_input_read(struct scene_input *input, const char *path)
+{
+    struct error error;
+    *input = (struct scene_input){.sink = diagnostics_create()};
+    if (!input->sink || loader_create(&input->loader, &error) != PS_OK) {
+        print_error("out of memory");
+        return false;
+    }
+    ps_result result = psd_read_file(path, input->sink, &input->description);
+    if (result != PS_OK)
+        diagnostics_print(input->sink, stderr);
+    return result == PS_OK;
+}
+
+bool scene_input_override(struct scene_input *input, const char *text)
+{
+    struct strategy_choice choice;
+    struct error error;
+    char kind_name[32], message[sizeof error.text + 64];
+    size_t length = strcspn(text, "=");
+    snprintf(kind_name, sizeof kind_name, "%.*s", (int)(length < 31 ? length : 31), text);
+    ps_kind kind = kind_find(kind_name);
+    if (kind == PS_KINDS || !text[length]) {
+        snprintf(message, sizeof message,
+                 "--plugin: expected KIND=NAME[:KEY=VALUE,...], got '%.200s'; 'psplat plugins' lists the kinds", text);
+        print_error(message);
+        return false;
+    }
+    ps_result result = settings_parse_choice(text + length + 1, &choice, &error);
+    if (result == PS_OK)
+        result = settings_override(&input->description.render.strategies[kind], &choice, &error);
+    if (result == PS_OK)
+        return true;
+    snprintf(message, sizeof message, "--plugin %s: %s", kind_name, error.text);
+    print_error(message);
+    return false;
+}
+
+static void report(void *user, const struct origin *origin, const char *message)
+{
+    struct diagnostics *sink = user;
+    if (origin->line > 0)
+        diagnostics_report(sink, SEVERITY_ERROR, origin, 0, "%s", message);
+    else
+        print_error(message);
+}
+
+bool scene_input_resolve(struct scene_input *input, uint32_t threads, size_t batch,
+                         struct render_settings *settings)
+{
+    ps_result result = settings_resolve(input->loader, &input->description.render, threads, batch,
+                                        report, input->sink, settings);
+    diagnostics_print(input->sink, stderr);
+    return result == PS_OK;
+}
+
+void scene_input_release(struct scene_input *input)
+{
+    scene_description_release(&input->description);
+    loader_destroy(input->loader);
+    diagnostics_destroy(input->sink);
+}

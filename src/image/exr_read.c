@@ -1,0 +1,267 @@
+/* exr_read.c: a flat, single-part OpenEXR file to a picture, through the library's C interface.
+ *
+ * The picture is the data window, wherever that lies. Chunks (groups of lines, or tiles) are
+ * decoded straight into the planes, which the library converts to float on the way. It could also
+ * search a damaged file for chunks that its table does not list; that is switched off, because half
+ * a picture that looks whole is worse than an error. The first of the library's messages is the one
+ * shown: the later ones follow from it.
+ */
+#include "image/image.h"
+
+#include <OpenEXR/openexr.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#define PIXEL_LIMIT (INT64_C(1) << 31)
+#define CHANNEL_LIMIT INT16_MAX /* the library's decoder counts them in 16 bits */
+#define PART 0                  /* the file's only part */
+#define SAMPLE_SIZE ((int32_t)sizeof(float))
+
+struct exr_source {
+    exr_context_t context;
+    const char *path;
+    struct error *error;
+    char message[256]; /* the library's first complaint, or empty */
+    struct image image;
+    exr_decode_pipeline_t decoder;
+    bool decoding; /* the decoder has been initialised */
+    exr_attr_box2i_t window;
+};
+
+static void keep_first_message(exr_const_context_t context, exr_result_t code, const char *message)
+{
+    void *user_data = NULL;
+    (void)code;
+    if (!context || exr_get_user_data(context, &user_data) != EXR_ERR_SUCCESS || !user_data) {
+        return;
+    }
+    struct exr_source *source = user_data;
+    if (source->message[0] == '\0') {
+        snprintf(source->message, sizeof source->message, "%s", message);
+    }
+}
+
+static ps_result explain(const struct exr_source *source, exr_result_t code)
+{
+    if (code == EXR_ERR_SUCCESS) {
+        return PS_OK;
+    }
+    return error_set(source->error, code == EXR_ERR_OUT_OF_MEMORY ? PS_ERROR_MEMORY : PS_ERROR_IO,
+                     "cannot read '%s': %s", source->path,
+                     source->message[0] ? source->message : exr_get_default_error_message(code));
+}
+
+static ps_result refuse(const struct exr_source *source, const char *why)
+{
+    return error_set(source->error, PS_ERROR_INVALID, "cannot read '%s': %s", source->path, why);
+}
+
+static ps_result check_form(const struct exr_source *source, exr_storage_t *storage)
+{
+    int parts = 0;
+    exr_result_t code = exr_get_count(source->context, &parts);
+    if (code == EXR_ERR_SUCCESS && parts != 1) {
+        return refuse(source, "it has several parts (only one can be read)");
+    }
+    if (code == EXR_ERR_SUCCESS) {
+        code = exr_get_storage(source->context, PART, storage);
+    }
+    if (code != EXR_ERR_SUCCESS) {
+        return explain(source, code);
+    }
+    if (*storage != EXR_STORAGE_SCANLINE && *storage != EXR_STORAGE_TILED) {
+        return refuse(source, "it holds deep pixels (only flat ones can be read)");
+    }
+    return PS_OK;
+}
+
+static ps_result read_size(struct exr_source *source)
+{
+    exr_result_t code = exr_get_data_window(source->context, PART, &source->window);
+    if (code != EXR_ERR_SUCCESS) {
+        return explain(source, code);
+    }
+    const exr_attr_box2i_t *window = &source->window;
+    int64_t width = (int64_t)window->max.x - window->min.x + 1;
+    int64_t height = (int64_t)window->max.y - window->min.y + 1;
+    if (width <= 0 || height <= 0 || width > INT32_MAX / SAMPLE_SIZE ||
+        width > PIXEL_LIMIT / height) {
+        return error_set(source->error, PS_ERROR_INVALID,
+                         "cannot read '%s': its size, %lld x %lld, cannot be", source->path,
+                         (long long)width, (long long)height);
+    }
+    source->image.width = (size_t)width;
+    source->image.height = (size_t)height;
+    return PS_OK;
+}
+
+static ps_result add_channels(struct exr_source *source)
+{
+    const exr_attr_chlist_t *list = NULL;
+    exr_result_t code = exr_get_channels(source->context, PART, &list);
+    if (code != EXR_ERR_SUCCESS) {
+        return explain(source, code);
+    }
+    if (list->num_channels <= 0 || list->num_channels > CHANNEL_LIMIT) {
+        return refuse(source, "it has no channels, or too many");
+    }
+    for (int i = 0; i < list->num_channels; i++) {
+        const exr_attr_chlist_entry_t *entry = &list->entries[i];
+        if (entry->x_sampling != 1 || entry->y_sampling != 1) {
+            return refuse(source, "it has subsampled channels");
+        }
+        if (image_channel(&source->image, entry->name.str)) {
+            return refuse(source, "it has two channels of one name");
+        }
+        if (!image_add_channel(&source->image, entry->name.str)) {
+            return error_set(source->error, PS_ERROR_MEMORY,
+                             "cannot read '%s': out of memory for %zu x %zu pixels of %d channels",
+                             source->path, source->image.width, source->image.height,
+                             list->num_channels);
+        }
+    }
+    return PS_OK;
+}
+
+/* "type" repeats the storage, which the picture no longer has. */
+static ps_result add_attributes(struct exr_source *source)
+{
+    int32_t count = 0;
+    exr_result_t code = exr_get_attribute_count(source->context, PART, &count);
+    for (int32_t i = 0; i < count && code == EXR_ERR_SUCCESS; i++) {
+        const exr_attribute_t *attribute = NULL;
+        code = exr_get_attribute_by_index(source->context, PART, EXR_ATTR_LIST_FILE_ORDER, i,
+                                          &attribute);
+        if (code != EXR_ERR_SUCCESS || attribute->type != EXR_ATTR_STRING ||
+            strcmp(attribute->name, "type") == 0) {
+            continue;
+        }
+        const char *value = attribute->string->str;
+        ps_result result =
+            image_set_attribute(&source->image, attribute->name, value ? value : "", source->error);
+        if (result != PS_OK) {
+            return result;
+        }
+    }
+    return explain(source, code);
+}
+
+/* Decodes the chunk whose upper left pixel in the picture is (column, line). */
+static exr_result_t decode_chunk(struct exr_source *source, const exr_chunk_info_t *chunk,
+                                 size_t column, size_t line)
+{
+    struct image *image = &source->image;
+    exr_decode_pipeline_t *decoder = &source->decoder;
+    if (chunk->width <= 0 || chunk->height <= 0 || (size_t)chunk->width > image->width - column ||
+        (size_t)chunk->height > image->height - line) {
+        return EXR_ERR_CORRUPT_CHUNK;
+    }
+    exr_result_t code = source->decoding
+                            ? exr_decoding_update(source->context, PART, chunk, decoder)
+                            : exr_decoding_initialize(source->context, PART, chunk, decoder);
+    if (code != EXR_ERR_SUCCESS) {
+        return code;
+    }
+    for (int i = 0; i < decoder->channel_count; i++) {
+        exr_coding_channel_info_t *channel = &decoder->channels[i];
+        float *samples = image->channels[i].samples;
+        channel->user_data_type = EXR_PIXEL_FLOAT;
+        channel->user_bytes_per_element = (int16_t)SAMPLE_SIZE;
+        channel->user_pixel_stride = SAMPLE_SIZE;
+        channel->user_line_stride = (int32_t)image->width * SAMPLE_SIZE;
+        channel->decode_to_ptr = (uint8_t *)(samples + line * image->width + column);
+    }
+    if (!source->decoding) {
+        source->decoding = true;
+        code = exr_decoding_choose_default_routines(source->context, PART, decoder);
+    }
+    return code == EXR_ERR_SUCCESS ? exr_decoding_run(source->context, PART, decoder) : code;
+}
+
+static ps_result read_lines(struct exr_source *source)
+{
+    int32_t lines_per_chunk = 0;
+    exr_result_t code = exr_get_scanlines_per_chunk(source->context, PART, &lines_per_chunk);
+    for (size_t line = 0; line < source->image.height && code == EXR_ERR_SUCCESS;
+         line += (size_t)lines_per_chunk) {
+        exr_chunk_info_t chunk;
+        int row = (int)(source->window.min.y + (int64_t)line);
+        code = exr_read_scanline_chunk_info(source->context, PART, row, &chunk);
+        if (code == EXR_ERR_SUCCESS) {
+            code = decode_chunk(source, &chunk, 0, line);
+        }
+    }
+    return explain(source, code);
+}
+
+static ps_result read_tiles(struct exr_source *source)
+{
+    uint32_t width = 0, height = 0;
+    exr_tile_level_mode_t levels = EXR_TILE_ONE_LEVEL;
+    exr_tile_round_mode_t rounding;
+    exr_result_t code =
+        exr_get_tile_descriptor(source->context, PART, &width, &height, &levels, &rounding);
+    if (code == EXR_ERR_SUCCESS && levels != EXR_TILE_ONE_LEVEL) {
+        return refuse(source, "it is mip-mapped (only one level can be read)");
+    }
+    if (code == EXR_ERR_SUCCESS && (width == 0 || height == 0)) {
+        return refuse(source, "its tiles have no size");
+    }
+    for (size_t line = 0; line < source->image.height && code == EXR_ERR_SUCCESS; line += height) {
+        for (size_t column = 0; column < source->image.width && code == EXR_ERR_SUCCESS;
+             column += width) {
+            exr_chunk_info_t chunk;
+            code = exr_read_tile_chunk_info(source->context, PART, (int)(column / width),
+                                            (int)(line / height), 0, 0, &chunk);
+            if (code == EXR_ERR_SUCCESS) {
+                code = decode_chunk(source, &chunk, column, line);
+            }
+        }
+    }
+    return explain(source, code);
+}
+
+static ps_result read_picture(struct exr_source *source)
+{
+    exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
+    ps_result result = check_form(source, &storage);
+    if (result == PS_OK) {
+        result = read_size(source);
+    }
+    if (result == PS_OK) {
+        result = add_channels(source);
+    }
+    if (result == PS_OK) {
+        result = add_attributes(source);
+    }
+    if (result != PS_OK) {
+        return result;
+    }
+    result = storage == EXR_STORAGE_TILED ? read_tiles(source) : read_lines(source);
+    if (source->decoding) {
+        exr_decoding_destroy(source->context, &source->decoder);
+    }
+    return result;
+}
+
+ps_result image_read_exr(const char *path, struct image *image, struct error *error)
+{
+    struct exr_source source = {.path = path, .error = error};
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    setup.error_handler_fn = keep_first_message;
+    setup.user_data = &source;
+    setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    ps_result result = explain(&source, exr_start_read(&source.context, path, &setup));
+    if (result != PS_OK) {
+        return result;
+    }
+    result = read_picture(&source);
+    exr_finish(&source.context);
+    if (result != PS_OK) {
+        image_release(&source.image);
+        return result;
+    }
+    *image = source.image;
+    return PS_OK;
+}

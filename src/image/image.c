@@ -1,0 +1,104 @@
+/* image.c: the picture in memory: named planes of floats and string attributes. */
+#include "image/image.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void image_release(struct image *image)
+{
+    for (size_t i = 0; i < image->channel_count; i++) {
+        free(image->channels[i].name);
+        free(image->channels[i].samples);
+    }
+    for (size_t i = 0; i < image->attribute_count; i++) {
+        free(image->attributes[i].name);
+        free(image->attributes[i].value);
+    }
+    free(image->channels);
+    free(image->attributes);
+    *image = (struct image){0};
+}
+
+float *image_add_channel(struct image *image, const char *name)
+{
+    if (image->width == 0 || image->height == 0 || image->width > SIZE_MAX / image->height) {
+        return NULL;
+    }
+    struct image_channel *channels =
+        realloc(image->channels, (image->channel_count + 1) * sizeof *channels);
+    if (!channels) {
+        return NULL;
+    }
+    image->channels = channels;
+    struct image_channel channel = {
+        .name = strdup(name),
+        .samples = calloc(image->width * image->height, sizeof *channel.samples),
+    };
+    if (!channel.name || !channel.samples) {
+        free(channel.name);
+        free(channel.samples);
+        return NULL;
+    }
+    channels[image->channel_count++] = channel;
+    return channel.samples;
+}
+
+static struct image_attribute *find_attribute(const struct image *image, const char *name)
+{
+    for (size_t i = 0; i < image->attribute_count; i++) {
+        if (strcmp(image->attributes[i].name, name) == 0) {
+            return &image->attributes[i];
+        }
+    }
+    return NULL;
+}
+
+static struct image_attribute *append_attribute(struct image *image, const char *name)
+{
+    struct image_attribute *attributes =
+        realloc(image->attributes, (image->attribute_count + 1) * sizeof *attributes);
+    if (!attributes) {
+        return NULL;
+    }
+    image->attributes = attributes;
+    struct image_attribute *attribute = &attributes[image->attribute_count];
+    *attribute = (struct image_attribute){.name = strdup(name)};
+    if (!attribute->name) {
+        return NULL;
+    }
+    image->attribute_count++;
+    return attribute;
+}
+
+ps_result image_set_attribute(struct image *image, const char *name, const char *value,
+                              struct error *error)
+{
+    char *copy = strdup(value);
+    struct image_attribute *attribute = copy ? find_attribute(image, name) : NULL;
+    if (copy && !attribute) {
+        attribute = append_attribute(image, name);
+    }
+    if (!attribute) {
+        free(copy);
+        return error_memory(error, strlen(name) + strlen(value) + 2, "an attribute of a picture");
+    }
+    free(attribute->value);
+    attribute->value = copy;
+    return PS_OK;
+}
+
+const float *image_channel(const struct image *image, const char *name)
+{
+    for (size_t i = 0; i < image->channel_count; i++) {
+        if (strcmp(image->channels[i].name, name) == 0) {
+            return image->channels[i].samples;
+        }
+    }
+    return NULL;
+}
+
+const char *image_attribute(const struct image *image, const char *name)
+{
+    const struct image_attribute *attribute = find_attribute(image, name);
+    return attribute ? attribute->value : NULL;
+}

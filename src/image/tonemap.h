@@ -1,0 +1,23 @@
+/* tonemap.h: linear radiance to display values. */
+#ifndef IMAGE_TONEMAP_H
+#define IMAGE_TONEMAP_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The sRGB transfer function of IEC 61966-2-1, linear 0..1 to display 0..1 (clamped; NaN gives 0).
+ */
+float tonemap_srgb(float linear);
+
+enum tone_curve {
+    TONE_CLIP,  /* values above 1 clip: the thesis's display values, and what comparisons use */
+    TONE_FILMIC /* "simple tone curve": identity-like below 0.6, smooth shoulder to 1; monotonic, C1
+                 */
+};
+
+/* `red`, `green`, `blue`: n linear values each; `stops`: exposure, a factor 2^stops; `rgb`: 3n
+ * bytes out. */
+void tonemap_planes(const float *red, const float *green, const float *blue, size_t n, double stops,
+                    enum tone_curve curve, uint8_t *rgb);
+
+#endif

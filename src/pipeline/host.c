@@ -1,0 +1,287 @@
+/* host.c: the services of psplat/host.h, on top of a render. */
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "base/sample.h"
+#include "pipeline/direct.h"
+#include "pipeline/render_state.h"
+#include "splat/box.h"
+#include <psplat/math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static struct render *render_of(const ps_host *host)
+{
+    return host->core;
+}
+
+/* In front of what allocate gives; 64 bytes, so that the memory behind it stays aligned. */
+struct allocation {
+    _Alignas(64) size_t bytes;
+    const char *what;
+};
+
+static void *host_allocate(const ps_host *host, size_t bytes, const char *what)
+{
+    size_t header = sizeof(struct allocation);
+    if (bytes > SIZE_MAX / 2)
+        return NULL;
+    size_t whole = (header + bytes + 63) / 64 * 64;
+    struct allocation *allocation = aligned_alloc(64, whole);
+    if (!allocation)
+        return NULL;
+    *allocation = (struct allocation){whole, what};
+    statistics_add_bytes(render_of(host)->statistics, what, (double)whole);
+    return allocation + 1;
+}
+
+static void host_release(const ps_host *host, void *memory)
+{
+    if (!memory)
+        return;
+    struct allocation *allocation = (struct allocation *)memory - 1;
+    statistics_add_bytes(render_of(host)->statistics, allocation->what,
+                         -(double)allocation->bytes);
+    free(allocation);
+}
+
+static void host_parallel_for(const ps_host *host, uint64_t count, ps_body body, void *user)
+{
+    parallel_for(render_of(host)->settings->threads, count, body, user);
+}
+
+static void host_intersect(const ps_host *host, const ps_ray *rays, size_t n, ps_hit *hits)
+{
+    trace_intersect(render_of(host)->trace, RAYS_INCOHERENT, rays, n, hits);
+}
+
+static void host_occluded(const ps_host *host, const ps_ray *rays, size_t n, uint8_t *blocked)
+{
+    trace_occluded(render_of(host)->trace, RAYS_INCOHERENT, rays, n, blocked);
+}
+
+static void host_intersect_packets(const ps_host *host, ps_packet *packets, size_t n)
+{
+    trace_packets(render_of(host)->trace, packets, n);
+}
+
+static void host_samples(const ps_host *host, uint32_t stream, uint32_t set,
+                         const uint64_t *indices, size_t n, float (*samples)[4])
+{
+    uint32_t key = sample_key(render_of(host)->settings->seed, stream, set);
+    for (size_t i = 0; i < n; i++)
+        sample_point(key, indices[i], samples[i]);
+}
+
+static void host_emit_light(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
+                            ps_rgb *power)
+{
+    const struct scene *scene = render_of(host)->scene;
+    for (size_t i = 0; i < n; i++) {
+        power[i] = (ps_rgb){0, 0, 0};
+        rays[i] = (ps_ray){{0, 0, 0}, 0, {0, 0, 1}, 0};
+        if (scene->light_count == 0)
+            continue;
+        float probability;
+        size_t light = scene_choose_light(scene, samples[i][2], &probability);
+        ps_rgb flux = light_emit(&scene->lights[light], samples[i][0], samples[i][1], &rays[i]);
+        if (probability > 0.0f)
+            power[i] = ps_rgb_scale(flux, 1.0f / probability);
+    }
+}
+
+static void host_direct_irradiance(const ps_host *host, const ps_vec3 *positions,
+                                   const ps_vec3 *normals, size_t n, ps_rgb *irradiance)
+{
+    const struct render *render = render_of(host);
+    direct_irradiance(render->scene, render->trace, positions, normals, n, irradiance);
+}
+
+static void host_scene_bounds(const ps_host *host, ps_vec3 *center, float *radius)
+{
+    *center = render_of(host)->scene->center;
+    *radius = render_of(host)->scene->radius;
+}
+
+static void host_place_boxes(const ps_host *host, const ps_box_settings *settings,
+                             const ps_source *sources, const ps_hit *hits, size_t n,
+                             ps_splat *splats)
+{
+    const struct render *render = render_of(host);
+    struct box_scene scene = {render->scene->radius, render->scene->surface_offset,
+                              render->settings->seed};
+    box_place(&scene, settings, sources, hits, n, splats);
+}
+
+static ps_result host_next_sources(const ps_host *host, const ps_source **sources, size_t *n,
+                                   double *progress)
+{
+    struct render *render = render_of(host);
+    ps_result result = source_stream_next(&render->sources, sources, n, &render->error);
+    *progress = source_stream_progress(&render->sources);
+    return result;
+}
+
+struct placement {
+    struct render *render;
+    const ps_source *sources;
+    size_t n;
+    ps_splat *splats;
+};
+
+static void place_chunk(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct placement *placement = user;
+    struct render *render = placement->render;
+    ps_ray rays[PS_PATH_CHUNK];
+    ps_hit hits[PS_PATH_CHUNK];
+    size_t first = index * PS_PATH_CHUNK, left = placement->n - first;
+    size_t n = left < PS_PATH_CHUNK ? left : PS_PATH_CHUNK;
+    const ps_source *sources = placement->sources + first;
+    for (size_t i = 0; i < n; i++) {
+        float offset = render->scene->surface_offset;
+        ps_vec3 origin = ps_add_scaled(sources[i].position, offset, sources[i].normal);
+        rays[i] = (ps_ray){origin, 0.0f, sources[i].direction, INFINITY};
+    }
+    trace_intersect(render->trace, RAYS_INCOHERENT, rays, n, hits);
+    const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
+    const ps_visibility_vtable *vtable = visibility->descriptor->vtable;
+    vtable->place(visibility->state, &render->host, sources, hits, n, placement->splats + first);
+}
+
+static ps_result host_place_splats(const ps_host *host, const ps_source *sources, size_t n,
+                                   ps_splat *splats)
+{
+    struct render *render = render_of(host);
+    struct placement placement = {render, sources, n, splats};
+    double start = clock_seconds();
+    uint64_t chunks = (n + PS_PATH_CHUNK - 1) / PS_PATH_CHUNK;
+    parallel_for(render->settings->threads, chunks, place_chunk, &placement);
+    statistics_add_seconds(render->statistics, "place", clock_seconds() - start);
+    return PS_OK;
+}
+
+static ps_result tabulate_filter(struct render *render, struct kernel_profile *profile)
+{
+    const struct strategy *filter = &render->settings->strategies[PS_FILTER];
+    const ps_filter_vtable *vtable = filter->descriptor->vtable;
+    float radius2[KERNEL_PROFILE_SIZE];
+    for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++)
+        radius2[i] = kernel_profile_radius2(i);
+    vtable->weigh(filter->state, radius2, profile->weights, KERNEL_PROFILE_SIZE);
+    if (kernel_profile_normalize(profile))
+        return PS_OK;
+    return error_set(&render->error, PS_ERROR_INVALID,
+                     "filter %s: weights must not be negative, nor zero everywhere",
+                     filter->descriptor->name);
+}
+
+static ps_result create_splatter(struct render *render)
+{
+    const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
+    struct splatter_visibility chosen = {visibility->descriptor->vtable, visibility->state};
+    struct kernel_profile profile;
+    ps_result result = tabulate_filter(render, &profile);
+    if (result == PS_OK)
+        result = splatter_create(&render->splatter, &render->gbuffer, &render->host, chosen,
+                                 &profile, render->settings->threads, render->settings->batch,
+                                 &render->error);
+    render->has_splatter = result == PS_OK;
+    if (render->has_splatter)
+        splatter_begin_pass(&render->splatter);
+    return result;
+}
+
+static ps_result host_splat(const ps_host *host, ps_splat *splats, size_t n)
+{
+    struct render *render = render_of(host);
+    ps_result result = render->has_splatter ? PS_OK : create_splatter(render);
+    if (result == PS_OK)
+        result = splatter_add(&render->splatter, splats, n, &render->error);
+    if (result == PS_OK)
+        statistics_set_bytes(render->statistics, "splats",
+                             (double)splatter_bytes(&render->splatter));
+    return result;
+}
+
+static ps_tile *host_tile(const ps_host *host, uint32_t index)
+{
+    return &render_of(host)->gbuffer.tiles[index];
+}
+
+static int32_t host_pixel(const ps_host *host, uint32_t tile, uint32_t lane, uint32_t *x,
+                          uint32_t *y)
+{
+    return gbuffer_pixel(&render_of(host)->gbuffer, tile, lane, x, y);
+}
+
+static void host_log(const ps_host *host, ps_log_level level, const char *message)
+{
+    const struct render_callbacks *callbacks = render_of(host)->callbacks;
+    if (callbacks->log)
+        callbacks->log(callbacks->user, level, message);
+}
+
+static void host_count(const ps_host *host, const char *counter, double amount)
+{
+    statistics_count(render_of(host)->statistics, counter, amount);
+}
+
+static void host_progress(const ps_host *host, double fraction)
+{
+    const struct render *render = render_of(host);
+    const struct render_callbacks *callbacks = render->callbacks;
+    if (callbacks->progress)
+        callbacks->progress(callbacks->user, "indirect light",
+                            (render->pass.number + fraction) / render->settings->passes);
+}
+
+static int32_t host_cancelled(const ps_host *host)
+{
+    const struct render_callbacks *callbacks = render_of(host)->callbacks;
+    return callbacks->cancelled && callbacks->cancelled(callbacks->user);
+}
+
+void host_create(struct render *render)
+{
+    render->host = (ps_host){
+        .size = sizeof(ps_host),
+        .abi_minor = PS_ABI_MINOR,
+        .core = render,
+        .allocate = host_allocate,
+        .release = host_release,
+        .parallel_for = host_parallel_for,
+        .intersect = host_intersect,
+        .occluded = host_occluded,
+        .intersect_packets = host_intersect_packets,
+        .samples = host_samples,
+        .emit_light = host_emit_light,
+        .direct_irradiance = host_direct_irradiance,
+        .scene_bounds = host_scene_bounds,
+        .place_boxes = host_place_boxes,
+        .next_sources = host_next_sources,
+        .place_splats = host_place_splats,
+        .splat = host_splat,
+        .tile = host_tile,
+        .pixel = host_pixel,
+        .log = host_log,
+        .count = host_count,
+        .progress = host_progress,
+        .cancelled = host_cancelled,
+    };
+}
+
+void host_report_splatter(struct render *render)
+{
+    if (!render->has_splatter)
+        return;
+    struct statistics *statistics = render->statistics;
+    const struct splatter *splatter = &render->splatter;
+    statistics_add_seconds(statistics, "maps", splatter->map_seconds);
+    statistics_add_seconds(statistics, "bin", splatter->bin_seconds);
+    statistics_add_seconds(statistics, "splat", splatter->kernel_seconds);
+    statistics_count(statistics, "splats", (double)splatter->splats);
+    statistics_count(statistics, "map rays", (double)splatter->map_rays);
+    statistics_count(statistics, "pixel-splat tests", (double)splatter->tests);
+    statistics_count(statistics, "pixel-splat tests with weight", (double)splatter->useful_tests);
+}

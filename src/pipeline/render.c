@@ -1,0 +1,188 @@
+#include "pipeline/render.h"
+
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "base/sample.h"
+#include "pipeline/direct.h"
+#include "pipeline/render_state.h"
+#include <string.h>
+
+static void report_progress(const struct render *render, const char *stage, double fraction)
+{
+    const struct render_callbacks *callbacks = render->callbacks;
+    if (callbacks->progress)
+        callbacks->progress(callbacks->user, stage, fraction);
+}
+
+static ps_result start_strategies(struct render *render, struct error *error)
+{
+    for (int kind = 0; kind < PS_KINDS; kind++) {
+        struct strategy *strategy = &render->settings->strategies[kind];
+        ps_result result = strategy_start(strategy, &render->host, error);
+        if (result != PS_OK)
+            return result;
+    }
+    return PS_OK;
+}
+
+static ps_result create(struct render *render, struct error *error)
+{
+    const struct scene *scene = render->scene;
+    double start = clock_seconds();
+    ps_result result = trace_create(scene, &render->trace, error);
+    statistics_add_seconds(render->statistics, "build", clock_seconds() - start);
+    if (result == PS_OK)
+        result = gbuffer_create(scene->width, scene->height, &render->gbuffer, error);
+    if (result == PS_OK)
+        result = film_create(scene->width, scene->height, &render->film, error);
+    if (result == PS_OK)
+        result = start_strategies(render, error);
+    if (result == PS_OK)
+        result = source_stream_create(&render->sources, render->settings, &render->host,
+                                      &render->pass, render->statistics, error);
+    if (result != PS_OK)
+        return result;
+    statistics_set_bytes(render->statistics, "ray tracer", (double)trace_bytes(render->trace));
+    statistics_set_bytes(render->statistics, "G-buffer", (double)gbuffer_bytes(&render->gbuffer));
+    statistics_set_bytes(render->statistics, "film", (double)film_bytes(&render->film));
+    return PS_OK;
+}
+
+static void destroy(struct render *render)
+{
+    if (render->has_splatter)
+        splatter_release(&render->splatter);
+    source_stream_release(&render->sources);
+    for (int kind = 0; kind < PS_KINDS; kind++)
+        strategy_release(&render->settings->strategies[kind]);
+    film_release(&render->film);
+    gbuffer_release(&render->gbuffer);
+    trace_destroy(render->trace);
+}
+
+/* Where in its pixels a pass looks: the centre if it is the only one, else points spread over the pixel, the same in
+ * all pixels so that a pass stays coherent. */
+struct jitter {
+    float x, y;
+};
+
+static struct jitter pass_jitter(const struct render *render)
+{
+    if (render->settings->passes == 1)
+        return (struct jitter){0.5f, 0.5f};
+    float point[4];
+    sample_point(sample_key(render->settings->seed, PS_STREAM_PIXEL, 0), render->pass.number, point);
+    return (struct jitter){point[0], point[1]};
+}
+
+struct tile_work {
+    struct render *render;
+    struct jitter jitter;
+};
+
+static void trace_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct tile_work *work = user;
+    struct render *render = work->render;
+    gbuffer_trace_tile(&render->gbuffer, render->trace, &render->scene->camera, (uint32_t)index,
+                       work->jitter.x, work->jitter.y);
+}
+
+static void light_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct tile_work *work = user;
+    struct render *render = work->render;
+    direct_light_tile(render->scene, render->trace, &render->gbuffer, (uint32_t)index);
+}
+
+static void add_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct tile_work *work = user;
+    film_add_tile(&work->render->film, &work->render->gbuffer, (uint32_t)index);
+}
+
+static void over_tiles(struct tile_work *work, const char *stage, parallel_body body)
+{
+    struct render *render = work->render;
+    double start = clock_seconds();
+    parallel_for(render->settings->threads, render->gbuffer.tile_count, body, work);
+    statistics_add_seconds(render->statistics, stage, clock_seconds() - start);
+}
+
+static ps_result estimate(struct render *render, struct error *error)
+{
+    const struct strategy *estimator = &render->settings->strategies[PS_ESTIMATOR];
+    const ps_estimator_vtable *vtable = estimator->descriptor->vtable;
+    source_stream_rewind(&render->sources);
+    if (render->has_splatter)
+        splatter_begin_pass(&render->splatter);
+    render->error.text[0] = '\0';
+    double start = clock_seconds();
+    ps_result result = vtable->accumulate(estimator->state, &render->host, &render->pass);
+    statistics_add_seconds(render->statistics, "estimate", clock_seconds() - start);
+    if (result == PS_OK && render->host.cancelled(&render->host))
+        return PS_CANCELLED;
+    if (result == PS_OK || result == PS_CANCELLED)
+        return result;
+    return error_set(error, result, "estimator %s failed%s%.900s", estimator->descriptor->name,
+                     render->error.text[0] ? ": " : "", render->error.text);
+}
+
+static ps_result run_pass(struct render *render, uint32_t number, struct error *error)
+{
+    render->pass = (ps_pass){
+        .size = sizeof(ps_pass),
+        .number = number,
+        .seed = render->settings->seed,
+        .tile_count = render->gbuffer.tile_count,
+        .thread_count = render->settings->threads,
+        .surface_offset = render->scene->surface_offset,
+    };
+    report_progress(render, "direct light", (double)number / render->settings->passes);
+    struct tile_work work = {render, pass_jitter(render)};
+    over_tiles(&work, "gbuffer", trace_tile);
+    over_tiles(&work, "direct", light_tile);
+    ps_result result = estimate(render, error);
+    if (result == PS_CANCELLED && number == 0)
+        gbuffer_clear_indirect(&render->gbuffer);
+    else if (result != PS_OK)
+        return result;
+    over_tiles(&work, "film", add_tile);
+    film_count_pass(&render->film);
+    return result;
+}
+
+static ps_result run_passes(struct render *render, struct error *error)
+{
+    ps_result result = PS_OK;
+    for (uint32_t pass = 0; pass < render->settings->passes && result == PS_OK; pass++)
+        result = run_pass(render, pass, error);
+    statistics_count(render->statistics, "passes", render->film.passes);
+    return result;
+}
+
+ps_result render_run(const struct scene *scene, struct render_settings *settings,
+                     const struct render_callbacks *callbacks, struct statistics *statistics,
+                     struct image *image, struct error *error)
+{
+    struct render render = {
+        .scene = scene,
+        .settings = settings,
+        .callbacks = callbacks,
+        .statistics = statistics,
+    };
+    host_create(&render);
+    ps_result result = create(&render, error);
+    if (result == PS_OK)
+        result = run_passes(&render, error);
+    if (result == PS_OK || result == PS_CANCELLED) {
+        ps_result resolved = resolve_image(&render, image, error);
+        result = resolved == PS_OK ? result : resolved;
+    }
+    host_report_splatter(&render);
+    destroy(&render);
+    return result;
+}

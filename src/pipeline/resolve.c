@@ -1,0 +1,146 @@
+/* resolve.c: the film becomes a picture: normalization, ambient fallback, denoiser, combination. */
+#include "base/clock.h"
+#include "pipeline/render_state.h"
+#include <string.h>
+
+/* The layers of the picture that come straight from the film. */
+static const struct layer {
+    const char *name;
+    enum film_plane plane;
+} layers[] = {
+    {"direct.R", FILM_DIRECT_R},  {"direct.G", FILM_DIRECT_G},  {"direct.B", FILM_DIRECT_B},
+    {"albedo.R", FILM_ALBEDO_R},  {"albedo.G", FILM_ALBEDO_G},  {"albedo.B", FILM_ALBEDO_B},
+    {"N.X", FILM_NORMAL_X},       {"N.Y", FILM_NORMAL_Y},       {"N.Z", FILM_NORMAL_Z},
+    {"P.X", FILM_POSITION_X},     {"P.Y", FILM_POSITION_Y},     {"P.Z", FILM_POSITION_Z},
+    {"Z", FILM_DEPTH},            {"weight", FILM_WEIGHT},
+};
+
+struct rgb_planes {
+    float *r, *g, *b;
+};
+
+static ps_result add_rgb(struct image *image, const char *const names[3], struct rgb_planes *planes,
+                         struct error *error)
+{
+    planes->r = image_add_channel(image, names[0]);
+    planes->g = image_add_channel(image, names[1]);
+    planes->b = image_add_channel(image, names[2]);
+    if (planes->r && planes->g && planes->b)
+        return PS_OK;
+    return error_memory(error, 3 * image->width * image->height * sizeof(float), "the picture");
+}
+
+static ps_result add_film_layers(const struct film *film, struct image *image, struct error *error)
+{
+    size_t bytes = film->width * film->height * sizeof(float);
+    for (size_t i = 0; i < sizeof layers / sizeof layers[0]; i++) {
+        float *samples = image_add_channel(image, layers[i].name);
+        if (!samples)
+            return error_memory(error, bytes, "the picture");
+        memcpy(samples, film->planes[layers[i].plane], bytes);
+    }
+    return PS_OK;
+}
+
+static ps_result normalize(struct render *render, struct rgb_planes out, struct error *error)
+{
+    const struct strategy *strategy = &render->settings->strategies[PS_NORMALIZATION];
+    const ps_normalization_vtable *vtable = strategy->descriptor->vtable;
+    const struct film *film = &render->film;
+    ps_film_view view = {
+        .size = sizeof view,
+        .passes = film->passes,
+        .pixel_count = film->width * film->height,
+        .color_r = film->planes[FILM_COLOR_R],
+        .color_g = film->planes[FILM_COLOR_G],
+        .color_b = film->planes[FILM_COLOR_B],
+        .weight = film->planes[FILM_WEIGHT],
+    };
+    double start = clock_seconds();
+    ps_result result =
+        vtable->resolve(strategy->state, &render->host, &view, out.r, out.g, out.b);
+    statistics_add_seconds(render->statistics, "normalize", clock_seconds() - start);
+    return result == PS_OK ? PS_OK : error_set(error, result, "normalization failed");
+}
+
+/* Pixels that no indirect light reached take the ambient colour (Hoet 2014, section 4.3). */
+static void fill_ambient(struct render *render, struct rgb_planes out)
+{
+    const struct film *film = &render->film;
+    size_t dark = 0;
+    for (size_t i = 0; i < film->width * film->height; i++) {
+        if (film->planes[FILM_WEIGHT][i] > 0.0f)
+            continue;
+        bool covered = film->planes[FILM_COVERAGE][i] > 0.0f;
+        out.r[i] = covered ? render->settings->ambient.r : 0.0f;
+        out.g[i] = covered ? render->settings->ambient.g : 0.0f;
+        out.b[i] = covered ? render->settings->ambient.b : 0.0f;
+        dark += covered;
+    }
+    statistics_count(render->statistics, "pixels without weight", (double)dark);
+}
+
+static ps_result denoise(struct render *render, struct rgb_planes indirect, struct error *error)
+{
+    const struct strategy *strategy = &render->settings->strategies[PS_DENOISER];
+    const ps_denoiser_vtable *vtable = strategy->descriptor->vtable;
+    float **planes = render->film.planes;
+    ps_image_view view = {
+        .size = sizeof view,
+        .width = (uint32_t)render->film.width,
+        .height = (uint32_t)render->film.height,
+        .r = indirect.r,
+        .g = indirect.g,
+        .b = indirect.b,
+        .albedo_r = planes[FILM_ALBEDO_R],
+        .albedo_g = planes[FILM_ALBEDO_G],
+        .albedo_b = planes[FILM_ALBEDO_B],
+        .normal_x = planes[FILM_NORMAL_X],
+        .normal_y = planes[FILM_NORMAL_Y],
+        .normal_z = planes[FILM_NORMAL_Z],
+        .position_x = planes[FILM_POSITION_X],
+        .position_y = planes[FILM_POSITION_Y],
+        .position_z = planes[FILM_POSITION_Z],
+        .depth = planes[FILM_DEPTH],
+    };
+    double start = clock_seconds();
+    ps_result result = vtable->filter(strategy->state, &render->host, &view);
+    statistics_add_seconds(render->statistics, "denoise", clock_seconds() - start);
+    return result == PS_OK ? PS_OK : error_set(error, result, "denoiser failed");
+}
+
+static void combine(const struct render *render, struct rgb_planes indirect, struct rgb_planes out)
+{
+    float *const *planes = render->film.planes;
+    float exposure = (float)render->settings->indirect_exposure;
+    for (size_t i = 0; i < render->film.width * render->film.height; i++) {
+        out.r[i] = planes[FILM_DIRECT_R][i] + exposure * indirect.r[i];
+        out.g[i] = planes[FILM_DIRECT_G][i] + exposure * indirect.g[i];
+        out.b[i] = planes[FILM_DIRECT_B][i] + exposure * indirect.b[i];
+    }
+}
+
+ps_result resolve_image(struct render *render, struct image *image, struct error *error)
+{
+    static const char *const picture_names[3] = {"R", "G", "B"};
+    static const char *const indirect_names[3] = {"indirect.R", "indirect.G", "indirect.B"};
+    *image = (struct image){.width = render->film.width, .height = render->film.height};
+    struct rgb_planes picture, indirect;
+    ps_result result = add_rgb(image, picture_names, &picture, error);
+    if (result == PS_OK)
+        result = add_rgb(image, indirect_names, &indirect, error);
+    if (result == PS_OK)
+        result = normalize(render, indirect, error);
+    if (result == PS_OK) {
+        fill_ambient(render, indirect);
+        film_average(&render->film);
+        result = denoise(render, indirect, error);
+    }
+    if (result == PS_OK) {
+        combine(render, indirect, picture);
+        result = add_film_layers(&render->film, image, error);
+    }
+    if (result != PS_OK)
+        image_release(image);
+    return result;
+}

@@ -1,0 +1,116 @@
+#include "pipeline/settings.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const struct origin nowhere = {.file = NULL};
+
+struct resolution {
+    struct loader *loader;
+    settings_report report;
+    void *user;
+    bool failed;
+};
+
+static void fail(struct resolution *resolution, const struct origin *origin, const char *message)
+{
+    resolution->failed = true;
+    resolution->report(resolution->user, origin, message);
+}
+
+static void report_unknown(struct resolution *resolution, const struct strategy *strategy,
+                           const struct parameter_text *parameter)
+{
+    char message[512];
+    const ps_descriptor *descriptor = strategy->descriptor;
+    struct param_table table = strategy_params(descriptor);
+    const char *suggestion = param_suggest(&table, parameter->key);
+    snprintf(message, sizeof message, "unknown parameter '%.80s' of %s %s%s%s%s", parameter->key,
+             kinds[descriptor->kind].name, descriptor->name,
+             suggestion ? "; did you mean '" : "", suggestion ? suggestion : "",
+             suggestion ? "'?" : "");
+    fail(resolution, &parameter->key_origin, message);
+}
+
+static void set_parameter(struct resolution *resolution, struct strategy *strategy,
+                          const struct parameter_text *parameter)
+{
+    struct param_table table = strategy_params(strategy->descriptor);
+    const ps_param *row = param_find(&table, parameter->key);
+    struct error error;
+    if (!row) {
+        report_unknown(resolution, strategy, parameter);
+    } else if (param_set(row, strategy->state, parameter->value, &error) != PS_OK) {
+        char message[sizeof error.text + 128];
+        snprintf(message, sizeof message, "%s %s: %s: %s", kinds[strategy->descriptor->kind].name,
+                 strategy->descriptor->name, row->name, error.text);
+        fail(resolution, &parameter->value_origin, message);
+    }
+}
+
+static bool was_given(const struct strategy_choice *choice, const char *key)
+{
+    for (size_t i = 0; i < choice->parameter_count; i++)
+        if (strcmp(choice->parameters[i].key, key) == 0)
+            return true;
+    return false;
+}
+
+static void check_required(struct resolution *resolution, const struct strategy *strategy,
+                           const struct strategy_choice *choice)
+{
+    struct param_table table = strategy_params(strategy->descriptor);
+    for (size_t i = 0; i < table.count; i++) {
+        const ps_param *row = param_row(&table, i);
+        if (row->default_value || was_given(choice, row->name))
+            continue;
+        char message[256];
+        snprintf(message, sizeof message, "%s %s needs its parameter '%s'",
+                 kinds[strategy->descriptor->kind].name, strategy->descriptor->name, row->name);
+        fail(resolution, &choice->origin, message);
+    }
+}
+
+static void resolve_choice(struct resolution *resolution, ps_kind kind,
+                           const struct strategy_choice *choice, struct strategy *strategy)
+{
+    struct error error;
+    const ps_descriptor *descriptor;
+    const char *name = choice->name ? choice->name : kinds[kind].default_strategy;
+    if (loader_find(resolution->loader, kind, name, &descriptor, &error) != PS_OK ||
+        strategy_create(descriptor, strategy, &error) != PS_OK) {
+        fail(resolution, choice->name ? &choice->origin : &nowhere, error.text);
+        return;
+    }
+    for (size_t i = 0; i < choice->parameter_count; i++)
+        set_parameter(resolution, strategy, &choice->parameters[i]);
+    check_required(resolution, strategy, choice);
+}
+
+ps_result settings_resolve(struct loader *loader, const struct render_description *description,
+                           uint32_t threads, size_t batch, settings_report report, void *user,
+                           struct render_settings *settings)
+{
+    *settings = (struct render_settings){
+        .passes = (uint32_t)description->passes,
+        .seed = (uint64_t)description->seed,
+        .threads = threads,
+        .batch = batch,
+        .indirect_exposure = description->indirect_exposure,
+        .ambient = description->ambient,
+    };
+    struct resolution resolution = {loader, report, user, false};
+    for (int kind = 0; kind < PS_KINDS; kind++)
+        resolve_choice(&resolution, (ps_kind)kind, &description->strategies[kind],
+                       &settings->strategies[kind]);
+    if (!resolution.failed)
+        return PS_OK;
+    settings_release(settings);
+    return PS_ERROR_INVALID;
+}
+
+void settings_release(struct render_settings *settings)
+{
+    for (int kind = 0; kind < PS_KINDS; kind++)
+        strategy_release(&settings->strategies[kind]);
+}

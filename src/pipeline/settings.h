@@ -1,0 +1,41 @@
+/* settings.h: the strategies and numbers of a render, checked.
+ *
+ * A scene file and the command line both speak through a render description; here its names become loaded
+ * plugins and its texts values. Every problem is reported with where it was written, several in one go.
+ */
+#ifndef PIPELINE_SETTINGS_H
+#define PIPELINE_SETTINGS_H
+
+#include "plugin/strategy.h"
+#include "scene/description.h"
+
+struct render_settings {
+    struct strategy strategies[PS_KINDS];
+    uint32_t passes;
+    uint64_t seed;
+    uint32_t threads;
+    size_t batch; /* splats at a time; changes memory, not the picture */
+    double indirect_exposure;
+    ps_rgb ambient;
+};
+
+/* Called for each problem; `origin` has line 0 where it came from the command line. */
+typedef void (*settings_report)(void *user, const struct origin *origin, const char *message);
+
+/* Loads and fills the strategies. PS_ERROR_INVALID after at least one report; settings are released
+ * then. */
+ps_result settings_resolve(struct loader *loader, const struct render_description *description,
+                           uint32_t threads, size_t batch, settings_report report, void *user,
+                           struct render_settings *settings);
+void settings_release(struct render_settings *settings);
+
+/* Lays a choice over another of the same kind: another strategy replaces it, the same one keeps the parameters that
+ * the new choice does not name. Takes over what `choice` owns. */
+ps_result settings_override(struct strategy_choice *base, struct strategy_choice *choice,
+                            struct error *error);
+
+/* Reads "name:key=value,key=[1, 2, 3]" into a choice that the caller releases. */
+ps_result settings_parse_choice(const char *text, struct strategy_choice *choice,
+                                struct error *error);
+
+#endif

@@ -1,0 +1,160 @@
+#include "pipeline/sources.h"
+
+#include "base/clock.h"
+#include "base/parallel.h"
+#include <stdlib.h>
+#include <string.h>
+
+#define BATCH_CHUNKS 32 /* chunks of PS_PATH_CHUNK paths that are injected at a time */
+
+static ps_result reserve(struct source_list *list, size_t count)
+{
+    if (count <= list->capacity)
+        return PS_OK;
+    size_t capacity = count + list->capacity / 2;
+    ps_source *items = realloc(list->items, capacity * sizeof *items);
+    if (!items)
+        return PS_ERROR_MEMORY;
+    list->items = items;
+    list->capacity = capacity;
+    return PS_OK;
+}
+
+static ps_result append(void *core, const ps_source *sources, size_t n)
+{
+    struct source_list *list = core;
+    if (n == 0)
+        return PS_OK;
+    if (reserve(list, list->count + n) != PS_OK)
+        return PS_ERROR_MEMORY;
+    memcpy(list->items + list->count, sources, n * sizeof *sources);
+    list->count += n;
+    return PS_OK;
+}
+
+ps_result source_stream_create(struct source_stream *stream, const struct render_settings *settings,
+                               const ps_host *host, const ps_pass *pass,
+                               struct statistics *statistics, struct error *error)
+{
+    *stream = (struct source_stream){
+        .settings = settings,
+        .host = host,
+        .pass = pass,
+        .statistics = statistics,
+        .chunks = calloc(BATCH_CHUNKS, sizeof *stream->chunks),
+    };
+    if (!stream->chunks)
+        return error_memory(error, BATCH_CHUNKS * sizeof *stream->chunks, "sources");
+    source_stream_rewind(stream);
+    return PS_OK;
+}
+
+void source_stream_release(struct source_stream *stream)
+{
+    for (int i = 0; i < BATCH_CHUNKS && stream->chunks; i++)
+        free(stream->chunks[i].items);
+    free(stream->chunks);
+    free(stream->batch.items);
+    *stream = (struct source_stream){.chunks = NULL};
+}
+
+void source_stream_rewind(struct source_stream *stream)
+{
+    const struct strategy *injection = &stream->settings->strategies[PS_INJECTION];
+    const ps_injection_vtable *vtable = injection->descriptor->vtable;
+    stream->path_count = vtable->path_count(injection->state);
+    stream->next_path = 0;
+}
+
+struct injection {
+    struct source_stream *stream;
+    ps_result *results; /* of each chunk */
+};
+
+static void inject_chunk(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct injection *injection = user;
+    struct source_stream *stream = injection->stream;
+    struct source_list *list = &stream->chunks[index];
+    list->count = 0;
+    injection->results[index] = PS_OK;
+    uint64_t first = stream->next_path + index * PS_PATH_CHUNK;
+    if (first >= stream->path_count)
+        return;
+    uint64_t left = stream->path_count - first;
+    size_t n = left < PS_PATH_CHUNK ? (size_t)left : PS_PATH_CHUNK;
+    const struct strategy *strategy = &stream->settings->strategies[PS_INJECTION];
+    const ps_injection_vtable *vtable = strategy->descriptor->vtable;
+    ps_source_sink sink = {list, append};
+    injection->results[index] =
+        vtable->emit(strategy->state, stream->host, stream->pass, first, n, &sink);
+}
+
+/* Appends the sources of the next batch of paths to the stream's batch. */
+static ps_result inject(struct source_stream *stream, struct error *error)
+{
+    ps_result results[BATCH_CHUNKS];
+    struct injection injection = {stream, results};
+    double start = clock_seconds();
+    parallel_for(stream->settings->threads, BATCH_CHUNKS, inject_chunk, &injection);
+    stream->next_path += (uint64_t)BATCH_CHUNKS * PS_PATH_CHUNK;
+    for (int i = 0; i < BATCH_CHUNKS; i++) {
+        const struct source_list *chunk = &stream->chunks[i];
+        if (results[i] != PS_OK)
+            return error_set(error, results[i], "injection failed");
+        if (append(&stream->batch, chunk->items, chunk->count) != PS_OK)
+            return error_memory(error, chunk->count * sizeof *chunk->items, "sources");
+    }
+    statistics_add_seconds(stream->statistics, "inject", clock_seconds() - start);
+    return PS_OK;
+}
+
+static ps_result stratify(struct source_stream *stream, struct error *error)
+{
+    const struct strategy *strategy = &stream->settings->strategies[PS_STRATIFICATION];
+    const ps_stratification_vtable *vtable = strategy->descriptor->vtable;
+    double start = clock_seconds();
+    statistics_count(stream->statistics, "sources injected", (double)stream->batch.count);
+    ps_result result = vtable->combine(strategy->state, stream->host, stream->pass,
+                                       stream->batch.items, &stream->batch.count);
+    statistics_add_seconds(stream->statistics, "stratify", clock_seconds() - start);
+    statistics_count(stream->statistics, "sources", (double)stream->batch.count);
+    return result == PS_OK ? PS_OK : error_set(error, result, "stratification failed");
+}
+
+static void measure(const struct source_stream *stream)
+{
+    size_t capacity = stream->batch.capacity;
+    for (int i = 0; i < BATCH_CHUNKS; i++)
+        capacity += stream->chunks[i].capacity;
+    statistics_set_bytes(stream->statistics, "sources", (double)(capacity * sizeof(ps_source)));
+}
+
+ps_result source_stream_next(struct source_stream *stream, const ps_source **sources, size_t *n,
+                             struct error *error)
+{
+    const ps_stratification_vtable *stratification =
+        stream->settings->strategies[PS_STRATIFICATION].descriptor->vtable;
+    ps_result result = PS_OK;
+    stream->batch.count = 0;
+    while (stream->next_path < stream->path_count && stream->batch.count == 0 && result == PS_OK) {
+        do
+            result = inject(stream, error);
+        while (stratification->whole_pass && stream->next_path < stream->path_count &&
+               result == PS_OK);
+        if (result == PS_OK && stream->batch.count > 0)
+            result = stratify(stream, error);
+    }
+    measure(stream);
+    *sources = stream->batch.items;
+    *n = stream->batch.count;
+    return result;
+}
+
+double source_stream_progress(const struct source_stream *stream)
+{
+    if (stream->path_count == 0 || stream->next_path >= stream->path_count)
+        return 1.0;
+    return (double)stream->next_path / (double)stream->path_count;
+}

@@ -1,0 +1,42 @@
+/* sources.h: the stream of a pass's indirect light sources: injected, stratified, in path order.
+ *
+ * Paths go through in batches, so memory does not grow with their number, unless the stratification
+ * wants to see all sources of a pass at once.
+ */
+#ifndef PIPELINE_SOURCES_H
+#define PIPELINE_SOURCES_H
+
+#include "pipeline/settings.h"
+#include "pipeline/statistics.h"
+
+struct source_list {
+    ps_source *items; /* owned */
+    size_t count, capacity;
+};
+
+struct source_stream {
+    const struct render_settings *settings;
+    const ps_host *host;
+    const ps_pass *pass;
+    struct statistics *statistics;
+    struct source_list *chunks; /* one for each chunk of a batch of paths; owned */
+    struct source_list batch;   /* what was handed out last */
+    uint64_t next_path, path_count;
+};
+
+ps_result source_stream_create(struct source_stream *stream, const struct render_settings *settings,
+                               const ps_host *host, const ps_pass *pass,
+                               struct statistics *statistics, struct error *error);
+void source_stream_release(struct source_stream *stream);
+
+/* Starts over with the pass that `pass` now describes. */
+void source_stream_rewind(struct source_stream *stream);
+
+/* The next sources; 0 of them after the last. Valid until the next call. */
+ps_result source_stream_next(struct source_stream *stream, const ps_source **sources, size_t *n,
+                             struct error *error);
+
+/* Share of the pass's paths that were injected, 0..1. */
+double source_stream_progress(const struct source_stream *stream);
+
+#endif

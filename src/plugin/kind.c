@@ -1,0 +1,21 @@
+#include "plugin/kind.h"
+
+#include <string.h>
+
+const struct kind kinds[PS_KINDS] = {
+    [PS_INJECTION] = {"injection", "makes the indirect light sources", "photon"},
+    [PS_STRATIFICATION] = {"stratification", "combines neighbouring sources into fewer", "none"},
+    [PS_VISIBILITY] = {"visibility", "decides what a bundled light ray lights", "shadowmap"},
+    [PS_FILTER] = {"filter", "radial weight of a splat", "gaussian"},
+    [PS_ESTIMATOR] = {"estimator", "turns sources into light on the picture", "splat"},
+    [PS_NORMALIZATION] = {"normalization", "turns accumulated light into radiance", "density"},
+    [PS_DENOISER] = {"denoiser", "smooths the indirect light", "none"},
+};
+
+ps_kind kind_find(const char *name)
+{
+    int kind = 0;
+    while (kind < PS_KINDS && strcmp(kinds[kind].name, name) != 0)
+        kind++;
+    return (ps_kind)kind;
+}

@@ -1,0 +1,277 @@
+#include "plugin/loader.h"
+
+#include "plugin/elf_check.h"
+#include <dirent.h>
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define LONGEST_PATH 4096
+#define LONGEST_ATTEMPTS 700
+#define SUFFIX ".so"
+
+/* Modules that are linked into the program; NULL-terminated. Empty in ordinary builds. */
+extern const ps_module *const static_modules[];
+
+struct loader {
+    char **folders; /* searched in order */
+    size_t folder_count;
+};
+
+static bool add_folder(struct loader *loader, const char *path, size_t length)
+{
+    char **folders = realloc(loader->folders, (loader->folder_count + 1) * sizeof *folders);
+    if (!folders)
+        return false;
+    loader->folders = folders;
+    char *copy = malloc(length + 1);
+    if (!copy)
+        return false;
+    memcpy(copy, path, length);
+    copy[length] = '\0';
+    folders[loader->folder_count++] = copy;
+    return true;
+}
+
+static bool add_environment(struct loader *loader)
+{
+    const char *path = getenv("PSPLAT_PLUGIN_PATH");
+    while (path && *path) {
+        size_t length = strcspn(path, ":");
+        if (length && !add_folder(loader, path, length))
+            return false;
+        path += length + (path[length] == ':');
+    }
+    return true;
+}
+
+/* psplat's own plugins lie beside libpsplat, so that an installed tree runs from any place. */
+static bool add_own_folder(struct loader *loader)
+{
+    Dl_info library;
+    if (!dladdr((const void *)kinds, &library) || !library.dli_fname)
+        return true;
+    const char *slash = strrchr(library.dli_fname, '/');
+    char path[LONGEST_PATH];
+    int length = snprintf(path, sizeof path, "%.*spsplat/plugins-%u",
+                          slash ? (int)(slash - library.dli_fname) + 1 : 0, library.dli_fname,
+                          PS_ABI_MAJOR);
+    return length > 0 && (size_t)length < sizeof path &&
+           add_folder(loader, path, (size_t)length);
+}
+
+ps_result loader_create(struct loader **created, struct error *error)
+{
+    struct loader *loader = calloc(1, sizeof *loader);
+    if (!loader || !add_environment(loader) || !add_own_folder(loader)) {
+        loader_destroy(loader);
+        return error_memory(error, sizeof *loader, "the plugin loader");
+    }
+    *created = loader;
+    return PS_OK;
+}
+
+void loader_destroy(struct loader *loader)
+{
+    if (!loader)
+        return;
+    for (size_t i = 0; i < loader->folder_count; i++)
+        free(loader->folders[i]);
+    free(loader->folders);
+    free(loader);
+}
+
+static const ps_descriptor *pick(const ps_module *module, ps_kind kind, const char *name)
+{
+    for (uint32_t i = 0; i < module->descriptor_count; i++) {
+        const ps_descriptor *descriptor = module->descriptors[i];
+        if (descriptor->kind == (uint32_t)kind && (!name || !strcmp(descriptor->name, name)))
+            return descriptor;
+    }
+    return NULL;
+}
+
+static const ps_descriptor *find_static(ps_kind kind, const char *name)
+{
+    for (size_t i = 0; static_modules[i]; i++) {
+        const ps_descriptor *descriptor = pick(static_modules[i], kind, name);
+        if (descriptor)
+            return descriptor;
+    }
+    return NULL;
+}
+
+/* The strategy of a kind in a file; name NULL takes any. */
+static const ps_descriptor *load_file(const char *path, ps_kind kind, const char *name,
+                                      struct error *error)
+{
+    struct stat status;
+    if (stat(path, &status) != 0) {
+        error_set(error, PS_ERROR_IO, "no such file");
+        return NULL;
+    }
+    const char *problem = elf_problem(path);
+    if (problem) {
+        error_set(error, PS_ERROR_INVALID, "%s", problem);
+        return NULL;
+    }
+    void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!handle) {
+        error_set(error, PS_ERROR_INVALID, "can't be loaded (%.600s)", dlerror());
+        return NULL;
+    }
+    const ps_module *module = dlsym(handle, "psplat_module_v1");
+    if (!module) {
+        error_set(error, PS_ERROR_INVALID, "it is no psplat plugin: no symbol psplat_module_v1");
+        return NULL;
+    }
+    if (!module_check(module, error))
+        return NULL;
+    const ps_descriptor *descriptor = pick(module, kind, name);
+    if (!descriptor)
+        error_set(error, PS_ERROR_INVALID, "it has no %s of that name", kinds[kind].name);
+    return descriptor;
+}
+
+/* Searches the folders in order; appends "\n  tried PATH: REASON" to attempts for each miss. */
+static const ps_descriptor *search(struct loader *loader, ps_kind kind, const char *name,
+                                   char attempts[LONGEST_ATTEMPTS])
+{
+    const ps_descriptor *descriptor = find_static(kind, name);
+    for (size_t i = 0; i < loader->folder_count && !descriptor; i++) {
+        char path[LONGEST_PATH];
+        struct error reason;
+        snprintf(path, sizeof path, "%s/%s/%s" SUFFIX, loader->folders[i], kinds[kind].name, name);
+        descriptor = load_file(path, kind, name, &reason);
+        size_t used = strlen(attempts);
+        if (!descriptor)
+            snprintf(attempts + used, LONGEST_ATTEMPTS - used, "\n  tried %s: %s", path,
+                     reason.text);
+    }
+    return descriptor;
+}
+
+static void append_suggestion(void *user, const char *name, const ps_descriptor *descriptor,
+                              const char *problem)
+{
+    (void)problem;
+    char *names = user;
+    size_t used = strlen(names);
+    if (descriptor && used < 200)
+        snprintf(names + used, 240 - used, "%s%s", used ? ", " : "", name);
+}
+
+static ps_result not_found(struct loader *loader, ps_kind kind, const char *name,
+                           const char *attempts, struct error *error)
+{
+    char names[240] = "";
+    struct error ignored;
+    loader_list(loader, kind, append_suggestion, names, &ignored);
+    return error_set(error, PS_ERROR_INVALID, "no %s '%.100s' (there are: %s)%s",
+                     kinds[kind].name, name, names[0] ? names : "none", attempts);
+}
+
+static bool is_plain_name(const char *name)
+{
+    return *name && strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_-") == strlen(name);
+}
+
+ps_result loader_find(struct loader *loader, ps_kind kind, const char *name,
+                      const ps_descriptor **descriptor, struct error *error)
+{
+    if (strchr(name, '/')) {
+        struct error reason;
+        *descriptor = load_file(name, kind, NULL, &reason);
+        if (*descriptor)
+            return PS_OK;
+        return error_set(error, PS_ERROR_INVALID, "%s plugin %.300s: %.600s", kinds[kind].name,
+                         name, reason.text);
+    }
+    if (!is_plain_name(name))
+        return not_found(loader, kind, name, "", error);
+    char attempts[LONGEST_ATTEMPTS] = "";
+    *descriptor = search(loader, kind, name, attempts);
+    return *descriptor ? PS_OK : not_found(loader, kind, name, attempts, error);
+}
+
+/* A growing list of names, for loader_list. */
+struct names {
+    char **items;
+    size_t count;
+};
+
+static void release_names(struct names *names)
+{
+    for (size_t i = 0; i < names->count; i++)
+        free(names->items[i]);
+    free(names->items);
+}
+
+static bool add_name(struct names *names, const char *name, size_t length)
+{
+    for (size_t i = 0; i < names->count; i++)
+        if (strlen(names->items[i]) == length && !strncmp(names->items[i], name, length))
+            return true;
+    char **items = realloc(names->items, (names->count + 1) * sizeof *items);
+    if (!items)
+        return false;
+    names->items = items;
+    items[names->count] = strndup(name, length);
+    return items[names->count] != NULL && ++names->count;
+}
+
+static bool add_names_of_folder(struct names *names, const char *folder, ps_kind kind)
+{
+    char path[LONGEST_PATH];
+    snprintf(path, sizeof path, "%s/%s", folder, kinds[kind].name);
+    DIR *directory = opendir(path);
+    if (!directory)
+        return true;
+    bool whole = true;
+    for (struct dirent *entry; whole && (entry = readdir(directory));) {
+        size_t length = strlen(entry->d_name), suffix = strlen(SUFFIX);
+        if (length > suffix && !strcmp(entry->d_name + length - suffix, SUFFIX))
+            whole = add_name(names, entry->d_name, length - suffix);
+    }
+    closedir(directory);
+    return whole;
+}
+
+static bool collect_names(struct loader *loader, ps_kind kind, struct names *names)
+{
+    for (size_t i = 0; static_modules[i]; i++) {
+        const ps_descriptor *descriptor = pick(static_modules[i], kind, NULL);
+        if (descriptor && !add_name(names, descriptor->name, strlen(descriptor->name)))
+            return false;
+    }
+    for (size_t i = 0; i < loader->folder_count; i++)
+        if (!add_names_of_folder(names, loader->folders[i], kind))
+            return false;
+    return true;
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+ps_result loader_list(struct loader *loader, ps_kind kind, loader_visit visit, void *user,
+                      struct error *error)
+{
+    struct names names = {0};
+    if (!collect_names(loader, kind, &names)) {
+        release_names(&names);
+        return error_memory(error, sizeof(char *), "a list of plugins");
+    }
+    if (names.count)
+        qsort(names.items, names.count, sizeof *names.items, compare_names);
+    for (size_t i = 0; i < names.count; i++) {
+        char attempts[LONGEST_ATTEMPTS] = "";
+        const ps_descriptor *descriptor = search(loader, kind, names.items[i], attempts);
+        visit(user, names.items[i], descriptor, attempts);
+    }
+    release_names(&names);
+    return PS_OK;
+}

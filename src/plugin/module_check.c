@@ -1,0 +1,95 @@
+/* module_check.c: judges a module by its data alone, before any of its code runs. */
+#include "plugin/loader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool reject(struct error *error, const char *why)
+{
+    error_set(error, PS_ERROR_INVALID, "%s", why);
+    return false;
+}
+
+static size_t vtable_size(uint32_t kind)
+{
+    static const size_t sizes[PS_KINDS] = {
+        [PS_INJECTION] = sizeof(ps_injection_vtable),
+        [PS_STRATIFICATION] = sizeof(ps_stratification_vtable),
+        [PS_VISIBILITY] = sizeof(ps_visibility_vtable),
+        [PS_FILTER] = sizeof(ps_filter_vtable),
+        [PS_ESTIMATOR] = sizeof(ps_estimator_vtable),
+        [PS_NORMALIZATION] = sizeof(ps_normalization_vtable),
+        [PS_DENOISER] = sizeof(ps_denoiser_vtable),
+    };
+    return sizes[kind];
+}
+
+static size_t member_size(uint32_t type)
+{
+    static const size_t sizes[] = {
+        [PS_PARAM_BOOL] = sizeof(int32_t),
+        [PS_PARAM_INT] = sizeof(int64_t),
+        [PS_PARAM_NUMBER] = sizeof(double),
+        [PS_PARAM_VEC3] = sizeof(ps_vec3),
+        [PS_PARAM_COLOR] = sizeof(ps_rgb),
+        [PS_PARAM_STRING] = sizeof(char *),
+        [PS_PARAM_CHOICE] = sizeof(int32_t),
+        [PS_PARAM_NUMBER_OR_CHOICE] = sizeof(ps_number_or_choice),
+    };
+    return type < sizeof sizes / sizeof sizes[0] ? sizes[type] : 0;
+}
+
+static bool check_param(const ps_param *row, uint64_t state_size, struct error *error)
+{
+    size_t size = member_size(row->type);
+    if (!row->name || !row->help || !row->unit || size == 0)
+        return reject(error, "a parameter has no name, help, unit or known type");
+    if (row->offset > state_size || state_size - row->offset < size)
+        return reject(error, "a parameter lies outside of its state");
+    bool wants_choices = row->type == PS_PARAM_CHOICE || row->type == PS_PARAM_NUMBER_OR_CHOICE;
+    if (wants_choices != (row->choices != NULL))
+        return reject(error, "a parameter's choices do not fit its type");
+    return true;
+}
+
+static bool check_descriptor(const ps_descriptor *descriptor, struct error *error)
+{
+    if (!descriptor || descriptor->size < sizeof(ps_descriptor))
+        return reject(error, "its descriptor is too small for this version of the interface");
+    if (descriptor->kind >= PS_KINDS)
+        return reject(error, "its descriptor is of an unknown kind");
+    if (!descriptor->name || !descriptor->version || !descriptor->summary || !descriptor->paper)
+        return reject(error, "its descriptor lacks a name, version, summary or paper");
+    const uint32_t *leading_size = descriptor->vtable;
+    if (!leading_size || *leading_size < vtable_size(descriptor->kind))
+        return reject(error, "its table of functions is too small for this version");
+    if (descriptor->param_count && descriptor->param_size < sizeof(ps_param))
+        return reject(error, "its parameter rows are too small for this version");
+    for (uint32_t i = 0; i < descriptor->param_count; i++) {
+        const char *row = (const char *)descriptor->params + (size_t)i * descriptor->param_size;
+        if (!check_param((const ps_param *)(const void *)row, descriptor->state_size, error))
+            return false;
+    }
+    return true;
+}
+
+bool module_check(const ps_module *module, struct error *error)
+{
+    if (module->magic != PS_MODULE_MAGIC)
+        return reject(error, "psplat_module_v1 does not begin with the magic number");
+    if (module->abi_major != PS_ABI_MAJOR || module->abi_minor > PS_ABI_MINOR) {
+        error_set(error, PS_ERROR_INVALID,
+                  "it was built for plugin interface %u.%u, this psplat has %u.%u",
+                  (unsigned)module->abi_major, (unsigned)module->abi_minor, PS_ABI_MAJOR,
+                  PS_ABI_MINOR);
+        return false;
+    }
+    if (module->fingerprint != PS_LAYOUT_FINGERPRINT)
+        return reject(error, "its structs are laid out otherwise (another compiler or flags?)");
+    if (module->size < sizeof(ps_module) || module->descriptor_count == 0 || !module->descriptors)
+        return reject(error, "it describes no strategy");
+    for (uint32_t i = 0; i < module->descriptor_count; i++)
+        if (!check_descriptor(module->descriptors[i], error))
+            return false;
+    return true;
+}

@@ -1,0 +1,31 @@
+/* strategy.h: a strategy with its parameters: a descriptor and the state that belongs to it. */
+#ifndef PLUGIN_STRATEGY_H
+#define PLUGIN_STRATEGY_H
+
+#include "base/param.h"
+#include "plugin/loader.h"
+#include <stdbool.h>
+
+struct strategy {
+    const ps_descriptor *descriptor;
+    void *state;      /* owned */
+    const ps_host *host; /* set between strategy_start and strategy_release */
+};
+
+/* The parameter table of a descriptor. */
+struct param_table strategy_params(const ps_descriptor *descriptor);
+
+/* A state with default parameters. Set others with param_set, then start it. */
+ps_result strategy_create(const ps_descriptor *descriptor, struct strategy *strategy,
+                          struct error *error);
+
+/* Runs the plugin's init. The state is const from here on. */
+ps_result strategy_start(struct strategy *strategy, const ps_host *host, struct error *error);
+
+/* Runs the plugin's destroy if it was started, and frees the state. */
+void strategy_release(struct strategy *strategy);
+
+/* "photon:count=25000,bounces=1": name and every parameter. */
+void strategy_format(const struct strategy *strategy, char *text, size_t size);
+
+#endif

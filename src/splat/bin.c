@@ -1,0 +1,208 @@
+#include "splat/bin.h"
+
+#include "base/parallel.h"
+#include <psplat/math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CHUNKS 32 /* parts of a batch that are binned in parallel; fixed, so the order is */
+
+/* One part's pairs, in splat order, and how many of them fall into each tile. */
+struct bin_chunk {
+    uint32_t *tiles, *splats; /* pairs */
+    size_t count, capacity;
+    uint32_t *counts; /* per tile; becomes the place of the next pair */
+    bool failed;
+};
+
+ps_result bins_create(uint32_t tile_count, struct bins *bins, struct error *error)
+{
+    *bins = (struct bins){.tile_count = tile_count};
+    bins->offsets = calloc((size_t)tile_count + 1, sizeof *bins->offsets);
+    bins->chunks = calloc(CHUNKS, sizeof *bins->chunks);
+    bool whole = bins->offsets && bins->chunks;
+    for (int i = 0; i < CHUNKS && whole; i++) {
+        bins->chunks[i].counts = calloc(tile_count, sizeof *bins->chunks[i].counts);
+        whole = bins->chunks[i].counts != NULL;
+    }
+    if (whole)
+        return PS_OK;
+    bins_release(bins);
+    return error_memory(error, (size_t)tile_count * CHUNKS * sizeof(uint32_t), "bins");
+}
+
+void bins_release(struct bins *bins)
+{
+    for (int i = 0; i < CHUNKS && bins->chunks; i++) {
+        free(bins->chunks[i].tiles);
+        free(bins->chunks[i].splats);
+        free(bins->chunks[i].counts);
+    }
+    free(bins->chunks);
+    free(bins->offsets);
+    free(bins->indices);
+    *bins = (struct bins){.tile_count = 0};
+}
+
+size_t bins_bytes(const struct bins *bins)
+{
+    size_t bytes = ((size_t)bins->tile_count * (CHUNKS + 1) + bins->capacity) * sizeof(uint32_t);
+    for (int i = 0; i < CHUNKS; i++)
+        bytes += bins->chunks[i].capacity * 2 * sizeof(uint32_t);
+    return bytes;
+}
+
+static float along(ps_vec3 extent, ps_vec3 axis)
+{
+    return extent.x * fabsf(axis.x) + extent.y * fabsf(axis.y) + extent.z * fabsf(axis.z);
+}
+
+/* Whether some normal of the node may face against w. */
+static bool may_face(const struct pyramid_node *node, ps_vec3 w)
+{
+    float lowest = (w.x > 0 ? node->normal_low.x : node->normal_high.x) * w.x +
+                   (w.y > 0 ? node->normal_low.y : node->normal_high.y) * w.y +
+                   (w.z > 0 ? node->normal_low.z : node->normal_high.z) * w.z;
+    return lowest < 0.0f;
+}
+
+/* Whether the splat's box may hold a point of the node's. */
+static bool touches(const struct pyramid_node *node, const ps_splat *splat)
+{
+    if (node->extent.x < 0.0f || !may_face(node, splat->axis_w))
+        return false;
+    ps_vec3 offset = ps_subtract(node->center, splat->centre);
+    float depth = ps_dot(offset, splat->axis_w), reach = along(node->extent, splat->axis_w);
+    if (depth - reach > splat->far_depth || depth + reach < splat->near_depth)
+        return false;
+    return fabsf(ps_dot(offset, splat->axis_u)) <=
+               splat->half_width + along(node->extent, splat->axis_u) &&
+           fabsf(ps_dot(offset, splat->axis_v)) <=
+               splat->half_width + along(node->extent, splat->axis_v);
+}
+
+static bool reserve_pair(struct bin_chunk *chunk)
+{
+    if (chunk->count < chunk->capacity)
+        return true;
+    size_t capacity = chunk->capacity ? 2 * chunk->capacity : 1024;
+    uint32_t *tiles = realloc(chunk->tiles, capacity * sizeof *tiles);
+    if (tiles)
+        chunk->tiles = tiles;
+    uint32_t *splats = realloc(chunk->splats, capacity * sizeof *splats);
+    if (splats)
+        chunk->splats = splats;
+    if (!tiles || !splats)
+        return false;
+    chunk->capacity = capacity;
+    return true;
+}
+
+static void add_pair(struct bin_chunk *chunk, uint32_t tile, uint32_t splat)
+{
+    if (!reserve_pair(chunk)) {
+        chunk->failed = true;
+        return;
+    }
+    chunk->tiles[chunk->count] = tile;
+    chunk->splats[chunk->count++] = splat;
+    chunk->counts[tile]++;
+}
+
+struct sort {
+    struct bins *bins;
+    const struct pyramid *pyramid;
+    const ps_splat *splats;
+    size_t n;
+};
+
+static void visit(const struct sort *sort, struct bin_chunk *chunk, uint32_t splat, int level,
+                  uint32_t column, uint32_t row)
+{
+    const struct pyramid *pyramid = sort->pyramid;
+    uint32_t index = row * pyramid->across[level] + column;
+    if (!touches(&pyramid->nodes[pyramid->first[level] + index], &sort->splats[splat]))
+        return;
+    if (level == 0) {
+        add_pair(chunk, index, splat);
+        return;
+    }
+    uint32_t across = pyramid->across[level - 1], down = pyramid->down[level - 1];
+    for (uint32_t y = row * PYRAMID_GROUP; y < (row + 1) * PYRAMID_GROUP && y < down; y++)
+        for (uint32_t x = column * PYRAMID_GROUP; x < (column + 1) * PYRAMID_GROUP && x < across; x++)
+            visit(sort, chunk, splat, level - 1, x, y);
+}
+
+static void bin_part(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct sort *sort = user;
+    struct bin_chunk *chunk = &sort->bins->chunks[index];
+    chunk->count = 0;
+    chunk->failed = false;
+    memset(chunk->counts, 0, sort->bins->tile_count * sizeof *chunk->counts);
+    const struct pyramid *pyramid = sort->pyramid;
+    int top = pyramid->levels - 1;
+    size_t first = sort->n * index / CHUNKS, last = sort->n * (index + 1) / CHUNKS;
+    for (size_t i = first; i < last; i++) {
+        if (!(sort->splats[i].half_width > 0.0f))
+            continue;
+        for (uint32_t row = 0; row < pyramid->down[top]; row++)
+            for (uint32_t column = 0; column < pyramid->across[top]; column++)
+                visit(sort, chunk, (uint32_t)i, top, column, row);
+    }
+}
+
+/* Turns counts into places: tile by tile, and within a tile part by part. Returns the number of pairs. */
+static size_t place_counts(struct bins *bins)
+{
+    uint32_t place = 0;
+    for (uint32_t tile = 0; tile < bins->tile_count; tile++) {
+        bins->offsets[tile] = place;
+        for (int part = 0; part < CHUNKS; part++) {
+            uint32_t count = bins->chunks[part].counts[tile];
+            bins->chunks[part].counts[tile] = place;
+            place += count;
+        }
+    }
+    bins->offsets[bins->tile_count] = place;
+    return place;
+}
+
+static void scatter_part(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct sort *sort = user;
+    struct bin_chunk *chunk = &sort->bins->chunks[index];
+    for (size_t i = 0; i < chunk->count; i++)
+        sort->bins->indices[chunk->counts[chunk->tiles[i]]++] = chunk->splats[i];
+}
+
+static ps_result reserve_indices(struct bins *bins, size_t pairs, struct error *error)
+{
+    if (pairs <= bins->capacity)
+        return PS_OK;
+    size_t capacity = pairs + pairs / 2;
+    uint32_t *indices = malloc(capacity * sizeof *indices);
+    if (!indices)
+        return error_memory(error, capacity * sizeof *indices, "bins");
+    free(bins->indices);
+    bins->indices = indices;
+    bins->capacity = capacity;
+    return PS_OK;
+}
+
+ps_result bins_sort(struct bins *bins, const struct pyramid *pyramid, const ps_splat *splats,
+                    size_t n, uint32_t threads, struct error *error)
+{
+    struct sort sort = {bins, pyramid, splats, n};
+    parallel_for(threads, CHUNKS, bin_part, &sort);
+    for (int i = 0; i < CHUNKS; i++)
+        if (bins->chunks[i].failed)
+            return error_memory(error, bins->chunks[i].capacity * 2 * sizeof(uint32_t), "bins");
+    ps_result result = reserve_indices(bins, place_counts(bins), error);
+    if (result == PS_OK)
+        parallel_for(threads, CHUNKS, scatter_part, &sort);
+    return result;
+}

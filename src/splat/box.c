@@ -1,0 +1,96 @@
+#include "splat/box.h"
+
+#include "base/sample.h"
+#include <psplat/math.h>
+
+/* Automatic size, as a fraction of the scene's radius. */
+#define AUTOMATIC_SIZE 0.05
+
+enum step_back_rule { STEP_BACK_NUMBER = -1, STEP_BACK_AUTO = 0, STEP_BACK_FULL = 1 };
+
+/* The axes u, v turn by an angle of their own for each source, so that texel borders don't line up. */
+static void set_frame(const struct box_scene *scene, const ps_source *source, ps_splat *splat)
+{
+    ps_vec3 u, v;
+    ps_frame(source->direction, &u, &v);
+    uint32_t key = sample_key(scene->seed, PS_STREAM_SPLAT, source->bounce);
+    float turn = (float)(sample_hash((uint64_t)key << 32 ^ source->path) >> 8) * 0x1p-24f;
+    float c = cosf(2.0f * PS_PI * turn), s = sinf(2.0f * PS_PI * turn);
+    splat->axis_u = ps_add_scaled(ps_scale(u, c), s, v);
+    splat->axis_v = ps_add_scaled(ps_scale(v, c), -s, u);
+    splat->axis_w = source->direction;
+}
+
+static float slope_of(float cosine)
+{
+    float c = fmaxf(cosine, 1e-4f);
+    return fminf(sqrtf(fmaxf(0.0f, 1.0f - c * c)) / c, BOX_STEEPEST);
+}
+
+/* The start plane of a full beam: the tangent plane of the source, moved off the surface. */
+static void start_at_source(const struct box_scene *scene, const ps_source *source, float distance,
+                            ps_splat *splat)
+{
+    float cosine = fmaxf(ps_dot(source->normal, splat->axis_w), 1.0f / BOX_STEEPEST);
+    splat->start_slope_u = -ps_dot(source->normal, splat->axis_u) / cosine;
+    splat->start_slope_v = -ps_dot(source->normal, splat->axis_v) / cosine;
+    splat->start_depth = scene->surface_offset / cosine - distance;
+    float tilt = hypotf(splat->start_slope_u, splat->start_slope_v) * splat->half_width;
+    splat->near_depth = fminf(splat->start_depth - tilt, 0.0f);
+    splat->two_sided = 1;
+}
+
+static float step_back(const ps_box_settings *settings, float half_width, float distance,
+                       float slope)
+{
+    float wanted = settings->step_back_rule == STEP_BACK_NUMBER
+                       ? (float)settings->step_back
+                       : half_width * slope + 0.5f * half_width;
+    return fminf(wanted, distance);
+}
+
+static ps_splat place_one(const struct box_scene *scene, const ps_box_settings *settings,
+                          const ps_source *source, const ps_hit *hit)
+{
+    ps_splat splat = {.power = source->power, .path = source->path};
+    if (!(hit->distance < INFINITY))
+        return splat;
+    float size = settings->size > 0 ? (float)settings->size : (float)AUTOMATIC_SIZE * scene->radius;
+    if (settings->follow > 0)
+        size = fminf(size, (float)settings->follow * hit->distance);
+    float slope = slope_of(-ps_dot(source->direction, hit->normal));
+    set_frame(scene, source, &splat);
+    splat.centre = hit->position;
+    splat.half_width = size;
+    splat.far_depth = settings->depth > 0 ? (float)settings->depth : size * slope + size;
+    if (settings->step_back_rule == STEP_BACK_FULL) {
+        start_at_source(scene, source, hit->distance, &splat);
+    } else {
+        splat.near_depth = -step_back(settings, size, hit->distance, slope);
+        splat.start_depth = splat.near_depth;
+    }
+    return splat;
+}
+
+void box_place(const struct box_scene *scene, const ps_box_settings *settings,
+               const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats)
+{
+    for (size_t i = 0; i < n; i++)
+        splats[i] = place_one(scene, settings, &sources[i], &hits[i]);
+}
+
+void box_cut(ps_splat *splat, const float *depths, uint32_t resolution)
+{
+    float nearest = INFINITY, farthest = -INFINITY;
+    for (uint32_t i = 0; i < resolution * resolution; i++) {
+        /* A ray that met nothing lights nothing in a full beam, and all of its depth in a closed box. */
+        if (splat->two_sided && !(depths[i] < INFINITY))
+            continue;
+        nearest = fminf(nearest, depths[i]);
+        farthest = fmaxf(farthest, depths[i]);
+    }
+    float tolerance = splat->bias_constant + splat->bias_slope * BOX_STEEPEST;
+    splat->far_depth = fminf(splat->far_depth, farthest + tolerance);
+    if (splat->two_sided)
+        splat->near_depth = fmaxf(splat->near_depth, nearest - tolerance);
+}

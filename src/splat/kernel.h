@@ -1,0 +1,64 @@
+/* kernel.h: the inner loop: splats against the 256 pixels of a tile.
+ *
+ * For every splat and every pixel p of the tile, with d = p - centre:
+ *
+ *     u = d.U / R, v = d.V / R, t = d.W         position in the box
+ *     k = profile(u^2 + v^2) * scale / R^2      the kernel K, 1/m^2, integrates to 1 over its disc
+ *     lit where u^2 + v^2 < 1, near <= t <= far, n.W < 0, and t against the depth map within the bias
+ *     irradiance += power * k * max(0, -n.W), weight += k
+ *
+ * The cosine is there because K lies in the plane across the beam. No branches: masks, one gather from the depth
+ * map and one from the profile, so that compilers turn the loop into 8 or 16 lanes. It is compiled once for
+ * each instruction set (kernel_variant.c) and chosen at run time; a pixel's sum runs in splat order.
+ */
+#ifndef SPLAT_KERNEL_H
+#define SPLAT_KERNEL_H
+
+#include <psplat/types.h>
+
+#define KERNEL_PROFILE_SIZE 1024
+
+/* A filter, tabulated over squared radius. */
+struct kernel_profile {
+    float weights[KERNEL_PROFILE_SIZE]; /* entry i stands for [i, i + 1) / KERNEL_PROFILE_SIZE */
+    float scale;                        /* 1 / integral of the weights over the unit disc */
+};
+
+/* A splat with all that can be worked out once for all pixels. */
+struct kernel_splat {
+    ps_vec3 centre;
+    ps_vec3 u, v; /* axes divided by the half-width */
+    ps_vec3 w;
+    float near_depth, far_depth;
+    float bias_constant, bias_slope;
+    float front; /* added to the bias in front of the map: 0, or infinite for one-sided maps */
+    float kernel_scale;
+    ps_rgb power;
+    const float *depths; /* resolution^2 */
+};
+
+/* Adds n splats, in order, to the tile; returns how many pixel-splat pairs had weight. */
+typedef uint64_t (*kernel_function)(ps_tile *tile, const struct kernel_splat *splats,
+                                    const uint32_t *indices, size_t n, uint32_t resolution,
+                                    const struct kernel_profile *profile);
+
+struct kernel_variant {
+    const char *name; /* instruction set */
+    kernel_function accumulate;
+};
+
+/* The variants that this processor can run, best first; the last is the baseline. */
+size_t kernel_variants(struct kernel_variant variants[4]);
+
+/* Tabulates a radial weight given at the KERNEL_PROFILE_SIZE midpoints and normalizes it. False when it is negative
+ * or NaN somewhere or zero all over. */
+int kernel_profile_normalize(struct kernel_profile *profile);
+
+/* Squared radius of entry i. */
+float kernel_profile_radius2(size_t i);
+
+/* What the inner loop needs of a splat; `depths` must outlive it. */
+struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_profile *profile,
+                                   const float *depths);
+
+#endif

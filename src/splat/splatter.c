@@ -1,0 +1,158 @@
+#include "splat/splatter.h"
+
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "splat/box.h"
+#include <math.h>
+#include <stdlib.h>
+
+#define MAP_BUDGET ((size_t)16 << 20) /* bytes of depth maps at a time */
+#define MAP_CHUNK 16                  /* splats that one call of a visibility fills maps for */
+
+/* The map of a splat without visibility: nothing is ever in the way. */
+static const float open_map[1] = {INFINITY};
+
+static size_t batch_size(uint32_t resolution, size_t wanted)
+{
+    size_t map = resolution ? (size_t)resolution * resolution * sizeof(float) : 1;
+    size_t fits = MAP_BUDGET / map;
+    return wanted < fits ? wanted : fits;
+}
+
+ps_result splatter_create(struct splatter *splatter, struct gbuffer *gbuffer, const ps_host *host,
+                          struct splatter_visibility visibility,
+                          const struct kernel_profile *profile, uint32_t threads, size_t batch,
+                          struct error *error)
+{
+    struct kernel_variant variants[4];
+    kernel_variants(variants);
+    *splatter = (struct splatter){
+        .gbuffer = gbuffer,
+        .host = host,
+        .visibility = visibility,
+        .profile = *profile,
+        .accumulate = variants[0].accumulate,
+        .instruction_set = variants[0].name,
+        .resolution = visibility.vtable->resolution(visibility.state),
+        .threads = threads,
+    };
+    splatter->batch = batch_size(splatter->resolution, batch);
+    size_t map = (size_t)splatter->resolution * splatter->resolution * sizeof(float);
+    splatter->depths = malloc(map ? splatter->batch * map : 1);
+    splatter->prepared = malloc(splatter->batch * sizeof *splatter->prepared);
+    ps_result result = splatter->depths && splatter->prepared
+                           ? pyramid_create(gbuffer, &splatter->pyramid, error)
+                           : error_memory(error, splatter->batch * map, "depth maps");
+    if (result == PS_OK)
+        result = bins_create(gbuffer->tile_count, &splatter->bins, error);
+    if (result != PS_OK)
+        splatter_release(splatter);
+    return result;
+}
+
+void splatter_release(struct splatter *splatter)
+{
+    pyramid_release(&splatter->pyramid);
+    bins_release(&splatter->bins);
+    free(splatter->depths);
+    free(splatter->prepared);
+    *splatter = (struct splatter){.threads = 0};
+}
+
+size_t splatter_bytes(const struct splatter *splatter)
+{
+    size_t map = (size_t)splatter->resolution * splatter->resolution * sizeof(float);
+    return splatter->batch * (map + sizeof *splatter->prepared) + bins_bytes(&splatter->bins);
+}
+
+void splatter_begin_pass(struct splatter *splatter)
+{
+    pyramid_build(&splatter->pyramid, splatter->gbuffer, splatter->threads);
+}
+
+struct batch {
+    struct splatter *splatter;
+    ps_splat *splats;
+    size_t n;
+    uint64_t *useful; /* per tile */
+};
+
+/* Fills the maps of up to MAP_CHUNK splats, cuts the splats to them, and prepares the kernel's input. */
+static void map_chunk(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct batch *batch = user;
+    struct splatter *splatter = batch->splatter;
+    size_t first = index * MAP_CHUNK;
+    size_t n = batch->n - first < MAP_CHUNK ? batch->n - first : MAP_CHUNK;
+    size_t texels = (size_t)splatter->resolution * splatter->resolution;
+    float *depths = splatter->depths + first * texels;
+    if (texels)
+        splatter->visibility.vtable->depth_maps(splatter->visibility.state, splatter->host,
+                                                batch->splats + first, n, depths);
+    for (size_t i = 0; i < n; i++) {
+        ps_splat *splat = &batch->splats[first + i];
+        const float *map = texels ? depths + i * texels : open_map;
+        if (!(splat->half_width > 0.0f))
+            continue;
+        if (texels)
+            box_cut(splat, map, splatter->resolution);
+        else
+            splat->two_sided = 0;
+        splatter->prepared[first + i] = kernel_prepare(splat, &splatter->profile, map);
+    }
+}
+
+static void splat_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct batch *batch = user;
+    struct splatter *splatter = batch->splatter;
+    const struct bins *bins = &splatter->bins;
+    size_t first = bins->offsets[index], n = bins->offsets[index + 1] - first;
+    batch->useful[index] +=
+        splatter->accumulate(&splatter->gbuffer->tiles[index], splatter->prepared,
+                             bins->indices + first, n, splatter->resolution ? splatter->resolution : 1,
+                             &splatter->profile);
+}
+
+static ps_result add_batch(const struct batch *batch, struct error *error)
+{
+    struct splatter *splatter = batch->splatter;
+    struct batch work = *batch;
+    double start = clock_seconds();
+    parallel_for(splatter->threads, (work.n + MAP_CHUNK - 1) / MAP_CHUNK, map_chunk, &work);
+    double mapped = clock_seconds();
+    ps_result result = bins_sort(&splatter->bins, &splatter->pyramid, work.splats, work.n,
+                                 splatter->threads, error);
+    double binned = clock_seconds();
+    if (result != PS_OK)
+        return result;
+    parallel_for(splatter->threads, splatter->gbuffer->tile_count, splat_tile, &work);
+    splatter->map_seconds += mapped - start;
+    splatter->bin_seconds += binned - mapped;
+    splatter->kernel_seconds += clock_seconds() - binned;
+    uint32_t pairs = splatter->bins.offsets[splatter->bins.tile_count];
+    splatter->tests += (uint64_t)pairs * PS_TILE_PIXELS;
+    splatter->map_rays += (uint64_t)work.n * splatter->resolution * splatter->resolution;
+    splatter->splats += work.n;
+    return PS_OK;
+}
+
+ps_result splatter_add(struct splatter *splatter, ps_splat *splats, size_t n, struct error *error)
+{
+    size_t tiles = splatter->gbuffer->tile_count;
+    uint64_t *useful = calloc(tiles, sizeof *useful);
+    if (!useful)
+        return error_memory(error, tiles * sizeof *useful, "statistics");
+    ps_result result = PS_OK;
+    for (size_t first = 0; first < n && result == PS_OK; first += splatter->batch) {
+        size_t count = n - first < splatter->batch ? n - first : splatter->batch;
+        struct batch batch = {splatter, splats + first, count, useful};
+        result = add_batch(&batch, error);
+    }
+    for (size_t i = 0; i < tiles; i++)
+        splatter->useful_tests += useful[i];
+    free(useful);
+    return result;
+}

@@ -1,0 +1,54 @@
+/* embree_shim.h: the part of Embree that psplat uses, the same for Embree 3.13 and 4.
+ *
+ * Embree 4 renamed the query context, moved its flags to an arguments struct and changed the order of
+ * arguments; everything else in use is alike.
+ */
+#ifndef TRACE_EMBREE_SHIM_H
+#define TRACE_EMBREE_SHIM_H
+
+#if defined(PSPLAT_EMBREE4)
+#include <embree4/rtcore.h>
+
+static inline void shim_intersect16(const int *valid, RTCScene scene, struct RTCRayHit16 *rays,
+                                    int coherent)
+{
+    struct RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    rtcIntersect16(valid, scene, rays, &arguments);
+}
+
+static inline void shim_occluded16(const int *valid, RTCScene scene, struct RTCRay16 *rays,
+                                   int coherent)
+{
+    struct RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    rtcOccluded16(valid, scene, rays, &arguments);
+}
+
+#else
+#include <embree3/rtcore.h>
+
+static inline void shim_intersect16(const int *valid, RTCScene scene, struct RTCRayHit16 *rays,
+                                    int coherent)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                             : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    rtcIntersect16(valid, scene, &context, rays);
+}
+
+static inline void shim_occluded16(const int *valid, RTCScene scene, struct RTCRay16 *rays,
+                                   int coherent)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                             : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    rtcOccluded16(valid, scene, &context, rays);
+}
+#endif
+
+#endif

@@ -1,0 +1,34 @@
+/* trace.h: ray queries against a scene. The only module that knows Embree.
+ *
+ * All queries may run on any number of threads at once, and a ray's answer does not depend on the rays
+ * that travel beside it.
+ */
+#ifndef TRACE_TRACE_H
+#define TRACE_TRACE_H
+
+#include "scene/scene.h"
+#include <psplat/types.h>
+
+struct trace;
+
+enum coherence { RAYS_INCOHERENT, RAYS_COHERENT };
+
+/* Builds the acceleration structure over the scene, which must outlive it. */
+ps_result trace_create(const struct scene *scene, struct trace **trace, struct error *error);
+void trace_destroy(struct trace *trace);
+
+/* Bytes that the acceleration structure takes now. */
+size_t trace_bytes(const struct trace *trace);
+
+/* First hits of n rays, resolved to position, normal and albedo. */
+void trace_intersect(const struct trace *trace, enum coherence coherence, const ps_ray *rays,
+                     size_t n, ps_hit *hits);
+
+/* 1 where something lies between tnear and tfar. */
+void trace_occluded(const struct trace *trace, enum coherence coherence, const ps_ray *rays,
+                    size_t n, uint8_t *blocked);
+
+/* Shortens tfar of each ray of n coherent packets to its first hit. */
+void trace_packets(const struct trace *trace, ps_packet *packets, size_t n);
+
+#endif
