@@ -149,6 +149,20 @@ static void point_at_line(exr_encode_pipeline_t *encoder, const struct image *im
     }
 }
 
+/* Stands in for the library's own writing of a chunk. Readers take a chunk as long as its pixels
+ * for uncompressed, but the library (openexr issue 2306) stores the ZIP stream
+ * also where it happens to have just that length: two in a hundred tiny pictures came back as
+ * noise. */
+static exr_result_t write_shorter(exr_encode_pipeline_t *encoder)
+{
+    exr_context_t context = encoder->encoding_user_data;
+    const void *bytes = encoder->compressed_bytes < encoder->packed_bytes
+                            ? encoder->compressed_buffer
+                            : encoder->packed_buffer;
+    return exr_write_scanline_chunk(context, PART, encoder->chunk.start_y, bytes,
+                                    encoder->compressed_bytes);
+}
+
 static exr_result_t write_chunk(exr_context_t context, exr_encode_pipeline_t *encoder,
                                 const struct image *image, size_t line)
 {
@@ -165,6 +179,8 @@ static exr_result_t write_chunk(exr_context_t context, exr_encode_pipeline_t *en
     point_at_line(encoder, image, line);
     if (line == 0) {
         code = exr_encoding_choose_default_routines(context, PART, encoder);
+        encoder->encoding_user_data = context;
+        encoder->write_fn = write_shorter;
     }
     return code == EXR_ERR_SUCCESS ? exr_encoding_run(context, PART, encoder) : code;
 }

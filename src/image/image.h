@@ -54,7 +54,7 @@ ps_result image_write_exr(const struct image *image, const char *path, struct er
 ps_result image_read_exr(const char *path, struct image *image, struct error *error);
 
 /* `rgb`: width*height*3 bytes, sRGB. `texts`: `text_count` tEXt chunks (iTXt where the value is not
- * ASCII), may be NULL; names of 1 to 79 characters. */
+ * ASCII), may be NULL; names of 1 to 79 printable characters. */
 ps_result image_write_png(const char *path, size_t width, size_t height, const uint8_t *rgb,
                           const struct image_attribute *texts, size_t text_count,
                           struct error *error);

@@ -91,6 +91,16 @@ static void write_chunks(struct png_job *job)
     png_write_end(job->png, job->info);
 }
 
+/* libpng would change other keys without an error. */
+static bool is_key(const char *key)
+{
+    size_t length = 0;
+    while (key[length] >= ' ' && key[length] <= '~') {
+        length++;
+    }
+    return key[length] == '\0' && length > 0 && length <= KEY_LIMIT;
+}
+
 static ps_result check_arguments(const struct png_job *job, const char *path)
 {
     if (job->width == 0 || job->height == 0 || job->width > PNG_USER_WIDTH_MAX ||
@@ -101,10 +111,10 @@ static ps_result check_arguments(const struct png_job *job, const char *path)
             job->width, job->height, PNG_USER_WIDTH_MAX);
     }
     for (size_t i = 0; i < job->text_count; i++) {
-        size_t length = strlen(job->texts[i].name);
-        if (length == 0 || length > KEY_LIMIT) {
+        if (!is_key(job->texts[i].name)) {
             return error_set(job->error, PS_ERROR_INVALID,
-                             "cannot write '%s': the text key '%s' must have 1 to %d characters",
+                             "cannot write '%s': the text key '%s' must be 1 to %d printable "
+                             "characters",
                              path, job->texts[i].name, KEY_LIMIT);
         }
     }

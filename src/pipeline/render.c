@@ -54,7 +54,7 @@ static void destroy(struct render *render)
         splatter_release(&render->splatter);
     source_stream_release(&render->sources);
     for (int kind = 0; kind < PS_KINDS; kind++)
-        strategy_release(&render->settings->strategies[kind]);
+        strategy_stop(&render->settings->strategies[kind]);
     film_release(&render->film);
     gbuffer_release(&render->gbuffer);
     trace_destroy(render->trace);

@@ -50,8 +50,9 @@ static bool add_environment(struct loader *loader)
 /* psplat's own plugins lie beside libpsplat, so that an installed tree runs from any place. */
 static bool add_own_folder(struct loader *loader)
 {
+    static const char anchor = 0; /* an address inside of the library, whoever links it */
     Dl_info library;
-    if (!dladdr((const void *)kinds, &library) || !library.dli_fname)
+    if (!dladdr(&anchor, &library) || !library.dli_fname)
         return true;
     const char *slash = strrchr(library.dli_fname, '/');
     char path[LONGEST_PATH];

@@ -38,12 +38,18 @@ ps_result strategy_start(struct strategy *strategy, const ps_host *host, struct 
     return PS_OK;
 }
 
+void strategy_stop(struct strategy *strategy)
+{
+    if (strategy->host && strategy->descriptor->destroy)
+        strategy->descriptor->destroy(strategy->state, strategy->host);
+    strategy->host = NULL;
+}
+
 void strategy_release(struct strategy *strategy)
 {
     if (!strategy->state)
         return;
-    if (strategy->host && strategy->descriptor->destroy)
-        strategy->descriptor->destroy(strategy->state, strategy->host);
+    strategy_stop(strategy);
     struct param_table table = strategy_params(strategy->descriptor);
     param_release(&table, strategy->state);
     free(strategy->state);

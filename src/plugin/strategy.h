@@ -9,7 +9,7 @@
 struct strategy {
     const ps_descriptor *descriptor;
     void *state;      /* owned */
-    const ps_host *host; /* set between strategy_start and strategy_release */
+    const ps_host *host; /* set between strategy_start and strategy_stop */
 };
 
 /* The parameter table of a descriptor. */
@@ -22,7 +22,10 @@ ps_result strategy_create(const ps_descriptor *descriptor, struct strategy *stra
 /* Runs the plugin's init. The state is const from here on. */
 ps_result strategy_start(struct strategy *strategy, const ps_host *host, struct error *error);
 
-/* Runs the plugin's destroy if it was started, and frees the state. */
+/* Runs the plugin's destroy if it was started; the host is not used after that. */
+void strategy_stop(struct strategy *strategy);
+
+/* Stops the strategy and frees its state. */
 void strategy_release(struct strategy *strategy);
 
 /* "photon:count=25000,bounces=1": name and every parameter. */

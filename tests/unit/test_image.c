@@ -1,0 +1,258 @@
+/* test_image.c: pictures in memory, and written to OpenEXR and read back. */
+#include "image/image.h"
+#include "scratch.h"
+
+#include <float.h>
+#include <math.h>
+
+static struct image picture(size_t width, size_t height, size_t channels)
+{
+    static const char *const names[] = {
+        "R",          "G",          "B",           "A",        "direct.R", "direct.G", "direct.B",
+        "indirect.R", "indirect.G", "indirect.B",  "albedo.R", "albedo.G", "albedo.B", "N.X",
+        "N.Y",        "N.Z",        "P.X",         "P.Y",      "P.Z",      "Z",        "weight",
+        "error",      "object.id",  "material.id", "a.b.c"};
+    struct image image = {.width = width, .height = height};
+    uint32_t random = 1;
+    assert_true(channels <= sizeof names / sizeof *names);
+    for (size_t i = 0; i < channels; i++) {
+        float *samples = image_add_channel(&image, names[i]);
+        assert_non_null(samples);
+        for (size_t j = 0; j < width * height; j++) {
+            assert_true(samples[j] == 0.0f);
+            random = random * 1664525u + 1013904223u;
+            samples[j] = (float)(random >> 8) * 0x1p-20f - 8.0f + (float)i;
+        }
+    }
+    return image;
+}
+
+static void assert_same(const struct image *a, const struct image *b)
+{
+    assert_int_equal(a->width, b->width);
+    assert_int_equal(a->height, b->height);
+    assert_int_equal(a->channel_count, b->channel_count);
+    for (size_t i = 0; i < a->channel_count; i++) {
+        const float *other = image_channel(b, a->channels[i].name);
+        assert_non_null(other);
+        assert_memory_equal(a->channels[i].samples, other, a->width * a->height * sizeof(float));
+    }
+    assert_int_equal(a->attribute_count, b->attribute_count);
+    for (size_t i = 0; i < a->attribute_count; i++) {
+        const char *other = image_attribute(b, a->attributes[i].name);
+        assert_non_null(other);
+        assert_string_equal(a->attributes[i].value, other);
+    }
+}
+
+static void write_picture(const struct image *image, const char *path)
+{
+    struct error error = {{0}};
+    if (image_write_exr(image, path, &error) != PS_OK) {
+        fail_msg("%s", error.text);
+    }
+}
+
+static struct image read_picture(const char *path)
+{
+    struct image image = {0};
+    struct error error = {{0}};
+    if (image_read_exr(path, &image, &error) != PS_OK) {
+        fail_msg("%s", error.text);
+    }
+    return image;
+}
+
+/* Writes, reads back, compares and releases. */
+static void assert_round_trip(void **state, struct image *image)
+{
+    const char *path = scratch_path(state, "round trip.exr");
+    write_picture(image, path);
+    struct image back = read_picture(path);
+    assert_same(image, &back);
+    image_release(image);
+    image_release(&back);
+    assert_int_equal(scratch_file_count(state), 1);
+}
+
+static void test_channels_in_memory(void **state)
+{
+    (void)state;
+    struct image image = {.width = 3, .height = 2};
+    float *samples = image_add_channel(&image, "direct.R");
+    assert_non_null(samples);
+    assert_ptr_equal(image_channel(&image, "direct.R"), samples);
+    assert_null(image_channel(&image, "direct"));
+    image_release(&image);
+    assert_int_equal(image.channel_count, 0);
+    image_release(&image);
+    struct image empty = {0};
+    assert_null(image_add_channel(&empty, "R"));
+    struct image vast = {.width = SIZE_MAX / 2, .height = 3};
+    assert_null(image_add_channel(&vast, "R"));
+    image_release(&vast);
+}
+
+static void test_attributes_in_memory(void **state)
+{
+    (void)state;
+    struct image image = {0};
+    struct error error = {{0}};
+    assert_null(image_attribute(&image, "passes"));
+    assert_int_equal(image_set_attribute(&image, "passes", "16", &error), PS_OK);
+    assert_int_equal(image_set_attribute(&image, "seed", "1", &error), PS_OK);
+    assert_int_equal(image_set_attribute(&image, "passes", "3200", &error), PS_OK);
+    assert_int_equal(image.attribute_count, 2);
+    assert_string_equal(image_attribute(&image, "passes"), "3200");
+    assert_string_equal(image_attribute(&image, "seed"), "1");
+    image_release(&image);
+}
+
+static void test_sizes(void **state)
+{
+    static const size_t sizes[][2] = {{1, 1}, {1, 33}, {33, 1}, {7, 33}, {257, 19}, {16, 16}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        struct image image = picture(sizes[i][0], sizes[i][1], 4);
+        assert_round_trip(state, &image);
+    }
+}
+
+static void test_exact_bits(void **state)
+{
+    static const float values[] = {0.0f,     -0.0f,    1.0f,        -1.5f,     FLT_MIN, FLT_MAX,
+                                   -FLT_MAX, INFINITY, -INFINITY,   0x1p-149f, 0.1f,    1e-30f,
+                                   65504.0f, 65536.0f, 16777217.0f, 3.14159f};
+    struct image image = picture(sizeof values / sizeof *values, 3, 2);
+    memcpy(image.channels[0].samples, values, sizeof values);
+    assert_round_trip(state, &image);
+
+    image = picture(2, 2, 1);
+    image.channels[0].samples[3] = NAN;
+    write_picture(&image, scratch_path(state, "nan.exr"));
+    struct image back = read_picture(scratch_path(state, "nan.exr"));
+    assert_true(isnan(back.channels[0].samples[3]));
+    image_release(&image);
+    image_release(&back);
+}
+
+static void test_many_channels(void **state)
+{
+    struct image image = picture(31, 40, 25);
+    write_picture(&image, scratch_path(state, "layers.exr"));
+    struct image back = read_picture(scratch_path(state, "layers.exr"));
+    assert_same(&image, &back);
+    for (size_t i = 1; i < back.channel_count; i++) {
+        assert_true(strcmp(back.channels[i - 1].name, back.channels[i].name) < 0);
+    }
+    image_release(&image);
+    image_release(&back);
+}
+
+static void test_attributes_in_files(void **state)
+{
+    char long_value[5000];
+    struct image image = picture(2, 2, 1);
+    struct error error = {{0}};
+    memset(long_value, 'x', sizeof long_value - 1);
+    long_value[sizeof long_value - 1] = '\0';
+    assert_int_equal(image_set_attribute(&image, "comments", "two\nlines", &error), PS_OK);
+    assert_int_equal(image_set_attribute(&image, "owner", "Zo\xc3\xab", &error), PS_OK);
+    assert_int_equal(image_set_attribute(&image, "psplat.empty", "", &error), PS_OK);
+    assert_int_equal(image_set_attribute(&image, "psplat.scene", long_value, &error), PS_OK);
+    assert_int_equal(
+        image_set_attribute(&image, "psplat.a name of more than 31 characters", "1", &error),
+        PS_OK);
+    assert_round_trip(state, &image);
+}
+
+/* A name that the format keeps for itself must not become a string. */
+static void test_reserved_attributes(void **state)
+{
+    static const char *const names[] = {"channels", "dataWindow", "type", "chromaticities"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        struct image image = picture(2, 2, 1);
+        struct error error = {{0}};
+        assert_int_equal(image_set_attribute(&image, names[i], "x", &error), PS_OK);
+        assert_int_not_equal(image_write_exr(&image, scratch_path(state, "a.exr"), &error), PS_OK);
+        assert_non_null(strstr(error.text, names[i]));
+        assert_int_equal(scratch_file_count(state), 0);
+        image_release(&image);
+    }
+}
+
+static void test_same_bytes(void **state)
+{
+    struct image image = picture(50, 37, 5);
+    size_t size_a, size_b;
+    write_picture(&image, scratch_path(state, "a.exr"));
+    write_picture(&image, scratch_path(state, "b.exr"));
+    unsigned char *a = scratch_load(scratch_path(state, "a.exr"), &size_a);
+    unsigned char *b = scratch_load(scratch_path(state, "b.exr"), &size_b);
+    assert_int_equal(size_a, size_b);
+    assert_memory_equal(a, b, size_a);
+    free(a);
+    free(b);
+    image_release(&image);
+}
+
+/* Thousands of short chunks, among them some whose ZIP stream is as long as the pixels, which the
+ * library by itself stores so that no reader gets them back. */
+static void test_stream_as_long_as_the_pixels(void **state)
+{
+    struct image image = {.width = 1, .height = 16 * 4000};
+    float *samples = image_add_channel(&image, "R");
+    uint32_t random = 7, steps = 1;
+    assert_non_null(samples);
+    for (size_t i = 0; i < image.height; i++) {
+        random = random * 1664525u + 1013904223u;
+        steps = i % 16 == 0 ? 1 + (random >> 8) % 24 : steps;
+        samples[i] = (float)((random >> 12) % steps) * 0x1p-4f;
+        if ((random >> 9) % 3 == 0) {
+            samples[i] += (float)(random >> 8) * 0x1p-24f;
+        }
+    }
+    assert_round_trip(state, &image);
+}
+
+static void test_other_programs_can_read_it(void **state)
+{
+    static const char *const tools[] = {"exrheader", "exrinfo"};
+    struct image image = picture(257, 19, 25);
+    const char *path = scratch_path(state, "tools.exr");
+    const char *output = scratch_path(state, "output.txt");
+    write_picture(&image, path);
+    image_release(&image);
+    for (size_t i = 0; i < sizeof tools / sizeof *tools; i++) {
+        char command[2048];
+        size_t size;
+        snprintf(command, sizeof command, "command -v %s >/dev/null", tools[i]);
+        if (system(command) != 0) {
+            print_message("skipped: %s is not installed\n", tools[i]);
+            continue;
+        }
+        snprintf(command, sizeof command, "%s '%s' >'%s' 2>&1", tools[i], path, output);
+        assert_int_equal(system(command), 0);
+        char *text = (char *)scratch_load(output, &size);
+        text[size] = '\0';
+        assert_non_null(strstr(text, "indirect.R"));
+        assert_non_null(strstr(text, "256"));
+        free(text);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_channels_in_memory),
+        cmocka_unit_test(test_attributes_in_memory),
+        SCRATCH_TEST(test_sizes),
+        SCRATCH_TEST(test_exact_bits),
+        SCRATCH_TEST(test_many_channels),
+        SCRATCH_TEST(test_attributes_in_files),
+        SCRATCH_TEST(test_reserved_attributes),
+        SCRATCH_TEST(test_same_bytes),
+        SCRATCH_TEST(test_stream_as_long_as_the_pixels),
+        SCRATCH_TEST(test_other_programs_can_read_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
