@@ -48,7 +48,7 @@ const char *image_attribute(const struct image *image, const char *name);
 ps_result image_write_exr(const struct image *image, const char *path, struct error *error);
 
 /* Reads a single-part scan-line or tiled (one level) OpenEXR, half, float or uint channels, into
- * floats; the picture is the data window. Refuses deep, multi-part, mip-mapped and subsampled
+ * floats; the picture is the data window. Refuses B44, deep, multi-part, mip-mapped and subsampled
  * files, and sizes that can't be, each with a clear message. `image` is written only on success,
  * and what it held is not released: pass an empty one. */
 ps_result image_read_exr(const char *path, struct image *image, struct error *error);

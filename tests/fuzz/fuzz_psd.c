@@ -32,8 +32,7 @@ static void check_description(const struct scene_description *description)
 
 static void discard_printed(const struct diagnostics *sink)
 {
-    char printed[4096];
-    FILE *stream = fmemopen(printed, sizeof printed, "w");
+    FILE *stream = fopen("/dev/null", "w");
     if (stream) {
         diagnostics_print(sink, stream);
         fclose(stream);

@@ -23,19 +23,27 @@
 #define HEAD "psd: 1\n" CAMERA LIGHTS MATERIALS
 #define LONGEST_OUTPUT 16384
 
+/* What the sink prints. */
+static inline void print_all(const struct diagnostics *sink, char printed[LONGEST_OUTPUT])
+{
+    FILE *stream = tmpfile();
+    assert_non_null(stream);
+    diagnostics_print(sink, stream);
+    rewind(stream);
+    printed[fread(printed, 1, LONGEST_OUTPUT - 1, stream)] = '\0';
+    fclose(stream);
+}
+
 /* Parses, and writes all messages, without the lines of source, as "line:column: error: ...\n". */
 static inline ps_result parse(const char *text, size_t length,
                               struct scene_description *description, char messages[LONGEST_OUTPUT])
 {
-    char printed[LONGEST_OUTPUT] = "";
+    char printed[LONGEST_OUTPUT];
     struct diagnostics *sink = diagnostics_create();
     assert_non_null(sink);
     ps_result result = psd_read_text("t", text, length, sink, description);
     assert_true((result == PS_OK) == (diagnostics_error_count(sink) == 0));
-    FILE *stream = fmemopen(printed, sizeof printed, "w");
-    assert_non_null(stream);
-    diagnostics_print(sink, stream);
-    fclose(stream);
+    print_all(sink, printed);
     diagnostics_destroy(sink);
     messages[0] = '\0';
     for (char *line = strtok(printed, "\n"); line; line = strtok(NULL, "\n"))

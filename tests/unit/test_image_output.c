@@ -157,11 +157,13 @@ static void test_two_files_at_once(void **state)
     assert_int_equal(scratch_file_count(state), 1);
 }
 
-static void assert_has_text(png_const_textp texts, int count, const char *key, const char *value)
+static void assert_has_text(png_const_textp texts, int count, const char *key, const char *value,
+                            int compression)
 {
     for (int i = 0; i < count; i++) {
         if (strcmp(texts[i].key, key) == 0) {
             assert_string_equal(texts[i].text, value);
+            assert_int_equal(texts[i].compression, compression);
             return;
         }
     }
@@ -187,8 +189,8 @@ static void check_png(FILE *file, const uint8_t *rgb)
     }
     png_get_text(png, info, &texts, &count);
     assert_int_equal(count, 2);
-    assert_has_text(texts, count, "Software", "psplat");
-    assert_has_text(texts, count, "Author", "Zo\xc3\xab");
+    assert_has_text(texts, count, "Software", "psplat", PNG_TEXT_COMPRESSION_NONE);
+    assert_has_text(texts, count, "Author", "Zo\xc3\xab", PNG_ITXT_COMPRESSION_NONE);
     png_destroy_read_struct(&png, &info, NULL);
 }
 

@@ -151,8 +151,8 @@ static void test_objects(void **state)
          "6:20: error: corners in box: expected a list of 2 [x, y, z], got 1\n"
          "6:43: error: undefined material 'whit'; did you mean 'white'?\n"},
         {HEAD "objects:\n  - quad: {corners: 5, material: [white], scale: [1, 0, 1]}\n",
-         "6:20: error: corners in quad: expected a list of 4 [x, y, z], got text\n"
-         "6:33: error: material in quad: expected the name of a material, got a list\n"},
+         "6:21: error: corners in quad: expected a list of 4 [x, y, z], got text\n"
+         "6:34: error: material in quad: expected the name of a material, got a list\n"},
         {HEAD "objects:\n  - triangles: {material: white, vertices: [[0, 0, 0], [1, 0, 0], [0, 1, "
               "b]], triangles: [[0, 1, 3], [0, 1], [0, -1, 0.5]]}\n",
          "6:74: error: vertices in triangles: expected a number, got 'b'\n"

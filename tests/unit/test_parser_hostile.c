@@ -78,12 +78,10 @@ static void test_files(void **state)
     (void)state;
     struct diagnostics *sink = diagnostics_create();
     struct scene_description description;
-    char printed[512] = "";
+    char printed[LONGEST_OUTPUT];
     assert_non_null(sink);
     assert_int_equal(psd_read_file("/nonexistent.psd", sink, &description), PS_ERROR_IO);
-    FILE *stream = fmemopen(printed, sizeof printed, "w");
-    diagnostics_print(sink, stream);
-    fclose(stream);
+    print_all(sink, printed);
     assert_string_equal(printed,
                         "/nonexistent.psd: error: cannot open: No such file or directory\n");
     diagnostics_destroy(sink);

@@ -94,6 +94,10 @@ static void test_filmic_curve(void **state)
     for (float linear = 0.0f; linear < 8.0f; linear += 0.001f) {
         uint8_t next = shown(linear, 0.0, TONE_FILMIC);
         assert_true(next >= last && next <= last + 10);
+        if (linear > 0.6f) {
+            float expected = tonemap_srgb((float)(1.0 - 0.4 * exp((0.6 - linear) / 0.4)));
+            assert_float_equal(next, 255.0f * expected, 0.501f);
+        }
         last = next;
     }
     assert_int_equal(last, 255);
