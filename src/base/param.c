@@ -224,7 +224,7 @@ static void format_triple(const void *member, char *text, size_t size)
     memcpy(triple, member, sizeof triple);
     char parts[3][32];
     for (int i = 0; i < 3; i++)
-        text_from_number(triple[i], parts[i], sizeof parts[i]);
+        text_from_float(triple[i], parts[i], sizeof parts[i]);
     snprintf(text, size, "[%s, %s, %s]", parts[0], parts[1], parts[2]);
 }
 

@@ -66,15 +66,9 @@ bool text_to_number(const char *text, double *value)
     return isfinite(*value);
 }
 
-void text_from_number(double value, char *text, size_t size)
+/* Gives a text that printf wrote the decimal point '.'. */
+static void delocalize(char *text)
 {
-    static const int precisions[] = {7, 9, 17};
-    for (size_t i = 0; i < sizeof precisions / sizeof precisions[0]; i++) {
-        snprintf(text, size, "%.*g", precisions[i], value);
-        double back = strtod(text, NULL);
-        if (back == value || (precisions[i] == 9 && (float)back == value))
-            break;
-    }
     const char *local_point = localeconv()->decimal_point;
     char *found = strcmp(local_point, ".") ? strstr(text, local_point) : NULL;
     if (found) {
@@ -82,6 +76,26 @@ void text_from_number(double value, char *text, size_t size)
         *found = '.';
         memmove(found + 1, found + width, strlen(found + width) + 1);
     }
+}
+
+void text_from_number(double value, char *text, size_t size)
+{
+    for (int precision = 7; precision <= 17; precision++) {
+        snprintf(text, size, "%.*g", precision, value);
+        if (strtod(text, NULL) == value)
+            break;
+    }
+    delocalize(text);
+}
+
+void text_from_float(float value, char *text, size_t size)
+{
+    for (int precision = 7; precision <= 9; precision++) {
+        snprintf(text, size, "%.*g", precision, (double)value);
+        if (strtof(text, NULL) == value)
+            break;
+    }
+    delocalize(text);
 }
 
 size_t text_distance(const char *a, const char *b)

@@ -9,8 +9,9 @@
  * hexadecimal, inf or nan; false where anything else stands in the text, or the value overflows. */
 bool text_to_number(const char *text, double *value);
 
-/* Writes the shortest of %.7g, %.9g and %.17g that reads back as the same float or double. */
+/* Write the shortest decimal text, of a few precisions, that reads back as the same value. */
 void text_from_number(double value, char *text, size_t size);
+void text_from_float(float value, char *text, size_t size);
 
 /* Optimal string alignment distance (Damerau-Levenshtein without repeated edits), for did-you-mean.
  */

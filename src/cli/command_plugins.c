@@ -18,7 +18,7 @@ static void print_line(void *user, const char *name, const ps_descriptor *descri
     if (descriptor)
         printf("  %-13s %s\n", name, descriptor->summary);
     else
-        printf("  %-13s can't be used:%s\n", name, problem);
+        printf("  %-13s can't be used%s\n", name, problem);
 }
 
 static int list_kind(struct loader *loader, ps_kind kind)

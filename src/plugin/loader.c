@@ -136,7 +136,7 @@ static const ps_descriptor *load_file(const char *path, ps_kind kind, const char
     return descriptor;
 }
 
-/* Searches the folders in order; appends "\n  tried PATH: REASON" to attempts for each miss. */
+/* Searches the folders in order; appends "; tried PATH: REASON" to attempts for each miss. */
 static const ps_descriptor *search(struct loader *loader, ps_kind kind, const char *name,
                                    char attempts[LONGEST_ATTEMPTS])
 {
@@ -148,7 +148,7 @@ static const ps_descriptor *search(struct loader *loader, ps_kind kind, const ch
         descriptor = load_file(path, kind, name, &reason);
         size_t used = strlen(attempts);
         if (!descriptor)
-            snprintf(attempts + used, LONGEST_ATTEMPTS - used, "\n  tried %s: %s", path,
+            snprintf(attempts + used, LONGEST_ATTEMPTS - used, "; tried %s: %s", path,
                      reason.text);
     }
     return descriptor;

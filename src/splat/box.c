@@ -27,6 +27,10 @@ static float slope_of(float cosine)
     return fminf(sqrtf(fmaxf(0.0f, 1.0f - c * c)) / c, BOX_STEEPEST);
 }
 
+/* A full beam starts this far above the source's tangent plane, as a fraction of the half-width: a hollow
+ * surface rises above its tangent plane, by R^2 / 2r at the beam's edge, and must not block its own light. */
+#define CLEARANCE 0.125f
+
 /* The start plane of a full beam: the tangent plane of the source, moved off the surface. */
 static void start_at_source(const struct box_scene *scene, const ps_source *source, float distance,
                             ps_splat *splat)
@@ -34,7 +38,8 @@ static void start_at_source(const struct box_scene *scene, const ps_source *sour
     float cosine = fmaxf(ps_dot(source->normal, splat->axis_w), 1.0f / BOX_STEEPEST);
     splat->start_slope_u = -ps_dot(source->normal, splat->axis_u) / cosine;
     splat->start_slope_v = -ps_dot(source->normal, splat->axis_v) / cosine;
-    splat->start_depth = scene->surface_offset / cosine - distance;
+    float clearance = fmaxf(scene->surface_offset, CLEARANCE * splat->half_width) / cosine;
+    splat->start_depth = fminf(clearance, 0.5f * distance) - distance;
     float tilt = hypotf(splat->start_slope_u, splat->start_slope_v) * splat->half_width;
     splat->near_depth = fminf(splat->start_depth - tilt, 0.0f);
     splat->two_sided = 1;

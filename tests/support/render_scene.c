@@ -1,0 +1,132 @@
+#include "support/render_scene.h"
+
+#include "parser/psd.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static void report(void *user, const struct origin *origin, const char *message)
+{
+    (void)user;
+    (void)origin;
+    print_error("%s\n", message);
+}
+
+static void read_text(const char *text, struct scene_description *description)
+{
+    struct diagnostics *sink = diagnostics_create();
+    assert_non_null(sink);
+    ps_result result = psd_read_text("test.psd", text, strlen(text), sink, description);
+    if (result != PS_OK)
+        diagnostics_print(sink, stderr);
+    assert_int_equal(result, PS_OK);
+    diagnostics_destroy(sink);
+}
+
+static void lay_over(struct render_description *render, const char *text)
+{
+    char kind_name[32];
+    struct strategy_choice choice;
+    struct error error;
+    snprintf(kind_name, sizeof kind_name, "%.*s", (int)strcspn(text, "="), text);
+    ps_kind kind = kind_find(kind_name);
+    assert_true(kind < PS_KINDS);
+    assert_int_equal(settings_parse_choice(strchr(text, '=') + 1, &choice, &error), PS_OK);
+    assert_int_equal(settings_override(&render->strategies[kind], &choice, &error), PS_OK);
+}
+
+struct rendering render_text(const char *text, uint32_t threads, const char *const choices[])
+{
+    return render_text_in_batches(text, threads, 4096, choices);
+}
+
+struct rendering render_text_in_batches(const char *text, uint32_t threads, size_t batch,
+                                        const char *const choices[])
+{
+    struct scene_description description;
+    struct scene scene;
+    struct loader *loader;
+    struct render_settings settings;
+    struct rendering rendering = {.image = {0}};
+    struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
+    struct error error;
+    read_text(text, &description);
+    for (size_t i = 0; choices && choices[i]; i++)
+        lay_over(&description.render, choices[i]);
+    assert_int_equal(loader_create(&loader, &error), PS_OK);
+    assert_int_equal(
+        settings_resolve(loader, &description.render, threads, batch, report, NULL, &settings),
+        PS_OK);
+    assert_int_equal(scene_create(&description, &scene, &error), PS_OK);
+    statistics_init(&rendering.statistics);
+    ps_result result =
+        render_run(&scene, &settings, &callbacks, &rendering.statistics, &rendering.image, &error);
+    if (result != PS_OK)
+        print_error("%s\n", error.text);
+    assert_int_equal(result, PS_OK);
+    scene_release(&scene);
+    settings_release(&settings);
+    loader_destroy(loader);
+    scene_description_release(&description);
+    return rendering;
+}
+
+void rendering_release(struct rendering *rendering)
+{
+    image_release(&rendering->image);
+    statistics_destroy(&rendering->statistics);
+}
+
+struct scene scene_of_text(const char *text)
+{
+    struct scene_description description;
+    struct scene scene;
+    struct error error;
+    read_text(text, &description);
+    assert_int_equal(scene_create(&description, &scene, &error), PS_OK);
+    scene_description_release(&description);
+    return scene;
+}
+
+double mean_of(const struct image *image, const char *channel, size_t x, size_t y, size_t width,
+               size_t height)
+{
+    const float *samples = image_channel(image, channel);
+    assert_non_null(samples);
+    double sum = 0;
+    for (size_t row = y; row < y + height; row++)
+        for (size_t column = x; column < x + width; column++)
+            sum += samples[row * image->width + column];
+    return sum / (double)(width * height);
+}
+
+double mean_of_all(const struct image *image, const char *channel)
+{
+    return mean_of(image, channel, 0, 0, image->width, image->height);
+}
+
+char *cornell_text(int width, int height)
+{
+    const char *source = getenv("PSPLAT_SOURCE");
+    char path[4096], size[64];
+    assert_non_null(source);
+    snprintf(path, sizeof path, "%s/scenes/cornell.psd", source);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    size_t capacity = 1 << 16;
+    char *text = calloc(1, capacity);
+    assert_non_null(text);
+    size_t length = fread(text, 1, capacity - 64, file);
+    fclose(file);
+    char *found = strstr(text, "image: {width: 1600, height: 900}");
+    assert_non_null(found);
+    size_t old = strlen("image: {width: 1600, height: 900}");
+    int added = snprintf(size, sizeof size, "image: {width: %d, height: %d}", width, height);
+    memmove(found + added, found + old, length - (size_t)(found - text) - old + 1);
+    memcpy(found, size, (size_t)added);
+    return text;
+}

@@ -1,0 +1,32 @@
+/* render_scene.h: renders scene texts inside of a test. */
+#ifndef TESTS_SUPPORT_RENDER_SCENE_H
+#define TESTS_SUPPORT_RENDER_SCENE_H
+
+#include "pipeline/render.h"
+
+struct rendering {
+    struct image image;
+    struct statistics statistics;
+};
+
+/* Renders `text` with choices such as "injection=photon:count=1000" laid over it; ends with NULL. A
+ * failure fails the test. Release it with rendering_release. */
+struct rendering render_text(const char *text, uint32_t threads, const char *const choices[]);
+/* The same with splats in batches of `batch`. */
+struct rendering render_text_in_batches(const char *text, uint32_t threads, size_t batch,
+                                        const char *const choices[]);
+void rendering_release(struct rendering *rendering);
+
+/* A scene of the text, with no rendering; the caller releases it with scene_release. */
+struct scene scene_of_text(const char *text);
+
+/* Mean of a channel over the rectangle of pixels [x, x + width) x [y, y + height). */
+double mean_of(const struct image *image, const char *channel, size_t x, size_t y, size_t width,
+               size_t height);
+double mean_of_all(const struct image *image, const char *channel);
+
+/* The Cornell box of scenes/cornell.psd at this size; from PSPLAT_SOURCE. The caller frees the
+ * text. */
+char *cornell_text(int width, int height);
+
+#endif
