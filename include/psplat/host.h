@@ -44,7 +44,8 @@ typedef struct ps_pass {
     uint64_t seed;       /* of the render */
     uint32_t tile_count; /* tiles of the G-buffer */
     uint32_t thread_count;
-    float surface_offset; /* how far to move a ray's origin off the surface it leaves, along the normal */
+    float surface_offset; /* how far to move a ray's origin off the surface it leaves, along the
+                             normal */
 } ps_pass;
 
 /* A body of parallel_for: item `index`, on worker `worker` < thread_count. */
@@ -63,6 +64,11 @@ struct ps_host {
     /* Calls body for every index in [0, count), in any order on the render's threads, and returns
      * when all are done. Results must not depend on the worker. Not to be nested. [main thread] */
     void (*parallel_for)(const ps_host *host, uint64_t count, ps_body body, void *user);
+
+    /* Calls body for every tile (index < pass's tile_count), like parallel_for, telling the
+     * progress. PS_CANCELLED, with tiles left out, when the user wants to stop. [main thread,
+     * inside accumulate] */
+    ps_result (*for_each_tile)(const ps_host *host, ps_body body, void *user);
 
     /* First hit of each ray, with the surface's diffuse reflectance. [any thread] */
     void (*intersect)(const ps_host *host, const ps_ray *rays, size_t n, ps_hit *hits);
@@ -101,9 +107,9 @@ struct ps_host {
     void (*place_boxes)(const ps_host *host, const ps_box_settings *settings,
                         const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats);
 
-    /* The pass's next batch of sources, injected and stratified, in path order; n is 0 after the last.
-     * `progress` becomes the share of the pass's paths that are done, 0..1. Borrowed until the next
-     * call. [main thread, inside accumulate] */
+    /* The pass's next batch of sources, injected and stratified, in path order; n is 0 after the
+     * last. `progress` becomes the share of the pass's paths that are done, 0..1. Borrowed until
+     * the next call. [main thread, inside accumulate] */
     ps_result (*next_sources)(const ps_host *host, const ps_source **sources, size_t *n,
                               double *progress);
 

@@ -7,6 +7,7 @@
 #include <psplat/module.h>
 #include <psplat/param.h>
 #include <psplat/strategy.h>
+#include <psplat/tile.h>
 #include <psplat/types.h>
 
 #endif

@@ -1,8 +1,8 @@
 /* gaussian.c: a plain Gaussian blur of the indirect light (Hoet 2014, sections 3.5 and 4.4).
  *
- * Separable: rows, then columns. Pixels without a surface neither give nor take: value and coverage are
- * blurred alike and divided, so the picture's border and silhouettes against the void keep their brightness. Edges
- * between surfaces do blur; that is the method.
+ * Separable: rows, then columns. Pixels without a surface neither give nor take: value and coverage
+ * are blurred alike and divided, so the picture's border and silhouettes against the void keep
+ * their brightness. Edges between surfaces do blur; that is the method.
  */
 #include <psplat/plugin.h>
 
@@ -19,7 +19,8 @@ struct kernel {
     float taps[MOST_TAPS];
 };
 
-/* The usual rule for the deviation that fits a size, so that the outermost taps are small but not nothing. */
+/* The usual rule for the deviation that fits a size, so that the outermost taps are small but not
+ * nothing. */
 static struct kernel make_kernel(int32_t size)
 {
     struct kernel kernel = {.reach = size + 1};
@@ -49,7 +50,8 @@ static void blur_row(void *user, uint64_t row, uint32_t worker)
         float sum = 0.0f;
         for (int tap = -blur->kernel->reach; tap <= blur->kernel->reach; tap++)
             if (at + tap >= 0 && at + tap < length) {
-                size_t from = tap < 0 ? pixel - (size_t)-tap * stride : pixel + (size_t)tap * stride;
+                size_t from =
+                    tap < 0 ? pixel - (size_t)-tap * stride : pixel + (size_t)tap * stride;
                 sum += blur->kernel->taps[tap + blur->kernel->reach] * blur->in[from];
             }
         blur->out[pixel] = sum;

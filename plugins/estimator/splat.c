@@ -1,13 +1,13 @@
 /* splat.c: photon splatting: every source is carried to the surface it lights and splatted there.
  *
- * Hoet 2014, chapter 3. A source carries power Phi along w. With a kernel K (1/m^2) that integrates to 1 over
- * the disc across the beam, and visibility V of the bundle,
+ * Hoet 2014, chapter 3. A source carries power Phi along w. With a kernel K (1/m^2) that integrates
+ * to 1 over the disc across the beam, and visibility V of the bundle,
  *
  *     E(p) += Phi * K(p) * V(p) * max(0, -n.w)        irradiance, W/m^2
  *
- * The cosine belongs here since K lies across the beam; a photon map's gather, whose kernel lies in the
- * surface, has none. The driver multiplies by albedo / pi. Placing, depth maps, bins and the inner loop are
- * the core's (src/splat), shared by whatever splats.
+ * The cosine belongs here since K lies across the beam; a photon map's gather, whose kernel lies in
+ * the surface, has none. The driver multiplies by albedo / pi. Placing, depth maps, bins and the
+ * inner loop are the core's (src/splat), shared by whatever splats.
  */
 #include <psplat/plugin.h>
 

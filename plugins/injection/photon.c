@@ -1,10 +1,11 @@
 /* photon.c: sources by photon tracing.
  *
- * Light paths start at the lights with a share Phi / N of their power. At every diffuse surface a path
- * leaves a source that carries power * albedo in a cosine-distributed direction, and goes on along that
- * very direction: the source's bundled ray is the path's next segment. So the first bounce needs no
- * special case, and `bounces: 1` is the thesis's single bounce. Russian roulette (Arvo and Kirk 1990) ends
- * paths with the albedo's complement and divides the survivors' power, which keeps the mean.
+ * Light paths start at the lights with a share Phi / N of their power. At every diffuse surface a
+ * path leaves a source that carries power * albedo in a cosine-distributed direction, and goes on
+ * along that very direction: the source's bundled ray is the path's next segment. So the first
+ * bounce needs no special case, and `bounces: 1` is the thesis's single bounce. Russian roulette
+ * (Arvo and Kirk 1990) ends paths with the albedo's complement and divides the survivors' power,
+ * which keeps the mean.
  *
  * Emission and first direction share one four-dimensional Sobol point: low discrepancy over (light
  * direction, bounce direction) together, worth a third of the error of independent pairs.
@@ -25,7 +26,7 @@ struct state {
 struct path {
     ps_ray ray;
     ps_rgb power;
-    uint64_t index; /* over all passes */
+    uint64_t index;               /* over all passes */
     float direction[2], roulette; /* random numbers of the next surface */
 };
 
@@ -155,7 +156,8 @@ static int32_t init(void *opaque, const ps_host *host, char *message, size_t siz
     (void)host;
     const struct state *state = opaque;
     if (state->bounces == 0 && state->roulette == 0) {
-        snprintf(message, size, "unlimited bounces (bounces=0) need Russian roulette (roulette > 0)");
+        snprintf(message, size,
+                 "unlimited bounces (bounces=0) need Russian roulette (roulette > 0)");
         return 1;
     }
     return 0;

@@ -1,8 +1,8 @@
 /* weight.c: the thesis's normalization: sum of colour over sum of weight (Hoet 2014, section 3.4).
  *
- * The quotient is a mean of the splats' colours: smooth after few splats, but how many splats meet, and
- * so how much light arrives, drops out. Its scale is arbitrary: `exposure` sets it, `auto` by giving the picture
- * the mean of the density estimate.
+ * The quotient is a mean of the splats' colours: smooth after few splats, but how many splats meet,
+ * and so how much light arrives, drops out. Its scale is arbitrary: `exposure` sets it, `auto` by
+ * giving the picture the mean of the density estimate.
  */
 #include <psplat/plugin.h>
 

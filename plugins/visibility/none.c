@@ -1,8 +1,8 @@
 /* none.c: no visibility: everything inside a splat's box that faces the light is lit.
  *
- * What splatting would be if the visibility term were left out, as by Dachsbacher and Stamminger 2006: light leaks
- * behind whatever the central ray misses. Good for seeing what a shadow map is worth. The reach of
- * the box (`depth`) decides how far light leaks.
+ * What splatting would be if the visibility term were left out, as by Dachsbacher and Stamminger
+ * 2006: light leaks behind whatever the central ray misses. Good for seeing what a shadow map is
+ * worth. The reach of the box (`depth`) decides how far light leaks.
  */
 #include <psplat/plugin.h>
 

@@ -1,12 +1,14 @@
 /* shadowmap.c: a small orthographic depth map for every splat (Hoet 2014, section 3.3).
  *
- * Rays of a bundle are parallel and close together, so a map is traced in packets of 4x4 texels. Back
- * faces count: a map that starts inside of something must see its far side, or light leaks through.
+ * Rays of a bundle are parallel and close together, so a map is traced in packets of 4x4 texels.
+ * Back faces count: a map that starts inside of something must see its far side, or light leaks
+ * through.
  *
- * A pixel is compared with the texel it falls into, so its depth may differ by the slope of its surface
- * times its distance to the texel's centre. The bias grants just that: 1.5 texels * tan(theta), theta
- * between the light and the pixel's normal. A constant bias either shadows slopes (acne, and energy lost) or
- * leaks at contacts; it stays selectable, for comparison with the thesis.
+ * A pixel is compared with the texel it falls into, so its depth may differ by the slope of its
+ * surface times its distance to the texel's centre. The bias grants just that: 1.5 texels *
+ * tan(theta), theta between the light and the pixel's normal. A constant bias either shadows slopes
+ * (acne, and energy lost) or leaks at contacts; it stays selectable, for comparison with the
+ * thesis.
  */
 #include <psplat/plugin.h>
 
@@ -79,7 +81,8 @@ static void trace_block(const ps_host *host, const ps_splat *splat, int side, in
     float start[BLOCK * BLOCK], reach[BLOCK * BLOCK];
     float texel = 2.0f * splat->half_width / (float)side;
     for (int lane = 0; lane < BLOCK * BLOCK; lane++) {
-        int column = least(left + lane % BLOCK, side - 1), row = least(top + lane / BLOCK, side - 1);
+        int column = least(left + lane % BLOCK, side - 1),
+            row = least(top + lane / BLOCK, side - 1);
         float u = ((float)column + 0.5f) * texel - splat->half_width;
         float v = ((float)row + 0.5f) * texel - splat->half_width;
         start[lane] = load_ray(splat, u, v, &packet, lane);

@@ -1,8 +1,8 @@
 /* parallel.h: loops over the render's threads.
  *
  * OpenMP's dynamic schedule, one item at a time. Every worker sets flush-to-zero and
- * denormals-are-zero at its start and restores what it found: the ray tracer wants it, and it must hold
- * on all threads alike or the same sum differs between them.
+ * denormals-are-zero at its start and restores what it found: the ray tracer wants it, and it must
+ * hold on all threads alike or the same sum differs between them.
  */
 #ifndef BASE_PARALLEL_H
 #define BASE_PARALLEL_H

@@ -5,8 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-const struct command *const commands[] = {&command_render, &command_check, &command_plugins,
-                                          &command_info};
+const struct command *const commands[] = {&command_render, &command_check,   &command_plugins,
+                                          &command_info,   &command_compare, &command_diff,
+                                          &command_view};
 const size_t command_count = sizeof commands / sizeof commands[0];
 
 void print_error(const char *message)
@@ -45,7 +46,8 @@ static const struct option *find_letter(const struct command *command, char lett
     return NULL;
 }
 
-/* Reads one option at words[0] (and its value at words[1], or behind '='); returns the words used, 0 on an error. */
+/* Reads one option at words[0] (and its value at words[1], or behind '='); returns the words used,
+ * 0 on an error. */
 static size_t parse_option(const struct command *command, char *const words[], size_t left,
                            struct argument *argument)
 {

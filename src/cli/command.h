@@ -30,14 +30,16 @@ struct command {
     int (*run)(const struct argument *arguments, size_t count);
 };
 
-extern const struct command command_render, command_check, command_plugins, command_info;
+extern const struct command command_render, command_check, command_plugins, command_info,
+    command_compare, command_diff, command_view;
 
 /* All commands; the first is what runs when none is named. */
 extern const struct command *const commands[];
 extern const size_t command_count;
 
-/* Splits the words that follow a command's name. Prints what is wrong to stderr and returns false; --help is
- * handled by the caller. `arguments` has room for `count` entries; *parsed is how many came out. */
+/* Splits the words that follow a command's name. Prints what is wrong to stderr and returns false;
+ * --help is handled by the caller. `arguments` has room for `count` entries; *parsed is how many
+ * came out. */
 bool command_parse(const struct command *command, char *const words[], size_t count,
                    struct argument *arguments, size_t *parsed);
 
@@ -48,7 +50,8 @@ void help_print(const struct command *command);
 /* "psplat: error: MESSAGE" on stderr. */
 void print_error(const char *message);
 
-/* Whole decimal number in [minimum, maximum]; false, and an error that names the option, otherwise. */
+/* Whole decimal number in [minimum, maximum]; false, and an error that names the option, otherwise.
+ */
 bool parse_whole_number(const char *option, const char *text, double minimum, double maximum,
                         double *value);
 

@@ -35,8 +35,8 @@ static void print_parameter(const ps_param *row)
 {
     char domain[256];
     param_describe_domain(row, domain, sizeof domain);
-    printf("  %s\n      %s\n      %s%s%s", row->name, row->help, domain, row->unit[0] ? ", in " : "",
-           row->unit);
+    printf("  %s\n      %s\n      %s%s%s", row->name, row->help, domain,
+           row->unit[0] ? ", in " : "", row->unit);
     if (row->default_value)
         printf("; default: %s\n", row->default_value);
     else

@@ -230,7 +230,8 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
         written = write_files(job, &image, description->image.exposure, statistics, error);
     image_release(&image);
     if (written == PS_OK && result == PS_CANCELLED)
-        return error_set(error, PS_CANCELLED, "interrupted: the picture holds what was done by then");
+        return error_set(error, PS_CANCELLED,
+                         "interrupted: the picture holds what was done by then");
     return written;
 }
 

@@ -8,14 +8,16 @@
 /* Whether a name ends in a format that psplat writes: .exr or .png. */
 bool output_is_writable_format(const char *path);
 
-/* The scene's name with another suffix, in the current folder; "-" gives "stdin". The caller frees it. */
+/* The scene's name with another suffix, in the current folder; "-" gives "stdin". The caller frees
+ * it. */
 char *output_default_path(const char *scene_path, const char *suffix);
 
 /* Writes the picture by its name's suffix; exposure in stops, for PNG. */
 ps_result output_write(const struct image *image, const char *path, double exposure,
                        struct error *error);
 
-/* Attributes that say how the picture was made: version, scene, every setting, and the command that repeats it. */
+/* Attributes that say how the picture was made: version, scene, every setting, and the command that
+ * repeats it. */
 ps_result output_describe(struct image *image, const char *scene_path,
                           const struct render_settings *settings, struct error *error);
 

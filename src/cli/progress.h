@@ -1,4 +1,5 @@
-/* progress.h: tells how far a render is: a bar where stderr is a terminal, plain lines elsewhere. */
+/* progress.h: tells how far a render is: a bar where stderr is a terminal, plain lines elsewhere.
+ */
 #ifndef CLI_PROGRESS_H
 #define CLI_PROGRESS_H
 

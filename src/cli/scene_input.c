@@ -29,7 +29,9 @@ bool scene_input_override(struct scene_input *input, const char *text)
     ps_kind kind = kind_find(kind_name);
     if (kind == PS_KINDS || !text[length]) {
         snprintf(message, sizeof message,
-                 "--plugin: expected KIND=NAME[:KEY=VALUE,...], got '%.200s'; 'psplat plugins' lists the kinds", text);
+                 "--plugin: expected KIND=NAME[:KEY=VALUE,...], got '%.200s'; 'psplat plugins' "
+                 "lists the kinds",
+                 text);
         print_error(message);
         return false;
     }

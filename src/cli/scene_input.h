@@ -1,4 +1,5 @@
-/* scene_input.h: what `render` and `check` share: a scene file and settings laid over it, with all problems printed. */
+/* scene_input.h: what `render` and `check` share: a scene file and settings laid over it, with all
+ * problems printed. */
 #ifndef CLI_SCENE_INPUT_H
 #define CLI_SCENE_INPUT_H
 
@@ -11,13 +12,15 @@ struct scene_input {
     struct scene_description description;
 };
 
-/* Reads the scene. If that fails, prints why to stderr and returns false; release it in any case. */
+/* Reads the scene. If that fails, prints why to stderr and returns false; release it in any case.
+ */
 bool scene_input_read(struct scene_input *input, const char *path);
 
 /* Lays "KIND=NAME[:KEY=VALUE,...]" over the scene's settings. Prints what is wrong with it. */
 bool scene_input_override(struct scene_input *input, const char *text);
 
-/* Checks and loads the strategies; prints problems with their places in the file, and the scene's warnings. */
+/* Checks and loads the strategies; prints problems with their places in the file, and the scene's
+ * warnings. */
 bool scene_input_resolve(struct scene_input *input, uint32_t threads, size_t batch,
                          struct render_settings *settings);
 

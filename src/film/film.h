@@ -1,7 +1,7 @@
 /* film.h: the sums of a render's passes.
  *
- * Planes of float, row-major, top row first. Passes are added in their order, so a film is a function
- * of its passes alone; normalization and averaging happen when it is resolved.
+ * Planes of float, row-major, top row first. Passes are added in their order, so a film is a
+ * function of its passes alone; normalization and averaging happen when it is resolved.
  */
 #ifndef FILM_FILM_H
 #define FILM_FILM_H
@@ -9,12 +9,22 @@
 #include "film/gbuffer.h"
 
 enum film_plane {
-    FILM_DIRECT_R, FILM_DIRECT_G, FILM_DIRECT_B, /* reflected direct radiance */
-    FILM_COLOR_R, FILM_COLOR_G, FILM_COLOR_B,    /* reflected indirect radiance */
-    FILM_WEIGHT,                                 /* what the estimator weighed the indirect light with */
-    FILM_ALBEDO_R, FILM_ALBEDO_G, FILM_ALBEDO_B,
-    FILM_NORMAL_X, FILM_NORMAL_Y, FILM_NORMAL_Z,
-    FILM_POSITION_X, FILM_POSITION_Y, FILM_POSITION_Z,
+    FILM_DIRECT_R,
+    FILM_DIRECT_G,
+    FILM_DIRECT_B, /* reflected direct radiance */
+    FILM_COLOR_R,
+    FILM_COLOR_G,
+    FILM_COLOR_B, /* reflected indirect radiance */
+    FILM_WEIGHT,  /* what the estimator weighed the indirect light with */
+    FILM_ALBEDO_R,
+    FILM_ALBEDO_G,
+    FILM_ALBEDO_B,
+    FILM_NORMAL_X,
+    FILM_NORMAL_Y,
+    FILM_NORMAL_Z,
+    FILM_POSITION_X,
+    FILM_POSITION_Y,
+    FILM_POSITION_Z,
     FILM_DEPTH,
     FILM_COVERAGE, /* passes in which the pixel saw a surface */
     FILM_PLANES
@@ -31,13 +41,13 @@ ps_result film_create(size_t width, size_t height, struct film *film, struct err
 void film_release(struct film *film);
 size_t film_bytes(const struct film *film);
 
-/* Adds what one tile of a finished pass gathered; call for every tile, then count the pass. Tiles may
- * be added by different threads at once: they touch different pixels. */
+/* Adds what one tile of a finished pass gathered; call for every tile, then count the pass. Tiles
+ * may be added by different threads at once: they touch different pixels. */
 void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t tile);
 void film_count_pass(struct film *film);
 
-/* Turns the sums of geometry and direct light into means: per pass for light, per covered pass for geometry. A
- * pixel that never saw a surface gets depth INFINITY and zeros. */
+/* Turns the sums of geometry and direct light into means: per pass for light, per covered pass for
+ * geometry. A pixel that never saw a surface gets depth INFINITY and zeros. */
 void film_average(struct film *film);
 
 #endif

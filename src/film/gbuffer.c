@@ -67,7 +67,8 @@ static void store_hit(ps_tile *tile, uint32_t lane, const ps_hit *hit)
     tile->material[lane] = seen ? hit->material : PS_NO_OBJECT;
 }
 
-/* Lane of number i when a tile is walked in 4x4 blocks, so that each packet of 16 rays is compact. */
+/* Lane of number i when a tile is walked in 4x4 blocks, so that each packet of 16 rays is compact.
+ */
 static uint32_t block_lane(uint32_t i)
 {
     uint32_t block = i / 16, inside = i % 16;

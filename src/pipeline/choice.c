@@ -52,7 +52,8 @@ ps_result settings_parse_choice(const char *text, struct strategy_choice *choice
     size_t name_length = strcspn(text, ":");
     *choice = (struct strategy_choice){.name = NULL};
     if (name_length == 0)
-        return error_set(error, PS_ERROR_INVALID, "expected NAME[:KEY=VALUE,...], got '%.80s'", text);
+        return error_set(error, PS_ERROR_INVALID, "expected NAME[:KEY=VALUE,...], got '%.80s'",
+                         text);
     choice->name = strndup(text, name_length);
     ps_result result = choice->name ? PS_OK : error_memory(error, name_length, "a name");
     const char *rest = text + name_length;

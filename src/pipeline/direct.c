@@ -1,10 +1,12 @@
 #include "pipeline/direct.h"
 
 #include <psplat/math.h>
+#include <psplat/tile.h>
 
 #define CHUNK 256
 
-/* The shadow ray from a point to a light, and the irradiance it stands for where nothing is in the way: E = I cos / r^2. */
+/* The shadow ray from a point to a light, and the irradiance it stands for where nothing is in the
+ * way: E = I cos / r^2. */
 static ps_rgb connect(const struct scene *scene, const struct light *light, ps_vec3 position,
                       ps_vec3 normal, ps_ray *ray)
 {
@@ -23,8 +25,8 @@ static ps_rgb connect(const struct scene *scene, const struct light *light, ps_v
 
 /* Adds one light to at most CHUNK points. */
 static void add_light(const struct scene *scene, const struct trace *trace,
-                      const struct light *light, const ps_vec3 *positions, const ps_vec3 *normals,
-                      size_t n, ps_rgb *irradiance)
+                      enum coherence coherence, const struct light *light, const ps_vec3 *positions,
+                      const ps_vec3 *normals, size_t n, ps_rgb *irradiance)
 {
     ps_ray rays[CHUNK];
     ps_rgb unshadowed[CHUNK];
@@ -36,45 +38,37 @@ static void add_light(const struct scene *scene, const struct trace *trace,
         points[count] = i;
         count += ps_rgb_maximum(unshadowed[count]) > 0.0f;
     }
-    trace_occluded(trace, RAYS_COHERENT, rays, count, blocked);
+    trace_occluded(trace, coherence, rays, count, blocked);
     for (size_t i = 0; i < count; i++)
         if (!blocked[i])
             irradiance[points[i]] = ps_rgb_add(irradiance[points[i]], unshadowed[i]);
 }
 
 void direct_irradiance(const struct scene *scene, const struct trace *trace,
-                       const ps_vec3 *positions, const ps_vec3 *normals, size_t n,
-                       ps_rgb *irradiance)
+                       enum coherence coherence, const ps_vec3 *positions, const ps_vec3 *normals,
+                       size_t n, ps_rgb *irradiance)
 {
     for (size_t i = 0; i < n; i++)
         irradiance[i] = (ps_rgb){0, 0, 0};
     for (size_t first = 0; first < n; first += CHUNK) {
         size_t count = n - first < CHUNK ? n - first : CHUNK;
         for (size_t light = 0; light < scene->light_count; light++)
-            add_light(scene, trace, &scene->lights[light], positions + first, normals + first,
-                      count, irradiance + first);
+            add_light(scene, trace, coherence, &scene->lights[light], positions + first,
+                      normals + first, count, irradiance + first);
     }
 }
 
 void direct_light_tile(const struct scene *scene, const struct trace *trace,
                        struct gbuffer *gbuffer, uint32_t index)
 {
-    const ps_tile *tile = &gbuffer->tiles[index];
-    ps_vec3 positions[PS_TILE_PIXELS], normals[PS_TILE_PIXELS];
-    ps_rgb irradiance[PS_TILE_PIXELS];
     ps_rgb *direct = &gbuffer->direct[(size_t)index * PS_TILE_PIXELS];
-    uint32_t lanes[PS_TILE_PIXELS];
-    size_t count = 0;
-    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+    ps_rgb irradiance[PS_TILE_PIXELS];
+    ps_points points;
+    ps_collect_points(&gbuffer->tiles[index], &points);
+    direct_irradiance(scene, trace, RAYS_COHERENT, points.positions, points.normals, points.count,
+                      irradiance);
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         direct[lane] = (ps_rgb){0, 0, 0};
-        if (tile->object[lane] == PS_NO_OBJECT)
-            continue;
-        positions[count] =
-            (ps_vec3){tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
-        normals[count] = (ps_vec3){tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
-        lanes[count++] = lane;
-    }
-    direct_irradiance(scene, trace, positions, normals, count, irradiance);
-    for (size_t i = 0; i < count; i++)
-        direct[lanes[i]] = irradiance[i];
+    for (size_t i = 0; i < points.count; i++)
+        direct[points.lanes[i]] = irradiance[i];
 }

@@ -39,14 +39,58 @@ static void host_release(const ps_host *host, void *memory)
     if (!memory)
         return;
     struct allocation *allocation = (struct allocation *)memory - 1;
-    statistics_add_bytes(render_of(host)->statistics, allocation->what,
-                         -(double)allocation->bytes);
+    statistics_add_bytes(render_of(host)->statistics, allocation->what, -(double)allocation->bytes);
     free(allocation);
 }
 
 static void host_parallel_for(const ps_host *host, uint64_t count, ps_body body, void *user)
 {
     parallel_for(render_of(host)->settings->threads, count, body, user);
+}
+
+static int32_t host_cancelled(const ps_host *host)
+{
+    const struct render_callbacks *callbacks = render_of(host)->callbacks;
+    return callbacks->cancelled && callbacks->cancelled(callbacks->user);
+}
+
+static void host_progress(const ps_host *host, double fraction)
+{
+    const struct render *render = render_of(host);
+    const struct render_callbacks *callbacks = render->callbacks;
+    if (callbacks->progress)
+        callbacks->progress(callbacks->user, "indirect light",
+                            (render->pass.number + fraction) / render->settings->passes);
+}
+
+/* A part of the tiles; their number is shifted by the first of the part. */
+struct tile_part {
+    uint64_t first;
+    ps_body body;
+    void *user;
+};
+
+static void visit_tile(void *user, uint64_t index, uint32_t worker)
+{
+    const struct tile_part *part = user;
+    part->body(part->user, part->first + index, worker);
+}
+
+static ps_result host_for_each_tile(const ps_host *host, ps_body body, void *user)
+{
+    const struct render *render = render_of(host);
+    uint64_t count = render->gbuffer.tile_count;
+    /* Parts of some tiles a thread: often enough to report, rarely enough to keep threads busy. */
+    uint64_t step = 16 * (uint64_t)render->settings->threads;
+    for (uint64_t first = 0; first < count; first += step) {
+        struct tile_part part = {first, body, user};
+        if (host_cancelled(host))
+            return PS_CANCELLED;
+        parallel_for(render->settings->threads, count - first < step ? count - first : step,
+                     visit_tile, &part);
+        host_progress(host, (double)(first + step) / (double)count);
+    }
+    return PS_OK;
 }
 
 static void host_intersect(const ps_host *host, const ps_ray *rays, size_t n, ps_hit *hits)
@@ -93,7 +137,8 @@ static void host_direct_irradiance(const ps_host *host, const ps_vec3 *positions
                                    const ps_vec3 *normals, size_t n, ps_rgb *irradiance)
 {
     const struct render *render = render_of(host);
-    direct_irradiance(render->scene, render->trace, positions, normals, n, irradiance);
+    direct_irradiance(render->scene, render->trace, RAYS_INCOHERENT, positions, normals, n,
+                      irradiance);
 }
 
 static void host_scene_bounds(const ps_host *host, ps_vec3 *center, float *radius)
@@ -183,9 +228,9 @@ static ps_result create_splatter(struct render *render)
     struct kernel_profile profile;
     ps_result result = tabulate_filter(render, &profile);
     if (result == PS_OK)
-        result = splatter_create(&render->splatter, &render->gbuffer, &render->host, chosen,
-                                 &profile, render->settings->threads, render->settings->batch,
-                                 &render->error);
+        result =
+            splatter_create(&render->splatter, &render->gbuffer, &render->host, chosen, &profile,
+                            render->settings->threads, render->settings->batch, &render->error);
     render->has_splatter = result == PS_OK;
     if (render->has_splatter)
         splatter_begin_pass(&render->splatter);
@@ -227,21 +272,6 @@ static void host_count(const ps_host *host, const char *counter, double amount)
     statistics_count(render_of(host)->statistics, counter, amount);
 }
 
-static void host_progress(const ps_host *host, double fraction)
-{
-    const struct render *render = render_of(host);
-    const struct render_callbacks *callbacks = render->callbacks;
-    if (callbacks->progress)
-        callbacks->progress(callbacks->user, "indirect light",
-                            (render->pass.number + fraction) / render->settings->passes);
-}
-
-static int32_t host_cancelled(const ps_host *host)
-{
-    const struct render_callbacks *callbacks = render_of(host)->callbacks;
-    return callbacks->cancelled && callbacks->cancelled(callbacks->user);
-}
-
 void host_create(struct render *render)
 {
     render->host = (ps_host){
@@ -251,6 +281,7 @@ void host_create(struct render *render)
         .allocate = host_allocate,
         .release = host_release,
         .parallel_for = host_parallel_for,
+        .for_each_tile = host_for_each_tile,
         .intersect = host_intersect,
         .occluded = host_occluded,
         .intersect_packets = host_intersect_packets,

@@ -60,8 +60,8 @@ static void destroy(struct render *render)
     trace_destroy(render->trace);
 }
 
-/* Where in its pixels a pass looks: the centre if it is the only one, else points spread over the pixel, the same in
- * all pixels so that a pass stays coherent. */
+/* Where in its pixels a pass looks: the centre if it is the only one, else points spread over the
+ * pixel, the same in all pixels so that a pass stays coherent. */
 struct jitter {
     float x, y;
 };
@@ -71,7 +71,8 @@ static struct jitter pass_jitter(const struct render *render)
     if (render->settings->passes == 1)
         return (struct jitter){0.5f, 0.5f};
     float point[4];
-    sample_point(sample_key(render->settings->seed, PS_STREAM_PIXEL, 0), render->pass.number, point);
+    sample_point(sample_key(render->settings->seed, PS_STREAM_PIXEL, 0), render->pass.number,
+                 point);
     return (struct jitter){point[0], point[1]};
 }
 

@@ -1,8 +1,10 @@
 /* render.h: the driver: scene and settings to a picture.
  *
- *     G-buffer -> direct light -> estimator -> film, pass by pass; then normalization -> denoiser -> combine
+ *     G-buffer -> direct light -> estimator -> film, pass by pass; then normalization -> denoiser
+ * -> combine
  *
- * A pass is a function of (scene, settings, seed, pass number); the film is the sum of the passes in their order.
+ * A pass is a function of (scene, settings, seed, pass number); the film is the sum of the passes
+ * in their order.
  */
 #ifndef PIPELINE_RENDER_H
 #define PIPELINE_RENDER_H
@@ -12,18 +14,20 @@
 #include "pipeline/statistics.h"
 #include "scene/scene.h"
 
-/* How a render talks to its user. All members may be NULL; all are called on the calling thread but `log`, which any
- * thread may call. */
+/* How a render talks to its user. All members may be NULL; all are called on the calling thread but
+ * `log`, which any thread may call. */
 struct render_callbacks {
     void *user;
-    void (*progress)(void *user, const char *stage, double fraction); /* of the whole render, 0..1 */
+    void (*progress)(void *user, const char *stage,
+                     double fraction); /* of the whole render, 0..1 */
     void (*log)(void *user, ps_log_level level, const char *message);
     bool (*cancelled)(void *user); /* any thread */
 };
 
-/* Renders into `image` (the layers of psplat(1)); the caller releases it. Starts the strategies of `settings`, which may
- * be used for one render only. When cancelled, the passes that were complete make the picture and the result is
- * PS_CANCELLED; without any, the picture holds the direct light. Other failures leave no image. */
+/* Renders into `image` (the layers of psplat(1)); the caller releases it. Starts the strategies of
+ * `settings`, which may be used for one render only. When cancelled, the passes that were complete
+ * make the picture and the result is PS_CANCELLED; without any, the picture holds the direct light.
+ * Other failures leave no image. */
 ps_result render_run(const struct scene *scene, struct render_settings *settings,
                      const struct render_callbacks *callbacks, struct statistics *statistics,
                      struct image *image, struct error *error);

@@ -1,4 +1,5 @@
-/* render_state.h: a render in progress; shared by the driver, its host table and its last stages. */
+/* render_state.h: a render in progress; shared by the driver, its host table and its last stages.
+ */
 #ifndef PIPELINE_RENDER_STATE_H
 #define PIPELINE_RENDER_STATE_H
 

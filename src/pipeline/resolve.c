@@ -8,11 +8,11 @@ static const struct layer {
     const char *name;
     enum film_plane plane;
 } layers[] = {
-    {"direct.R", FILM_DIRECT_R},  {"direct.G", FILM_DIRECT_G},  {"direct.B", FILM_DIRECT_B},
-    {"albedo.R", FILM_ALBEDO_R},  {"albedo.G", FILM_ALBEDO_G},  {"albedo.B", FILM_ALBEDO_B},
-    {"N.X", FILM_NORMAL_X},       {"N.Y", FILM_NORMAL_Y},       {"N.Z", FILM_NORMAL_Z},
-    {"P.X", FILM_POSITION_X},     {"P.Y", FILM_POSITION_Y},     {"P.Z", FILM_POSITION_Z},
-    {"Z", FILM_DEPTH},            {"weight", FILM_WEIGHT},
+    {"direct.R", FILM_DIRECT_R}, {"direct.G", FILM_DIRECT_G}, {"direct.B", FILM_DIRECT_B},
+    {"albedo.R", FILM_ALBEDO_R}, {"albedo.G", FILM_ALBEDO_G}, {"albedo.B", FILM_ALBEDO_B},
+    {"N.X", FILM_NORMAL_X},      {"N.Y", FILM_NORMAL_Y},      {"N.Z", FILM_NORMAL_Z},
+    {"P.X", FILM_POSITION_X},    {"P.Y", FILM_POSITION_Y},    {"P.Z", FILM_POSITION_Z},
+    {"Z", FILM_DEPTH},           {"weight", FILM_WEIGHT},
 };
 
 struct rgb_planes {
@@ -57,8 +57,7 @@ static ps_result normalize(struct render *render, struct rgb_planes out, struct 
         .weight = film->planes[FILM_WEIGHT],
     };
     double start = clock_seconds();
-    ps_result result =
-        vtable->resolve(strategy->state, &render->host, &view, out.r, out.g, out.b);
+    ps_result result = vtable->resolve(strategy->state, &render->host, &view, out.r, out.g, out.b);
     statistics_add_seconds(render->statistics, "normalize", clock_seconds() - start);
     return result == PS_OK ? PS_OK : error_set(error, result, "normalization failed");
 }

@@ -26,9 +26,8 @@ static void report_unknown(struct resolution *resolution, const struct strategy 
     struct param_table table = strategy_params(descriptor);
     const char *suggestion = param_suggest(&table, parameter->key);
     snprintf(message, sizeof message, "unknown parameter '%.80s' of %s %s%s%s%s", parameter->key,
-             kinds[descriptor->kind].name, descriptor->name,
-             suggestion ? "; did you mean '" : "", suggestion ? suggestion : "",
-             suggestion ? "'?" : "");
+             kinds[descriptor->kind].name, descriptor->name, suggestion ? "; did you mean '" : "",
+             suggestion ? suggestion : "", suggestion ? "'?" : "");
     fail(resolution, &parameter->key_origin, message);
 }
 

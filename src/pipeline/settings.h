@@ -1,7 +1,8 @@
 /* settings.h: the strategies and numbers of a render, checked.
  *
- * A scene file and the command line both speak through a render description; here its names become loaded
- * plugins and its texts values. Every problem is reported with where it was written, several in one go.
+ * A scene file and the command line both speak through a render description; here its names become
+ * loaded plugins and its texts values. Every problem is reported with where it was written, several
+ * in one go.
  */
 #ifndef PIPELINE_SETTINGS_H
 #define PIPELINE_SETTINGS_H
@@ -29,8 +30,8 @@ ps_result settings_resolve(struct loader *loader, const struct render_descriptio
                            struct render_settings *settings);
 void settings_release(struct render_settings *settings);
 
-/* Lays a choice over another of the same kind: another strategy replaces it, the same one keeps the parameters that
- * the new choice does not name. Takes over what `choice` owns. */
+/* Lays a choice over another of the same kind: another strategy replaces it, the same one keeps the
+ * parameters that the new choice does not name. Takes over what `choice` owns. */
 ps_result settings_override(struct strategy_choice *base, struct strategy_choice *choice,
                             struct error *error);
 

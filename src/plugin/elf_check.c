@@ -1,7 +1,8 @@
 /* elf_check.c: whether a shared object is whole.
  *
- * The dynamic loader maps the segments that a file's headers name without asking whether the file reaches that
- * far; a truncated one kills the process at the first touch. So the sizes are compared first.
+ * The dynamic loader maps the segments that a file's headers name without asking whether the file
+ * reaches that far; a truncated one kills the process at the first touch. So the sizes are compared
+ * first.
  */
 #include "plugin/elf_check.h"
 

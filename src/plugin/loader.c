@@ -56,11 +56,10 @@ static bool add_own_folder(struct loader *loader)
         return true;
     const char *slash = strrchr(library.dli_fname, '/');
     char path[LONGEST_PATH];
-    int length = snprintf(path, sizeof path, "%.*spsplat/plugins-%u",
-                          slash ? (int)(slash - library.dli_fname) + 1 : 0, library.dli_fname,
-                          PS_ABI_MAJOR);
-    return length > 0 && (size_t)length < sizeof path &&
-           add_folder(loader, path, (size_t)length);
+    int length =
+        snprintf(path, sizeof path, "%.*spsplat/plugins-%u",
+                 slash ? (int)(slash - library.dli_fname) + 1 : 0, library.dli_fname, PS_ABI_MAJOR);
+    return length > 0 && (size_t)length < sizeof path && add_folder(loader, path, (size_t)length);
 }
 
 ps_result loader_create(struct loader **created, struct error *error)
@@ -148,8 +147,7 @@ static const ps_descriptor *search(struct loader *loader, ps_kind kind, const ch
         descriptor = load_file(path, kind, name, &reason);
         size_t used = strlen(attempts);
         if (!descriptor)
-            snprintf(attempts + used, LONGEST_ATTEMPTS - used, "; tried %s: %s", path,
-                     reason.text);
+            snprintf(attempts + used, LONGEST_ATTEMPTS - used, "; tried %s: %s", path, reason.text);
     }
     return descriptor;
 }
@@ -170,8 +168,8 @@ static ps_result not_found(struct loader *loader, ps_kind kind, const char *name
     char names[240] = "";
     struct error ignored;
     loader_list(loader, kind, append_suggestion, names, &ignored);
-    return error_set(error, PS_ERROR_INVALID, "no %s '%.100s' (there are: %s)%s",
-                     kinds[kind].name, name, names[0] ? names : "none", attempts);
+    return error_set(error, PS_ERROR_INVALID, "no %s '%.100s' (there are: %s)%s", kinds[kind].name,
+                     name, names[0] ? names : "none", attempts);
 }
 
 static bool is_plain_name(const char *name)

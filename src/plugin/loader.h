@@ -1,8 +1,9 @@
 /* loader.h: finds strategies by name in shared objects.
  *
- * A name is looked for as <folder>/<kind>/<name>.so in the folders of $PSPLAT_PLUGIN_PATH (colon-separated), then
- * in psplat's own folder; a name with a slash is a path. A module is judged (magic, ABI, layout, descriptors)
- * before any of its code runs. Modules are never unloaded: descriptors and their strings stay valid.
+ * A name is looked for as <folder>/<kind>/<name>.so in the folders of $PSPLAT_PLUGIN_PATH
+ * (colon-separated), then in psplat's own folder; a name with a slash is a path. A module is judged
+ * (magic, ABI, layout, descriptors) before any of its code runs. Modules are never unloaded:
+ * descriptors and their strings stay valid.
  */
 #ifndef PLUGIN_LOADER_H
 #define PLUGIN_LOADER_H
@@ -16,18 +17,20 @@ struct loader;
 ps_result loader_create(struct loader **loader, struct error *error);
 void loader_destroy(struct loader *loader);
 
-/* Finds a strategy. The message of a failure lists every path that was tried and why each failed. Main thread. */
+/* Finds a strategy. The message of a failure lists every path that was tried and why each failed.
+ * Main thread. */
 ps_result loader_find(struct loader *loader, ps_kind kind, const char *name,
                       const ps_descriptor **descriptor, struct error *error);
 
-/* Calls visit for every strategy of a kind that can be found by name, in alphabetical order; a module that can't be
- * loaded is visited with a NULL descriptor and the reason. */
+/* Calls visit for every strategy of a kind that can be found by name, in alphabetical order; a
+ * module that can't be loaded is visited with a NULL descriptor and the reason. */
 typedef void (*loader_visit)(void *user, const char *name, const ps_descriptor *descriptor,
                              const char *problem);
 ps_result loader_list(struct loader *loader, ps_kind kind, loader_visit visit, void *user,
                       struct error *error);
 
-/* Whether a module may be used; on failure the message says what is wrong with it. For the loader, and for tests. */
+/* Whether a module may be used; on failure the message says what is wrong with it. For the loader,
+ * and for tests. */
 bool module_check(const ps_module *module, struct error *error);
 
 #endif

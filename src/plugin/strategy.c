@@ -64,6 +64,7 @@ void strategy_format(const struct strategy *strategy, char *text, size_t size)
         const ps_param *row = param_row(&table, i);
         char value[256];
         param_format(row, strategy->state, value, sizeof value);
-        used += (size_t)snprintf(text + used, size - used, "%c%s=%s", i ? ',' : ':', row->name, value);
+        used +=
+            (size_t)snprintf(text + used, size - used, "%c%s=%s", i ? ',' : ':', row->name, value);
     }
 }

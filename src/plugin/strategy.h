@@ -8,7 +8,7 @@
 
 struct strategy {
     const ps_descriptor *descriptor;
-    void *state;      /* owned */
+    void *state;         /* owned */
     const ps_host *host; /* set between strategy_start and strategy_stop */
 };
 

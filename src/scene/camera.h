@@ -6,8 +6,8 @@
 
 struct camera {
     ps_vec3 location;
-    ps_vec3 corner;        /* from the location to the picture's upper left corner, at distance 1 */
-    ps_vec3 across, down;  /* the picture's width and height there, one pixel long */
+    ps_vec3 corner;       /* from the location to the picture's upper left corner, at distance 1 */
+    ps_vec3 across, down; /* the picture's width and height there, one pixel long */
 };
 
 struct camera camera_from_description(const struct camera_description *description, size_t width,

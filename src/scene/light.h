@@ -1,7 +1,7 @@
 /* light.h: light sources: what they send out, and what they give to a point.
  *
- * A spotlight's edge is POV-Ray's: full intensity inside `radius`, none outside `falloff`, a smooth cubic
- * of the cosine in between.
+ * A spotlight's edge is POV-Ray's: full intensity inside `radius`, none outside `falloff`, a smooth
+ * cubic of the cosine in between.
  */
 #ifndef SCENE_LIGHT_H
 #define SCENE_LIGHT_H
@@ -10,8 +10,8 @@
 
 struct light {
     ps_vec3 location;
-    ps_vec3 axis;     /* unit; where a spot points */
-    ps_rgb intensity; /* W/sr */
+    ps_vec3 axis;                  /* unit; where a spot points */
+    ps_rgb intensity;              /* W/sr */
     float cos_radius, cos_falloff; /* -1 for a light that shines all around */
 };
 

@@ -4,8 +4,8 @@
 #include <psplat/math.h>
 #include <stdlib.h>
 
-/* Rays start this many units in the last place of the largest coordinate off their surface: enough for
- * the rounding of a hit point, too little to see. */
+/* Rays start this many units in the last place of the largest coordinate off their surface: enough
+ * for the rounding of a hit point, too little to see. */
 #define OFFSET_ULPS 32.0f
 
 static void *allocate_array(size_t count, size_t size)
@@ -49,8 +49,8 @@ static void create_lights(const struct scene_description *description, struct sc
         scene->light_cdf[i] = total;
     }
     for (size_t i = 0; i < scene->light_count; i++)
-        scene->light_cdf[i] = total > 0.0f ? scene->light_cdf[i] / total
-                                           : (float)(i + 1) / (float)scene->light_count;
+        scene->light_cdf[i] =
+            total > 0.0f ? scene->light_cdf[i] / total : (float)(i + 1) / (float)scene->light_count;
 }
 
 static void measure(struct scene *scene)

@@ -46,7 +46,8 @@ ps_result scene_create(const struct scene_description *description, struct scene
                        struct error *error);
 void scene_release(struct scene *scene);
 
-/* Chooses a light by power with u in [0,1); returns its index and probability. Needs light_count > 0. */
+/* Chooses a light by power with u in [0,1); returns its index and probability. Needs light_count >
+ * 0. */
 size_t scene_choose_light(const struct scene *scene, float u, float *probability);
 
 #endif

@@ -130,7 +130,8 @@ static void visit(const struct sort *sort, struct bin_chunk *chunk, uint32_t spl
     }
     uint32_t across = pyramid->across[level - 1], down = pyramid->down[level - 1];
     for (uint32_t y = row * PYRAMID_GROUP; y < (row + 1) * PYRAMID_GROUP && y < down; y++)
-        for (uint32_t x = column * PYRAMID_GROUP; x < (column + 1) * PYRAMID_GROUP && x < across; x++)
+        for (uint32_t x = column * PYRAMID_GROUP; x < (column + 1) * PYRAMID_GROUP && x < across;
+             x++)
             visit(sort, chunk, splat, level - 1, x, y);
 }
 
@@ -154,7 +155,8 @@ static void bin_part(void *user, uint64_t index, uint32_t worker)
     }
 }
 
-/* Turns counts into places: tile by tile, and within a tile part by part. Returns the number of pairs. */
+/* Turns counts into places: tile by tile, and within a tile part by part. Returns the number of
+ * pairs. */
 static size_t place_counts(struct bins *bins)
 {
     uint32_t place = 0;

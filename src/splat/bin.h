@@ -1,9 +1,10 @@
 /* bin.h: which splats touch which tiles.
  *
- * A pyramid of bounds over the tiles (4x4 children a node; box of positions and box of normals) is walked
- * for each splat, and a counting sort gathers the pairs by tile, in splat order. Tiled gathering with bins
- * was the fastest of the methods that Mara et al. 2013, "Toward practical real-time photon mapping",
- * compared; and since one thread owns a tile, it needs no atomics and the order of sums is fixed.
+ * A pyramid of bounds over the tiles (4x4 children a node; box of positions and box of normals) is
+ * walked for each splat, and a counting sort gathers the pairs by tile, in splat order. Tiled
+ * gathering with bins was the fastest of the methods that Mara et al. 2013, "Toward practical
+ * real-time photon mapping", compared; and since one thread owns a tile, it needs no atomics and
+ * the order of sums is fixed.
  */
 #ifndef SPLAT_BIN_H
 #define SPLAT_BIN_H
@@ -34,7 +35,8 @@ void pyramid_release(struct pyramid *pyramid);
 /* Bounds of what the tiles see now. */
 void pyramid_build(struct pyramid *pyramid, const struct gbuffer *gbuffer, uint32_t threads);
 
-/* Pairs of a batch of splats, sorted by tile: tile t has splats indices[offsets[t] .. offsets[t + 1]). */
+/* Pairs of a batch of splats, sorted by tile: tile t has splats indices[offsets[t] .. offsets[t +
+ * 1]). */
 struct bins {
     uint32_t *offsets; /* tile_count + 1, owned */
     uint32_t *indices; /* owned */

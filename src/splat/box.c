@@ -8,7 +8,8 @@
 
 enum step_back_rule { STEP_BACK_NUMBER = -1, STEP_BACK_AUTO = 0, STEP_BACK_FULL = 1 };
 
-/* The axes u, v turn by an angle of their own for each source, so that texel borders don't line up. */
+/* The axes u, v turn by an angle of their own for each source, so that texel borders don't line up.
+ */
 static void set_frame(const struct box_scene *scene, const ps_source *source, ps_splat *splat)
 {
     ps_vec3 u, v;
@@ -27,8 +28,9 @@ static float slope_of(float cosine)
     return fminf(sqrtf(fmaxf(0.0f, 1.0f - c * c)) / c, BOX_STEEPEST);
 }
 
-/* A full beam starts this far above the source's tangent plane, as a fraction of the half-width: a hollow
- * surface rises above its tangent plane, by R^2 / 2r at the beam's edge, and must not block its own light. */
+/* A full beam starts this far above the source's tangent plane, as a fraction of the half-width: a
+ * hollow surface rises above its tangent plane, by R^2 / 2r at the beam's edge, and must not block
+ * its own light. */
 #define CLEARANCE 0.125f
 
 /* The start plane of a full beam: the tangent plane of the source, moved off the surface. */
@@ -88,7 +90,8 @@ void box_cut(ps_splat *splat, const float *depths, uint32_t resolution)
 {
     float nearest = INFINITY, farthest = -INFINITY;
     for (uint32_t i = 0; i < resolution * resolution; i++) {
-        /* A ray that met nothing lights nothing in a full beam, and all of its depth in a closed box. */
+        /* A ray that met nothing lights nothing in a full beam, and all of its depth in a closed
+         * box. */
         if (splat->two_sided && !(depths[i] < INFINITY))
             continue;
         nearest = fminf(nearest, depths[i]);

@@ -4,12 +4,13 @@
  *
  *     u = d.U / R, v = d.V / R, t = d.W         position in the box
  *     k = profile(u^2 + v^2) * scale / R^2      the kernel K, 1/m^2, integrates to 1 over its disc
- *     lit where u^2 + v^2 < 1, near <= t <= far, n.W < 0, and t against the depth map within the bias
- *     irradiance += power * k * max(0, -n.W), weight += k
+ *     lit where u^2 + v^2 < 1, near <= t <= far, n.W < 0, and t against the depth map within the
+ * bias irradiance += power * k * max(0, -n.W), weight += k
  *
- * The cosine is there because K lies in the plane across the beam. No branches: masks, one gather from the depth
- * map and one from the profile, so that compilers turn the loop into 8 or 16 lanes. It is compiled once for
- * each instruction set (kernel_variant.c) and chosen at run time; a pixel's sum runs in splat order.
+ * The cosine is there because K lies in the plane across the beam. No branches: masks, one gather
+ * from the depth map and one from the profile, so that compilers turn the loop into 8 or 16 lanes.
+ * It is compiled once for each instruction set (kernel_variant.c) and chosen at run time; a pixel's
+ * sum runs in splat order.
  */
 #ifndef SPLAT_KERNEL_H
 #define SPLAT_KERNEL_H
@@ -50,8 +51,8 @@ struct kernel_variant {
 /* The variants that this processor can run, best first; the last is the baseline. */
 size_t kernel_variants(struct kernel_variant variants[4]);
 
-/* Tabulates a radial weight given at the KERNEL_PROFILE_SIZE midpoints and normalizes it. False when it is negative
- * or NaN somewhere or zero all over. */
+/* Tabulates a radial weight given at the KERNEL_PROFILE_SIZE midpoints and normalizes it. False
+ * when it is negative or NaN somewhere or zero all over. */
 int kernel_profile_normalize(struct kernel_profile *profile);
 
 /* Squared radius of entry i. */

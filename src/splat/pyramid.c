@@ -5,7 +5,6 @@
 #include <psplat/math.h>
 #include <stdlib.h>
 
-
 static const struct pyramid_node nothing = {
     .extent = {-1, -1, -1},
 };
@@ -28,7 +27,8 @@ ps_result pyramid_create(const struct gbuffer *gbuffer, struct pyramid *pyramid,
         down = (down + PYRAMID_GROUP - 1) / PYRAMID_GROUP;
     }
     pyramid->nodes = malloc(count * sizeof *pyramid->nodes);
-    return pyramid->nodes ? PS_OK : error_memory(error, count * sizeof *pyramid->nodes, "tile bounds");
+    return pyramid->nodes ? PS_OK
+                          : error_memory(error, count * sizeof *pyramid->nodes, "tile bounds");
 }
 
 void pyramid_release(struct pyramid *pyramid)
@@ -98,9 +98,10 @@ static void bound_group(struct pyramid *pyramid, int level, uint32_t column, uin
 {
     const struct pyramid_node *children = pyramid->nodes + pyramid->first[level - 1];
     struct bounds bounds = empty_bounds;
-    for (uint32_t y = row * PYRAMID_GROUP; y < (row + 1) * PYRAMID_GROUP && y < pyramid->down[level - 1]; y++)
-        for (uint32_t x = column * PYRAMID_GROUP; x < (column + 1) * PYRAMID_GROUP && x < pyramid->across[level - 1];
-             x++) {
+    for (uint32_t y = row * PYRAMID_GROUP;
+         y < (row + 1) * PYRAMID_GROUP && y < pyramid->down[level - 1]; y++)
+        for (uint32_t x = column * PYRAMID_GROUP;
+             x < (column + 1) * PYRAMID_GROUP && x < pyramid->across[level - 1]; x++) {
             const struct pyramid_node *child = &children[y * pyramid->across[level - 1] + x];
             if (child->extent.x < 0)
                 continue;

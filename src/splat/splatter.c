@@ -77,7 +77,8 @@ struct batch {
     uint64_t *useful; /* per tile */
 };
 
-/* Fills the maps of up to MAP_CHUNK splats, cuts the splats to them, and prepares the kernel's input. */
+/* Fills the maps of up to MAP_CHUNK splats, cuts the splats to them, and prepares the kernel's
+ * input. */
 static void map_chunk(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
@@ -110,10 +111,9 @@ static void splat_tile(void *user, uint64_t index, uint32_t worker)
     struct splatter *splatter = batch->splatter;
     const struct bins *bins = &splatter->bins;
     size_t first = bins->offsets[index], n = bins->offsets[index + 1] - first;
-    batch->useful[index] +=
-        splatter->accumulate(&splatter->gbuffer->tiles[index], splatter->prepared,
-                             bins->indices + first, n, splatter->resolution ? splatter->resolution : 1,
-                             &splatter->profile);
+    batch->useful[index] += splatter->accumulate(
+        &splatter->gbuffer->tiles[index], splatter->prepared, bins->indices + first, n,
+        splatter->resolution ? splatter->resolution : 1, &splatter->profile);
 }
 
 static ps_result add_batch(const struct batch *batch, struct error *error)

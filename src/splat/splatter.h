@@ -1,7 +1,7 @@
 /* splatter.h: adds the light of a batch of splats to the tiles: maps, bins, kernel.
  *
- * Memory is bounded: splats go through in batches whose depth maps fit a fixed budget. The result does not
- * depend on the batches nor on the threads: every pixel adds its splats in their order.
+ * Memory is bounded: splats go through in batches whose depth maps fit a fixed budget. The result
+ * does not depend on the batches nor on the threads: every pixel adds its splats in their order.
  */
 #ifndef SPLAT_SPLATTER_H
 #define SPLAT_SPLATTER_H

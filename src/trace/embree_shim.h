@@ -1,7 +1,7 @@
 /* embree_shim.h: the part of Embree that psplat uses, the same for Embree 3.13 and 4.
  *
- * Embree 4 renamed the query context, moved its flags to an arguments struct and changed the order of
- * arguments; everything else in use is alike.
+ * Embree 4 renamed the query context, moved its flags to an arguments struct and changed the order
+ * of arguments; everything else in use is alike.
  */
 #ifndef TRACE_EMBREE_SHIM_H
 #define TRACE_EMBREE_SHIM_H
@@ -35,8 +35,8 @@ static inline void shim_intersect16(const int *valid, RTCScene scene, struct RTC
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                             : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    context.flags =
+        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     rtcIntersect16(valid, scene, &context, rays);
 }
 
@@ -45,8 +45,8 @@ static inline void shim_occluded16(const int *valid, RTCScene scene, struct RTCR
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                             : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    context.flags =
+        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     rtcOccluded16(valid, scene, &context, rays);
 }
 #endif

@@ -1,9 +1,10 @@
 /* trace.c: Embree behind trace.h.
  *
- * Rays go in packets of 16, also incoherent ones: faster than one by one on processors with vectors of 8
- * or 16, and bit for bit the same. ROBUST scene: splat maps send grids of parallel rays along edges, which
- * the fast mode lets slip through. The structure is built by one thread: a parallel build may order
- * leaves differently for another number of threads, and then rays that tie choose other triangles.
+ * Rays go in packets of 16, also incoherent ones: faster than one by one on processors with vectors
+ * of 8 or 16, and bit for bit the same. ROBUST scene: splat maps send grids of parallel rays along
+ * edges, which the fast mode lets slip through. The structure is built by one thread: a parallel
+ * build may order leaves differently for another number of threads, and then rays that tie choose
+ * other triangles.
  */
 #include "trace/trace.h"
 
@@ -175,10 +176,9 @@ static ps_hit resolve(const struct trace *trace, const ps_ray *ray, const struct
         normal = ps_scale(normal, -1.0f);
     float distance = hits->ray.tfar[lane];
     return (ps_hit){
-        .position = shape->kind == SHAPE_MESH
-                        ? mesh_position(shape, hits->hit.primID[lane], hits->hit.u[lane],
-                                        hits->hit.v[lane])
-                        : sphere_position(shape, ray, distance),
+        .position = shape->kind == SHAPE_MESH ? mesh_position(shape, hits->hit.primID[lane],
+                                                              hits->hit.u[lane], hits->hit.v[lane])
+                                              : sphere_position(shape, ray, distance),
         .distance = distance,
         .normal = normal,
         .object = geometry,

@@ -1,7 +1,7 @@
 /* trace.h: ray queries against a scene. The only module that knows Embree.
  *
- * All queries may run on any number of threads at once, and a ray's answer does not depend on the rays
- * that travel beside it.
+ * All queries may run on any number of threads at once, and a ray's answer does not depend on the
+ * rays that travel beside it.
  */
 #ifndef TRACE_TRACE_H
 #define TRACE_TRACE_H

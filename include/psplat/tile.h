@@ -1,0 +1,38 @@
+/* tile.h: the pixels of a tile as lists, for estimators that work point by point. */
+#ifndef PSPLAT_TILE_H
+#define PSPLAT_TILE_H
+
+#include <psplat/types.h>
+
+/* The pixels of a tile that see a surface. */
+typedef struct ps_points {
+    size_t count;
+    ps_vec3 positions[PS_TILE_PIXELS], normals[PS_TILE_PIXELS];
+    uint32_t lanes[PS_TILE_PIXELS]; /* where in the tile each point is */
+} ps_points;
+
+static inline void ps_collect_points(const ps_tile *tile, ps_points *points)
+{
+    points->count = 0;
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        if (tile->object[lane] == PS_NO_OBJECT)
+            continue;
+        size_t i = points->count++;
+        points->positions[i] =
+            (ps_vec3){tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
+        points->normals[i] =
+            (ps_vec3){tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
+        points->lanes[i] = lane;
+    }
+}
+
+/* Adds irradiance (W/m^2), and weight 1, to a pixel of a tile. */
+static inline void ps_add_irradiance(ps_tile *tile, uint32_t lane, ps_rgb irradiance)
+{
+    tile->irradiance_r[lane] += irradiance.r;
+    tile->irradiance_g[lane] += irradiance.g;
+    tile->irradiance_b[lane] += irradiance.b;
+    tile->weight[lane] += 1.0f;
+}
+
+#endif

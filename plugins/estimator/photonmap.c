@@ -1,0 +1,378 @@
+/* photonmap.c: photon mapping, the reference of the thesis (Hoet 2014, section 4.5).
+ *
+ * Jensen 1996. Every source is traced to the surface it lights and stored there as a photon; at
+ * each pixel the k nearest photons estimate the irradiance, with r the distance of the k-th:
+ *
+ *     E(p) = sum over photons nearer than r of Phi * w(d / r) / (pi r^2 W),   W = 2 * integral of
+ * w(s) s ds
+ *
+ * No cosine: the photons' density in the surface already falls with the slope of the light, unlike
+ * a splat's kernel, which lies across the beam. The k-th photon sets r and is not counted itself,
+ * or the estimate would be k / (k - 1) too large. Neighbourhoods are discs: photons off the tangent
+ * plane weigh less, and those that arrive from behind the surface nothing.
+ *
+ * With `gather`, photons stay where the sources are, with the power that leaves the surface, and
+ * the estimate is looked up where cosine-distributed rays from the pixel land (final gather).
+ *
+ * FLANN's single kd-tree is exact and deterministic; its default parameters are neither. Its
+ * searches only read the index, and the one global that a call touches is the log level, always
+ * with the same value, so tiles are searched on all threads at once.
+ */
+#include <psplat/plugin.h>
+
+#include <flann/flann.h>
+#include <limits.h>
+#include <string.h>
+
+#define LEAF_SIZE 16
+#define FLATNESS 0.25f /* photons higher above the tangent plane than this times r do not count */
+
+enum filter { FILTER_BOX, FILTER_CONE, FILTER_GAUSSIAN };
+static const char *const filter_choices[] = {"box", "cone", "gaussian", NULL};
+static const char *const radius_choices[] = {"none", NULL};
+
+struct state {
+    int64_t neighbours;
+    ps_number_or_choice max_radius;
+    int32_t filter;
+    int64_t gather;
+};
+
+struct photon {
+    ps_vec3 direction; /* of arrival */
+    ps_vec3 normal;    /* of the surface it lies on */
+    ps_rgb power;      /* W */
+};
+
+struct map {
+    float *positions; /* three for each photon: what FLANN searches */
+    struct photon *photons;
+    size_t count, capacity;
+    flann_index_t index;
+    struct FLANNParameters parameters;
+    int neighbours; /* at most count */
+};
+
+struct work {
+    const struct state *state;
+    const ps_host *host;
+    const ps_pass *pass;
+    const struct map *map;
+    int *indices;     /* neighbours of a tile's points, for each worker */
+    float *distances; /* squared */
+};
+
+static void map_release(const ps_host *host, struct map *map)
+{
+    if (map->index)
+        flann_free_index_float(map->index, &map->parameters);
+    host->release(host, map->positions);
+    host->release(host, map->photons);
+}
+
+static ps_result map_reserve(const ps_host *host, struct map *map, size_t more)
+{
+    if (map->count + more <= map->capacity)
+        return PS_OK;
+    size_t capacity = 2 * map->capacity + more;
+    float *positions = host->allocate(host, capacity * 3 * sizeof *positions, "photons");
+    struct photon *photons = host->allocate(host, capacity * sizeof *photons, "photons");
+    if (!positions || !photons) {
+        host->release(host, positions);
+        host->release(host, photons);
+        return PS_ERROR_MEMORY;
+    }
+    if (map->count) {
+        memcpy(positions, map->positions, map->count * 3 * sizeof *positions);
+        memcpy(photons, map->photons, map->count * sizeof *photons);
+    }
+    host->release(host, map->positions);
+    host->release(host, map->photons);
+    map->positions = positions;
+    map->photons = photons;
+    map->capacity = capacity;
+    return PS_OK;
+}
+
+static void map_add(struct map *map, ps_vec3 position, ps_vec3 normal, ps_vec3 direction,
+                    ps_rgb power)
+{
+    float *to = map->positions + 3 * map->count;
+    to[0] = position.x;
+    to[1] = position.y;
+    to[2] = position.z;
+    map->photons[map->count++] = (struct photon){direction, normal, power};
+}
+
+/* Where the light of sources arrives. */
+static void store_arrivals(const ps_host *host, const ps_pass *pass, const ps_source *sources,
+                           size_t n, struct map *map)
+{
+    ps_ray rays[PS_PATH_CHUNK];
+    ps_hit hits[PS_PATH_CHUNK];
+    for (size_t i = 0; i < n; i++) {
+        ps_vec3 origin =
+            ps_add_scaled(sources[i].position, pass->surface_offset, sources[i].normal);
+        rays[i] = (ps_ray){origin, 0, sources[i].direction, INFINITY};
+    }
+    host->intersect(host, rays, n, hits);
+    for (size_t i = 0; i < n; i++)
+        if (hits[i].distance < INFINITY)
+            map_add(map, hits[i].position, hits[i].normal, sources[i].direction, sources[i].power);
+}
+
+/* Where it leaves: the direction does not matter then. */
+static void store_departures(const ps_source *sources, size_t n, struct map *map)
+{
+    for (size_t i = 0; i < n; i++)
+        map_add(map, sources[i].position, sources[i].normal, ps_scale(sources[i].normal, -1.0f),
+                sources[i].power);
+}
+
+static ps_result store_photons(const struct state *state, const ps_host *host, const ps_pass *pass,
+                               struct map *map)
+{
+    const ps_source *sources;
+    size_t n;
+    double progress;
+    ps_result result;
+    do {
+        result = host->next_sources(host, &sources, &n, &progress);
+        if (result == PS_OK)
+            result = map_reserve(host, map, n);
+        for (size_t first = 0; result == PS_OK && first < n; first += PS_PATH_CHUNK) {
+            size_t count = n - first < PS_PATH_CHUNK ? n - first : PS_PATH_CHUNK;
+            if (state->gather)
+                store_departures(sources + first, count, map);
+            else
+                store_arrivals(host, pass, sources + first, count, map);
+        }
+    } while (result == PS_OK && n > 0);
+    return result;
+}
+
+/* Builds the tree; a map of no photons has none. */
+static ps_result map_build(const struct state *state, struct map *map)
+{
+    if (map->count == 0 || map->count > INT_MAX)
+        return map->count ? PS_ERROR_INVALID : PS_OK;
+    map->parameters = DEFAULT_FLANN_PARAMETERS;
+    map->parameters.algorithm = FLANN_INDEX_KDTREE_SINGLE;
+    map->parameters.leaf_max_size = LEAF_SIZE;
+    map->parameters.checks = -1; /* exact */
+    map->parameters.sorted = 1;
+    map->parameters.cores = 1;
+    map->parameters.random_seed = 0;
+    float speedup;
+    map->index =
+        flann_build_index_float(map->positions, (int)map->count, 3, &speedup, &map->parameters);
+    /* One more than counts: the farthest sets the radius. Asking for more than there are leaves
+     * rubbish. */
+    size_t wanted = (size_t)state->neighbours + 1;
+    map->neighbours = (int)(wanted < map->count ? wanted : map->count);
+    return map->index ? PS_OK : PS_ERROR_MEMORY;
+}
+
+/* Weight at squared relative radius s, and its mean over the disc. */
+static float filter_weight(int32_t filter, float s)
+{
+    switch (filter) {
+    case FILTER_CONE:
+        return 1.0f - sqrtf(s);
+    case FILTER_GAUSSIAN:
+        return expf(-2.0f * s);
+    default:
+        return 1.0f;
+    }
+}
+
+static float filter_mean(int32_t filter)
+{
+    switch (filter) {
+    case FILTER_CONE:
+        return 1.0f / 3.0f;
+    case FILTER_GAUSSIAN:
+        return 0.5f * (1.0f - expf(-2.0f));
+    default:
+        return 1.0f;
+    }
+}
+
+/* Irradiance at a point from its neighbours in order of distance. */
+static ps_rgb estimate(const struct work *work, ps_vec3 position, ps_vec3 normal,
+                       const int *indices, const float *distances)
+{
+    const struct state *state = work->state;
+    const struct map *map = work->map;
+    int count = map->neighbours - 1;
+    float radius2 = distances[count];
+    if (state->max_radius.choice < 0) {
+        float limit2 = (float)(state->max_radius.number * state->max_radius.number);
+        if (radius2 > limit2)
+            radius2 = limit2;
+    }
+    ps_rgb sum = {0, 0, 0};
+    float highest = FLATNESS * sqrtf(radius2);
+    for (int i = 0; i < count && distances[i] < radius2; i++) {
+        const struct photon *photon = &map->photons[indices[i]];
+        const float *at = map->positions + 3 * (size_t)indices[i];
+        ps_vec3 offset = {at[0] - position.x, at[1] - position.y, at[2] - position.z};
+        float height = fabsf(ps_dot(offset, normal)) / highest;
+        int behind = ps_dot(photon->direction, normal) >= 0 || ps_dot(photon->normal, normal) <= 0;
+        if (behind || !(height < 1.0f))
+            continue;
+        float weight = (1.0f - height) * filter_weight(state->filter, distances[i] / radius2);
+        sum = ps_rgb_add(sum, ps_rgb_scale(photon->power, weight));
+    }
+    float area = PS_PI * radius2 * filter_mean(state->filter);
+    return radius2 > 0.0f ? ps_rgb_scale(sum, 1.0f / area) : (ps_rgb){0, 0, 0};
+}
+
+/* Irradiance at up to PS_TILE_PIXELS points. */
+static void estimate_points(const struct work *work, uint32_t worker, const ps_vec3 *positions,
+                            const ps_vec3 *normals, size_t n, ps_rgb *irradiance)
+{
+    const struct map *map = work->map;
+    size_t room = (size_t)PS_TILE_PIXELS * (size_t)map->neighbours * worker;
+    int *indices = work->indices + room;
+    float *distances = work->distances + room;
+    float queries[3 * PS_TILE_PIXELS];
+    for (size_t i = 0; i < n; i++) {
+        queries[3 * i] = positions[i].x;
+        queries[3 * i + 1] = positions[i].y;
+        queries[3 * i + 2] = positions[i].z;
+    }
+    struct FLANNParameters parameters = map->parameters;
+    if (n > 0)
+        flann_find_nearest_neighbors_index_float(map->index, queries, (int)n, indices, distances,
+                                                 map->neighbours, &parameters);
+    for (size_t i = 0; i < n; i++)
+        irradiance[i] =
+            estimate(work, positions[i], normals[i], indices + i * (size_t)map->neighbours,
+                     distances + i * (size_t)map->neighbours);
+}
+
+static void estimate_tile(void *user, uint64_t index, uint32_t worker)
+{
+    const struct work *work = user;
+    ps_tile *tile = work->host->tile(work->host, (uint32_t)index);
+    ps_points points;
+    ps_rgb irradiance[PS_TILE_PIXELS];
+    ps_collect_points(tile, &points);
+    estimate_points(work, worker, points.positions, points.normals, points.count, irradiance);
+    for (size_t i = 0; i < points.count; i++)
+        ps_add_irradiance(tile, points.lanes[i], irradiance[i]);
+}
+
+/* One ray of the final gather from each point: adds the exitance (W/m^2) where it lands. */
+static void gather_once(const struct work *work, uint32_t worker, const ps_points *points,
+                        const uint64_t *samples, ps_rgb *sums)
+{
+    const ps_host *host = work->host;
+    float numbers[PS_TILE_PIXELS][4];
+    ps_ray rays[PS_TILE_PIXELS];
+    ps_hit hits[PS_TILE_PIXELS];
+    ps_vec3 positions[PS_TILE_PIXELS], normals[PS_TILE_PIXELS];
+    ps_rgb exitance[PS_TILE_PIXELS];
+    size_t targets[PS_TILE_PIXELS], met = 0;
+    host->samples(host, PS_STREAM_PATH, 0, samples, points->count, numbers);
+    for (size_t i = 0; i < points->count; i++) {
+        ps_vec3 n = points->normals[i];
+        ps_vec3 origin = ps_add_scaled(points->positions[i], work->pass->surface_offset, n);
+        rays[i] =
+            (ps_ray){origin, 0, ps_cosine_direction(n, numbers[i][0], numbers[i][1]), INFINITY};
+    }
+    host->intersect(host, rays, points->count, hits);
+    for (size_t i = 0; i < points->count; i++) {
+        if (!(hits[i].distance < INFINITY))
+            continue;
+        positions[met] = hits[i].position;
+        normals[met] = hits[i].normal;
+        targets[met++] = i;
+    }
+    estimate_points(work, worker, positions, normals, met, exitance);
+    for (size_t i = 0; i < met; i++)
+        sums[targets[i]] = ps_rgb_add(sums[targets[i]], exitance[i]);
+}
+
+static void gather_tile(void *user, uint64_t index, uint32_t worker)
+{
+    const struct work *work = user;
+    int64_t rays = work->state->gather;
+    ps_tile *tile = work->host->tile(work->host, (uint32_t)index);
+    ps_points points;
+    uint64_t samples[PS_TILE_PIXELS] = {0};
+    ps_rgb sums[PS_TILE_PIXELS] = {{0, 0, 0}};
+    ps_collect_points(tile, &points);
+    for (int64_t ray = 0; ray < rays; ray++) {
+        uint64_t sample = (uint64_t)work->pass->number * (uint64_t)rays + (uint64_t)ray;
+        for (size_t i = 0; i < points.count; i++)
+            samples[i] = ((index * PS_TILE_PIXELS + points.lanes[i]) << 24) + sample;
+        gather_once(work, worker, &points, samples, sums);
+    }
+    for (size_t i = 0; i < points.count; i++)
+        ps_add_irradiance(tile, points.lanes[i], ps_rgb_scale(sums[i], 1.0f / (float)rays));
+}
+
+static ps_result search(const struct state *state, const ps_host *host, const ps_pass *pass,
+                        const struct map *map)
+{
+    size_t room = (size_t)pass->thread_count * PS_TILE_PIXELS * (size_t)map->neighbours;
+    struct work work = {state,
+                        host,
+                        pass,
+                        map,
+                        host->allocate(host, room * sizeof(int), "photon queries"),
+                        host->allocate(host, room * sizeof(float), "photon queries")};
+    ps_result result = PS_ERROR_MEMORY;
+    if (work.indices && work.distances)
+        result = host->for_each_tile(host, state->gather ? gather_tile : estimate_tile, &work);
+    host->release(host, work.indices);
+    host->release(host, work.distances);
+    return result;
+}
+
+static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pass *pass)
+{
+    const struct state *state = opaque;
+    struct map map = {.count = 0};
+    ps_result result = store_photons(state, host, pass, &map);
+    if (result == PS_OK)
+        result = map_build(state, &map);
+    if (map.index)
+        host->count(host, "photon tree bytes", (double)flann_used_memory_float(map.index));
+    host->count(host, "photons", (double)map.count);
+    /* One photon can't tell a density. */
+    if (result == PS_OK && map.count > 1)
+        result = search(state, host, pass, &map);
+    map_release(host, &map);
+    return result;
+}
+
+static const ps_param params[] = {
+    PS_INT(struct state, neighbours, "100", 1, 100000, "photons",
+           "photons that an estimate is made of"),
+    PS_NUMBER_OR(struct state, max_radius, "none", 0, INFINITY, PS_PARAM_OPEN_MIN, radius_choices,
+                 "scene units", "photons farther away than this do not count"),
+    PS_CHOICE(struct state, filter, "cone", filter_choices, "radial weight of the photons"),
+    PS_INT(struct state, gather, "0", 0, 1 << 20, "rays",
+           "rays of the final gather for each pixel and pass; 0: look up at the pixel itself"),
+};
+
+static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};
+
+static const ps_descriptor descriptor = {
+    .size = sizeof descriptor,
+    .kind = PS_ESTIMATOR,
+    .name = "photonmap",
+    .version = "1.0",
+    .summary = "photon mapping with exact nearest neighbours: the reference of the thesis",
+    .paper = "Jensen 1996, Global illumination using photon maps; Muja and Lowe 2009 (FLANN)",
+    .params = params,
+    .param_count = sizeof params / sizeof params[0],
+    .param_size = sizeof params[0],
+    .state_size = sizeof(struct state),
+    .vtable = &vtable,
+};
+
+PS_MODULE(estimator, photonmap, &descriptor)

@@ -1,0 +1,112 @@
+#include "compare/picture_pair.h"
+
+#include <math.h>
+#include <string.h>
+
+static ps_result check_alike(const struct picture_pair *pair, const char *const paths[2],
+                             const struct layer layers[2], struct error *error)
+{
+    const struct image *a = &pair->images[0], *b = &pair->images[1];
+    if (a->width != b->width || a->height != b->height)
+        return error_set(error, PS_ERROR_INVALID,
+                         "the pictures differ in size: '%s' is %zux%zu, '%s' is %zux%zu", paths[0],
+                         a->width, a->height, paths[1], b->width, b->height);
+    if (layers[0].kind != layers[1].kind)
+        return error_set(error, PS_ERROR_INVALID,
+                         "the layer's channels differ: it begins with '%s' in '%s', '%s' in '%s'",
+                         layers[0].names[0], paths[0], layers[1].names[0], paths[1]);
+    return PS_OK;
+}
+
+ps_result picture_pair_read(struct picture_pair *pair, const char *reference_path,
+                            const char *test_path, const char *layer, struct error *error)
+{
+    const char *const paths[2] = {reference_path, test_path};
+    struct layer layers[2];
+    for (int i = 0; i < 2; i++) {
+        ps_result result = image_read_exr(paths[i], &pair->images[i], error);
+        if (result == PS_OK)
+            result = layer_find(&pair->images[i], paths[i], layer, &layers[i], error);
+        if (result != PS_OK)
+            return result;
+    }
+    pair->width = pair->images[0].width;
+    pair->height = pair->images[0].height;
+    pair->channel_count = layers[0].channel_count;
+    for (size_t c = 0; c < pair->channel_count; c++) {
+        pair->names[c] = layers[0].names[c];
+        pair->reference[c] = layers[0].planes[c];
+        pair->test[c] = layers[1].planes[c];
+    }
+    return check_alike(pair, paths, layers, error);
+}
+
+void picture_pair_release(struct picture_pair *pair)
+{
+    image_release(&pair->images[0]);
+    image_release(&pair->images[1]);
+    *pair = (struct picture_pair){0};
+}
+
+static void crop_plane(float *plane, size_t width, struct rectangle crop)
+{
+    for (size_t y = 0; y < crop.height; y++)
+        memmove(plane + y * crop.width, plane + (crop.y + y) * width + crop.x,
+                crop.width * sizeof *plane);
+}
+
+ps_result picture_pair_crop(struct picture_pair *pair, struct rectangle crop, struct error *error)
+{
+    if (crop.width == 0 || crop.height == 0 || crop.x >= pair->width || crop.y >= pair->height ||
+        crop.width > pair->width - crop.x || crop.height > pair->height - crop.y)
+        return error_set(
+            error, PS_ERROR_INVALID,
+            "the crop %zu,%zu,%zu,%zu is empty or reaches beyond the pictures' %zux%zu", crop.x,
+            crop.y, crop.width, crop.height, pair->width, pair->height);
+    for (size_t c = 0; c < pair->channel_count; c++) {
+        crop_plane(pair->reference[c], pair->width, crop);
+        crop_plane(pair->test[c], pair->width, crop);
+    }
+    pair->width = crop.width;
+    pair->height = crop.height;
+    pair->left += crop.x;
+    pair->top += crop.y;
+    return PS_OK;
+}
+
+static ps_result check_planes(const struct picture_pair *pair, float *const planes[3],
+                              const char *which, struct error *error)
+{
+    size_t pixels = pair->width * pair->height, count = 0, first = 0, channel = 0;
+    for (size_t i = 0; i < pixels; i++)
+        for (size_t c = 0; c < pair->channel_count; c++)
+            if (!isfinite(planes[c][i]) && count++ == 0) {
+                first = i;
+                channel = c;
+            }
+    if (count == 0)
+        return PS_OK;
+    return error_set(error, PS_ERROR_INVALID,
+                     "%s holds %zu sample%s that %s NaN or infinite, the first (%g) in channel "
+                     "'%s' at x=%zu, y=%zu",
+                     which, count, count == 1 ? "" : "s", count == 1 ? "is" : "are",
+                     (double)planes[channel][first], pair->names[channel],
+                     pair->left + first % pair->width, pair->top + first / pair->width);
+}
+
+ps_result picture_pair_check_finite(const struct picture_pair *pair, struct error *error)
+{
+    ps_result result = check_planes(pair, pair->reference, "the reference", error);
+    return result == PS_OK ? check_planes(pair, pair->test, "the test picture", error) : result;
+}
+
+ps_result picture_pair_check_reference(const struct picture_pair *pair, const char *what,
+                                       struct error *error)
+{
+    for (size_t c = 0; c < pair->channel_count; c++)
+        for (size_t i = 0; i < pair->width * pair->height; i++)
+            if (pair->reference[c][i] != 0.0f)
+                return PS_OK;
+    return error_set(error, PS_ERROR_INVALID,
+                     "the reference is zero everywhere: %s, a ratio to it, is undefined", what);
+}

@@ -1,0 +1,36 @@
+/* picture_pair.h: two pictures of one size, plane by plane: what metrics are functions of. */
+#ifndef COMPARE_PICTURE_PAIR_H
+#define COMPARE_PICTURE_PAIR_H
+
+#include "compare/layer.h"
+
+struct rectangle {
+    size_t x, y, width, height; /* pixels; the corner is the upper left */
+};
+
+/* Zero-initialise before reading; release whatever came of it. */
+struct picture_pair {
+    size_t width, height;
+    size_t left, top; /* of the crop in the pictures read */
+    size_t channel_count;
+    const char *names[3];          /* of the channels */
+    float *reference[3], *test[3]; /* planes of width * height, linear */
+    struct image images[2];        /* own what the pointers point to */
+};
+
+/* Fails where a file can't be read, lacks the layer (NULL: R, G, B), or the sizes differ. */
+ps_result picture_pair_read(struct picture_pair *pair, const char *reference_path,
+                            const char *test_path, const char *layer, struct error *error);
+void picture_pair_release(struct picture_pair *pair);
+
+/* Leaves only a part of both pictures; fails where it reaches beyond them. */
+ps_result picture_pair_crop(struct picture_pair *pair, struct rectangle crop, struct error *error);
+
+/* Fails where a picture holds NaN or infinities, and says how many and where the first is. */
+ps_result picture_pair_check_finite(const struct picture_pair *pair, struct error *error);
+
+/* Fails where the reference is zero everywhere; `what` is the ratio that it leaves undefined. */
+ps_result picture_pair_check_reference(const struct picture_pair *pair, const char *what,
+                                       struct error *error);
+
+#endif

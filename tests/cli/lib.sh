@@ -1,0 +1,141 @@
+# lib.sh: what the command-line tests share. A test starts with
+#
+#     . "$PSPLAT_SOURCE/tests/cli/lib.sh"
+#
+# and ends with `finish`. It runs in an empty folder of its own that goes away with it. Checks print
+# what is wrong and go on, so that one run shows all.
+
+: "${PSPLAT:?the program under test}" "${PSPLAT_SOURCE:?the source tree}"
+: "${PSPLAT_BUILD:?the build tree}"
+CC=${PSPLAT_CC:-cc}
+LC_ALL=C
+export LC_ALL
+unset PSPLAT_PLUGIN_PATH CDPATH
+failures=0
+last=
+
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+trap 'exit 1' HUP INT TERM
+cd "$scratch" || exit 1
+
+cornell=$PSPLAT_SOURCE/scenes/cornell.psd
+small="--size 48x27 --plugin injection=photon:count=500"
+
+fail() {
+    echo "FAILED: $*"
+    [ -z "$last" ] || echo "    after: $last"
+    failures=$((failures + 1))
+}
+
+skip() {
+    echo "skipped: $*"
+    exit 77
+}
+
+finish() {
+    [ "$failures" -eq 0 ] || echo "$failures checks failed"
+    [ "$failures" -eq 0 ]
+    exit
+}
+
+# run STATUS WORD...: runs psplat into the files `out` and `err`, and expects that exit status.
+run() {
+    expected=$1
+    shift
+    last="psplat $*"
+    "$PSPLAT" "$@" >out 2>err </dev/null
+    check_status $? "$expected"
+}
+
+# For a program that ran into `out` and `err`: its status, and that no sanitizer spoke.
+check_status() {
+    if [ "$1" -ne "$2" ]; then
+        fail "exit status $1, expected $2"
+        sed 's/^/    err: /' err
+    fi
+    if grep -qE 'Sanitizer|runtime error:' err; then
+        fail "a sanitizer found something"
+        sed 's/^/    err: /' err
+    fi
+}
+
+# expect_text FILE TEXT: some line of the file holds the text.
+expect_text() {
+    grep -qF -e "$2" "$1" && return
+    fail "no '$2' in $1:"
+    sed 's/^/    /' "$1"
+}
+
+# expect_match FILE EXPRESSION: some line of the file matches the extended regular expression.
+expect_match() {
+    grep -qE -e "$2" "$1" && return
+    fail "nothing like '$2' in $1:"
+    sed 's/^/    /' "$1"
+}
+
+expect_no_text() {
+    grep -qF -e "$2" "$1" || return 0
+    fail "'$2' in $1:"
+    sed 's/^/    /' "$1"
+}
+
+expect_empty() {
+    [ -s "$1" ] || return 0
+    fail "$1 is not empty:"
+    sed 's/^/    /' "$1"
+}
+
+expect_same() {
+    cmp -s "$1" "$2" || fail "$1 and $2 differ"
+}
+
+expect_different() {
+    [ -s "$1" ] && [ -s "$2" ] || fail "$1 or $2 is empty or not there"
+    cmp -s "$1" "$2" && fail "$1 and $2 are the same"
+    return 0
+}
+
+# expect_picture FILE...: whole files of the format that their suffix names.
+expect_picture() {
+    for picture; do
+        case $picture in
+        *.png) magic='89504e47' ;;
+        *) magic='762f3101' ;;
+        esac
+        [ -s "$picture" ] || fail "no picture $picture"
+        [ "$(head -c 4 "$picture" | od -An -tx1 | tr -d ' \n')" = "$magic" ] ||
+            fail "$picture does not begin as a picture does"
+    done
+}
+
+# expect_files NAME...: these, and no others (hidden ones too), lie in the folder `new`.
+expect_files() {
+    found=$(ls -A new | sort | tr '\n' ' ')
+    wanted=$(for name; do echo "$name"; done | sort | tr '\n' ' ')
+    [ "$found" = "$wanted" ] || fail "files '$found', expected '$wanted'"
+}
+
+# The cache's answer to an option of the build.
+build_option() {
+    sed -n "s/^$1:[A-Z]*=//p" "$PSPLAT_BUILD/CMakeCache.txt"
+}
+
+is_on() {
+    case $(build_option "$1") in
+    ON | on | 1 | TRUE | YES) return 0 ;;
+    *) return 1 ;;
+    esac
+}
+
+# compile_module INCLUDE SOURCE OUTPUT [FLAG...]
+compile_module() {
+    include=$1 source=$2 output=$3
+    shift 3
+    sanitize=
+    ! is_on PSPLAT_SANITIZE || sanitize=-fsanitize=address,undefined
+    # shellcheck disable=SC2086
+    "$CC" -std=c11 -Wall -Wextra -Wpedantic -Wshadow -Werror $sanitize ${PSPLAT_CFLAGS:-} "$@" \
+        -shared -fPIC -I "$include" -o "$output" "$source" -lm 2>compiler ||
+        { fail "can't compile $source"; sed 's/^/    /' compiler; }
+}

@@ -1,0 +1,83 @@
+# psplat check: good scenes say nothing, bad ones say where.
+. "$PSPLAT_SOURCE/tests/cli/lib.sh"
+
+run 0 check "$cornell"
+expect_empty out
+expect_empty err
+for scene in "$PSPLAT_SOURCE"/scenes/*.psd; do
+    run 0 check "$scene"
+done
+
+cat >bad.psd <<'END'
+psd: 1
+camera: {location: [0, 1, 5], look_at: [0, 0, 0]}
+materials:
+  grey: {diffuse: 0.5}
+lights:
+  - spotlight:
+      location: [0, 4, 0]
+      point_at: [0, 0, 0]
+      radios: 20
+      intensity: 10
+objects:
+  - sphere: {center: [0, 0, 0], radius: -1, material: gray}
+END
+run 2 check bad.psd
+expect_empty out
+expect_text err "bad.psd:9:7: error: unknown key 'radios' in spotlight; did you mean 'radius'?"
+expect_text err "    9 |       radios: 20"
+expect_text err "      |       ^~~~~~"
+expect_text err "bad.psd:12:"
+expect_text err "radius in sphere: expected number > 0, got '-1'"
+expect_text err "undefined material 'gray'; did you mean 'grey'?"
+expect_text err "3 errors"
+
+# All scenes are checked, in their order.
+run 2 check bad.psd "$cornell" missing.psd
+expect_text err "bad.psd:9:7: error:"
+expect_match err '^missing\.psd: error: .*No such file'
+run 2 check "$cornell" bad.psd
+run 0 check "$cornell" "$cornell"
+last="a scene on standard input"
+"$PSPLAT" check - <bad.psd >out 2>err
+check_status $? 2
+expect_text err "<stdin>:9:7: error:"
+
+# A warning is no error.
+printf 'psd: 1\ncamera: {location: [0, 0, 5], look_at: [0, 0, 0]}\n' >dark.psd
+run 0 check dark.psd
+expect_text err "warning: the scene has no lights"
+
+# Plugins and their parameters are checked too, with their places in the scene.
+cat >plugins.psd <<'END'
+psd: 1
+camera: {location: [0, 1, 5], look_at: [0, 0, 0]}
+lights:
+  - point: {location: [0, 4, 0], intensity: 10}
+render:
+  injection: {photon: {cuont: 5}}
+  visibility: {shadowmap: {resolution: 65}}
+  filter: gausian
+END
+run 2 check plugins.psd
+expect_text err "plugins.psd:6:24: error: unknown parameter 'cuont' of injection photon; did you mean 'count'?"
+expect_text err "plugins.psd:7:40: error: visibility shadowmap: resolution: expected integer 1..64, got '65'"
+expect_text err "plugins.psd:8:11: error: no filter 'gausian' (there are: box, gaussian, tent)"
+expect_text err "3 errors"
+
+# --plugin lays over the scene.
+run 2 check --plugin filter=nope "$cornell"
+expect_text err "no filter 'nope'"
+run 2 check -p injection=photon:count=0 "$cornell" bad.psd
+expect_text err "count: expected integer"
+expect_text err "bad.psd:9:7: error:"
+run 0 check -p injection=photon:count=1 -p filter=box "$cornell"
+run 2 check plugins.psd -p injection=photon:count=3
+expect_no_text err "filter 'nope'"
+expect_text err "unknown parameter 'cuont'"
+run 2 check
+expect_text err "psplat: error: check: which scene?"
+run 2 check --size 1x1 "$cornell"
+expect_text err "unknown option '--size'"
+
+finish

@@ -1,0 +1,128 @@
+# A plugin from outside: built against the installed headers, used by path and by name.
+. "$PSPLAT_SOURCE/tests/cli/lib.sh"
+
+command -v cmake >/dev/null || skip "no cmake"
+cmake --install "$PSPLAT_BUILD" --prefix "$PWD/prefix" >install.log 2>&1 || {
+    cat install.log
+    fail "cmake --install"
+    finish
+}
+[ -f prefix/include/psplat/plugin.h ] || fail "no header was installed"
+mkdir -p mine/filter
+compile_module prefix/include "$PSPLAT_SOURCE/tests/plugins/cosine.c" "$PWD/mine/filter/cosine.so"
+run 0 -q $small -p filter=box -o box.exr "$cornell"
+
+# The shell's own way to make a picture's pixels comparable: PNG files differ by their texts, so they
+# are left out. All text chunks stand before the pixels.
+pixels() {
+    offset=$(grep -abo IDAT "$1" | head -n 1 | cut -d : -f 1)
+    tail -c "+$((offset + 1))" "$1"
+}
+
+# --- by path ---
+
+run 0 -q $small -p "filter=$PWD/mine/filter/cosine.so" -o path.exr -o path.png "$cornell"
+expect_different path.exr box.exr
+run 0 -q $small -p filter=mine/filter/cosine.so:sharpness=3 -o sharp.exr -o sharp.png "$cornell"
+run 0 info sharp.exr
+expect_match out '^psplat\.filter: .*cosine.*:sharpness=3$'
+run 0 -q $small -p filter=mine/filter/cosine.so:sharpness=0 -o flat.png "$cornell"
+run 0 -q $small -p filter=box -o box.png "$cornell"
+pixels flat.png >flat
+pixels box.png >box
+pixels path.png >path
+pixels sharp.png >sharp
+expect_same flat box
+expect_different path box
+expect_different sharp path
+run 2 $small -p filter=mine/filter/cosine.so:sharpnes=1 "$cornell"
+expect_text err "unknown parameter 'sharpnes' of filter cosine; did you mean 'sharpness'?"
+run 2 $small -p filter=mine/filter/cosine.so:sharpness=17 "$cornell"
+expect_text err "sharpness: expected number 0..16, got '17'"
+run 0 plugins filter=mine/filter/cosine.so
+expect_text out "filter=cosine, version 1.0"
+expect_text out "number 0..16; default: 1"
+
+# A scene can name the path too.
+sed '/^render:/,$d' "$cornell" >scene.psd
+cat >>scene.psd <<'END'
+render:
+  filter: {mine/filter/cosine.so: {sharpness: =1+2}}
+  visibility: {shadowmap: {size: 30, resolution: 4}}
+END
+run 0 -q $small -o scene.png scene.psd
+pixels scene.png >scene
+expect_same scene sharp
+run 2 -q $small -p denoiser=./mine/filter/cosine.so "$cornell"
+expect_match err '^psplat: error: denoiser plugin \./mine/filter/cosine\.so: it has no denoiser'
+
+# What info prints repeats a picture that a plugin's path made.
+run 0 info sharp.exr
+command=$(sed -n '/^to repeat it:$/{n;p;}' out)
+last=$command
+eval "\"\$PSPLAT\" ${command#psplat } -q -o repeated.exr" >out 2>err </dev/null
+check_status $? 0
+expect_same repeated.exr sharp.exr
+
+# --- by name ---
+
+run 2 $small -p filter=cosine "$cornell"
+expect_text err "no filter 'cosine'"
+PSPLAT_PLUGIN_PATH=$PWD/nowhere:$PWD/mine
+export PSPLAT_PLUGIN_PATH
+run 0 -q $small -p filter=cosine:sharpness=3 -o name.exr -o name.png "$cornell"
+pixels name.png >name
+expect_same name sharp
+run 0 plugins filter
+expect_match out '^  cosine +a raised cosine$'
+expect_match out '^  box '
+run 0 plugins filter=cosine
+expect_text out "power of the raised cosine; 0: a box"
+run 0 -q $small -p filter=cosine --threads 1 -o one.exr "$cornell"
+run 0 -q $small -p filter=cosine --threads 3 -o three.exr "$cornell"
+expect_same one.exr three.exr
+
+# An earlier folder goes before psplat's own, which is passed over where a module is linked in.
+cp mine/filter/cosine.so mine/filter/tent.so
+run 0 plugins filter
+expect_match out '^  tent +[a-z]'
+if ! is_on PSPLAT_STATIC_PLUGINS; then
+    sed 's/"cosine"/"tent"/' "$PSPLAT_SOURCE/tests/plugins/cosine.c" >tent.c
+    compile_module prefix/include tent.c "$PWD/mine/filter/tent.so"
+    run 0 plugins filter=tent
+    expect_text out "a raised cosine"
+fi
+rm -f mine/filter/tent.so
+unset PSPLAT_PLUGIN_PATH
+
+# --- the installed program, which finds its plugins wherever it lies ---
+
+mv prefix moved
+installed=moved/bin/psplat
+last="$installed"
+"$installed" plugins >out 2>err
+check_status $? 0
+expect_match out '^  photon '
+expect_match out '^  gaussian '
+# shellcheck disable=SC2086
+"$installed" $small -p filter=box -q -o installed.exr "$cornell" >out 2>err
+check_status $? 0
+expect_same installed.exr box.exr
+"$installed" check moved/share/psplat/scenes/cornell.psd >out 2>err
+check_status $? 0
+for page in man1/psplat.1 man5/psd.5 man7/psplat-plugins.7; do
+    [ -f "moved/share/man/$page" ] || fail "no page $page"
+done
+
+# The flags that pkg-config gives are enough, and its folder holds the plugins.
+if command -v pkg-config >/dev/null; then
+    PKG_CONFIG_PATH=$(dirname "$(find "$PWD/moved" -name psplat.pc)")
+    export PKG_CONFIG_PATH
+    last="pkg-config psplat"
+    include=$(pkg-config --cflags-only-I psplat | sed 's/^-I//; s/ *$//')
+    [ -f "$include/psplat/plugin.h" ] || fail "no headers in '$include'"
+    folder=$(pkg-config --variable=plugindir psplat)
+    is_on PSPLAT_STATIC_PLUGINS || [ -f "$folder/filter/box.so" ] || fail "no plugins in '$folder'"
+fi
+
+finish

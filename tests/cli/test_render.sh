@@ -1,0 +1,149 @@
+# Rendering: which files appear, under which names, and what does and does not change them.
+. "$PSPLAT_SOURCE/tests/cli/lib.sh"
+
+# --- names of the output ---
+
+# in_new WORD...: runs psplat in an empty folder `new`, with the scene on standard input.
+in_new() {
+    last="psplat $*"
+    rm -rf new && mkdir new
+    # shellcheck disable=SC2086
+    (cd new && exec "$PSPLAT" $small "$@" >../out 2>../err <"$cornell")
+    check_status $? 0
+}
+
+in_new "$cornell"
+expect_files cornell.exr cornell.png
+expect_picture new/cornell.exr new/cornell.png
+expect_empty out
+expect_text err "psplat: wrote cornell.exr"
+expect_text err "psplat: wrote cornell.png"
+mv new/cornell.exr reference.exr
+mv new/cornell.png reference.png
+in_new -
+expect_files stdin.exr stdin.png
+cp "$cornell" scene.txt
+in_new ../scene.txt
+expect_files scene.txt.exr scene.txt.png
+cp "$cornell" new/-x.psd
+last="a scene's name that looks like an option"
+# shellcheck disable=SC2086
+(cd new && rm -f scene.* && exec "$PSPLAT" render $small -- -x.psd >../out 2>../err)
+check_status $? 0
+expect_files -x.psd -x.exr -x.png
+
+# --- --output ---
+
+rm -rf new && mkdir new
+run 0 $small -o new/a.exr "$cornell"
+expect_files a.exr
+expect_same new/a.exr reference.exr
+run 0 render $small -o new/b.exr --output new/c.png --output=new/d.exr -onew/e.png "$cornell"
+expect_files a.exr b.exr c.png d.exr e.png
+expect_same new/b.exr reference.exr
+expect_same new/d.exr reference.exr
+expect_same new/c.png reference.png
+expect_same new/e.png reference.png
+
+# A picture that is there is replaced, also behind a link; a device is written to.
+echo old >new/a.exr
+ln -s a.exr new/link.exr
+ln -s /dev/null new/null.png
+run 0 $small -o new/link.exr -o new/null.png "$cornell"
+[ -L new/link.exr ] && [ -L new/null.png ] || fail "a link was replaced"
+expect_same new/a.exr reference.exr
+
+# Sixteen files and no more.
+set --
+i=0
+while [ $i -lt 16 ]; do
+    set -- "$@" -o "new/n$i.exr"
+    i=$((i + 1))
+done
+run 0 $small "$@" "$cornell"
+expect_picture new/n0.exr new/n15.exr
+run 2 $small "$@" -o new/n16.exr "$cornell"
+expect_text err "too many files"
+
+# --- options may stand anywhere, and the last of several counts ---
+
+run 0 "$cornell" $small --seed 3 --seed 0 -o again.exr
+expect_same again.exr reference.exr
+
+# --- what changes the picture, and what only a part of it ---
+
+run 0 $small --seed 7 -o seed.exr -o seed.png "$cornell"
+expect_different seed.exr reference.exr
+expect_different seed.png reference.png
+run 0 $small --passes 3 -o passes.exr "$cornell"
+expect_different passes.exr reference.exr
+run 0 info passes.exr
+expect_text out "psplat.passes: 3"
+run 0 --size 20x30 --plugin injection=photon:count=500 -o size.exr "$cornell"
+run 0 info size.exr
+expect_text out "size.exr: 20x30"
+run 0 $small --exposure 2 -o bright.exr -o bright.png "$cornell"
+expect_same bright.exr reference.exr
+expect_different bright.png reference.png
+run 0 $small --exposure -0.5 -o dark.exr -o dark.png "$cornell"
+expect_same dark.exr reference.exr
+expect_different dark.png reference.png
+expect_different dark.png bright.png
+
+# The command line goes before the scene's own size, passes, seed and exposure.
+sed 's/^image:.*/image: {width: 48, height: 27, exposure: 2}/
+     s/^render:.*/&\n  passes: 3\n  seed: 7/' "$cornell" >own.psd
+few="--plugin injection=photon:count=500"
+run 0 $few -o own.exr -o own.png own.psd
+run 0 info own.exr
+expect_text out "own.exr: 48x27"
+expect_text out "psplat.seed: 7"
+expect_text out "psplat.passes: 3"
+expect_different own.exr reference.exr
+run 0 $few --seed 0 --passes 1 --exposure 0 -o over.exr -o over.png own.psd
+run 0 info over.exr
+expect_text out "psplat.seed: 0"
+expect_text out "psplat.passes: 1"
+run 0 $few --seed 0 --passes 1 --exposure 2 -o over2.png own.psd
+expect_different over2.png over.png
+run 0 $few --seed 0 --passes 1 -o over3.png own.psd
+expect_same over3.png over2.png
+
+# --- --quiet ---
+
+run 0 --quiet $small -o quiet.exr "$cornell"
+expect_empty out
+expect_empty err
+expect_same quiet.exr reference.exr
+run 0 -q $small -o quiet.exr "$cornell"
+expect_empty err
+run 2 -q --size 0x1 "$cornell"
+expect_text err "psplat: error: --size"
+
+# --- --stats ---
+
+run 0 $small --passes 2 --stats stats.json -o stats.exr "$cornell"
+for key in seconds counters bytes load build gbuffer direct inject stratify place estimate film \
+    normalize denoise maps bin splat write total "sources injected" sources passes \
+    "pixels without weight" splats "map rays" "pixel-splat tests" \
+    "pixel-splat tests with weight" "ray tracer" G-buffer; do
+    expect_text stats.json "\"$key\":"
+done
+expect_match stats.json '"passes": 2,?$'
+
+# Valid JSON, as far as it has objects, texts and numbers: what is whole is replaced until one value is
+# left.
+is_json() {
+    tr -d ' \n' <"$1" | sed 's/"[A-Za-z0-9 _-]*"/S/g
+        s/:-\{0,1\}[0-9][0-9]*\(\.[0-9][0-9]*\)\{0,1\}\([eE][-+]\{0,1\}[0-9][0-9]*\)\{0,1\}/:V/g
+        s/:S/:V/g
+        :again
+        s/{}/V/g
+        s/{S:V\(,S:V\)*}/V/g
+        t again' | grep -qx V
+}
+is_json stats.json || { fail "stats.json is no JSON"; cat stats.json; }
+echo '{"a": {"b": 1,}}' >bad.json
+is_json bad.json && fail "the check for JSON takes anything"
+
+finish
