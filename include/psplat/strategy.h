@@ -126,8 +126,9 @@ typedef struct ps_denoiser_vtable {
 #define PS_BOX_PARAMS(state, step_back_default)                                                    \
     PS_NUMBER_OR(state, size, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",     \
                  "half-width of the box; auto: 5 % of the scene's radius"),                        \
-        PS_NUMBER(state, follow, "0.25", 0, INFINITY, 0, "",                                       \
-                  "limit of size as a fraction of the distance travelled; 0: none"),               \
+        PS_NUMBER(                                                                                 \
+            state, follow, "0.25", 0, INFINITY, 0, "",                                             \
+            "limit of size, down to a fifth, as a fraction of the distance travelled; 0: none"),   \
         PS_NUMBER_OR(state, depth, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto,               \
                      "scene units",                                                                \
                      "reach of the box past the first hit; auto: what the hit's slope needs"),     \

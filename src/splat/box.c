@@ -6,6 +6,11 @@
 /* Automatic size, as a fraction of the scene's radius. */
 #define AUTOMATIC_SIZE 0.05
 
+/* A size that follows the distance stops at this fraction of `size`. Without a floor, light that
+ * crosses a corner from very near makes splats so small and bright that they rule the error
+ * (Cornell box, 400,000 sources: 32 % without, 6.4 % with). */
+#define SMALLEST_SIZE 0.2f
+
 enum step_back_rule { STEP_BACK_NUMBER = -1, STEP_BACK_AUTO = 0, STEP_BACK_FULL = 1 };
 
 /* The axes u, v turn by an angle of their own for each source, so that texel borders don't line up.
@@ -56,15 +61,22 @@ static float step_back(const ps_box_settings *settings, float half_width, float 
     return fminf(wanted, distance);
 }
 
+static float half_width(const struct box_scene *scene, const ps_box_settings *settings,
+                        float distance)
+{
+    float size = settings->size > 0 ? (float)settings->size : (float)AUTOMATIC_SIZE * scene->radius;
+    if (!(settings->follow > 0))
+        return size;
+    return fmaxf(fminf(size, (float)settings->follow * distance), SMALLEST_SIZE * size);
+}
+
 static ps_splat place_one(const struct box_scene *scene, const ps_box_settings *settings,
                           const ps_source *source, const ps_hit *hit)
 {
     ps_splat splat = {.power = source->power, .path = source->path};
     if (!(hit->distance < INFINITY))
         return splat;
-    float size = settings->size > 0 ? (float)settings->size : (float)AUTOMATIC_SIZE * scene->radius;
-    if (settings->follow > 0)
-        size = fminf(size, (float)settings->follow * hit->distance);
+    float size = half_width(scene, settings, hit->distance);
     float slope = slope_of(-ps_dot(source->direction, hit->normal));
     set_frame(scene, source, &splat);
     splat.centre = hit->position;
