@@ -23,6 +23,7 @@ static const struct option options[] = {
     {0, "passes", "N", "number of passes; more smooth edges and lessen noise"},
     {0, "seed", "N", "seed of the random numbers"},
     {'t', "threads", "N", "threads; the picture does not depend on them"},
+    {0, "isa", "NAME", "instruction set: baseline, avx2 or avx512; default: the best there is"},
     {0, "batch", "N", "splats held in memory at a time; nor on these"},
     {0, "exposure", "STOPS", "brightness of the PNG: a factor of 2^STOPS"},
     {0, "stats", "FILE.json", "write what each stage took in time and memory"},
@@ -34,7 +35,7 @@ struct job {
     const char *outputs[MOST_OUTPUTS];
     size_t output_count;
     char *default_outputs[2]; /* owned */
-    const char *stats_path, *size, *exposure;
+    const char *stats_path, *size, *exposure, *isa;
     double passes, seed, threads, batch; /* negative: not given */
     bool quiet;
     struct progress progress;
@@ -102,6 +103,8 @@ static bool take_option(struct job *job, const struct argument *argument)
         job->quiet = true;
     else if (strcmp(name, "stats") == 0)
         job->stats_path = value;
+    else if (strcmp(name, "isa") == 0)
+        job->isa = value;
     else if (strcmp(name, "size") == 0)
         job->size = value;
     else if (strcmp(name, "exposure") == 0)
@@ -265,6 +268,7 @@ static int load_and_render(struct job *job, const struct argument *arguments, si
     int status = STATUS_USAGE;
     if (scene_input_read(&input, job->scene_path) && override(job, arguments, count, &input) &&
         scene_input_resolve(&input, threads, batch, &settings)) {
+        settings.isa = job->isa;
         status = render_job(job, &input.description, &settings);
         settings_release(&settings);
     }

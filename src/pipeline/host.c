@@ -228,9 +228,9 @@ static ps_result create_splatter(struct render *render)
     struct kernel_profile profile;
     ps_result result = tabulate_filter(render, &profile);
     if (result == PS_OK)
-        result =
-            splatter_create(&render->splatter, &render->gbuffer, &render->host, chosen, &profile,
-                            render->settings->threads, render->settings->batch, &render->error);
+        result = splatter_create(&render->splatter, &render->gbuffer, &render->host, chosen,
+                                 &profile, render->kernel.accumulate, render->settings->threads,
+                                 render->settings->batch, &render->error);
     render->has_splatter = result == PS_OK;
     if (render->has_splatter)
         splatter_begin_pass(&render->splatter);

@@ -25,11 +25,21 @@ static ps_result start_strategies(struct render *render, struct error *error)
     return PS_OK;
 }
 
+static ps_result choose_instruction_set(struct render *render, struct error *error)
+{
+    const char *isa = render->settings->isa;
+    if (kernel_choose(isa, &render->kernel))
+        return PS_OK;
+    return error_set(error, PS_ERROR_INVALID, "this processor has no instruction set '%s'", isa);
+}
+
 static ps_result create(struct render *render, struct error *error)
 {
     const struct scene *scene = render->scene;
     double start = clock_seconds();
-    ps_result result = trace_create(scene, &render->trace, error);
+    ps_result result = choose_instruction_set(render, error);
+    if (result == PS_OK)
+        result = trace_create(scene, render->settings->isa, &render->trace, error);
     statistics_add_seconds(render->statistics, "build", clock_seconds() - start);
     if (result == PS_OK)
         result = gbuffer_create(scene->width, scene->height, &render->gbuffer, error);

@@ -17,6 +17,7 @@ struct render {
     struct gbuffer gbuffer;
     struct film film;
     struct source_stream sources;
+    struct kernel_variant kernel;
     struct splatter splatter; /* made when an estimator first splats */
     bool has_splatter;
     ps_pass pass;

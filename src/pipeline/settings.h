@@ -15,7 +15,8 @@ struct render_settings {
     uint32_t passes;
     uint64_t seed;
     uint32_t threads;
-    size_t batch; /* splats at a time; changes memory, not the picture */
+    const char *isa; /* instruction set, a name of kernel.h, borrowed; NULL: the best there is */
+    size_t batch;    /* splats at a time; changes memory, not the picture */
     double indirect_exposure;
     ps_rgb ambient;
 };

@@ -10,8 +10,8 @@
  * what it meets first, so edges that the central ray misses get their light (after Herzog et al.
  * 2007, "Global illumination using photon ray splatting").
  *
- * The size follows the distance d travelled, R = min(size, follow * d) but no less than size / 5, as a photon differential
- * would: light from close by, in a corner, makes small splats.
+ * The size follows the distance d travelled, R = min(size, follow * d) but no less than size / 5,
+ * as a photon differential would: light from close by, in a corner, makes small splats.
  */
 #ifndef SPLAT_BOX_H
 #define SPLAT_BOX_H

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <psplat/math.h>
+#include <string.h>
 
 uint64_t kernel_baseline(ps_tile *tile, const struct kernel_splat *splats, const uint32_t *indices,
                          size_t n, uint32_t resolution, const struct kernel_profile *profile);
@@ -25,6 +26,18 @@ size_t kernel_variants(struct kernel_variant variants[4])
 #endif
     variants[count++] = (struct kernel_variant){"baseline", kernel_baseline};
     return count;
+}
+
+bool kernel_choose(const char *name, struct kernel_variant *variant)
+{
+    struct kernel_variant variants[4];
+    size_t count = kernel_variants(variants);
+    for (size_t i = 0; i < count; i++)
+        if (!name || strcmp(variants[i].name, name) == 0) {
+            *variant = variants[i];
+            return true;
+        }
+    return false;
 }
 
 float kernel_profile_radius2(size_t i)

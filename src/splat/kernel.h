@@ -16,6 +16,7 @@
 #define SPLAT_KERNEL_H
 
 #include <psplat/types.h>
+#include <stdbool.h>
 
 #define KERNEL_PROFILE_SIZE 1024
 
@@ -50,6 +51,10 @@ struct kernel_variant {
 
 /* The variants that this processor can run, best first; the last is the baseline. */
 size_t kernel_variants(struct kernel_variant variants[4]);
+
+/* The variant of that name, or the best one where name is NULL. False if this processor can't run
+ * it. */
+bool kernel_choose(const char *name, struct kernel_variant *variant);
 
 /* Tabulates a radial weight given at the KERNEL_PROFILE_SIZE midpoints and normalizes it. False
  * when it is negative or NaN somewhere or zero all over. */

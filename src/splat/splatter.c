@@ -21,18 +21,15 @@ static size_t batch_size(uint32_t resolution, size_t wanted)
 
 ps_result splatter_create(struct splatter *splatter, struct gbuffer *gbuffer, const ps_host *host,
                           struct splatter_visibility visibility,
-                          const struct kernel_profile *profile, uint32_t threads, size_t batch,
-                          struct error *error)
+                          const struct kernel_profile *profile, kernel_function accumulate,
+                          uint32_t threads, size_t batch, struct error *error)
 {
-    struct kernel_variant variants[4];
-    kernel_variants(variants);
     *splatter = (struct splatter){
         .gbuffer = gbuffer,
         .host = host,
         .visibility = visibility,
         .profile = *profile,
-        .accumulate = variants[0].accumulate,
-        .instruction_set = variants[0].name,
+        .accumulate = accumulate,
         .resolution = visibility.vtable->resolution(visibility.state),
         .threads = threads,
     };

@@ -22,7 +22,6 @@ struct splatter {
     struct splatter_visibility visibility;
     struct kernel_profile profile;
     kernel_function accumulate;
-    const char *instruction_set;
     uint32_t resolution; /* of depth maps; 0: everything inside a box is lit */
     uint32_t threads;
     size_t batch; /* splats at a time */
@@ -38,8 +37,8 @@ struct splatter {
 /* `batch`: at most so many splats at a time; the budget for depth maps may ask for fewer. */
 ps_result splatter_create(struct splatter *splatter, struct gbuffer *gbuffer, const ps_host *host,
                           struct splatter_visibility visibility,
-                          const struct kernel_profile *profile, uint32_t threads, size_t batch,
-                          struct error *error);
+                          const struct kernel_profile *profile, kernel_function accumulate,
+                          uint32_t threads, size_t batch, struct error *error);
 void splatter_release(struct splatter *splatter);
 size_t splatter_bytes(const struct splatter *splatter);
 

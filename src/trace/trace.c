@@ -11,6 +11,7 @@
 #include "trace/embree_shim.h"
 #include <psplat/math.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -82,13 +83,19 @@ static ps_result add_shapes(struct trace *trace, struct error *error)
     return PS_OK;
 }
 
-ps_result trace_create(const struct scene *scene, struct trace **created, struct error *error)
+ps_result trace_create(const struct scene *scene, const char *isa, struct trace **created,
+                       struct error *error)
 {
+    char configuration[64] = "threads=1,set_affinity=0";
+    size_t length = strlen(configuration);
+    if (isa)
+        snprintf(configuration + length, sizeof configuration - length, ",isa=%s",
+                 strcmp(isa, "baseline") == 0 ? "sse2" : isa);
     struct trace *trace = calloc(1, sizeof *trace);
     if (!trace)
         return error_memory(error, sizeof *trace, "the ray tracer");
     trace->scene = scene;
-    trace->device = rtcNewDevice("threads=1,set_affinity=0");
+    trace->device = rtcNewDevice(configuration);
     if (!trace->device) {
         free(trace);
         return error_set(error, PS_ERROR_INVALID, "Embree can't start (error %d)",

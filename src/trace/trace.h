@@ -13,8 +13,10 @@ struct trace;
 
 enum coherence { RAYS_INCOHERENT, RAYS_COHERENT };
 
-/* Builds the acceleration structure over the scene, which must outlive it. */
-ps_result trace_create(const struct scene *scene, struct trace **trace, struct error *error);
+/* Builds the acceleration structure over the scene, which must outlive it. `isa`: "baseline",
+ * "avx2" or "avx512" limits the instructions used, NULL does not. */
+ps_result trace_create(const struct scene *scene, const char *isa, struct trace **trace,
+                       struct error *error);
 void trace_destroy(struct trace *trace);
 
 /* Bytes that the acceleration structure takes now. */

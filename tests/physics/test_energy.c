@@ -52,7 +52,7 @@ static double gather_all(const char *text)
     struct scene scene = scene_of_text(text);
     struct trace *trace;
     struct error error;
-    assert_int_equal(trace_create(&scene, &trace, &error), PS_OK);
+    assert_int_equal(trace_create(&scene, NULL, &trace, &error), PS_OK);
     double sum = 0;
     for (size_t y = 1; y < HEIGHT; y += STEP)
         for (size_t x = 1; x < WIDTH; x += STEP)
