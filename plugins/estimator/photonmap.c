@@ -25,7 +25,9 @@
 #include <string.h>
 
 #define LEAF_SIZE 16
-#define FLATNESS 0.25f /* photons higher above the tangent plane than this times r do not count */
+/* Photons higher above the tangent plane than this times r do not count; up to half of it they
+ * count fully, so that curved surfaces keep their light. */
+#define FLATNESS 0.25f
 
 enum filter { FILTER_BOX, FILTER_CONE, FILTER_GAUSSIAN };
 static const char *const filter_choices[] = {"box", "cone", "gaussian", NULL};
@@ -221,7 +223,8 @@ static ps_rgb estimate(const struct work *work, ps_vec3 position, ps_vec3 normal
         int behind = ps_dot(photon->direction, normal) >= 0 || ps_dot(photon->normal, normal) <= 0;
         if (behind || !(height < 1.0f))
             continue;
-        float weight = (1.0f - height) * filter_weight(state->filter, distances[i] / radius2);
+        float flat = fminf(1.0f, 2.0f * (1.0f - height));
+        float weight = flat * filter_weight(state->filter, distances[i] / radius2);
         sum = ps_rgb_add(sum, ps_rgb_scale(photon->power, weight));
     }
     float area = PS_PI * radius2 * filter_mean(state->filter);

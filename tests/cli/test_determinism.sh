@@ -24,12 +24,41 @@ same batch17 --threads 3 --batch 17
 same batch_large --threads 2 --batch 1048576
 same quiet --quiet
 
-# Through every strategy that works on many pixels or sources at once.
+# Of one instruction set, that is: others round otherwise, and that little.
+run 0 $scene --isa baseline --threads 1 -o baseline.exr
+run 0 $scene --isa=baseline --threads 3 --batch 100 -o baseline3.exr
+expect_same baseline.exr baseline3.exr
+for isa in avx2 avx512; do
+    last="--isa $isa"
+    "$PSPLAT" $scene --isa $isa --threads 1 -q -o $isa.exr >out 2>err
+    status=$?
+    if [ $status -eq 2 ] && grep -qF "this processor has no instruction set '$isa'" err; then
+        echo "this processor has no $isa"
+        continue
+    fi
+    check_status $status 0
+    run 0 $scene --isa $isa --threads 2 -o again.exr
+    expect_same again.exr $isa.exr
+    run 0 compare baseline.exr $isa.exr --fail 'rel_rmse>0.01'
+    [ $isa = avx2 ] || expect_different $isa.exr baseline.exr
+done
+run 2 $scene --isa sse9 -o no.exr
+expect_text err "psplat: error: "
+expect_text err "sse9"
+[ ! -e no.exr ] || fail "a picture in spite of the error"
+
+# Every strategy that works on many pixels or sources at once.
 other="--size 80x45 --plugin injection=photon:count=2000,bounces=0 --plugin denoiser=gaussian:size=9x9
     --plugin visibility=none --plugin normalization=weight $cornell"
 run 0 $other --threads 1 -o other1.exr
 run 0 $other --threads 3 --batch 100 -o other3.exr
 expect_same other1.exr other3.exr
 expect_different other1.exr one.exr
+for estimator in pathtrace:samples=4,bounces=0 photonmap photonmap:gather=2 vpl:lights=50 ambient; do
+    few="--size 80x45 --passes 2 -p injection=photon:count=1000 -p estimator=$estimator $cornell"
+    run 0 $few --threads 1 -o estimator1.exr
+    run 0 $few --threads 3 --batch 100 -o estimator3.exr
+    expect_same estimator1.exr estimator3.exr
+done
 
 finish

@@ -41,7 +41,8 @@ static double gather(const struct scene *scene, const struct trace *trace, size_
         ps_rgb irradiance;
         if (!(hits[i].distance < INFINITY))
             continue;
-        direct_irradiance(scene, trace, RAYS_INCOHERENT, &hits[i].position, &hits[i].normal, 1, &irradiance);
+        direct_irradiance(scene, trace, RAYS_INCOHERENT, &hits[i].position, &hits[i].normal, 1,
+                          &irradiance);
         sum += first.albedo.g * hits[i].albedo.g / PS_PI * irradiance.g;
     }
     return sum / RAYS;

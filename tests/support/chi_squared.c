@@ -3,8 +3,8 @@
 #include "support/chi_squared.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <setjmp.h>
+#include <stdarg.h>
 #include <stdint.h>
 
 #include <cmocka.h>

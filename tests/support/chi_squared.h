@@ -5,7 +5,8 @@
 #include <stddef.h>
 
 /* How likely counts at least so far from `expected` are, if the expectation is right: small values
- * speak against it. The counts must sum to the same total, and each expected count be at least 5. */
+ * speak against it. The counts must sum to the same total, and each expected count be at least 5.
+ */
 double chi_squared_probability(const double *observed, const double *expected, size_t n);
 
 /* The upper tail of the distribution with `freedom` degrees at `statistic`. */

@@ -1,0 +1,134 @@
+# The manual pages agree with the program: options, kinds, strategies, parameters, statistics, layers
+# and attributes, each way. tests/unit/test_schema_manual.c does the same for the scene language.
+. "$PSPLAT_SOURCE/tests/cli/lib.sh"
+
+man=$PSPLAT_SOURCE/man
+
+# agree WHAT: the files `program` and `page` hold the same lines, in any order.
+agree() {
+    last=$1
+    sort program >program.sorted
+    sort page >page.sorted
+    cmp -s program.sorted page.sorted && return
+    fail "the program (-) and the manual (+) differ:"
+    diff -U 0 program.sorted page.sorted | sed '1,2d; /^@@/d; s/^/    /'
+}
+
+# part PAGE HEADING: the lines of a page below a heading, up to the next one of its rank.
+part() {
+    awk -v heading="$2" '
+        $0 == heading { rank = substr(heading, 1, 3); inside = 1; next }
+        inside && (/^\.Sh/ || substr($0, 1, 3) == rank) { inside = 0 }
+        inside' "$1"
+}
+
+# --- options ---
+
+option_lines() {
+    "$PSPLAT" "$@" --help | sed -n '
+        s/^  -\(.\), --\([a-z-]*\) \([^ ][^ ]*\) .*/.It Fl \1 , Fl Fl \2 Ar \3/p; t
+        s/^  -\(.\), --\([a-z-]*\) .*/.It Fl \1 , Fl Fl \2/p; t
+        s/^      --\([a-z-]*\) \([^ ][^ ]*\) .*/.It Fl Fl \1 Ar \2/p; t
+        s/^      --\([a-z-]*\) .*/.It Fl Fl \1/p'
+}
+
+commands=$("$PSPLAT" --help | sed -n '/^commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+[ "$(echo "$commands" | wc -w)" -ge 4 ] || fail "no list of commands in the help"
+echo "$commands" | sed 's/^/.Ss psplat /' >program
+grep '^\.Ss psplat ' "$man/psplat.1" >page
+agree "commands of psplat(1)"
+for command in $commands; do
+    option_lines "$command" >program
+    [ "$(wc -l <program)" -ge 2 ] || fail "no options in the help of $command"
+    if [ -f "$man/psplat-$command.1" ]; then
+        grep '^\.It Fl ' "$man/psplat-$command.1" >page
+        grep -qxF ".Xr psplat-$command 1 ." "$man/psplat.1" ||
+            fail "psplat(1) does not refer to psplat-$command(1)"
+    else
+        {
+            part "$man/psplat.1" ".Sh COMMANDS" | sed '/^\.Ss/,$d'
+            part "$man/psplat.1" ".Ss psplat $command"
+        } | grep '^\.It Fl ' >page
+    fi
+    agree "options of $command"
+done
+
+# --- strategies ---
+
+plugins=$man/psplat-plugins.7
+"$PSPLAT" plugins | sed -n 's/^\([a-z]*\)  *.*\((default: .*)\)$/.It Cm \1 No \2/p' >program
+part "$plugins" ".Sh KINDS" | grep '^\.It' >page
+agree "kinds of psplat-plugins(7)"
+"$PSPLAT" plugins | awk '/^[a-z]/ { kind = $1 } /^  / { print ".Ss " kind "=" $1 }' >program
+part "$plugins" ".Sh STRATEGIES" | grep '^\.Ss' >page
+agree "strategies of psplat-plugins(7)"
+cp program strategies
+while read -r heading; do
+    "$PSPLAT" plugins "${heading#.Ss }" | awk '
+        /^  [^ ]/ { name = $1; line = 0; next }
+        /^      / { if (++line == 2) { sub(/^ */, ""); print ".It Cm " name " : No " $0 } }' >program
+    part "$plugins" "$heading" | grep '^\.It' >page
+    agree "parameters of ${heading#.Ss }"
+done <strategies
+for row in $(sed 's/^\.Ss //' strategies); do
+    [ -f "$PSPLAT_SOURCE/plugins/${row%=*}/${row#*=}.c" ] || fail "$row is no plugin of psplat's"
+done
+
+# The example in the page is the one that the tests build.
+part "$plugins" ".Sh EXAMPLES" | sed -n '/^\.Bd/,/^\.Ed/{/^\.Bd/d; /^\.Ed/d; s/\\e/\\/g; s/^\\&//; p;}' \
+    >example.c
+cmp -s example.c "$PSPLAT_SOURCE/tests/plugins/cosine.c" ||
+    fail "the example of psplat-plugins(7) is not tests/plugins/cosine.c"
+
+# --- statistics, layers and attributes ---
+
+: >statistics
+for choice in estimator=splat estimator=photonmap estimator=vpl:lights=8 denoiser=gaussian; do
+    run 0 -q --size 16x9 -p injection=photon:count=200 -p $choice -o a.exr --stats a.json "$cornell"
+    awk '/^  "/ { split($0, part, "\""); table = part[2] }
+         /^    "/ { split($0, key, "\""); print table ": " key[2] }' a.json >>statistics
+done
+sort -u statistics >program
+for table in seconds counters bytes; do
+    part "$man/psplat.1" ".Ss $table" | sed -n "s/^\.It Cm /$table: /p"
+done >page
+agree "statistics of psplat(1)"
+
+run 0 info a.exr
+sed -n 's/^channels: //p' out | tr ' ' '\n' >program
+part "$man/psplat.1" ".Ss OpenEXR" | sed -n '/^\.It Cm psplat\./d; s/^\.It Cm //p' | tr -d ' ' |
+    tr , '\n' >page
+agree "layers of psplat(1)"
+{
+    echo psplat.command
+    sed -n 's/^\(psplat\.[a-z]*\): .*/\1/p' out
+} >program
+part "$man/psplat.1" ".Ss OpenEXR" | sed -n 's/^\.It Cm \(psplat\..*\)/\1/p' >page
+agree "attributes of psplat(1)"
+
+# --- examples of scenes are scenes ---
+
+awk '/^\.Bd/ { count++; inside = 1; next } /^\.Ed/ { inside = 0 }
+     inside { print > ("example" count ".psd") }' "$man/psd.5"
+scenes=0
+for example in example*.psd; do
+    grep -qx 'psd: 1' "$example" || continue
+    scenes=$((scenes + 1))
+    run 0 check "$example"
+    expect_empty err
+done
+[ $scenes -ge 2 ] || fail "$scenes whole scenes in psd(5), expected 2"
+
+# --- the pages are sound ---
+
+if command -v mandoc >/dev/null; then
+    for page in "$man"/*.[1-9]; do
+        last="mandoc -T lint $page"
+        mandoc -T lint -W warning "$page" >out 2>&1 || fail "mandoc complains"
+        [ ! -s out ] || sed 's/^/    /' out
+    done
+else
+    echo "no mandoc: the pages' form is not checked"
+fi
+
+finish

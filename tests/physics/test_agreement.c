@@ -1,0 +1,98 @@
+/* test_agreement.c: the estimators against one another in the Cornell box, one bounce and several.
+ *
+ * Path tracing is the truth; what each of the others may be off by is its own bias at these
+ * settings, in the mean of the indirect layer over the whole picture.
+ */
+#include "support/render_scene.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define WIDTH 96
+#define HEIGHT 54
+
+struct method {
+    const char *name, *estimator, *injection, *visibility;
+    double bias;
+};
+
+static double mean(const char *text, const char *estimator, const char *injection,
+                   const char *visibility)
+{
+    const char *choices[4] = {estimator};
+    size_t count = 1;
+    if (injection)
+        choices[count++] = injection;
+    if (visibility)
+        choices[count++] = visibility;
+    choices[count] = NULL;
+    struct rendering rendering = render_text(text, 2, choices);
+    double sum = mean_of_all(&rendering.image, "indirect.R") +
+                 mean_of_all(&rendering.image, "indirect.G") +
+                 mean_of_all(&rendering.image, "indirect.B");
+    rendering_release(&rendering);
+    return sum;
+}
+
+static void compare(const char *reference, const struct method *methods, size_t count)
+{
+    char *text = cornell_text(WIDTH, HEIGHT);
+    double truth = mean(text, reference, NULL, NULL);
+    for (size_t i = 0; i < count; i++) {
+        double ratio =
+            mean(text, methods[i].estimator, methods[i].injection, methods[i].visibility) / truth;
+        print_message("%-40s mean / path tracing %.4f, allowed %.1f %%\n", methods[i].name, ratio,
+                      100 * methods[i].bias);
+        assert_true(fabs(ratio - 1) < methods[i].bias);
+    }
+    free(text);
+}
+
+static void test_single_bounce(void **state)
+{
+    (void)state;
+    static const struct method methods[] = {
+        {"splat, step_back auto", "estimator=splat", "injection=photon:count=300000,bounces=1",
+         "visibility=shadowmap:size=10,resolution=8,step_back=auto", 0.02},
+        {"splat, full beams", "estimator=splat", "injection=photon:count=300000,bounces=1",
+         "visibility=shadowmap:size=10,resolution=8,step_back=full", 0.025},
+        {"photonmap", "estimator=photonmap:neighbours=60",
+         "injection=photon:count=300000,bounces=1", NULL, 0.025},
+        {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",
+         "injection=photon:count=300000,bounces=1", NULL, 0.02},
+        {"vpl", "estimator=vpl:lights=2048,clamp=5", "injection=photon:count=2048,bounces=1", NULL,
+         0.02},
+    };
+    compare("estimator=pathtrace:samples=512,bounces=1", methods,
+            sizeof methods / sizeof methods[0]);
+}
+
+static void test_all_bounces(void **state)
+{
+    (void)state;
+    static const struct method methods[] = {
+        {"splat, step_back auto", "estimator=splat", "injection=photon:count=300000,bounces=0",
+         "visibility=shadowmap:size=10,resolution=8,step_back=auto", 0.025},
+        {"photonmap", "estimator=photonmap:neighbours=60",
+         "injection=photon:count=300000,bounces=0", NULL, 0.03},
+        {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",
+         "injection=photon:count=300000,bounces=0", NULL, 0.02},
+        {"vpl", "estimator=vpl:lights=4096,clamp=5", "injection=photon:count=1500,bounces=0", NULL,
+         0.03},
+    };
+    compare("estimator=pathtrace:samples=512,bounces=0", methods,
+            sizeof methods / sizeof methods[0]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_single_bounce),
+        cmocka_unit_test(test_all_bounces),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,172 @@
+/* test_estimators.c: every estimator against closed forms.
+ *
+ * The mean (bias) is tested apart from noise: several seeds give the mean and its standard error;
+ * the mean may be off by four of these plus the bias that the method has at these settings (0 for
+ * path tracing).
+ */
+#include "support/statistics_of.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define PI 3.14159265358979323846
+#define SEEDS 6
+
+struct method {
+    const char *name;
+    const char *choices[5];
+    double bias;
+};
+
+/* A lamp at the centre of a diffuse sphere of albedo a (see test_furnace.c): one bounce gives the
+ * radiance a / pi * a, all bounces a / pi * a / (1 - a), for a lamp that gives irradiance 1. */
+static const char furnace[] =
+    "psd: 1\n"
+    "camera: {location: [0, 0, 0], look_at: [1, 0.3, 0.2], angle: 90}\n"
+    "image: {width: 32, height: 32}\n"
+    "materials: {wall: {diffuse: 0.6}}\n"
+    "lights: [{point: {location: [0, 0, 0], intensity: 4}}]\n"
+    "objects: [{sphere: {center: [0, 0, 0], radius: 2, material: wall}}]\n"
+    "render: {seed: %d}\n";
+
+static const struct method single_bounce[] = {
+    {"pathtrace", {"estimator=pathtrace:samples=4,bounces=1", NULL}, 0},
+    {"splat",
+     {"estimator=splat", "injection=photon:count=60000,bounces=1",
+      "visibility=shadowmap:size=0.06,step_back=auto", NULL},
+     0.025},
+    {"photonmap",
+     {"estimator=photonmap:neighbours=50", "injection=photon:count=60000,bounces=1", NULL},
+     0.015},
+    {"photonmap, final gather",
+     {"estimator=photonmap:neighbours=50,gather=2", "injection=photon:count=60000,bounces=1", NULL},
+     0.015},
+    {"vpl",
+     {"estimator=vpl:lights=200,clamp=0", "injection=photon:count=200,bounces=1", NULL},
+     0.002},
+};
+
+static const struct method all_bounces[] = {
+    {"pathtrace", {"estimator=pathtrace:samples=8,bounces=0", NULL}, 0},
+    {"splat",
+     {"estimator=splat", "injection=photon:count=40000,bounces=0",
+      "visibility=shadowmap:size=0.06,step_back=auto", NULL},
+     0.025},
+    {"photonmap",
+     {"estimator=photonmap:neighbours=50", "injection=photon:count=40000,bounces=0", NULL},
+     0.015},
+    {"photonmap, final gather",
+     {"estimator=photonmap:neighbours=50,gather=2", "injection=photon:count=40000,bounces=0", NULL},
+     0.015},
+    {"vpl",
+     {"estimator=vpl:lights=2000,clamp=0", "injection=photon:count=800,bounces=0", NULL},
+     0.002},
+};
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static void check(const char *scene_name, const char *scene, const struct method *methods,
+                  size_t count, double expected)
+{
+    for (size_t i = 0; i < count; i++) {
+        char what[128];
+        snprintf(what, sizeof what, "%s: %s", scene_name, methods[i].name);
+        struct estimate estimate = estimate_channel(scene, methods[i].choices, "indirect.G", SEEDS);
+        expect_estimate(what, estimate, expected, methods[i].bias);
+    }
+}
+
+static void test_furnace(void **state)
+{
+    (void)state;
+    check("furnace, one bounce", furnace, single_bounce, COUNT(single_bounce), 0.6 / PI * 0.6);
+    check("furnace, all bounces", furnace, all_bounces, COUNT(all_bounces), 0.6 / PI * 0.6 / 0.4);
+}
+
+/* A spotlight of half angle 3 degrees lights a small disc of albedo 0.8 on the floor from 1 above;
+ * a receiver of albedo 0.5 hangs 2 above it, level or tilted by 60 degrees. A disc of radius p with
+ * radiant exitance M gives a parallel element on its axis M p^2 / (d^2 + p^2), and an element
+ * tilted by t cos(t) times that (p << d). */
+#define PATCH                                                                                      \
+    "psd: 1\n"                                                                                     \
+    "camera: {location: [0.6, 1.2, 0], look_at: [0, 2, 0], angle: 1}\n"                            \
+    "image: {width: 16, height: 16}\n"                                                             \
+    "materials: {floor: {diffuse: 0.8}, receiver: {diffuse: 0.5}}\n"                               \
+    "lights: [{spotlight: {location: [0, 1, 0], point_at: [0, 0, 0], radius: 3, falloff: 3,\n"     \
+    "                      intensity: 100}}]\n"                                                    \
+    "objects:\n"                                                                                   \
+    "  - quad: {corners: [[-1, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1]], material: floor}\n"     \
+    "  - quad: {corners: [[-1, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1]], material: receiver,\n"  \
+    "           rotate: [0, 0, %s], translate: [0, 2, 0]}\n"                                       \
+    "render: {seed: %%d}\n"
+
+static const struct method patch_methods[] = {
+    {"pathtrace", {"estimator=pathtrace:samples=4096,bounces=1", NULL}, 0},
+    {"splat",
+     {"estimator=splat", "injection=photon:count=150000,bounces=1",
+      "visibility=shadowmap:size=0.15,step_back=auto", NULL},
+     0.02},
+    {"splat, full beams",
+     {"estimator=splat", "injection=photon:count=150000,bounces=1",
+      "visibility=shadowmap:size=0.15,step_back=full", NULL},
+     0.02},
+    {"photonmap",
+     {"estimator=photonmap:neighbours=400", "injection=photon:count=150000,bounces=1", NULL},
+     0.02},
+    {"vpl",
+     {"estimator=vpl:lights=500,clamp=0", "injection=photon:count=500,bounces=1", NULL},
+     0.01},
+};
+
+static double patch_radiance(double tilt_degrees)
+{
+    double angle = 3 * PI / 180, flux = 2 * PI * 100 * (1 - cos(angle)), radius = tan(angle);
+    double exitance = 0.8 * flux / (PI * radius * radius);
+    double irradiance = exitance * radius * radius / (4 + radius * radius);
+    return 0.5 / PI * irradiance * cos(tilt_degrees * PI / 180);
+}
+
+static void check_patch(const char *tilt)
+{
+    char scene[2048], name[64];
+    snprintf(scene, sizeof scene, PATCH, tilt);
+    snprintf(name, sizeof name, "lit patch, receiver tilted by %s", tilt);
+    check(name, scene, patch_methods, COUNT(patch_methods), patch_radiance(strtod(tilt, NULL)));
+}
+
+static void test_lit_patch(void **state)
+{
+    (void)state;
+    check_patch("0");
+}
+
+/* The cosine test: a splat's kernel lies across the beam and needs the receiver's cosine, a photon
+ * map's lies in the surface and has none. At 60 degrees either mistake is a factor of two. */
+static void test_receiver_cosine(void **state)
+{
+    (void)state;
+    check_patch("60");
+}
+
+static void test_ambient(void **state)
+{
+    (void)state;
+    static const char *const choices[] = {"estimator=ambient:irradiance=2", NULL};
+    expect_estimate("furnace: ambient", estimate_channel(furnace, choices, "indirect.G", 2),
+                    0.6 / PI * 2, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_furnace),
+        cmocka_unit_test(test_lit_patch),
+        cmocka_unit_test(test_receiver_cosine),
+        cmocka_unit_test(test_ambient),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

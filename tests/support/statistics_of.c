@@ -1,0 +1,50 @@
+#include "support/statistics_of.h"
+
+#include "support/render_scene.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static double render_mean(const char *text, int seed, const char *const choices[],
+                          const char *channel)
+{
+    size_t bytes = strlen(text) + 32;
+    char *seeded = malloc(bytes);
+    const char *place = strstr(text, "%d");
+    assert_non_null(seeded);
+    assert_non_null(place);
+    snprintf(seeded, bytes, "%.*s%d%s", (int)(place - text), text, seed, place + 2);
+    struct rendering rendering = render_text(seeded, 2, choices);
+    double mean = mean_of_all(&rendering.image, channel);
+    rendering_release(&rendering);
+    free(seeded);
+    return mean;
+}
+
+struct estimate estimate_channel(const char *text, const char *const choices[], const char *channel,
+                                 int seeds)
+{
+    double sum = 0, squares = 0;
+    for (int seed = 1; seed <= seeds; seed++) {
+        double mean = render_mean(text, seed, choices, channel);
+        sum += mean;
+        squares += mean * mean;
+    }
+    double mean = sum / seeds;
+    double variance = fmax(0.0, squares / seeds - mean * mean) * seeds / (seeds - 1.0);
+    return (struct estimate){mean, sqrt(variance / seeds)};
+}
+
+void expect_estimate(const char *what, struct estimate estimate, double expected, double bias)
+{
+    double off = estimate.mean / expected - 1, noise = estimate.standard_error / expected;
+    print_message("%-60s off by %+.3f %%, noise %.3f %%, bias allowed %.1f %%\n", what, 100 * off,
+                  100 * noise, 100 * bias);
+    assert_true(noise < 0.05);
+    assert_true(fabs(off) <= bias + 4 * noise + 1e-4);
+}
