@@ -9,7 +9,8 @@
  * light that corners get from close by with them. Without visibility it is splatting indirect
  * illumination (Dachsbacher and Stamminger 2006), and the left half of figure 5 in Hoet 2014.
  *
- * Cost is lights times pixels, so only the first `lights` sources are used, with the power of all.
+ * Cost is lights times pixels, so only `lights` sources, drawn at random from all, are used, with
+ * the power of all.
  */
 #include <psplat/plugin.h>
 
@@ -93,20 +94,38 @@ static double total_power(const ps_source *sources, size_t n)
     return total;
 }
 
-/* Takes the first sources of the pass, and gives them the power of all. */
-static ps_result choose_lights(const struct state *state, const ps_host *host, ps_source *lights,
-                               size_t *count)
+/* Whether the next of `seen` sources enters the sample, and in whose place: every one ends up in it
+ * with the same probability, whatever their number (reservoir sampling, Vitter 1985). */
+static size_t place_in_sample(const ps_host *host, const ps_pass *pass, uint64_t seen, size_t room)
+{
+    float numbers[1][4];
+    uint64_t index = (uint64_t)pass->number << 40 | seen;
+    if (seen < room)
+        return (size_t)seen;
+    host->samples(host, PS_STREAM_PLUGIN, 0, &index, 1, numbers);
+    double place = ((double)numbers[0][0] + (double)numbers[0][1] * 0x1p-24) * (double)(seen + 1);
+    return place < (double)room ? (size_t)place : room;
+}
+
+/* Draws sources from all of the pass, and gives them the power of all. */
+static ps_result choose_lights(const struct state *state, const ps_host *host, const ps_pass *pass,
+                               ps_source *lights, size_t *count)
 {
     const ps_source *sources;
-    size_t n, taken = 0;
+    size_t n, room = (size_t)state->lights;
+    uint64_t seen = 0;
     double progress, power = 0;
     ps_result result;
     do {
         result = host->next_sources(host, &sources, &n, &progress);
-        for (size_t i = 0; result == PS_OK && i < n && taken < (size_t)state->lights; i++)
-            lights[taken++] = sources[i];
+        for (size_t i = 0; result == PS_OK && i < n; i++, seen++) {
+            size_t place = place_in_sample(host, pass, seen, room);
+            if (place < room)
+                lights[place] = sources[i];
+        }
         power += result == PS_OK ? total_power(sources, n) : 0;
     } while (result == PS_OK && n > 0);
+    size_t taken = seen < room ? (size_t)seen : room;
     double share = total_power(lights, taken);
     for (size_t i = 0; i < taken && share > 0; i++)
         lights[i].power = ps_rgb_scale(lights[i].power, (float)(power / share));
@@ -131,7 +150,7 @@ static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pa
         return PS_ERROR_MEMORY;
     float nearest = nearest_distance(state, host);
     struct work work = {host, pass, lights, 0, nearest * nearest, state->visibility};
-    ps_result result = choose_lights(state, host, lights, &work.count);
+    ps_result result = choose_lights(state, host, pass, lights, &work.count);
     if (result == PS_OK)
         result = host->for_each_tile(host, light_tile, &work);
     host->count(host, "virtual lights", (double)work.count);
@@ -141,7 +160,7 @@ static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pa
 
 static const ps_param params[] = {
     PS_INT(struct state, lights, "256", 1, 10000000, "lights",
-           "sources used as point lights; they get the power of all"),
+           "sources used as point lights, drawn from all; they get the power of all"),
     PS_BOOL(struct state, visibility, "yes", "whether shadow rays decide what a light reaches"),
     PS_NUMBER_OR(struct state, clamp, "auto", 0, INFINITY, 0, clamp_choices, "scene units",
                  "shorter distances count as this; auto: 5 % of the scene's radius, 0: none"),

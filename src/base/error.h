@@ -16,7 +16,7 @@
 #endif
 
 struct error {
-    char text[1024]; /* what, where, and what to do; no trailing newline */
+    char text[4096]; /* what, where, and what to do; no trailing newline */
 };
 
 /* Formats the message and returns `code`, so that `return error_set(...)` reads as one thought. */

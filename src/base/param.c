@@ -267,8 +267,13 @@ static void describe_range(const ps_param *row, const char *noun, char *text, si
     bool open_min = row->flags & PS_PARAM_OPEN_MIN, open_max = row->flags & PS_PARAM_OPEN_MAX;
     bool has_min = isfinite(row->minimum), has_max = isfinite(row->maximum);
     char low[32], high[32];
-    text_from_number(row->minimum, low, sizeof low);
-    text_from_number(row->maximum, high, sizeof high);
+    if (row->type == PS_PARAM_INT) {
+        snprintf(low, sizeof low, "%.0f", row->minimum);
+        snprintf(high, sizeof high, "%.0f", row->maximum);
+    } else {
+        text_from_number(row->minimum, low, sizeof low);
+        text_from_number(row->maximum, high, sizeof high);
+    }
     if (has_min && has_max && (open_min || open_max))
         snprintf(text, size, "%s %s..%s (%s%s%s excluded)", noun, low, high, open_min ? low : "",
                  open_min && open_max ? " and " : "", open_max ? high : "");

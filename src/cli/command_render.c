@@ -201,6 +201,20 @@ static bool choose_outputs(struct job *job)
     return true;
 }
 
+/* Finds out before the render what would fail after it. */
+static bool check_outputs(const struct job *job)
+{
+    struct error error;
+    bool good = true;
+    for (size_t i = 0; i < job->output_count && good; i++)
+        good = output_check(job->outputs[i], &error);
+    if (good && job->stats_path)
+        good = output_check(job->stats_path, &error);
+    if (!good)
+        print_error(error.text);
+    return good;
+}
+
 static ps_result write_files(struct job *job, const struct image *image, double exposure,
                              struct statistics *statistics, struct error *error)
 {
@@ -228,7 +242,11 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     progress_clear(&job->progress);
     if (result != PS_OK && result != PS_CANCELLED)
         return result;
-    ps_result written = output_describe(&image, description->path, settings, error);
+    /* An interrupted render is repeated by asking for the passes that were done. */
+    double passes = statistics_counter(statistics, "passes");
+    settings->passes = passes > 1 ? (uint32_t)passes : 1;
+    ps_result written =
+        output_describe(&image, description->path, settings, description->image.exposure, error);
     if (written == PS_OK)
         written = write_files(job, &image, description->image.exposure, statistics, error);
     image_release(&image);
@@ -283,7 +301,7 @@ static int run(const struct argument *arguments, size_t count)
     if (take_arguments(&job, arguments, count)) {
         status = STATUS_FAILED;
         progress_start(&job.progress, job.quiet);
-        if (choose_outputs(&job))
+        if (choose_outputs(&job) && check_outputs(&job))
             status = load_and_render(&job, arguments, count);
     }
     free(job.default_outputs[0]);

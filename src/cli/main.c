@@ -1,6 +1,7 @@
 /* main.c: chooses the command. The only place where the process's exit status is decided. */
 #include "cli/command.h"
 
+#include "base/text.h"
 #include "base/version.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,6 +21,18 @@ static bool asks_for(char *const words[], size_t count, const char *letter, cons
     for (size_t i = 0; i < count && strcmp(words[i], "--") != 0; i++)
         if ((letter && strcmp(words[i], letter) == 0) || strcmp(words[i], name) == 0)
             return true;
+    return false;
+}
+
+/* A word before others that is nearly a command was meant as one. */
+static bool suggest_command(const char *word)
+{
+    for (size_t i = 0; i < command_count; i++)
+        if (word[0] != '-' && text_is_near(word, commands[i]->name)) {
+            fprintf(stderr, "psplat: error: unknown command '%s'; did you mean '%s'?\n", word,
+                    commands[i]->name);
+            return true;
+        }
     return false;
 }
 
@@ -67,5 +80,7 @@ int main(int argc, char *argv[])
     }
     if (named)
         return finish(run(command, words + 1, count - 1));
+    if (count > 1 && suggest_command(words[0]))
+        return STATUS_USAGE;
     return finish(run(commands[0], words, count));
 }

@@ -1,11 +1,15 @@
 #include "cli/output.h"
 
+#include "base/text.h"
 #include "base/version.h"
 #include "image/tonemap.h"
+#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static bool has_suffix(const char *path, const char *suffix)
 {
@@ -55,6 +59,21 @@ ps_result output_write(const struct image *image, const char *path, double expos
     return write_png(image, path, exposure, error);
 }
 
+bool output_check(const char *path, struct error *error)
+{
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+        return true; /* a device needs no room beside it; what can't be written is told later */
+    const char *slash = strrchr(path, '/');
+    size_t length = slash ? (size_t)(slash - path) + 1 : 0;
+    char *folder = length ? strndup(path, length) : strdup(".");
+    bool good = folder && access(folder, W_OK | X_OK) == 0;
+    if (!good)
+        error_set(error, PS_ERROR_IO, "can't write '%s': %s", path, strerror(errno));
+    free(folder);
+    return good;
+}
+
 /* Quotes a word for a shell unless it needs none. */
 static void print_word(FILE *stream, const char *word)
 {
@@ -74,12 +93,19 @@ static void print_word(FILE *stream, const char *word)
 }
 
 static void print_command(FILE *stream, const struct image *image, const char *scene_path,
-                          const struct render_settings *settings)
+                          const struct render_settings *settings, double exposure)
 {
     fprintf(stream, "psplat render ");
-    print_word(stream, scene_path);
+    print_word(stream, strcmp(scene_path, "<stdin>") == 0 ? "-" : scene_path);
     fprintf(stream, " --size %zux%zu --passes %" PRIu32 " --seed %" PRIu64, image->width,
             image->height, settings->passes, settings->seed);
+    if (settings->isa)
+        fprintf(stream, " --isa %s", settings->isa);
+    if (exposure != 0.0) {
+        char stops[32];
+        text_from_number(exposure, stops, sizeof stops);
+        fprintf(stream, " --exposure %s", stops);
+    }
     for (int kind = 0; kind < PS_KINDS; kind++) {
         char choice[2048], word[2200];
         strategy_format(&settings->strategies[kind], choice, sizeof choice);
@@ -90,14 +116,15 @@ static void print_command(FILE *stream, const struct image *image, const char *s
 }
 
 static ps_result set_command(struct image *image, const char *scene_path,
-                             const struct render_settings *settings, struct error *error)
+                             const struct render_settings *settings, double exposure,
+                             struct error *error)
 {
     char *text = NULL;
     size_t length = 0;
     FILE *stream = open_memstream(&text, &length);
     if (!stream)
         return error_memory(error, 4096, "the picture's description");
-    print_command(stream, image, scene_path, settings);
+    print_command(stream, image, scene_path, settings, exposure);
     fclose(stream);
     ps_result result = image_set_attribute(image, "psplat.command", text, error);
     free(text);
@@ -105,7 +132,8 @@ static ps_result set_command(struct image *image, const char *scene_path,
 }
 
 ps_result output_describe(struct image *image, const char *scene_path,
-                          const struct render_settings *settings, struct error *error)
+                          const struct render_settings *settings, double exposure,
+                          struct error *error)
 {
     char seed[32], passes[32];
     snprintf(seed, sizeof seed, "%" PRIu64, settings->seed);
@@ -123,5 +151,5 @@ ps_result output_describe(struct image *image, const char *scene_path,
         strategy_format(&settings->strategies[kind], value, sizeof value);
         result = image_set_attribute(image, name, value, error);
     }
-    return result == PS_OK ? set_command(image, scene_path, settings, error) : result;
+    return result == PS_OK ? set_command(image, scene_path, settings, exposure, error) : result;
 }

@@ -19,6 +19,11 @@ ps_result output_write(const struct image *image, const char *path, double expos
 /* Attributes that say how the picture was made: version, scene, every setting, and the command that
  * repeats it. */
 ps_result output_describe(struct image *image, const char *scene_path,
-                          const struct render_settings *settings, struct error *error);
+                          const struct render_settings *settings, double exposure,
+                          struct error *error);
+
+/* Whether the folder of a file that is to be written is there and can be written to; the message
+ * says what is wrong. */
+bool output_check(const char *path, struct error *error);
 
 #endif

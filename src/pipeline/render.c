@@ -70,15 +70,16 @@ static void destroy(struct render *render)
     trace_destroy(render->trace);
 }
 
-/* Where in its pixels a pass looks: the centre if it is the only one, else points spread over the
- * pixel, the same in all pixels so that a pass stays coherent. */
+/* Where in its pixels a pass looks: the first at their centres, later ones at points spread over
+ * them, the same in all pixels so that a pass stays coherent. Not a matter of how many passes there
+ * will be: a pass depends on its own number alone. */
 struct jitter {
     float x, y;
 };
 
 static struct jitter pass_jitter(const struct render *render)
 {
-    if (render->settings->passes == 1)
+    if (render->pass.number == 0)
         return (struct jitter){0.5f, 0.5f};
     float point[4];
     sample_point(sample_key(render->settings->seed, PS_STREAM_PIXEL, 0), render->pass.number,

@@ -74,10 +74,8 @@ static void resolve_choice(struct resolution *resolution, ps_kind kind,
                            const struct strategy_choice *choice, struct strategy *strategy)
 {
     struct error error;
-    const ps_descriptor *descriptor;
     const char *name = choice->name ? choice->name : kinds[kind].default_strategy;
-    if (loader_find(resolution->loader, kind, name, &descriptor, &error) != PS_OK ||
-        strategy_create(descriptor, strategy, &error) != PS_OK) {
+    if (strategy_create(resolution->loader, kind, name, strategy, &error) != PS_OK) {
         fail(resolution, choice->name ? &choice->origin : &nowhere, error.text);
         return;
     }

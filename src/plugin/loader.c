@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 
 #define LONGEST_PATH 4096
-#define LONGEST_ATTEMPTS 700
+#define LONGEST_ATTEMPTS 3400
 #define SUFFIX ".so"
 
 /* Modules that are linked into the program; NULL-terminated. Empty in ordinary builds. */
@@ -110,6 +110,10 @@ static const ps_descriptor *load_file(const char *path, ps_kind kind, const char
     struct stat status;
     if (stat(path, &status) != 0) {
         error_set(error, PS_ERROR_IO, "no such file");
+        return NULL;
+    }
+    if (!S_ISREG(status.st_mode)) {
+        error_set(error, PS_ERROR_INVALID, "it is no ordinary file");
         return NULL;
     }
     const char *problem = elf_problem(path);

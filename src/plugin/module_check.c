@@ -39,12 +39,30 @@ static size_t member_size(uint32_t type)
     return type < sizeof sizes / sizeof sizes[0] ? sizes[type] : 0;
 }
 
+/* Every table of functions is two 32-bit numbers and then pointers, all of which must be there but
+ * a visibility's depth maps: a visibility of resolution 0 has none. */
+static bool check_functions(const ps_descriptor *descriptor, struct error *error)
+{
+    static const size_t first = 2 * sizeof(uint32_t);
+    const char *vtable = descriptor->vtable;
+    size_t size = vtable_size(descriptor->kind);
+    if (descriptor->kind == PS_VISIBILITY)
+        size = offsetof(ps_visibility_vtable, depth_maps);
+    for (size_t offset = first; offset < size; offset += sizeof(void (*)(void))) {
+        void (*function)(void);
+        memcpy(&function, vtable + offset, sizeof function);
+        if (!function)
+            return reject(error, "its table of functions lacks one");
+    }
+    return true;
+}
+
 static bool check_param(const ps_param *row, uint64_t state_size, struct error *error)
 {
     size_t size = member_size(row->type);
     if (!row->name || !row->help || !row->unit || size == 0)
         return reject(error, "a parameter has no name, help, unit or known type");
-    if (row->offset > state_size || state_size - row->offset < size)
+    if (row->offset > state_size || state_size - row->offset < size || row->offset % 4 != 0)
         return reject(error, "a parameter lies outside of its state");
     bool wants_choices = row->type == PS_PARAM_CHOICE || row->type == PS_PARAM_NUMBER_OR_CHOICE;
     if (wants_choices != (row->choices != NULL))
@@ -63,6 +81,10 @@ static bool check_descriptor(const ps_descriptor *descriptor, struct error *erro
     const uint32_t *leading_size = descriptor->vtable;
     if (!leading_size || *leading_size < vtable_size(descriptor->kind))
         return reject(error, "its table of functions is too small for this version");
+    if (!check_functions(descriptor, error))
+        return false;
+    if (descriptor->param_count && !descriptor->params)
+        return reject(error, "its parameter table is missing");
     if (descriptor->param_count && descriptor->param_size < sizeof(ps_param))
         return reject(error, "its parameter rows are too small for this version");
     for (uint32_t i = 0; i < descriptor->param_count; i++) {

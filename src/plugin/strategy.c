@@ -10,13 +10,23 @@ struct param_table strategy_params(const ps_descriptor *descriptor)
                                 descriptor->param_size};
 }
 
-ps_result strategy_create(const ps_descriptor *descriptor, struct strategy *strategy,
-                          struct error *error)
+ps_result strategy_create(struct loader *loader, ps_kind kind, const char *name,
+                          struct strategy *strategy, struct error *error)
 {
+    const ps_descriptor *descriptor;
+    ps_result found = loader_find(loader, kind, name, &descriptor, error);
+    if (found != PS_OK)
+        return found;
     size_t bytes = descriptor->state_size ? (size_t)descriptor->state_size : 1;
-    *strategy = (struct strategy){.descriptor = descriptor, .state = calloc(1, bytes)};
-    if (!strategy->state)
+    *strategy = (struct strategy){
+        .name = strdup(name),
+        .descriptor = descriptor,
+        .state = calloc(1, bytes),
+    };
+    if (!strategy->name || !strategy->state) {
+        strategy_release(strategy);
         return error_memory(error, bytes, "a plugin's state");
+    }
     struct param_table table = strategy_params(descriptor);
     struct error reason;
     ps_result result = param_set_defaults(&table, strategy->state, &reason);
@@ -47,19 +57,20 @@ void strategy_stop(struct strategy *strategy)
 
 void strategy_release(struct strategy *strategy)
 {
-    if (!strategy->state)
-        return;
     strategy_stop(strategy);
-    struct param_table table = strategy_params(strategy->descriptor);
-    param_release(&table, strategy->state);
+    if (strategy->state) {
+        struct param_table table = strategy_params(strategy->descriptor);
+        param_release(&table, strategy->state);
+    }
     free(strategy->state);
+    free(strategy->name);
     *strategy = (struct strategy){.descriptor = NULL};
 }
 
 void strategy_format(const struct strategy *strategy, char *text, size_t size)
 {
     struct param_table table = strategy_params(strategy->descriptor);
-    size_t used = (size_t)snprintf(text, size, "%s", strategy->descriptor->name);
+    size_t used = (size_t)snprintf(text, size, "%s", strategy->name);
     for (size_t i = 0; i < table.count && used < size; i++) {
         const ps_param *row = param_row(&table, i);
         char value[256];

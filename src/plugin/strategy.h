@@ -7,6 +7,7 @@
 #include <stdbool.h>
 
 struct strategy {
+    char *name; /* as it was asked for: a name or a path; owned */
     const ps_descriptor *descriptor;
     void *state;         /* owned */
     const ps_host *host; /* set between strategy_start and strategy_stop */
@@ -15,9 +16,10 @@ struct strategy {
 /* The parameter table of a descriptor. */
 struct param_table strategy_params(const ps_descriptor *descriptor);
 
-/* A state with default parameters. Set others with param_set, then start it. */
-ps_result strategy_create(const ps_descriptor *descriptor, struct strategy *strategy,
-                          struct error *error);
+/* Loads the strategy of that name and gives it a state with default parameters. Set others with
+ * param_set, then start it. */
+ps_result strategy_create(struct loader *loader, ps_kind kind, const char *name,
+                          struct strategy *strategy, struct error *error);
 
 /* Runs the plugin's init. The state is const from here on. */
 ps_result strategy_start(struct strategy *strategy, const ps_host *host, struct error *error);

@@ -33,6 +33,9 @@ ps_result splatter_create(struct splatter *splatter, struct gbuffer *gbuffer, co
         .resolution = visibility.vtable->resolution(visibility.state),
         .threads = threads,
     };
+    if (splatter->resolution > 64 || (splatter->resolution && !visibility.vtable->depth_maps))
+        return error_set(error, PS_ERROR_INVALID,
+                         "the visibility has no depth maps of resolution %u", splatter->resolution);
     splatter->batch = batch_size(splatter->resolution, batch);
     size_t map = (size_t)splatter->resolution * splatter->resolution * sizeof(float);
     splatter->depths = malloc(map ? splatter->batch * map : 1);

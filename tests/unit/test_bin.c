@@ -1,0 +1,287 @@
+/* test_bin.c: bins against every splat tried on every pixel.
+ *
+ * The G-buffer is made by hand: hills seen from above, with holes, and tiles that see nothing. */
+#include "splat/bin.h"
+
+#include "support/random.h"
+#include <psplat/math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define WIDTH 300 /* 19 x 13 tiles: three levels of the pyramid */
+#define HEIGHT 200
+#define SPLATS 400
+
+struct bench {
+    struct gbuffer gbuffer;
+    struct pyramid pyramid;
+    ps_splat splats[SPLATS];
+};
+
+static bool sees_surface(uint32_t x, uint32_t y)
+{
+    bool void_corner = x >= 256 && y < 64; /* whole tiles, and a whole group of them */
+    return x < WIDTH && y < HEIGHT && !void_corner && (x * 7 + y * 13) % 11 != 0;
+}
+
+/* z = 0.1 sin(6 x) cos(5 y) over [0, 3] x [0, 2]. */
+static void fill_lane(ps_tile *tile, uint32_t lane, uint32_t x, uint32_t y)
+{
+    bool seen = sees_surface(x, y);
+    float px = (float)x * 0.01f, py = (float)y * 0.01f;
+    ps_vec3 normal = {-0.6f * cosf(6 * px) * cosf(5 * py), 0.5f * sinf(6 * px) * sinf(5 * py), 1};
+    normal = ps_normalize(normal);
+    tile->position_x[lane] = seen ? px : 1e18f;
+    tile->position_y[lane] = seen ? py : 1e18f;
+    tile->position_z[lane] = seen ? 0.1f * sinf(6 * px) * cosf(5 * py) : 1e18f;
+    tile->normal_x[lane] = seen ? normal.x : 0;
+    tile->normal_y[lane] = seen ? normal.y : 0;
+    tile->normal_z[lane] = seen ? normal.z : 0;
+    tile->object[lane] = seen ? 0 : PS_NO_OBJECT;
+    tile->depth[lane] = seen ? 1 : INFINITY;
+}
+
+static ps_splat random_splat(struct random *random)
+{
+    ps_splat splat = {
+        .centre = {3.2f * random_unit(random) - 0.1f, 2.2f * random_unit(random) - 0.1f,
+                   random_between(random, -0.15f, 0.15f)},
+        .half_width = random_unit(random) < 0.05f ? 0 : random_between(random, 0.01f, 0.3f),
+        .axis_w = random_direction(random),
+        .near_depth = -random_between(random, 0.0f, 0.5f),
+        .far_depth = random_between(random, 0.0f, 0.5f),
+    };
+    splat.axis_w = ps_normalize(splat.axis_w);
+    ps_frame(splat.axis_w, &splat.axis_u, &splat.axis_v);
+    return splat;
+}
+
+static int open_bench(void **state)
+{
+    struct bench *bench = malloc(sizeof *bench);
+    struct random random = {9};
+    struct error error;
+    assert_non_null(bench);
+    assert_int_equal(gbuffer_create(WIDTH, HEIGHT, &bench->gbuffer, &error), PS_OK);
+    assert_int_equal(bench->gbuffer.tile_count, 19 * 13);
+    for (uint32_t tile = 0; tile < bench->gbuffer.tile_count; tile++)
+        for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+            uint32_t x, y;
+            gbuffer_pixel(&bench->gbuffer, tile, lane, &x, &y);
+            fill_lane(&bench->gbuffer.tiles[tile], lane, x, y);
+        }
+    for (int i = 0; i < SPLATS; i++)
+        bench->splats[i] = random_splat(&random);
+    assert_int_equal(pyramid_create(&bench->gbuffer, &bench->pyramid, &error), PS_OK);
+    pyramid_build(&bench->pyramid, &bench->gbuffer, 2);
+    *state = bench;
+    return 0;
+}
+
+static int close_bench(void **state)
+{
+    struct bench *bench = *state;
+    pyramid_release(&bench->pyramid);
+    gbuffer_release(&bench->gbuffer);
+    free(bench);
+    return 0;
+}
+
+/* Whether some pixel of the tile is inside of the splat's disc and box, and faces it; `slack`
+ * widens all limits. */
+static bool lights(const ps_tile *tile, const ps_splat *splat, float slack)
+{
+    if (!(splat->half_width > 0))
+        return false;
+    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
+        if (tile->object[i] == PS_NO_OBJECT)
+            continue;
+        ps_vec3 p = {tile->position_x[i], tile->position_y[i], tile->position_z[i]};
+        ps_vec3 n = {tile->normal_x[i], tile->normal_y[i], tile->normal_z[i]};
+        ps_vec3 d = ps_subtract(p, splat->centre);
+        float u = ps_dot(d, splat->axis_u), v = ps_dot(d, splat->axis_v);
+        float t = ps_dot(d, splat->axis_w), reach = splat->half_width + slack;
+        if (u * u + v * v < reach * reach && t >= splat->near_depth - slack &&
+            t <= splat->far_depth + slack && ps_dot(n, splat->axis_w) < slack)
+            return true;
+    }
+    return false;
+}
+
+static struct bins sort(const struct bench *bench, size_t n, uint32_t threads)
+{
+    struct bins bins;
+    struct error error;
+    assert_int_equal(bins_create(bench->gbuffer.tile_count, &bins, &error), PS_OK);
+    assert_int_equal(bins_sort(&bins, &bench->pyramid, bench->splats, n, threads, &error), PS_OK);
+    return bins;
+}
+
+static bool holds(const struct bins *bins, uint32_t tile, uint32_t splat)
+{
+    for (uint32_t i = bins->offsets[tile]; i < bins->offsets[tile + 1]; i++)
+        if (bins->indices[i] == splat)
+            return true;
+    return false;
+}
+
+static void test_holds_every_lit_pair(void **state)
+{
+    struct bench *bench = *state;
+    struct bins bins = sort(bench, SPLATS, 2);
+    size_t lit = 0, pairs = bins.offsets[bins.tile_count];
+    for (uint32_t tile = 0; tile < bins.tile_count; tile++)
+        for (uint32_t i = 0; i < SPLATS; i++)
+            if (lights(&bench->gbuffer.tiles[tile], &bench->splats[i], 0)) {
+                lit++;
+                assert_true(holds(&bins, tile, i));
+            }
+    print_message("%zu pairs are lit, %zu in the bins, %d possible\n", lit, pairs,
+                  (int)bins.tile_count * SPLATS);
+    assert_true(lit > 1000);
+    assert_true(pairs < 4 * lit); /* bounds are tight enough to be of use */
+    bins_release(&bins);
+}
+
+static void test_is_sorted(void **state)
+{
+    struct bench *bench = *state;
+    struct bins bins = sort(bench, SPLATS, 2);
+    assert_int_equal(bins.offsets[0], 0);
+    for (uint32_t tile = 0; tile < bins.tile_count; tile++) {
+        assert_true(bins.offsets[tile] <= bins.offsets[tile + 1]);
+        for (uint32_t i = bins.offsets[tile]; i < bins.offsets[tile + 1]; i++) {
+            assert_true(bins.indices[i] < SPLATS);
+            if (i > bins.offsets[tile])
+                assert_true(bins.indices[i - 1] < bins.indices[i]); /* each once, in order */
+        }
+    }
+    bins_release(&bins);
+}
+
+/* Splats without a size, and tiles without a surface, have no pairs. */
+static void test_leaves_out_what_lights_nothing(void **state)
+{
+    struct bench *bench = *state;
+    struct bins bins = sort(bench, SPLATS, 1);
+    uint32_t empty_splats = 0, empty_tiles = 0;
+    for (uint32_t i = 0; i < SPLATS; i++)
+        empty_splats += bench->splats[i].half_width == 0;
+    assert_true(empty_splats > 5);
+    for (uint32_t i = 0; i < bins.offsets[bins.tile_count]; i++)
+        assert_true(bench->splats[bins.indices[i]].half_width > 0);
+    for (uint32_t tile = 0; tile < bins.tile_count; tile++) {
+        bool empty = true;
+        for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
+            empty = empty && bench->gbuffer.tiles[tile].object[lane] == PS_NO_OBJECT;
+        empty_tiles += empty;
+        if (empty)
+            assert_int_equal(bins.offsets[tile], bins.offsets[tile + 1]);
+    }
+    assert_int_equal(empty_tiles, 3 * 4);
+    bins_release(&bins);
+}
+
+static void expect_same(const struct bins *a, const struct bins *b)
+{
+    assert_memory_equal(a->offsets, b->offsets, (a->tile_count + 1) * sizeof *a->offsets);
+    assert_memory_equal(a->indices, b->indices, a->offsets[a->tile_count] * sizeof *a->indices);
+}
+
+static void test_same_for_any_threads(void **state)
+{
+    struct bench *bench = *state;
+    struct bins one = sort(bench, SPLATS, 1);
+    for (uint32_t threads = 2; threads <= 5; threads++) {
+        struct bins more = sort(bench, SPLATS, threads);
+        expect_same(&one, &more);
+        bins_release(&more);
+    }
+    bins_release(&one);
+}
+
+/* One structure serves many batches, of any size. */
+static void test_batches_do_not_disturb_each_other(void **state)
+{
+    static const size_t sizes[] = {SPLATS, 0, 1, 31, 33, SPLATS, 7};
+    struct bench *bench = *state;
+    struct bins bins = sort(bench, 3, 2);
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        struct bins fresh = sort(bench, sizes[i], 2);
+        struct error error;
+        assert_int_equal(bins_sort(&bins, &bench->pyramid, bench->splats, sizes[i], 2, &error),
+                         PS_OK);
+        assert_int_equal(bins.offsets[bins.tile_count], fresh.offsets[fresh.tile_count]);
+        if (sizes[i])
+            expect_same(&bins, &fresh);
+        bins_release(&fresh);
+    }
+    bins_release(&bins);
+}
+
+/* The pairs are those whose splat's box meets the box around the tile's points: nothing is lost
+ * on the way down the pyramid, and little kept. */
+static void test_pyramid_bounds_its_tiles(void **state)
+{
+    struct bench *bench = *state;
+    const struct pyramid *pyramid = &bench->pyramid;
+    assert_int_equal(pyramid->levels, 4);
+    assert_int_equal(pyramid->across[pyramid->levels - 1], 1);
+    assert_int_equal(pyramid->down[pyramid->levels - 1], 1);
+    const struct pyramid_node *top = &pyramid->nodes[pyramid->first[pyramid->levels - 1]];
+    assert_true(fabsf(top->center.x - top->extent.x) < 0.011f);
+    assert_true(fabsf(top->center.x + top->extent.x - 2.99f) < 0.011f);
+    assert_true(fabsf(top->center.y + top->extent.y - 1.99f) < 0.011f);
+    for (uint32_t tile = 0; tile < bench->gbuffer.tile_count; tile++) {
+        const struct pyramid_node *node = &pyramid->nodes[tile];
+        if (node->extent.x < 0)
+            continue;
+        assert_true(node->extent.x < 0.08f && node->extent.y < 0.08f && node->extent.z < 0.1f);
+        assert_true(node->normal_low.z > 0.5f && node->normal_high.z <= 1.0001f);
+    }
+}
+
+static void test_smallest_picture(void **state)
+{
+    (void)state;
+    struct gbuffer gbuffer;
+    struct pyramid pyramid;
+    struct bins bins;
+    struct error error;
+    assert_int_equal(gbuffer_create(1, 1, &gbuffer, &error), PS_OK);
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
+        fill_lane(&gbuffer.tiles[0], lane, lane ? WIDTH : 1, 0);
+    assert_int_equal(pyramid_create(&gbuffer, &pyramid, &error), PS_OK);
+    pyramid_build(&pyramid, &gbuffer, 1);
+    assert_int_equal(bins_create(1, &bins, &error), PS_OK);
+    ps_splat splats[2] = {{.half_width = 0.1f, .near_depth = -1, .far_depth = 1}};
+    splats[0].axis_u = (ps_vec3){1, 0, 0};
+    splats[0].axis_v = (ps_vec3){0, -1, 0};
+    splats[0].axis_w = (ps_vec3){0, 0, -1};
+    splats[1] = splats[0];
+    splats[0].centre.x = 1;
+    assert_int_equal(bins_sort(&bins, &pyramid, splats, 2, 1, &error), PS_OK);
+    assert_int_equal(bins.offsets[1], 1);
+    assert_int_equal(bins.indices[0], 1);
+    bins_release(&bins);
+    pyramid_release(&pyramid);
+    gbuffer_release(&gbuffer);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_holds_every_lit_pair),
+        cmocka_unit_test(test_is_sorted),
+        cmocka_unit_test(test_leaves_out_what_lights_nothing),
+        cmocka_unit_test(test_same_for_any_threads),
+        cmocka_unit_test(test_batches_do_not_disturb_each_other),
+        cmocka_unit_test(test_pyramid_bounds_its_tiles),
+        cmocka_unit_test(test_smallest_picture),
+    };
+    return cmocka_run_group_tests(tests, open_bench, close_bench);
+}

@@ -1,0 +1,290 @@
+/* test_box.c: the boxes around first hits, against values worked out by hand. */
+#include "splat/box.h"
+
+#include "support/random.h"
+#include <psplat/math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#define RADIUS 40.0f /* of the scene: automatic half-width 2 */
+
+static const struct box_scene scene = {.radius = RADIUS, .surface_offset = 0.001f, .seed = 7};
+
+static void expect_near(double value, double expected)
+{
+    if (fabs(value - expected) > 1e-4 * fmax(1, fabs(expected)))
+        fail_msg("%.7g, expected %.7g", value, expected);
+}
+
+/* A source at the origin on a surface that faces up, whose light goes along w and arrives after
+ * `distance` where the cosine is `cosine`. */
+static ps_splat place_along(ps_vec3 w, ps_box_settings settings, float distance, float cosine)
+{
+    ps_vec3 u, v;
+    ps_frame(w, &u, &v);
+    ps_vec3 normal = ps_scale(w, -cosine);
+    normal = ps_add_scaled(normal, sqrtf(1 - cosine * cosine), u);
+    ps_source source = {
+        .normal = {0, 1, 0}, .direction = w, .power = {1, 2, 3}, .bounce = 1, .path = 55};
+    ps_hit hit = {.position = ps_scale(w, distance), .distance = distance, .normal = normal};
+    ps_splat splat;
+    box_place(&scene, &settings, &source, &hit, 1, &splat);
+    return splat;
+}
+
+static ps_splat place(ps_box_settings settings, float distance, float cosine)
+{
+    return place_along((ps_vec3){0, 1, 0}, settings, distance, cosine);
+}
+
+static void test_carries_the_source(void **state)
+{
+    (void)state;
+    ps_splat splat = place((ps_box_settings){.size = 2}, 10, 1);
+    expect_near(splat.centre.y, 10);
+    assert_true(splat.power.r == 1 && splat.power.g == 2 && splat.power.b == 3);
+    assert_true(splat.path == 55);
+    assert_true(splat.axis_w.y == 1);
+}
+
+static void test_size(void **state)
+{
+    (void)state;
+    expect_near(place((ps_box_settings){.size = 3}, 10, 1).half_width, 3);
+    expect_near(place((ps_box_settings){.size = 0}, 10, 1).half_width, 0.05 * RADIUS);
+}
+
+/* R = min(size, follow * d), but no less than a fifth of size. */
+static void test_size_follows_distance(void **state)
+{
+    (void)state;
+    const ps_box_settings settings = {.size = 3, .follow = 0.25};
+    expect_near(place(settings, 100, 1).half_width, 3);
+    expect_near(place(settings, 12.1f, 1).half_width, 3);
+    expect_near(place(settings, 8, 1).half_width, 2);
+    expect_near(place(settings, 4, 1).half_width, 1);
+    expect_near(place(settings, 2, 1).half_width, 0.6);
+    expect_near(place(settings, 0.001f, 1).half_width, 0.6);
+    const ps_box_settings automatic = {.follow = 0.25};
+    expect_near(place(automatic, 4, 1).half_width, 1);
+    expect_near(place(automatic, 0.1f, 1).half_width, 0.4);
+    const ps_box_settings unlimited = {.size = 3};
+    expect_near(place(unlimited, 0.001f, 1).half_width, 3);
+}
+
+/* b = min(d, R tan + R / 2), depth R tan + R. */
+static void test_automatic_step_back(void **state)
+{
+    (void)state;
+    const ps_box_settings settings = {.size = 2};
+    ps_splat flat = place(settings, 10, 1);
+    expect_near(flat.near_depth, -1);
+    expect_near(flat.far_depth, 2);
+    expect_near(flat.start_depth, -1);
+    assert_true(flat.start_slope_u == 0 && flat.start_slope_v == 0);
+    assert_int_equal(flat.two_sided, 0);
+    ps_splat sloped = place(settings, 10, 0.6f); /* tan = 4/3 */
+    expect_near(sloped.near_depth, -(2 * 4.0 / 3 + 1));
+    expect_near(sloped.far_depth, 2 * 4.0 / 3 + 2);
+    ps_splat close = place(settings, 0.5f, 0.6f); /* not behind the source */
+    expect_near(close.near_depth, -0.5);
+    expect_near(close.far_depth, 2 * 4.0 / 3 + 2);
+}
+
+static void test_steep_slopes_are_limited(void **state)
+{
+    (void)state;
+    const ps_box_settings settings = {.size = 1};
+    ps_splat grazing = place(settings, 1000, 1e-3f);
+    expect_near(grazing.near_depth, -(10 + 0.5));
+    expect_near(grazing.far_depth, 11);
+    ps_splat behind = place(settings, 1000, -0.5f); /* rounding may turn a normal away */
+    expect_near(behind.far_depth, 11);
+}
+
+static void test_numbers(void **state)
+{
+    (void)state;
+    const ps_box_settings settings = {
+        .size = 2, .depth = 7, .step_back = 3, .step_back_rule = -1};
+    ps_splat splat = place(settings, 10, 0.6f);
+    expect_near(splat.near_depth, -3);
+    expect_near(splat.start_depth, -3);
+    expect_near(splat.far_depth, 7);
+    assert_int_equal(splat.two_sided, 0);
+    expect_near(place(settings, 2, 0.6f).near_depth, -2); /* the source is nearer */
+    const ps_box_settings none = {.size = 2, .step_back = 0, .step_back_rule = -1};
+    expect_near(place(none, 10, 1).near_depth, 0);
+}
+
+/* A beam straight up from its source: the start plane lies across it, an eighth of R above. */
+static void test_full_beam_straight_up(void **state)
+{
+    (void)state;
+    const ps_box_settings settings = {.size = 2, .step_back_rule = 1};
+    ps_splat splat = place(settings, 10, 1);
+    assert_int_equal(splat.two_sided, 1);
+    expect_near(splat.start_depth, 0.25 - 10);
+    expect_near(splat.start_slope_u, 0);
+    expect_near(splat.start_slope_v, 0);
+    expect_near(splat.near_depth, 0.25 - 10);
+    expect_near(splat.far_depth, 2);
+    /* Never past half of the way. */
+    expect_near(place(settings, 0.2f, 1).start_depth, -0.1);
+}
+
+/* Every ray of a slanted beam starts on one plane parallel to the source's surface. */
+static void test_full_beam_starts_along_the_surface(void **state)
+{
+    (void)state;
+    const ps_box_settings settings = {.size = 2, .step_back_rule = 1};
+    ps_splat splat = place_along((ps_vec3){0.8f, 0.6f, 0}, settings, 10, 1);
+    float earliest = 0;
+    for (int i = 0; i < 32; i++) { /* around the edge of the disc */
+        float u = 2 * cosf((float)i * PS_PI / 16), v = 2 * sinf((float)i * PS_PI / 16);
+        float start = splat.start_depth + u * splat.start_slope_u + v * splat.start_slope_v;
+        ps_vec3 origin = ps_add_scaled(splat.centre, u, splat.axis_u);
+        origin = ps_add_scaled(origin, v, splat.axis_v);
+        origin = ps_add_scaled(origin, start, splat.axis_w);
+        expect_near(origin.y, 0.25); /* R / 8 above the surface */
+        earliest = fminf(earliest, start);
+    }
+    assert_true(splat.near_depth <= earliest && splat.near_depth > earliest - 0.1f);
+    expect_near(splat.start_depth, 0.25 / 0.6 - 10);
+}
+
+static void test_a_miss_lights_nothing(void **state)
+{
+    (void)state;
+    for (int rule = -1; rule <= 1; rule++) {
+        const ps_box_settings settings = {.size = 2, .step_back = 1, .step_back_rule = rule};
+        ps_source source = {.normal = {0, 1, 0}, .direction = {0, 1, 0}, .power = {1, 1, 1}};
+        ps_hit hit = {.distance = INFINITY, .object = PS_NO_OBJECT};
+        ps_splat splat = {.half_width = 99};
+        box_place(&scene, &settings, &source, &hit, 1, &splat);
+        assert_true(splat.half_width == 0);
+    }
+}
+
+static ps_splat frame_of(uint64_t seed, uint64_t path, uint32_t bounce, ps_vec3 w)
+{
+    const struct box_scene own = {.radius = RADIUS, .surface_offset = 0.001f, .seed = seed};
+    const ps_box_settings settings = {.size = 2};
+    ps_source source = {.normal = w, .direction = w, .bounce = bounce, .path = path};
+    ps_hit hit = {.position = w, .distance = 1, .normal = ps_scale(w, -1)};
+    ps_splat splat;
+    box_place(&own, &settings, &source, &hit, 1, &splat);
+    return splat;
+}
+
+static void test_frames_are_orthonormal(void **state)
+{
+    (void)state;
+    struct random random = {8};
+    for (uint64_t path = 0; path < 1000; path++) {
+        ps_vec3 w = ps_normalize(random_direction(&random));
+        ps_splat splat = frame_of(1, path, 1, w);
+        assert_memory_equal(&splat.axis_w, &w, sizeof w);
+        assert_true(fabsf(ps_length(splat.axis_u) - 1) < 1e-5f);
+        assert_true(fabsf(ps_length(splat.axis_v) - 1) < 1e-5f);
+        assert_true(fabsf(ps_dot(splat.axis_u, splat.axis_v)) < 1e-5f);
+        assert_true(fabsf(ps_dot(splat.axis_u, w)) < 1e-5f);
+        assert_true(ps_dot(ps_cross(splat.axis_u, splat.axis_v), w) > 0.999f);
+    }
+}
+
+/* The turn is even over the circle, and differs by path, bounce and seed alone. */
+static void test_frames_turn(void **state)
+{
+    (void)state;
+    enum { PATHS = 2000 };
+    const ps_vec3 up = {0, 1, 0};
+    double sum_x = 0, sum_z = 0;
+    int quadrants[4] = {0};
+    for (uint64_t path = 0; path < PATHS; path++) {
+        ps_vec3 u = frame_of(1, path, 1, up).axis_u;
+        sum_x += u.x;
+        sum_z += u.z;
+        quadrants[(u.x > 0) + 2 * (u.z > 0)]++;
+    }
+    assert_true(fabs(sum_x) < 0.1 * PATHS && fabs(sum_z) < 0.1 * PATHS);
+    for (int i = 0; i < 4; i++)
+        assert_in_range(quadrants[i], PATHS / 5, 3 * PATHS / 10);
+    ps_vec3 u = frame_of(1, 3, 1, up).axis_u, again = frame_of(1, 3, 1, up).axis_u;
+    assert_memory_equal(&u, &again, sizeof u);
+    assert_true(ps_dot(u, frame_of(2, 3, 1, up).axis_u) < 0.9999f);
+    assert_true(ps_dot(u, frame_of(1, 3, 2, up).axis_u) < 0.9999f);
+    assert_true(ps_dot(u, frame_of(1, 4, 1, up).axis_u) < 0.9999f);
+}
+
+static ps_splat uncut(uint32_t two_sided)
+{
+    return (ps_splat){.half_width = 1,
+                      .near_depth = -5,
+                      .far_depth = 5,
+                      .bias_constant = 0.1f,
+                      .bias_slope = 0.02f, /* up to 0.2 at the steepest */
+                      .two_sided = two_sided};
+}
+
+static void test_cut(void **state)
+{
+    (void)state;
+    const float depths[4] = {-1, 0.5f, 2, 0};
+    ps_splat splat = uncut(1);
+    box_cut(&splat, depths, 2);
+    expect_near(splat.near_depth, -1.3);
+    expect_near(splat.far_depth, 2.3);
+    splat = uncut(0); /* one-sided: what lies before the map is lit too */
+    box_cut(&splat, depths, 2);
+    expect_near(splat.near_depth, -5);
+    expect_near(splat.far_depth, 2.3);
+    splat = uncut(1); /* never grows */
+    splat.near_depth = -0.5f;
+    splat.far_depth = 1;
+    box_cut(&splat, depths, 2);
+    expect_near(splat.near_depth, -0.5);
+    expect_near(splat.far_depth, 1);
+}
+
+static void test_cut_with_misses(void **state)
+{
+    (void)state;
+    const float some[4] = {-1, INFINITY, 2, 0}, none[1] = {INFINITY};
+    ps_splat splat = uncut(1);
+    box_cut(&splat, some, 2);
+    expect_near(splat.near_depth, -1.3);
+    expect_near(splat.far_depth, 2.3);
+    splat = uncut(0); /* a closed box stays open to its end where nothing was hit */
+    box_cut(&splat, some, 2);
+    expect_near(splat.far_depth, 5);
+    splat = uncut(0);
+    box_cut(&splat, none, 1);
+    expect_near(splat.far_depth, 5);
+    splat = uncut(1);
+    box_cut(&splat, none, 1);
+    assert_true(splat.far_depth < splat.near_depth); /* empty */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_carries_the_source),
+        cmocka_unit_test(test_size),
+        cmocka_unit_test(test_size_follows_distance),
+        cmocka_unit_test(test_automatic_step_back),
+        cmocka_unit_test(test_steep_slopes_are_limited),
+        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_full_beam_straight_up),
+        cmocka_unit_test(test_full_beam_starts_along_the_surface),
+        cmocka_unit_test(test_a_miss_lights_nothing),
+        cmocka_unit_test(test_frames_are_orthonormal),
+        cmocka_unit_test(test_frames_turn),
+        cmocka_unit_test(test_cut),
+        cmocka_unit_test(test_cut_with_misses),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

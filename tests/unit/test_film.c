@@ -1,0 +1,231 @@
+/* test_film.c: sums and means over passes, pixels seen in some passes or none, and the tiles. */
+#include "film/film.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define WIDTH 20
+#define HEIGHT 18
+#define PI 3.14159265358979323846
+
+struct bench {
+    struct gbuffer gbuffer;
+    struct film film;
+};
+
+static struct bench bench;
+
+static int open_bench(void **state)
+{
+    (void)state;
+    struct error error;
+    assert_int_equal(gbuffer_create(WIDTH, HEIGHT, &bench.gbuffer, &error), PS_OK);
+    assert_int_equal(film_create(WIDTH, HEIGHT, &bench.film, &error), PS_OK);
+    return 0;
+}
+
+static int close_bench(void **state)
+{
+    (void)state;
+    film_release(&bench.film);
+    gbuffer_release(&bench.gbuffer);
+    return 0;
+}
+
+/* A lane that sees an object, everything in it a multiple of `value`. */
+static void see(ps_tile *tile, ps_rgb *direct, uint32_t lane, float value)
+{
+    tile->object[lane] = tile->material[lane] = 0;
+    tile->albedo_r[lane] = 0.5f;
+    tile->albedo_g[lane] = 0.25f;
+    tile->albedo_b[lane] = 1;
+    tile->normal_x[lane] = 1;
+    tile->position_x[lane] = value;
+    tile->position_y[lane] = 2 * value;
+    tile->position_z[lane] = 3 * value;
+    tile->depth[lane] = 4 * value;
+    tile->irradiance_r[lane] = value;
+    tile->irradiance_g[lane] = 2 * value;
+    tile->irradiance_b[lane] = 3 * value;
+    tile->weight[lane] = 10 * value;
+    *direct = (ps_rgb){5 * value, 6 * value, 7 * value};
+}
+
+static void see_nothing(ps_tile *tile, uint32_t lane)
+{
+    tile->object[lane] = tile->material[lane] = PS_NO_OBJECT;
+    tile->position_x[lane] = tile->position_y[lane] = tile->position_z[lane] = 1e18f;
+    tile->depth[lane] = INFINITY;
+    tile->irradiance_r[lane] = tile->weight[lane] = 77; /* must not be taken */
+}
+
+static float pixel_value(uint32_t x, uint32_t y)
+{
+    return (float)(1 + x + 100 * y);
+}
+
+/* One pass: pixels from column `first` on see something, `factor` times their own value. */
+static void add_pass(uint32_t first, float factor)
+{
+    for (uint32_t tile = 0; tile < bench.gbuffer.tile_count; tile++) {
+        memset(&bench.gbuffer.tiles[tile], 0, sizeof bench.gbuffer.tiles[tile]);
+        for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+            uint32_t x, y;
+            ps_rgb *direct = &bench.gbuffer.direct[tile * PS_TILE_PIXELS + lane];
+            *direct = (ps_rgb){0, 0, 0};
+            gbuffer_pixel(&bench.gbuffer, tile, lane, &x, &y);
+            if (x >= first) /* lanes outside of the picture too: nothing may come of them */
+                see(&bench.gbuffer.tiles[tile], direct, lane, factor * pixel_value(x, y));
+            else
+                see_nothing(&bench.gbuffer.tiles[tile], lane);
+        }
+        film_add_tile(&bench.film, &bench.gbuffer, tile);
+    }
+    film_count_pass(&bench.film);
+}
+
+static void expect(enum film_plane plane, uint32_t x, uint32_t y, double expected)
+{
+    double value = bench.film.planes[plane][y * WIDTH + x];
+    if (fabs(value - expected) > 1e-5 * fabs(expected))
+        fail_msg("plane %d at (%u, %u): %.8g, expected %.8g", (int)plane, x, y, value, expected);
+}
+
+static void test_lanes_are_pixels(void **state)
+{
+    (void)state;
+    uint32_t seen[WIDTH * HEIGHT] = {0}, inside = 0;
+    assert_int_equal(bench.gbuffer.tile_count, 4);
+    for (uint32_t tile = 0; tile < 4; tile++)
+        for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+            uint32_t x, y;
+            if (!gbuffer_pixel(&bench.gbuffer, tile, lane, &x, &y))
+                continue;
+            inside++;
+            assert_int_equal(seen[y * WIDTH + x]++, 0);
+            assert_int_equal(x / PS_TILE_SIZE + 2 * (y / PS_TILE_SIZE), tile);
+        }
+    assert_int_equal(inside, WIDTH * HEIGHT);
+    assert_int_equal((uintptr_t)bench.gbuffer.tiles % 64, 0);
+}
+
+static void test_new_film_is_empty(void **state)
+{
+    (void)state;
+    for (int plane = 0; plane < FILM_PLANES; plane++)
+        for (size_t i = 0; i < WIDTH * HEIGHT; i++)
+            assert_true(bench.film.planes[plane][i] == 0);
+    assert_int_equal(bench.film.passes, 0);
+    film_average(&bench.film); /* no passes: nothing seen, nothing divided by 0 */
+    for (int plane = 0; plane < FILM_PLANES; plane++)
+        assert_true(plane == FILM_DEPTH ? isinf(bench.film.planes[plane][5])
+                                        : bench.film.planes[plane][5] == 0);
+}
+
+static void test_passes_add_up(void **state)
+{
+    (void)state;
+    add_pass(0, 1);
+    add_pass(0, 2);
+    assert_int_equal(bench.film.passes, 2);
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            double v = 3 * pixel_value(x, y);
+            expect(FILM_DIRECT_R, x, y, 0.5 / PI * 5 * v);
+            expect(FILM_DIRECT_G, x, y, 0.25 / PI * 6 * v);
+            expect(FILM_DIRECT_B, x, y, 1 / PI * 7 * v);
+            expect(FILM_COLOR_R, x, y, 0.5 / PI * v);
+            expect(FILM_COLOR_G, x, y, 0.25 / PI * 2 * v);
+            expect(FILM_COLOR_B, x, y, 1 / PI * 3 * v);
+            expect(FILM_WEIGHT, x, y, 10 * v);
+            expect(FILM_ALBEDO_G, x, y, 0.5);
+            expect(FILM_POSITION_Z, x, y, 3 * v);
+            expect(FILM_DEPTH, x, y, 4 * v);
+            expect(FILM_COVERAGE, x, y, 2);
+        }
+}
+
+/* The mean: geometry and direct light; colour and weight stay sums, for the normalization. */
+static void test_average(void **state)
+{
+    (void)state;
+    add_pass(0, 1);
+    add_pass(0, 2);
+    film_average(&bench.film);
+    double v = pixel_value(17, 3);
+    expect(FILM_DIRECT_R, 17, 3, 0.5 / PI * 5 * 1.5 * v);
+    expect(FILM_DIRECT_B, 17, 3, 1 / PI * 7 * 1.5 * v);
+    expect(FILM_ALBEDO_R, 17, 3, 0.5);
+    expect(FILM_ALBEDO_B, 17, 3, 1);
+    expect(FILM_NORMAL_X, 17, 3, 1);
+    expect(FILM_POSITION_Y, 17, 3, 2 * 1.5 * v);
+    expect(FILM_DEPTH, 17, 3, 4 * 1.5 * v);
+    expect(FILM_COLOR_G, 17, 3, 0.25 / PI * 2 * 3 * v);
+    expect(FILM_WEIGHT, 17, 3, 10 * 3 * v);
+}
+
+/* Seen in one pass of two: half of the light, all of the geometry. */
+static void test_partly_covered_pixels(void **state)
+{
+    (void)state;
+    add_pass(0, 1);
+    add_pass(10, 1);
+    film_average(&bench.film);
+    double v = pixel_value(4, 2);
+    expect(FILM_COVERAGE, 4, 2, 1);
+    expect(FILM_DIRECT_G, 4, 2, 0.25 / PI * 6 * v / 2);
+    expect(FILM_COLOR_G, 4, 2, 0.25 / PI * 2 * v);
+    expect(FILM_ALBEDO_G, 4, 2, 0.25);
+    expect(FILM_POSITION_X, 4, 2, v);
+    expect(FILM_DEPTH, 4, 2, 4 * v);
+    expect(FILM_WEIGHT, 4, 2, 10 * v);
+    expect(FILM_DIRECT_G, 12, 2, 0.25 / PI * 6 * pixel_value(12, 2));
+}
+
+static void test_uncovered_pixels(void **state)
+{
+    (void)state;
+    add_pass(10, 1);
+    add_pass(10, 2);
+    film_average(&bench.film);
+    for (int plane = 0; plane < FILM_PLANES; plane++)
+        if (plane != FILM_DEPTH)
+            expect((enum film_plane)plane, 9, 17, 0);
+    assert_true(isinf(bench.film.planes[FILM_DEPTH][17 * WIDTH + 9]));
+    assert_true(isfinite(bench.film.planes[FILM_DEPTH][17 * WIDTH + 10]));
+}
+
+static void test_clear_indirect(void **state)
+{
+    (void)state;
+    add_pass(0, 1);
+    gbuffer_clear_indirect(&bench.gbuffer);
+    for (uint32_t tile = 0; tile < 4; tile++)
+        for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
+            const ps_tile *it = &bench.gbuffer.tiles[tile];
+            assert_true(it->irradiance_r[i] == 0 && it->irradiance_g[i] == 0 &&
+                        it->irradiance_b[i] == 0 && it->weight[i] == 0);
+            assert_true(it->albedo_b[i] == 1 && it->depth[i] > 0); /* the rest stays */
+        }
+}
+
+#define FILM_TEST(function) cmocka_unit_test_setup_teardown(function, open_bench, close_bench)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        FILM_TEST(test_lanes_are_pixels),
+        FILM_TEST(test_new_film_is_empty),
+        FILM_TEST(test_passes_add_up),
+        FILM_TEST(test_average),
+        FILM_TEST(test_partly_covered_pixels),
+        FILM_TEST(test_uncovered_pixels),
+        FILM_TEST(test_clear_indirect),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,332 @@
+/* test_kernel.c: the inner loop in all its instruction sets, against the formulas of kernel.h
+ * written out in double precision, pixel by pixel; and the normalization of its profiles.
+ *
+ * Float and double may part ways where a pixel lies within rounding of a limit: those pixels are
+ * found by the reference and left out, and must be few. */
+#include "splat/kernel.h"
+
+#include "support/random.h"
+#include <psplat/math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define SPLATS 24
+#define TILES 12
+#define MOST_TEXELS (64 * 64)
+#define STEEPEST 10.0 /* slope to which the bias grows, see box.h */
+
+struct bench {
+    _Alignas(64) ps_tile tile;
+    ps_splat splats[SPLATS];
+    float depths[SPLATS][MOST_TEXELS];
+    uint32_t indices[SPLATS];
+    struct kernel_profile profile;
+    uint32_t resolution;
+};
+
+struct sums {
+    double r, g, b, weight, lit;
+    bool borderline;
+};
+
+static void gaussian_profile(struct kernel_profile *profile)
+{
+    for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++)
+        profile->weights[i] = expf(-2.0f * kernel_profile_radius2(i));
+    assert_true(kernel_profile_normalize(profile));
+}
+
+/* A bumpy surface around the origin, some of whose pixels see nothing. */
+static void fill_tile(ps_tile *tile, struct random *random)
+{
+    memset(tile, 0, sizeof *tile);
+    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
+        ps_vec3 normal = random_direction(random);
+        bool seen = random_unit(random) > 0.1f;
+        tile->position_x[i] = seen ? (float)(i % 16) / 8 - 1 : 1e18f;
+        tile->position_y[i] = seen ? (float)(i / 16) / 8 - 1 : 1e18f;
+        tile->position_z[i] = seen ? random_between(random, -0.5f, 0.5f) : 1e18f;
+        tile->normal_x[i] = seen ? normal.x : 0;
+        tile->normal_y[i] = seen ? normal.y : 0;
+        tile->normal_z[i] = seen ? normal.z : 0;
+        tile->object[i] = seen ? 0 : PS_NO_OBJECT;
+        tile->depth[i] = seen ? 1 : INFINITY;
+    }
+}
+
+static ps_splat random_splat(struct random *random)
+{
+    ps_splat splat = {
+        .centre = ps_scale(random_direction(random), 0.7f),
+        .half_width = random_between(random, 0.2f, 1.5f),
+        .axis_w = ps_normalize(random_direction(random)),
+        .near_depth = random_between(random, -1.0f, 0.0f),
+        .far_depth = random_between(random, 0.1f, 1.0f),
+        .bias_constant = random_between(random, 0.0f, 0.1f),
+        .bias_slope = random_between(random, 0.0f, 0.1f),
+        .two_sided = random_unit(random) < 0.5f,
+        .power = {random_unit(random), random_unit(random), random_unit(random)},
+    };
+    ps_frame(splat.axis_w, &splat.axis_u, &splat.axis_v);
+    return splat;
+}
+
+static struct bench *make_bench(uint32_t resolution, uint64_t seed)
+{
+    static struct bench bench;
+    struct random random = {seed};
+    fill_tile(&bench.tile, &random);
+    gaussian_profile(&bench.profile);
+    bench.resolution = resolution;
+    for (uint32_t s = 0; s < SPLATS; s++) {
+        bench.splats[s] = random_splat(&random);
+        bench.indices[s] = SPLATS - 1 - s;
+        for (uint32_t i = 0; i < resolution * resolution; i++)
+            bench.depths[s][i] = random_unit(&random) < 0.2f
+                                     ? INFINITY
+                                     : random_between(&random, -0.6f, 0.6f);
+    }
+    return &bench;
+}
+
+static double dot(ps_vec3 a, const double b[3])
+{
+    return a.x * b[0] + a.y * b[1] + a.z * b[2];
+}
+
+/* Whether a < b, noting where that depends on rounding. */
+static bool below(double a, double b, double margin, bool *borderline)
+{
+    *borderline |= fabs(a - b) < margin;
+    return a < b;
+}
+
+static size_t texel(double across, uint32_t resolution, bool *borderline)
+{
+    double place = 0.5 * (across + 1) * resolution;
+    *borderline |= fabs(place - floor(place + 0.5)) < 1e-4 && place > 0.5 && place < resolution - 0.5;
+    return (size_t)fmin(fmax(place, 0), resolution - 1);
+}
+
+/* One splat's light on one pixel. */
+static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel, struct sums *sums)
+{
+    const ps_splat *splat = &bench->splats[s];
+    const ps_tile *tile = &bench->tile;
+    const double d[3] = {(double)tile->position_x[pixel] - splat->centre.x,
+                         (double)tile->position_y[pixel] - splat->centre.y,
+                         (double)tile->position_z[pixel] - splat->centre.z};
+    const double n[3] = {tile->normal_x[pixel], tile->normal_y[pixel], tile->normal_z[pixel]};
+    double u = dot(splat->axis_u, d) / splat->half_width;
+    double v = dot(splat->axis_v, d) / splat->half_width;
+    double t = dot(splat->axis_w, d), cosine = -dot(splat->axis_w, n), r2 = u * u + v * v;
+    bool borderline = false;
+    if (tile->object[pixel] == PS_NO_OBJECT)
+        return;
+    if (!below(r2, 1, 1e-5, &borderline) | !below(0, cosine, 1e-6, &borderline) |
+        !below(splat->near_depth, t, 1e-5, &borderline) |
+        !below(t, splat->far_depth, 1e-5, &borderline)) {
+        sums->borderline |= borderline;
+        return;
+    }
+    double slope = sqrt(fmax(0, 1 - cosine * cosine)) / cosine;
+    double bias = splat->bias_constant + splat->bias_slope * fmin(slope, STEEPEST);
+    double map = bench->depths[s][texel(v, bench->resolution, &borderline) * bench->resolution +
+                                  texel(u, bench->resolution, &borderline)];
+    bool lit = below(t - map, bias, 1e-4, &borderline) &&
+               (!splat->two_sided || below(map - t, bias, 1e-4, &borderline));
+    sums->borderline |= borderline;
+    if (!lit)
+        return;
+    double entry = fmin(r2 * KERNEL_PROFILE_SIZE, KERNEL_PROFILE_SIZE - 1);
+    double k = bench->profile.weights[(size_t)entry] * (double)bench->profile.scale /
+               ((double)splat->half_width * splat->half_width);
+    sums->borderline |= fabs(entry - floor(entry + 0.5)) < 2e-3;
+    sums->weight += k;
+    sums->r += splat->power.r * k * cosine;
+    sums->g += splat->power.g * k * cosine;
+    sums->b += splat->power.b * k * cosine;
+    sums->lit++;
+}
+
+static void expect_close(double value, double expected)
+{
+    if (fabs(value - expected) > 1e-5 * fabs(expected) + 1e-7)
+        fail_msg("%.9g, expected %.9g", value, expected);
+}
+
+static void expect_pixel(const ps_tile *tile, uint32_t i, const struct sums *sums)
+{
+    expect_close(tile->irradiance_r[i], sums->r);
+    expect_close(tile->irradiance_g[i], sums->g);
+    expect_close(tile->irradiance_b[i], sums->b);
+    expect_close(tile->weight[i], sums->weight);
+}
+
+static uint64_t run(kernel_function accumulate, struct bench *bench, ps_tile *tile)
+{
+    struct kernel_splat prepared[SPLATS];
+    for (uint32_t s = 0; s < SPLATS; s++)
+        prepared[s] = kernel_prepare(&bench->splats[s], &bench->profile, bench->depths[s]);
+    *tile = bench->tile;
+    return accumulate(tile, prepared, bench->indices, SPLATS, bench->resolution, &bench->profile);
+}
+
+/* Compares all pixels; returns how many were too close to a limit to tell. */
+static uint32_t compare(const struct kernel_variant *variant, struct bench *bench, double *lit)
+{
+    static _Alignas(64) ps_tile tile;
+    uint64_t useful = run(variant->accumulate, bench, &tile);
+    uint32_t borderline = 0;
+    double expected_useful = 0;
+    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
+        struct sums sums = {0};
+        for (uint32_t s = 0; s < SPLATS; s++)
+            add_reference(bench, s, i, &sums);
+        expected_useful += sums.lit;
+        borderline += sums.borderline;
+        if (!sums.borderline)
+            expect_pixel(&tile, i, &sums);
+    }
+    assert_true(fabs((double)useful - expected_useful) <= 2.0 * borderline);
+    *lit += expected_useful;
+    return borderline;
+}
+
+static void test_variants_agree_with_the_formulas(void **state)
+{
+    (void)state;
+    static const uint32_t resolutions[] = {1, 3, 8, 64};
+    struct kernel_variant variants[4];
+    size_t count = kernel_variants(variants);
+    assert_in_range(count, 1, 3);
+    assert_string_equal(variants[count - 1].name, "baseline");
+    for (size_t v = 0; v < count; v++)
+        for (size_t r = 0; r < 4; r++) {
+            uint32_t borderline = 0;
+            double lit = 0;
+            for (uint64_t seed = 1; seed <= TILES; seed++)
+                borderline += compare(&variants[v], make_bench(resolutions[r], seed), &lit);
+            print_message("%s, resolution %u: %.0f pairs lit, %u pixels of %u left out\n",
+                          variants[v].name, resolutions[r], lit, borderline,
+                          TILES * PS_TILE_PIXELS);
+            assert_true(borderline < TILES * PS_TILE_PIXELS / 20);
+            assert_true(lit > TILES * PS_TILE_PIXELS / 10.0);
+        }
+}
+
+static void test_pixels_without_surface_get_nothing(void **state)
+{
+    (void)state;
+    static _Alignas(64) ps_tile tile;
+    struct kernel_variant variants[4];
+    size_t count = kernel_variants(variants);
+    for (size_t v = 0; v < count; v++) {
+        struct bench *bench = make_bench(8, 5);
+        for (uint32_t s = 0; s < SPLATS; s++) {
+            bench->splats[s].far_depth = INFINITY;
+            bench->splats[s].near_depth = -INFINITY;
+            bench->splats[s].half_width = s % 2 ? 1e-6f : 1e6f;
+        }
+        assert_true(run(variants[v].accumulate, bench, &tile) > 0);
+        for (uint32_t i = 0; i < PS_TILE_PIXELS; i++)
+            if (tile.object[i] == PS_NO_OBJECT)
+                assert_true(tile.weight[i] == 0 && tile.irradiance_r[i] == 0 &&
+                            tile.irradiance_g[i] == 0 && tile.irradiance_b[i] == 0);
+            else
+                assert_true(isfinite(tile.weight[i]) && isfinite(tile.irradiance_r[i]));
+    }
+}
+
+/* What lies in a tile already stays; only the splats named are added, in the order named. */
+static void test_adds_to_what_is_there(void **state)
+{
+    (void)state;
+    static _Alignas(64) ps_tile whole, halves;
+    struct kernel_variant variants[4];
+    size_t count = kernel_variants(variants);
+    struct bench *bench = make_bench(3, 6);
+    struct kernel_splat prepared[SPLATS];
+    for (uint32_t s = 0; s < SPLATS; s++)
+        prepared[s] = kernel_prepare(&bench->splats[s], &bench->profile, bench->depths[s]);
+    for (size_t v = 0; v < count; v++) {
+        uint64_t useful = run(variants[v].accumulate, bench, &whole), parts = 0;
+        halves = bench->tile;
+        for (uint32_t first = 0; first < SPLATS; first += SPLATS / 3)
+            parts += variants[v].accumulate(&halves, prepared, bench->indices + first, SPLATS / 3,
+                                            bench->resolution, &bench->profile);
+        assert_true(parts == useful);
+        assert_memory_equal(&whole, &halves, sizeof whole);
+        assert_true(variants[v].accumulate(&halves, prepared, NULL, 0, 3, &bench->profile) == 0);
+        assert_memory_equal(&whole, &halves, sizeof whole);
+    }
+}
+
+/* Scale of a profile over midpoints, and its integral over a grid of points in the unit disc. */
+static void expect_normalized(struct kernel_profile *profile, double scale)
+{
+    enum { GRID = 1000 };
+    assert_true(kernel_profile_normalize(profile));
+    assert_true(fabs(profile->scale / scale - 1) < 1e-4);
+    double sum = 0;
+    for (int y = 0; y < GRID; y++)
+        for (int x = 0; x < GRID; x++) {
+            double u = (2.0 * x + 1) / GRID - 1, v = (2.0 * y + 1) / GRID - 1, r2 = u * u + v * v;
+            if (r2 < 1)
+                sum += profile->weights[(size_t)(r2 * KERNEL_PROFILE_SIZE)] * profile->scale;
+        }
+    assert_true(fabs(sum * 4 / (GRID * GRID) - 1) < 1e-3);
+}
+
+static void test_profiles_integrate_to_one(void **state)
+{
+    (void)state;
+    const double pi = 3.14159265358979;
+    struct kernel_profile profile;
+    for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++) {
+        assert_true(fabs(kernel_profile_radius2(i) - (i + 0.5) / KERNEL_PROFILE_SIZE) < 1e-7);
+        profile.weights[i] = 5;
+    }
+    expect_normalized(&profile, 1 / (5 * pi));
+    for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++)
+        profile.weights[i] = 1 - sqrtf(kernel_profile_radius2(i));
+    expect_normalized(&profile, 3 / pi); /* a cone's volume is pi / 3 */
+    gaussian_profile(&profile);
+    expect_normalized(&profile, 2 / (pi * (1 - exp(-2))));
+}
+
+static void test_bad_profiles_are_refused(void **state)
+{
+    (void)state;
+    static const float bad[] = {-1e-6f, NAN, INFINITY, -INFINITY};
+    static const size_t places[] = {0, 500, KERNEL_PROFILE_SIZE - 1};
+    struct kernel_profile profile;
+    for (size_t i = 0; i < 4; i++)
+        for (size_t k = 0; k < 3; k++) {
+            gaussian_profile(&profile);
+            profile.weights[places[k]] = bad[i];
+            assert_false(kernel_profile_normalize(&profile));
+        }
+    memset(&profile, 0, sizeof profile);
+    assert_false(kernel_profile_normalize(&profile));
+    profile.weights[7] = 1; /* enough */
+    assert_true(kernel_profile_normalize(&profile));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_variants_agree_with_the_formulas),
+        cmocka_unit_test(test_pixels_without_surface_get_nothing),
+        cmocka_unit_test(test_adds_to_what_is_there),
+        cmocka_unit_test(test_profiles_integrate_to_one),
+        cmocka_unit_test(test_bad_profiles_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,209 @@
+/* test_pipeline.c: the driver: sources pass through, dark pixels are filled and counted, layers
+ * join, and the picture depends on neither threads nor batches. */
+#include "support/render_scene.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define WIDTH 64
+#define HEIGHT 36
+
+static char *cornell;
+
+static int read_cornell(void **state)
+{
+    (void)state;
+    cornell = cornell_text(WIDTH, HEIGHT);
+    return 0;
+}
+
+static int release_cornell(void **state)
+{
+    (void)state;
+    free(cornell);
+    return 0;
+}
+
+/* The Cornell box with more lines in its section `render`, which comes last. The caller frees it. */
+static char *cornell_with(const char *lines)
+{
+    size_t size = strlen(cornell) + strlen(lines) + 8;
+    char *text = malloc(size);
+    assert_non_null(text);
+    snprintf(text, size, "%s\n  %s\n", cornell, lines);
+    return text;
+}
+
+static struct rendering render(const char *text, const char *a, const char *b)
+{
+    const char *const choices[] = {a, b, NULL};
+    return render_text(text, 2, choices);
+}
+
+static void test_no_stratification_passes_sources_through(void **state)
+{
+    (void)state;
+    struct rendering rendering =
+        render(cornell, "injection=photon:count=5000", "stratification=none");
+    double injected = statistics_counter(&rendering.statistics, "sources injected");
+    assert_true(injected > 4500 && injected <= 5000); /* some photons leave through the front */
+    assert_true(statistics_counter(&rendering.statistics, "sources") == injected);
+    assert_true(statistics_counter(&rendering.statistics, "splats") == injected);
+    rendering_release(&rendering);
+}
+
+/* More bounces make more sources and more light. */
+static void test_bounces_add_sources(void **state)
+{
+    (void)state;
+    struct rendering one = render(cornell, "injection=photon:count=5000,bounces=1", NULL);
+    struct rendering three =
+        render(cornell, "injection=photon:count=5000,bounces=3,roulette=0", NULL);
+    assert_true(statistics_counter(&three.statistics, "sources") >
+                2 * statistics_counter(&one.statistics, "sources"));
+    assert_true(mean_of_all(&three.image, "indirect.R") > mean_of_all(&one.image, "indirect.R"));
+    rendering_release(&one);
+    rendering_release(&three);
+}
+
+/* One photon leaves nearly all pixels without weight: they take the ambient colour, but only where
+ * there is a surface. */
+static void test_ambient_fills_dark_pixels(void **state)
+{
+    (void)state;
+    char *text = cornell_with("ambient: [1.5, 2.5, 3.5]");
+    struct rendering rendering = render(text, "injection=photon:count=1", NULL);
+    const struct image *image = &rendering.image;
+    const float *weight = image_channel(image, "weight"), *z = image_channel(image, "Z");
+    const float *red = image_channel(image, "indirect.R");
+    const float *blue = image_channel(image, "indirect.B");
+    size_t dark = 0, nothing = 0;
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
+        if (weight[i] > 0)
+            continue;
+        dark += isfinite(z[i]) != 0;
+        nothing += !isfinite(z[i]);
+        assert_true(red[i] == (isfinite(z[i]) ? 1.5f : 0.0f));
+        assert_true(blue[i] == (isfinite(z[i]) ? 3.5f : 0.0f));
+    }
+    print_message("%zu pixels without weight, %zu see nothing\n", dark, nothing);
+    assert_true(dark > 100 && nothing > 100 && dark + nothing < WIDTH * HEIGHT);
+    assert_true(statistics_counter(&rendering.statistics, "pixels without weight") == (double)dark);
+    rendering_release(&rendering);
+    free(text);
+}
+
+/* R, G, B are the direct plus the indirect light, times its exposure. */
+static void test_layers_join(void **state)
+{
+    (void)state;
+    char *text = cornell_with("indirect_exposure: 3");
+    struct rendering rendering = render(text, "injection=photon:count=5000", NULL);
+    const float *sum = image_channel(&rendering.image, "G");
+    const float *direct = image_channel(&rendering.image, "direct.G");
+    const float *indirect = image_channel(&rendering.image, "indirect.G");
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++)
+        assert_true(fabsf(sum[i] - direct[i] - 3 * indirect[i]) <= 1e-5f * sum[i]);
+    assert_true(mean_of_all(&rendering.image, "direct.G") > 0);
+    assert_true(mean_of_all(&rendering.image, "indirect.G") > 0);
+    rendering_release(&rendering);
+    free(text);
+}
+
+/* A render of several passes is their mean: more passes, no more light, and less noise. */
+static void test_passes_keep_the_brightness(void **state)
+{
+    (void)state;
+    char *text = cornell_with("passes: 4");
+    struct rendering one = render(cornell, "injection=photon:count=20000", NULL);
+    struct rendering four = render(text, "injection=photon:count=5000", NULL);
+    double ratio = mean_of_all(&four.image, "indirect.R") / mean_of_all(&one.image, "indirect.R");
+    double direct = mean_of_all(&four.image, "direct.R") / mean_of_all(&one.image, "direct.R");
+    print_message("four passes / one: indirect %.4f, direct %.4f\n", ratio, direct);
+    assert_true(fabs(ratio - 1) < 0.02);
+    assert_true(fabs(direct - 1) < 0.02);
+    assert_true(statistics_counter(&four.statistics, "passes") == 4);
+    rendering_release(&one);
+    rendering_release(&four);
+    free(text);
+}
+
+static void test_seeds_make_other_noise(void **state)
+{
+    (void)state;
+    char *text = cornell_with("seed: 5");
+    struct rendering a = render(cornell, "injection=photon:count=5000", NULL);
+    struct rendering b = render(text, "injection=photon:count=5000", NULL);
+    double ratio = mean_of_all(&a.image, "indirect.R") / mean_of_all(&b.image, "indirect.R");
+    assert_true(ratio != 1 && fabs(ratio - 1) < 0.05);
+    rendering_release(&a);
+    rendering_release(&b);
+    free(text);
+}
+
+static void expect_same(const struct image *a, const struct image *b)
+{
+    assert_int_equal(a->channel_count, b->channel_count);
+    for (size_t i = 0; i < a->channel_count; i++) {
+        assert_string_equal(a->channels[i].name, b->channels[i].name);
+        assert_memory_equal(a->channels[i].samples, b->channels[i].samples,
+                            a->width * a->height * sizeof(float));
+    }
+}
+
+/* Bitwise the same channels for any number of threads and any size of batches. */
+static void expect_determined(const char *const choices[])
+{
+    static const size_t batches[] = {4096, 1000, 64, 1};
+    char *text = cornell_with("passes: 2");
+    struct rendering first = render_text(text, 1, choices);
+    assert_true(mean_of_all(&first.image, "indirect.G") > 0);
+    for (uint32_t threads = 1; threads <= 3; threads++)
+        for (size_t i = 0; i < sizeof batches / sizeof batches[0]; i++) {
+            if (batches[i] == 1 && threads != 2)
+                continue; /* slow */
+            struct rendering other = render_text_in_batches(text, threads, batches[i], choices);
+            expect_same(&first.image, &other.image);
+            rendering_release(&other);
+        }
+    rendering_release(&first);
+    free(text);
+}
+
+static void test_determined_with_shadow_maps(void **state)
+{
+    (void)state;
+    const char *const choices[] = {"injection=photon:count=3000,bounces=3",
+                                   "visibility=shadowmap:resolution=5", "denoiser=gaussian",
+                                   "normalization=weight", NULL};
+    expect_determined(choices);
+}
+
+static void test_determined_without_visibility(void **state)
+{
+    (void)state;
+    const char *const choices[] = {"injection=photon:count=3000", "visibility=none:size=60",
+                                   "filter=tent", NULL};
+    expect_determined(choices);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_no_stratification_passes_sources_through),
+        cmocka_unit_test(test_bounces_add_sources),
+        cmocka_unit_test(test_ambient_fills_dark_pixels),
+        cmocka_unit_test(test_layers_join),
+        cmocka_unit_test(test_passes_keep_the_brightness),
+        cmocka_unit_test(test_seeds_make_other_noise),
+        cmocka_unit_test(test_determined_with_shadow_maps),
+        cmocka_unit_test(test_determined_without_visibility),
+    };
+    return cmocka_run_group_tests(tests, read_cornell, release_cornell);
+}
