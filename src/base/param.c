@@ -63,8 +63,11 @@ static bool parse_integer(const ps_param *row, const char *text, int64_t *value)
     if (!parse_number(row, text, &number) || number < -9007199254740992.0 ||
         number > 9007199254740992.0)
         return false;
-    *value = (int64_t)number;
-    return (double)*value == number;
+    int64_t whole = (int64_t)number;
+    if ((double)whole != number)
+        return false;
+    *value = whole;
+    return true;
 }
 
 static bool parse_bool(const char *text, int32_t *value)

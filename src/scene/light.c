@@ -45,7 +45,9 @@ ps_rgb light_power(const struct light *light)
 
 ps_rgb light_intensity(const struct light *light, ps_vec3 direction)
 {
-    return ps_rgb_scale(light->intensity, edge(light, ps_dot(direction, light->axis)));
+    /* Rounding may take a dot product past -1, where a light that shines all around would end. */
+    float cosine = fmaxf(ps_dot(direction, light->axis), -1.0f);
+    return ps_rgb_scale(light->intensity, edge(light, cosine));
 }
 
 ps_rgb light_emit(const struct light *light, float u1, float u2, ps_ray *ray)

@@ -90,6 +90,14 @@ expect_same() {
     cmp -s "$1" "$2" || fail "$1 and $2 differ"
 }
 
+# expect_same_pixels A B: the attributes of the pictures may differ.
+expect_same_pixels() {
+    for layer in direct indirect albedo N; do
+        "$PSPLAT" compare "$1" "$2" --layer $layer --metric max --fail 'max>0' >out 2>err ||
+            fail "$1 and $2 differ in layer $layer"
+    done
+}
+
 expect_different() {
     [ -s "$1" ] && [ -s "$2" ] || fail "$1 or $2 is empty or not there"
     cmp -s "$1" "$2" && fail "$1 and $2 are the same"

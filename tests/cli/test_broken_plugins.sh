@@ -136,7 +136,7 @@ printf '\177ELF' | put
 refused "it is no shared object"
 rm -f mine/filter/broken.so
 mkdir mine/filter/broken.so
-refused "it is no shared object"
+refused "it is no ordinary file"
 rmdir mine/filter/broken.so
 ln -s nowhere mine/filter/broken.so
 refused "no such file"

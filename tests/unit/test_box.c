@@ -108,8 +108,7 @@ static void test_steep_slopes_are_limited(void **state)
 static void test_numbers(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {
-        .size = 2, .depth = 7, .step_back = 3, .step_back_rule = -1};
+    const ps_box_settings settings = {.size = 2, .depth = 7, .step_back = 3, .step_back_rule = -1};
     ps_splat splat = place(settings, 10, 0.6f);
     expect_near(splat.near_depth, -3);
     expect_near(splat.start_depth, -3);

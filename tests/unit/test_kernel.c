@@ -88,9 +88,8 @@ static struct bench *make_bench(uint32_t resolution, uint64_t seed)
         bench.splats[s] = random_splat(&random);
         bench.indices[s] = SPLATS - 1 - s;
         for (uint32_t i = 0; i < resolution * resolution; i++)
-            bench.depths[s][i] = random_unit(&random) < 0.2f
-                                     ? INFINITY
-                                     : random_between(&random, -0.6f, 0.6f);
+            bench.depths[s][i] =
+                random_unit(&random) < 0.2f ? INFINITY : random_between(&random, -0.6f, 0.6f);
     }
     return &bench;
 }
@@ -110,7 +109,8 @@ static bool below(double a, double b, double margin, bool *borderline)
 static size_t texel(double across, uint32_t resolution, bool *borderline)
 {
     double place = 0.5 * (across + 1) * resolution;
-    *borderline |= fabs(place - floor(place + 0.5)) < 1e-4 && place > 0.5 && place < resolution - 0.5;
+    *borderline |=
+        fabs(place - floor(place + 0.5)) < 1e-4 && place > 0.5 && place < resolution - 0.5;
     return (size_t)fmin(fmax(place, 0), resolution - 1);
 }
 

@@ -1,4 +1,5 @@
-/* test_light.c: lights: what they emit in sum, their profile, and how a scene chooses among them. */
+/* test_light.c: lights: what they emit in sum, their profile, and how a scene chooses among them.
+ */
 #include "scene/light.h"
 
 #include "scene/scene.h"

@@ -35,8 +35,8 @@ static void test_frame_is_orthonormal(void **state)
 static void test_frame_near_the_poles(void **state)
 {
     (void)state;
-    static const ps_vec3 axes[] = {{0, 0, 1},  {0, 0, -1}, {1, 0, 0},   {-1, 0, 0},
-                                   {0, 1, 0},  {0, -1, 0}, {1, 0, 0.0f}, {1, 0, -0.0f}};
+    static const ps_vec3 axes[] = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0},    {-1, 0, 0},
+                                   {0, 1, 0}, {0, -1, 0}, {1, 0, 0.0f}, {1, 0, -0.0f}};
     for (size_t i = 0; i < sizeof axes / sizeof axes[0]; i++)
         expect_frame(axes[i]);
     for (float tilt = 1e-1f; tilt > 1e-30f; tilt *= 0.3f)
@@ -107,8 +107,8 @@ static double fit(direction_function make, double (*share)(size_t ring), ps_vec3
     return chi_squared_probability(observed, expected, CELLS);
 }
 
-static const ps_vec3 fit_axes[] = {{0, 0, 1},          {0, 0, -1},         {0, 1, 0},
-                                   {-1, 0, 0},         {0.6f, 0, -0.8f},   {0.48f, -0.6f, 0.64f}};
+static const ps_vec3 fit_axes[] = {{0, 0, 1},  {0, 0, -1},       {0, 1, 0},
+                                   {-1, 0, 0}, {0.6f, 0, -0.8f}, {0.48f, -0.6f, 0.64f}};
 #define FIT_AXES (sizeof fit_axes / sizeof fit_axes[0])
 
 static void test_cosine_direction_has_its_density(void **state)

@@ -178,9 +178,23 @@ static void test_vector(void **state)
 {
     (void)state;
     static const char *const bad[] = {
-        "",          "1",        "[1, 2]",    "[1, 2, 3, 4]", "[1, 2, 3",   "1, 2, 3]",
-        "[1 2 3]",   "[,1,2,3]", "[1,,2]",    "[1,2,]",       "[1, 2, 3]x", "[1, 2, x]",
-        "[1, 2, inf]", "[[1,2,3]]", "(1,2,3)", "[1, 2, 1e39]", "[1, 2, 3}",
+        "",
+        "1",
+        "[1, 2]",
+        "[1, 2, 3, 4]",
+        "[1, 2, 3",
+        "1, 2, 3]",
+        "[1 2 3]",
+        "[,1,2,3]",
+        "[1,,2]",
+        "[1,2,]",
+        "[1, 2, 3]x",
+        "[1, 2, x]",
+        "[1, 2, inf]",
+        "[[1,2,3]]",
+        "(1,2,3)",
+        "[1, 2, 1e39]",
+        "[1, 2, 3}",
     };
     struct state values = {0};
     accept(&values, "place", "[4,-5.5,6e2]");
@@ -268,9 +282,9 @@ static void test_round_trips(void **state)
 {
     (void)state;
     static const char *const pairs[][2] = {
-        {"flag", "on"},     {"flag", "off"},   {"count", "33"}, {"number", "0.1"},
+        {"flag", "on"},     {"flag", "off"},    {"count", "33"},  {"number", "0.1"},
         {"below", "-1e-9"}, {"label", "x=[y]"}, {"mode", "fast"}, {"mode", "slow"},
-        {"size", "full"},   {"size", "auto"},  {"size", "3.25"}, {"above", "16777217"},
+        {"size", "full"},   {"size", "auto"},   {"size", "3.25"}, {"above", "16777217"},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++)
         expect_round_trip(pairs[i][0], pairs[i][1]);

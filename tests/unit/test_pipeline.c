@@ -30,7 +30,8 @@ static int release_cornell(void **state)
     return 0;
 }
 
-/* The Cornell box with more lines in its section `render`, which comes last. The caller frees it. */
+/* The Cornell box with more lines in its section `render`, which comes last. The caller frees it.
+ */
 static char *cornell_with(const char *lines)
 {
     size_t size = strlen(cornell) + strlen(lines) + 8;
@@ -52,7 +53,7 @@ static void test_no_stratification_passes_sources_through(void **state)
     struct rendering rendering =
         render(cornell, "injection=photon:count=5000", "stratification=none");
     double injected = statistics_counter(&rendering.statistics, "sources injected");
-    assert_true(injected > 4500 && injected <= 5000); /* some photons leave through the front */
+    assert_true(injected > 3500 && injected < 4500); /* some photons leave through the front */
     assert_true(statistics_counter(&rendering.statistics, "sources") == injected);
     assert_true(statistics_counter(&rendering.statistics, "splats") == injected);
     rendering_release(&rendering);
@@ -72,13 +73,13 @@ static void test_bounces_add_sources(void **state)
     rendering_release(&three);
 }
 
-/* One photon leaves nearly all pixels without weight: they take the ambient colour, but only where
- * there is a surface. */
+/* A few photons leave nearly all pixels without weight: they take the ambient colour, but only
+ * where there is a surface. */
 static void test_ambient_fills_dark_pixels(void **state)
 {
     (void)state;
     char *text = cornell_with("ambient: [1.5, 2.5, 3.5]");
-    struct rendering rendering = render(text, "injection=photon:count=1", NULL);
+    struct rendering rendering = render(text, "injection=photon:count=8", NULL);
     const struct image *image = &rendering.image;
     const float *weight = image_channel(image, "weight"), *z = image_channel(image, "Z");
     const float *red = image_channel(image, "indirect.R");
@@ -116,22 +117,26 @@ static void test_layers_join(void **state)
     free(text);
 }
 
-/* A render of several passes is their mean: more passes, no more light, and less noise. */
+/* A render is the mean of its passes: more of them make no more light. */
 static void test_passes_keep_the_brightness(void **state)
 {
     (void)state;
-    char *text = cornell_with("passes: 4");
-    struct rendering one = render(cornell, "injection=photon:count=20000", NULL);
-    struct rendering four = render(text, "injection=photon:count=5000", NULL);
-    double ratio = mean_of_all(&four.image, "indirect.R") / mean_of_all(&one.image, "indirect.R");
-    double direct = mean_of_all(&four.image, "direct.R") / mean_of_all(&one.image, "direct.R");
-    print_message("four passes / one: indirect %.4f, direct %.4f\n", ratio, direct);
+    char *four_text = cornell_with("passes: 4"), *eight_text = cornell_with("passes: 8");
+    struct rendering four = render(four_text, "injection=photon:count=5000", NULL);
+    struct rendering eight = render(eight_text, "injection=photon:count=2500", NULL);
+    double ratio = mean_of_all(&eight.image, "indirect.R") / mean_of_all(&four.image, "indirect.R");
+    double direct = mean_of_all(&eight.image, "direct.R") / mean_of_all(&four.image, "direct.R");
+    print_message("eight passes / four: indirect %.4f, direct %.4f\n", ratio, direct);
     assert_true(fabs(ratio - 1) < 0.02);
     assert_true(fabs(direct - 1) < 0.02);
-    assert_true(statistics_counter(&four.statistics, "passes") == 4);
-    rendering_release(&one);
+    assert_true(statistics_counter(&eight.statistics, "passes") == 8);
+    /* The same paths in all: passes take up the numbers where the last one stopped. */
+    assert_true(statistics_counter(&eight.statistics, "sources") ==
+                statistics_counter(&four.statistics, "sources"));
     rendering_release(&four);
-    free(text);
+    rendering_release(&eight);
+    free(four_text);
+    free(eight_text);
 }
 
 static void test_seeds_make_other_noise(void **state)
@@ -160,13 +165,13 @@ static void expect_same(const struct image *a, const struct image *b)
 /* Bitwise the same channels for any number of threads and any size of batches. */
 static void expect_determined(const char *const choices[])
 {
-    static const size_t batches[] = {4096, 1000, 64, 1};
+    static const size_t batches[] = {4096, 500, 37};
     char *text = cornell_with("passes: 2");
     struct rendering first = render_text(text, 1, choices);
     assert_true(mean_of_all(&first.image, "indirect.G") > 0);
     for (uint32_t threads = 1; threads <= 3; threads++)
         for (size_t i = 0; i < sizeof batches / sizeof batches[0]; i++) {
-            if (batches[i] == 1 && threads != 2)
+            if (batches[i] < 100 && threads != 2)
                 continue; /* slow */
             struct rendering other = render_text_in_batches(text, threads, batches[i], choices);
             expect_same(&first.image, &other.image);
@@ -179,7 +184,7 @@ static void expect_determined(const char *const choices[])
 static void test_determined_with_shadow_maps(void **state)
 {
     (void)state;
-    const char *const choices[] = {"injection=photon:count=3000,bounces=3",
+    const char *const choices[] = {"injection=photon:count=1000,bounces=3",
                                    "visibility=shadowmap:resolution=5", "denoiser=gaussian",
                                    "normalization=weight", NULL};
     expect_determined(choices);
@@ -188,7 +193,7 @@ static void test_determined_with_shadow_maps(void **state)
 static void test_determined_without_visibility(void **state)
 {
     (void)state;
-    const char *const choices[] = {"injection=photon:count=3000", "visibility=none:size=60",
+    const char *const choices[] = {"injection=photon:count=1000", "visibility=none:size=60",
                                    "filter=tent", NULL};
     expect_determined(choices);
 }

@@ -124,8 +124,7 @@ static void test_box(void **state)
 {
     (void)state;
     ps_vec3 corners[2] = {{1, 2, 3}, {2, 4, 6}};
-    struct object_description object = {
-        .kind = OBJECT_BOX, .vertices = corners, .vertex_count = 2};
+    struct object_description object = {.kind = OBJECT_BOX, .vertices = corners, .vertex_count = 2};
     struct shape shape = shape_of(object);
     ps_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
     expect_box(&shape, 1 * 2 * 3, 2 * (2 + 3 + 6));

@@ -50,10 +50,42 @@ static void test_reads_numbers(void **state)
 static void refuse_others(void)
 {
     static const char *const texts[] = {
-        "",      " ",    "+",     "-",     ".",      "-.",  "e5",   ".e5",   "1e",      "1e+",
-        "0x10",  "0X1p3", "inf",  "-inf",  "INFINITY", "nan", "NaN", "nan(1)", "1 ",    " 1",
-        "1,5",   "1.5.2", "1e2.5", "1.5x", "--1",    "+-1", "1_000", "1'000", "1e309",  "-1e400",
-        "1\n",   "\t1",  "1f",    "1e5e5", "\xef\xbc\x91", "1e99999999999",
+        "",
+        " ",
+        "+",
+        "-",
+        ".",
+        "-.",
+        "e5",
+        ".e5",
+        "1e",
+        "1e+",
+        "0x10",
+        "0X1p3",
+        "inf",
+        "-inf",
+        "INFINITY",
+        "nan",
+        "NaN",
+        "nan(1)",
+        "1 ",
+        " 1",
+        "1,5",
+        "1.5.2",
+        "1e2.5",
+        "1.5x",
+        "--1",
+        "+-1",
+        "1_000",
+        "1'000",
+        "1e309",
+        "-1e400",
+        "1\n",
+        "\t1",
+        "1f",
+        "1e5e5",
+        "\xef\xbc\x91",
+        "1e99999999999",
     };
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
         expect_refused(texts[i]);
@@ -255,16 +287,11 @@ static void test_near_words(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reads_numbers),
-        cmocka_unit_test(test_refuses_what_is_no_number),
-        cmocka_unit_test(test_long_texts),
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_shortest_text),
-        LOCALE_TEST(test_comma_locale),
-        LOCALE_TEST(test_wide_point_locale),
-        cmocka_unit_test(test_distances),
-        cmocka_unit_test(test_long_words_are_far),
-        cmocka_unit_test(test_near_words),
+        cmocka_unit_test(test_reads_numbers),      cmocka_unit_test(test_refuses_what_is_no_number),
+        cmocka_unit_test(test_long_texts),         cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_shortest_text),      LOCALE_TEST(test_comma_locale),
+        LOCALE_TEST(test_wide_point_locale),       cmocka_unit_test(test_distances),
+        cmocka_unit_test(test_long_words_are_far), cmocka_unit_test(test_near_words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

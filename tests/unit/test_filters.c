@@ -1,0 +1,115 @@
+/* test_filters.c: filters share the energy, and differ in shape. */
+#include "support/render_scene.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+/* A floor seen from straight above, and a narrow light that shines at the ceiling: what a single
+ * photon makes is one disc on the floor. */
+static const char floor_text[] =
+    "psd: 1\n"
+    "camera: {location: [0, 3.9, 0], look_at: [0, 0, 0], up: [0, 0, 1], angle: 110}\n"
+    "image: {width: 96, height: 96}\n"
+    "materials: {white: {diffuse: 0.7}}\n"
+    "lights:\n"
+    "  - spotlight: {location: [0, 3.95, 0], point_at: [0, 4, 0], radius: 5, falloff: 5,\n"
+    "                intensity: 100}\n"
+    "objects:\n"
+    "  - quad: {corners: [[-50, 0, -50], [50, 0, -50], [50, 0, 50], [-50, 0, 50]], material: "
+    "white}\n"
+    "  - quad: {corners: [[-5, 4, -5], [5, 4, -5], [5, 4, 5], [-5, 4, 5]], material: white}\n";
+
+static struct rendering render(const char *text, const char *filter)
+{
+    const char *const choices[] = {"injection=photon:count=20000", filter, NULL};
+    return render_text(text, 2, choices);
+}
+
+static void expect_same_mean_other_picture(const char *text, const char *one, const char *other)
+{
+    struct rendering a = render(text, one), b = render(text, other);
+    double ratio = mean_of_all(&a.image, "indirect.G") / mean_of_all(&b.image, "indirect.G");
+    const float *p = image_channel(&a.image, "indirect.G");
+    const float *q = image_channel(&b.image, "indirect.G");
+    double difference = 0, sum = 0;
+    for (size_t i = 0; i < a.image.width * a.image.height; i++) {
+        difference += fabsf(p[i] - q[i]);
+        sum += p[i];
+    }
+    print_message("%s, %s: means %.4f, mean difference %.3f\n", one, other, ratio,
+                  difference / sum);
+    assert_true(fabs(ratio - 1) < 0.02);
+    assert_true(difference > 0.01 * sum);
+    rendering_release(&a);
+    rendering_release(&b);
+}
+
+static void test_filters_share_the_mean(void **state)
+{
+    (void)state;
+    char *cornell = cornell_text(96, 54);
+    expect_same_mean_other_picture(cornell, "filter=box", "filter=tent");
+    expect_same_mean_other_picture(cornell, "filter=tent", "filter=gaussian");
+    expect_same_mean_other_picture(cornell, "filter=gaussian:sigma=0.3", "filter=gaussian:sigma=1");
+    free(cornell);
+}
+
+struct spot {
+    double sum, peak, largest_step; /* of the indirect light; steps between neighbours in a row */
+    size_t pixels;                  /* with weight */
+};
+
+/* The disc that one photon makes. */
+static struct spot spot_of(const char *filter)
+{
+    const char *const choices[] = {"injection=photon:count=1", filter,
+                                   "visibility=none:size=1.5,follow=0", NULL};
+    struct rendering rendering = render_text(floor_text, 1, choices);
+    const float *green = image_channel(&rendering.image, "indirect.G");
+    const float *weight = image_channel(&rendering.image, "weight");
+    struct spot spot = {0};
+    for (size_t i = 1; i < rendering.image.width * rendering.image.height; i++) {
+        spot.sum += green[i];
+        spot.peak = fmax(spot.peak, green[i]);
+        spot.largest_step = fmax(spot.largest_step, fabsf(green[i] - green[i - 1]));
+        spot.pixels += weight[i] > 0;
+    }
+    rendering_release(&rendering);
+    print_message("one photon, %s: sum %.4f, peak %.4f, largest step %.4f, %zu pixels\n", filter,
+                  spot.sum, spot.peak, spot.largest_step, spot.pixels);
+    assert_true(spot.pixels > 100);
+    return spot;
+}
+
+/* The disc's flux is the same; its edge is sharpest with the box, its peak highest with the tent.
+ */
+static void test_shapes_of_one_splat(void **state)
+{
+    (void)state;
+    struct spot box = spot_of("filter=box"), tent = spot_of("filter=tent");
+    struct spot gaussian = spot_of("filter=gaussian:sigma=0.5");
+    assert_true(fabs(tent.sum / box.sum - 1) < 0.02);
+    assert_true(fabs(gaussian.sum / box.sum - 1) < 0.02);
+    assert_int_equal(tent.pixels, box.pixels);
+    assert_int_equal(gaussian.pixels, box.pixels);
+    assert_true(box.largest_step > 1.5 * tent.largest_step);
+    assert_true(box.largest_step > 1.5 * gaussian.largest_step);
+    assert_true(box.largest_step > 0.999 * box.peak); /* all or nothing */
+    /* Peaks over a disc of radius 1: 1/pi, 3/pi, 2/(pi (1 - exp(-2))). */
+    assert_true(fabs(tent.peak / box.peak / 3 - 1) < 0.1);
+    assert_true(fabs(gaussian.peak / box.peak / 2.313 - 1) < 0.05);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_filters_share_the_mean),
+        cmocka_unit_test(test_shapes_of_one_splat),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
