@@ -3,14 +3,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define LEAST_DECADE -3.0 /* 0.1 % */
+#define LEAST_DECADE (-3.0) /* 0.1 % */
 #define DARK_SHARE 0.01
 
 /* Nine colours of "magma" (N. Smith, S. van der Walt, for matplotlib, 2015), evenly spaced. */
 static const uint8_t magma[][3] = {{0, 0, 4},      {28, 16, 68},    {79, 18, 123},
                                    {129, 37, 129}, {181, 54, 122},  {229, 80, 100},
                                    {251, 135, 97}, {254, 194, 135}, {252, 253, 191}};
-#define STEPS (sizeof magma / sizeof magma[0] - 1)
+enum { STEPS = sizeof magma / sizeof magma[0] - 1 };
 
 void heatmap_colour(double position, uint8_t rgb[3])
 {
