@@ -135,13 +135,18 @@ ps_result output_describe(struct image *image, const char *scene_path,
                           const struct render_settings *settings, double exposure,
                           struct error *error)
 {
-    char seed[32], passes[32];
+    char seed[32], passes[32], indirect[32], ambient[64];
     snprintf(seed, sizeof seed, "%" PRIu64, settings->seed);
     snprintf(passes, sizeof passes, "%" PRIu32, settings->passes);
+    text_from_number(settings->indirect_exposure, indirect, sizeof indirect);
+    snprintf(ambient, sizeof ambient, "[%.9g, %.9g, %.9g]", (double)settings->ambient.r,
+             (double)settings->ambient.g, (double)settings->ambient.b);
     const char *const facts[][2] = {{"psplat.version", PSPLAT_VERSION},
                                     {"psplat.scene", scene_path},
                                     {"psplat.seed", seed},
-                                    {"psplat.passes", passes}};
+                                    {"psplat.passes", passes},
+                                    {"psplat.indirect_exposure", indirect},
+                                    {"psplat.ambient", ambient}};
     ps_result result = PS_OK;
     for (size_t i = 0; i < sizeof facts / sizeof facts[0] && result == PS_OK; i++)
         result = image_set_attribute(image, facts[i][0], facts[i][1], error);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BATCH_CHUNKS 32 /* chunks of PS_PATH_CHUNK paths that are injected at a time */
+#define BATCH_CHUNKS 16 /* chunks of PS_PATH_CHUNK paths that are injected at a time */
 
 static ps_result reserve(struct source_list *list, size_t count)
 {

@@ -108,6 +108,32 @@ static void test_dimensions_are_independent(void **state)
                     assert_true(fabs(correlation(keys[k], a, keys[k], b)) < MOST_CORRELATION);
 }
 
+/* How many of 256 points have dimensions a and b in the same of 256 intervals. */
+static uint32_t count_on_diagonal(uint32_t key, int a, int b)
+{
+    uint32_t count = 0;
+    for (uint64_t i = 0; i < 256; i++) {
+        float point[4];
+        sample_point(key, i, point);
+        count += (uint32_t)(point[a] * 256) == (uint32_t)(point[b] * 256);
+    }
+    return count;
+}
+
+/* Dimensions have scrambles of their own. With one for all, points whose Sobol numbers agree agree
+ * ever after, and their count is 0 or a power of two that is no 1. */
+static void test_dimensions_are_scrambled_apart(void **state)
+{
+    (void)state;
+    for (int a = 0; a < 4; a++)
+        for (int b = 0; b < a; b++) {
+            uint32_t odd = 0;
+            for (uint32_t seed = 0; seed < 200; seed++)
+                odd += count_on_diagonal(sample_key(seed, 0, 0), a, b) % 2;
+            assert_in_range(odd, 50, 150);
+        }
+}
+
 /* Points past 2^32 begin another scramble: not the first points again. */
 static void test_points_do_not_repeat(void **state)
 {
@@ -240,6 +266,7 @@ int main(void)
         cmocka_unit_test(test_pure_function),
         cmocka_unit_test(test_seeds_streams_and_sets_are_independent),
         cmocka_unit_test(test_dimensions_are_independent),
+        cmocka_unit_test(test_dimensions_are_scrambled_apart),
         cmocka_unit_test(test_points_do_not_repeat),
         cmocka_unit_test(test_stratified_in_each_dimension),
         cmocka_unit_test(test_first_two_dimensions_are_a_net),
