@@ -101,7 +101,7 @@ part "$man/psplat.1" ".Ss OpenEXR" | sed -n '/^\.It Cm psplat\./d; s/^\.It Cm //
 agree "layers of psplat(1)"
 {
     echo psplat.command
-    sed -n 's/^\(psplat\.[a-z]*\): .*/\1/p' out
+    sed -n 's/^\(psplat\.[a-z_]*\): .*/\1/p' out
 } >program
 part "$man/psplat.1" ".Ss OpenEXR" | sed -n 's/^\.It Cm \(psplat\..*\)/\1/p' >page
 agree "attributes of psplat(1)"
