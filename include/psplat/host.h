@@ -101,9 +101,8 @@ struct ps_host {
     /* Centre and radius of the sphere around the scene. [any thread] */
     void (*scene_bounds)(const ps_host *host, ps_vec3 *center, float *radius);
 
-    /* Boxes around the first hits of sources: the geometry that every visibility shares (DESIGN:
-     * frame, size that follows distance, step-back). A hit at INFINITY gives half_width 0. [any
-     * thread] */
+    /* Boxes around the first hits of sources: the geometry that every visibility shares (frame,
+     * size that follows distance, step-back). A hit at INFINITY gives half_width 0. [any thread] */
     void (*place_boxes)(const ps_host *host, const ps_box_settings *settings,
                         const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats);
 

@@ -7,9 +7,12 @@
  *     #include <psplat/plugin.h>
  *     struct state { double sharpness; };
  *     static void weigh(const void *state, const float *r2, float *w, size_t n) { ... }
- *     static const ps_param params[] = {PS_NUMBER(struct state, sharpness, "1", 0, 10, 0, "",
- * "...")}; static const ps_filter_vtable vtable = {.size = sizeof vtable, .weigh = weigh}; static
- * const ps_descriptor descriptor = { ... }; PS_MODULE(filter, mine, &descriptor)
+ *     static const ps_param params[] = {
+ *         PS_NUMBER(struct state, sharpness, "1", 0, 10, 0, "", "..."),
+ *     };
+ *     static const ps_filter_vtable vtable = {.size = sizeof vtable, .weigh = weigh};
+ *     static const ps_descriptor descriptor = { ... };
+ *     PS_MODULE(filter, mine, &descriptor)
  */
 #ifndef PSPLAT_MODULE_H
 #define PSPLAT_MODULE_H
@@ -56,7 +59,8 @@ typedef struct ps_descriptor {
         state_size; /* bytes of state that the core allocates, zeroed, and fills from `params` */
 
     /* Checks what no table can, and prepares what follows from the parameters. Main thread, once,
-     * before any other callback; the state is const afterwards. On failure returns non-zero and
+     * before any other callback and before the first pass: the host's tiles, sources, splats and
+     * progress are not there yet. The state is const afterwards. On failure returns non-zero and
      * writes why into message (at most message_size bytes with the terminator). May be NULL. */
     int32_t (*init)(void *state, const ps_host *host, char *message, size_t message_size);
 

@@ -2,8 +2,8 @@
  *
  * The pipeline (Hoet 2014, chapter 3):
  *
- *     injection -> stratification -> estimator(visibility, filter) -> film -> normalization ->
- * denoiser
+ *     injection -> stratification -> estimator(visibility, filter)
+ *               -> film -> normalization -> denoiser
  *
  * Callbacks work on batches. [worker]: called on several threads at once, so `state` is const and
  * results may depend only on the arguments; [main thread]: called once at a time. Arrays are
@@ -83,6 +83,7 @@ typedef struct ps_film_view {
     const float *color_r, *color_g,
         *color_b; /* reflected indirect radiance: albedo / pi * irradiance */
     const float *weight;
+    const float *coverage; /* passes in which the pixel saw a surface */
 } ps_film_view;
 
 typedef struct ps_normalization_vtable {

@@ -3,8 +3,8 @@
  * Jensen 1996. Every source is traced to the surface it lights and stored there as a photon; at
  * each pixel the k nearest photons estimate the irradiance, with r the distance of the k-th:
  *
- *     E(p) = sum over photons nearer than r of Phi * w(d / r) / (pi r^2 W),   W = 2 * integral of
- * w(s) s ds
+ *     E(p) = sum over photons nearer than r of Phi * w(d / r) / (pi r^2 W)
+ *     W    = 2 * integral of w(s) s ds over 0..1
  *
  * No cosine: the photons' density in the surface already falls with the slope of the light, unlike
  * a splat's kernel, which lies across the beam. The k-th photon sets r and is not counted itself,
@@ -346,6 +346,8 @@ static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pa
         host->count(host, "photon tree bytes", (double)flann_used_memory_float(map.index));
     host->count(host, "photons", (double)map.count);
     /* One photon can't tell a density. */
+    if (result == PS_OK && map.count < 2)
+        host->log(host, PS_LOG_WARNING, "fewer than two photons: no indirect light");
     if (result == PS_OK && map.count > 1)
         result = search(state, host, pass, &map);
     map_release(host, &map);

@@ -21,7 +21,7 @@ static double match_density(const ps_film_view *film)
             continue;
         double sum = (double)film->color_r[i] + film->color_g[i] + film->color_b[i];
         density += sum / film->passes;
-        quotient += sum / film->weight[i];
+        quotient += sum / film->weight[i] * film->coverage[i] / film->passes;
     }
     return quotient > 0 ? density / quotient : 0;
 }
@@ -33,7 +33,8 @@ static ps_result resolve(const void *opaque, const ps_host *host, const ps_film_
     const struct state *state = opaque;
     double exposure = state->exposure.choice < 0 ? state->exposure.number : match_density(film);
     for (uint64_t i = 0; i < film->pixel_count; i++) {
-        float scale = film->weight[i] > 0.0f ? (float)(exposure / film->weight[i]) : 0.0f;
+        float covered = film->coverage[i] / (float)film->passes;
+        float scale = film->weight[i] > 0.0f ? (float)(exposure / film->weight[i]) * covered : 0.0f;
         out_r[i] = film->color_r[i] * scale;
         out_g[i] = film->color_g[i] * scale;
         out_b[i] = film->color_b[i] * scale;

@@ -43,7 +43,8 @@ static void place(const void *opaque, const ps_host *host, const ps_source *sour
     for (size_t i = 0; i < n; i++) {
         float texel = 2.0f * splats[i].half_width / (float)state->resolution;
         int by_slope = state->bias.choice >= 0;
-        splats[i].bias_constant = by_slope ? FLAT_TEXELS * texel : (float)state->bias.number;
+        splats[i].bias_constant =
+            by_slope ? FLAT_TEXELS * texel : (float)fmin(state->bias.number, 1e9);
         splats[i].bias_slope = by_slope ? SLOPE_TEXELS * texel : 0.0f;
         if (open_ended)
             splats[i].far_depth = INFINITY;

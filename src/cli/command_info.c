@@ -18,6 +18,9 @@ static void print_info(const char *path, const struct image *image)
     const char *command = image_attribute(image, "psplat.command");
     if (command)
         printf("to repeat it:\n%s\n", command);
+    else if (image_attribute(image, "psplat.version"))
+        printf(
+            "interrupted in its first pass, or made from other pictures: no command repeats it\n");
     else
         printf("not made by psplat: nothing says how to repeat it\n");
 }

@@ -116,7 +116,7 @@ static bool take_option(struct job *job, const struct argument *argument)
     else if (strcmp(name, "threads") == 0)
         return parse_whole_number(name, value, 1, 1024, &job->threads);
     else if (strcmp(name, "batch") == 0)
-        return parse_whole_number(name, value, 1, 1 << 20, &job->batch);
+        return parse_whole_number(name, value, 1, 4096, &job->batch);
     return true; /* --plugin waits for the scene */
 }
 
@@ -201,7 +201,7 @@ static bool choose_outputs(struct job *job)
     return true;
 }
 
-/* Finds out before the render what would fail after it. */
+/* Finds out before the render what can be told by then. */
 static bool check_outputs(const struct job *job)
 {
     struct error error;
@@ -215,17 +215,24 @@ static bool check_outputs(const struct job *job)
     return good;
 }
 
+/* Writes all that can be written; the error is the first one's. */
 static ps_result write_files(struct job *job, const struct image *image, double exposure,
                              struct statistics *statistics, struct error *error)
 {
     double start = clock_seconds();
+    ps_result first = PS_OK;
     for (size_t i = 0; i < job->output_count; i++) {
-        ps_result result = output_write(image, job->outputs[i], exposure, error);
-        if (result != PS_OK)
-            return result;
-        if (!job->quiet)
+        struct error reason;
+        ps_result result = output_write(image, job->outputs[i], exposure, &reason);
+        if (result == PS_OK && !job->quiet)
             fprintf(stderr, "psplat: wrote %s\n", job->outputs[i]);
+        if (result != PS_OK && first == PS_OK) {
+            first = result;
+            *error = reason;
+        }
     }
+    if (first != PS_OK)
+        return first;
     statistics_add_seconds(statistics, "write", clock_seconds() - start);
     statistics_add_seconds(statistics, "total", clock_seconds() - job->progress.start);
     return job->stats_path ? statistics_write(statistics, job->stats_path, error) : PS_OK;
@@ -244,7 +251,7 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
         return result;
     /* An interrupted render is repeated by asking for the passes that were done. */
     double passes = statistics_counter(statistics, "passes");
-    settings->passes = passes > 1 ? (uint32_t)passes : 1;
+    settings->passes = (uint32_t)passes;
     ps_result written =
         output_describe(&image, description->path, settings, description->image.exposure, error);
     if (written == PS_OK)

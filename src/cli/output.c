@@ -62,8 +62,14 @@ ps_result output_write(const struct image *image, const char *path, double expos
 bool output_check(const char *path, struct error *error)
 {
     struct stat status;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
-        return true; /* a device needs no room beside it; what can't be written is told later */
+    bool exists = stat(path, &status) == 0;
+    if (exists && S_ISCHR(status.st_mode))
+        return true; /* a device needs no room beside it */
+    if (exists && !S_ISREG(status.st_mode)) {
+        error_set(error, PS_ERROR_IO, "can't write '%s': it is %s", path,
+                  S_ISDIR(status.st_mode) ? "a directory" : "neither a file nor a device");
+        return false;
+    }
     const char *slash = strrchr(path, '/');
     size_t length = slash ? (size_t)(slash - path) + 1 : 0;
     char *folder = length ? strndup(path, length) : strdup(".");
@@ -101,11 +107,9 @@ static void print_command(FILE *stream, const struct image *image, const char *s
             image->height, settings->passes, settings->seed);
     if (settings->isa)
         fprintf(stream, " --isa %s", settings->isa);
-    if (exposure != 0.0) {
-        char stops[32];
-        text_from_number(exposure, stops, sizeof stops);
-        fprintf(stream, " --exposure %s", stops);
-    }
+    char stops[32];
+    text_from_number(exposure, stops, sizeof stops);
+    fprintf(stream, " --exposure %s", stops);
     for (int kind = 0; kind < PS_KINDS; kind++) {
         char choice[2048], word[2200];
         strategy_format(&settings->strategies[kind], choice, sizeof choice);
@@ -156,5 +160,7 @@ ps_result output_describe(struct image *image, const char *scene_path,
         strategy_format(&settings->strategies[kind], value, sizeof value);
         result = image_set_attribute(image, name, value, error);
     }
-    return result == PS_OK ? set_command(image, scene_path, settings, exposure, error) : result;
+    if (result != PS_OK || settings->passes == 0)
+        return result; /* what was interrupted in its first pass can't be repeated */
+    return set_command(image, scene_path, settings, exposure, error);
 }

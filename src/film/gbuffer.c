@@ -19,7 +19,7 @@ ps_result gbuffer_create(size_t width, size_t height, struct gbuffer *gbuffer, s
         .tile_count = across * down,
     };
     gbuffer->tiles = aligned_alloc(64, gbuffer->tile_count * sizeof(ps_tile));
-    gbuffer->direct = malloc(gbuffer->tile_count * PS_TILE_PIXELS * sizeof(ps_rgb));
+    gbuffer->direct = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(ps_rgb));
     if (gbuffer->tiles && gbuffer->direct)
         return PS_OK;
     size_t bytes = gbuffer_bytes(gbuffer);

@@ -18,7 +18,9 @@ static ps_rgb connect(const struct scene *scene, const struct light *light, ps_v
     float cosine = ps_dot(direction, normal);
     if (!(cosine > 0.0f))
         return nothing;
-    *ray = (ps_ray){origin, 0.0f, direction, distance};
+    /* A lamp may lie on a surface, which must not shadow it. */
+    float reach = fmaxf(distance - scene->surface_offset, 0.0f);
+    *ray = (ps_ray){origin, 0.0f, direction, reach};
     ps_rgb intensity = light_intensity(light, ps_scale(direction, -1.0f));
     return ps_rgb_scale(intensity, cosine / (distance * distance));
 }

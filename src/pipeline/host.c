@@ -65,6 +65,7 @@ static void host_progress(const ps_host *host, double fraction)
 
 /* A part of the tiles; their number is shifted by the first of the part. */
 struct tile_part {
+    const ps_host *host;
     uint64_t first;
     ps_body body;
     void *user;
@@ -73,7 +74,8 @@ struct tile_part {
 static void visit_tile(void *user, uint64_t index, uint32_t worker)
 {
     const struct tile_part *part = user;
-    part->body(part->user, part->first + index, worker);
+    if (!host_cancelled(part->host))
+        part->body(part->user, part->first + index, worker);
 }
 
 static ps_result host_for_each_tile(const ps_host *host, ps_body body, void *user)
@@ -83,12 +85,13 @@ static ps_result host_for_each_tile(const ps_host *host, ps_body body, void *use
     /* Parts of some tiles a thread: often enough to report, rarely enough to keep threads busy. */
     uint64_t step = 16 * (uint64_t)render->settings->threads;
     for (uint64_t first = 0; first < count; first += step) {
-        struct tile_part part = {first, body, user};
-        if (host_cancelled(host))
-            return PS_CANCELLED;
+        struct tile_part part = {host, first, body, user};
         parallel_for(render->settings->threads, count - first < step ? count - first : step,
                      visit_tile, &part);
-        host_progress(host, (double)(first + step) / (double)count);
+        if (host_cancelled(host))
+            return PS_CANCELLED;
+        uint64_t done = first + step < count ? first + step : count;
+        host_progress(host, (double)done / (double)count);
     }
     return PS_OK;
 }
@@ -128,6 +131,7 @@ static void host_emit_light(const ps_host *host, const float (*samples)[4], size
         float probability;
         size_t light = scene_choose_light(scene, samples[i][2], &probability);
         ps_rgb flux = light_emit(&scene->lights[light], samples[i][0], samples[i][1], &rays[i]);
+        rays[i].tnear = scene->surface_offset; /* a lamp may lie on a surface */
         if (probability > 0.0f)
             power[i] = ps_rgb_scale(flux, 1.0f / probability);
     }
@@ -161,6 +165,8 @@ static ps_result host_next_sources(const ps_host *host, const ps_source **source
                                    double *progress)
 {
     struct render *render = render_of(host);
+    if (host_cancelled(host))
+        return PS_CANCELLED;
     ps_result result = source_stream_next(&render->sources, sources, n, &render->error);
     *progress = source_stream_progress(&render->sources);
     return result;

@@ -172,7 +172,9 @@ static ps_result run_passes(struct render *render, struct error *error)
     ps_result result = PS_OK;
     for (uint32_t pass = 0; pass < render->settings->passes && result == PS_OK; pass++)
         result = run_pass(render, pass, error);
-    statistics_count(render->statistics, "passes", render->film.passes);
+    /* An unfinished first pass gives its direct light, but was no pass. */
+    bool unfinished = result == PS_CANCELLED && render->pass.number == 0;
+    statistics_count(render->statistics, "passes", unfinished ? 0 : render->film.passes);
     return result;
 }
 

@@ -1,7 +1,7 @@
 /* render.h: the driver: scene and settings to a picture.
  *
- *     G-buffer -> direct light -> estimator -> film, pass by pass; then normalization -> denoiser
- * -> combine
+ *     pass by pass: G-buffer -> direct light -> estimator -> film
+ *     at the end:   normalization -> denoiser -> combine
  *
  * A pass is a function of (scene, settings, seed, pass number); the film is the sum of the passes
  * in their order.

@@ -55,6 +55,7 @@ static ps_result normalize(struct render *render, struct rgb_planes out, struct 
         .color_g = film->planes[FILM_COLOR_G],
         .color_b = film->planes[FILM_COLOR_B],
         .weight = film->planes[FILM_WEIGHT],
+        .coverage = film->planes[FILM_COVERAGE],
     };
     double start = clock_seconds();
     ps_result result = vtable->resolve(strategy->state, &render->host, &view, out.r, out.g, out.b);
@@ -70,11 +71,11 @@ static void fill_ambient(struct render *render, struct rgb_planes out)
     for (size_t i = 0; i < film->width * film->height; i++) {
         if (film->planes[FILM_WEIGHT][i] > 0.0f)
             continue;
-        bool covered = film->planes[FILM_COVERAGE][i] > 0.0f;
-        out.r[i] = covered ? render->settings->ambient.r : 0.0f;
-        out.g[i] = covered ? render->settings->ambient.g : 0.0f;
-        out.b[i] = covered ? render->settings->ambient.b : 0.0f;
-        dark += covered;
+        float covered = film->planes[FILM_COVERAGE][i] / (float)film->passes;
+        out.r[i] = covered * render->settings->ambient.r;
+        out.g[i] = covered * render->settings->ambient.g;
+        out.b[i] = covered * render->settings->ambient.b;
+        dark += covered > 0.0f;
     }
     statistics_count(render->statistics, "pixels without weight", (double)dark);
 }

@@ -116,10 +116,13 @@ static ps_result stratify(struct source_stream *stream, struct error *error)
     const ps_stratification_vtable *vtable = strategy->descriptor->vtable;
     double start = clock_seconds();
     statistics_count(stream->statistics, "sources injected", (double)stream->batch.count);
+    size_t before = stream->batch.count;
     ps_result result = vtable->combine(strategy->state, stream->host, stream->pass,
                                        stream->batch.items, &stream->batch.count);
     statistics_add_seconds(stream->statistics, "stratify", clock_seconds() - start);
     statistics_count(stream->statistics, "sources", (double)stream->batch.count);
+    if (result == PS_OK && stream->batch.count > before)
+        return error_set(error, PS_ERROR_INVALID, "stratification made more sources than it got");
     return result == PS_OK ? PS_OK : error_set(error, result, "stratification failed");
 }
 

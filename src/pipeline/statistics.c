@@ -37,13 +37,18 @@ static struct statistic *row_of(struct statistic_table *table, const char *name)
     return &table->rows[table->count++];
 }
 
+/* With the lock held. */
+static void add_to(struct statistic *row, double amount)
+{
+    row->value += amount;
+    row->largest = row->value > row->largest ? row->value : row->largest;
+}
+
 static void add(struct statistics *statistics, struct statistic_table *table, const char *name,
                 double amount)
 {
     pthread_mutex_lock(&statistics->lock);
-    struct statistic *row = row_of(table, name);
-    row->value += amount;
-    row->largest = row->value > row->largest ? row->value : row->largest;
+    add_to(row_of(table, name), amount);
     pthread_mutex_unlock(&statistics->lock);
 }
 
@@ -64,8 +69,10 @@ void statistics_add_bytes(struct statistics *statistics, const char *purpose, do
 
 void statistics_set_bytes(struct statistics *statistics, const char *purpose, double bytes)
 {
-    const struct statistic *row = find(&statistics->memory, purpose);
-    add(statistics, &statistics->memory, purpose, bytes - (row ? row->value : 0));
+    pthread_mutex_lock(&statistics->lock);
+    struct statistic *row = row_of(&statistics->memory, purpose);
+    add_to(row, bytes - row->value);
+    pthread_mutex_unlock(&statistics->lock);
 }
 
 double statistics_seconds(const struct statistics *statistics, const char *stage)

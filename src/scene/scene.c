@@ -8,6 +8,10 @@
  * for the rounding of a hit point, too little to see. */
 #define OFFSET_ULPS 32.0f
 
+/* Outside of these the ray tracer's single precision squares to nothing or infinity. */
+#define SMALLEST_RADIUS 1e-6f
+#define LARGEST_RADIUS 1e9f
+
 static void *allocate_array(size_t count, size_t size)
 {
     return calloc(count ? count : 1, size);
@@ -86,7 +90,14 @@ ps_result scene_create(const struct scene_description *description, struct scene
     create_lights(description, scene);
     scene->camera = camera_from_description(&description->camera, scene->width, scene->height);
     measure(scene);
-    return PS_OK;
+    if (scene->shape_count == 0 ||
+        (scene->radius > SMALLEST_RADIUS && scene->radius < LARGEST_RADIUS))
+        return PS_OK;
+    result = error_set(error, PS_ERROR_INVALID,
+                       "the scene's radius is %g units; choose units that bring it within %g..%g",
+                       (double)scene->radius, (double)SMALLEST_RADIUS, (double)LARGEST_RADIUS);
+    scene_release(scene);
+    return result;
 }
 
 void scene_release(struct scene *scene)

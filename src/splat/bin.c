@@ -157,18 +157,18 @@ static void bin_part(void *user, uint64_t index, uint32_t worker)
 
 /* Turns counts into places: tile by tile, and within a tile part by part. Returns the number of
  * pairs. */
-static size_t place_counts(struct bins *bins)
+static uint64_t place_counts(struct bins *bins)
 {
-    uint32_t place = 0;
+    uint64_t place = 0;
     for (uint32_t tile = 0; tile < bins->tile_count; tile++) {
-        bins->offsets[tile] = place;
+        bins->offsets[tile] = (uint32_t)place;
         for (int part = 0; part < CHUNKS; part++) {
             uint32_t count = bins->chunks[part].counts[tile];
-            bins->chunks[part].counts[tile] = place;
+            bins->chunks[part].counts[tile] = (uint32_t)place;
             place += count;
         }
     }
-    bins->offsets[bins->tile_count] = place;
+    bins->offsets[bins->tile_count] = (uint32_t)place;
     return place;
 }
 
@@ -181,8 +181,11 @@ static void scatter_part(void *user, uint64_t index, uint32_t worker)
         sort->bins->indices[chunk->counts[chunk->tiles[i]]++] = chunk->splats[i];
 }
 
-static ps_result reserve_indices(struct bins *bins, size_t pairs, struct error *error)
+static ps_result reserve_indices(struct bins *bins, uint64_t pairs, struct error *error)
 {
+    if (pairs > UINT32_MAX)
+        return error_set(error, PS_ERROR_INVALID,
+                         "splats this large touch too many tiles at once; try a smaller --batch");
     if (pairs <= bins->capacity)
         return PS_OK;
     size_t capacity = pairs + pairs / 2;

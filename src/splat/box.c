@@ -56,18 +56,25 @@ static float step_back(const ps_box_settings *settings, float half_width, float 
                        float slope)
 {
     float wanted = settings->step_back_rule == STEP_BACK_NUMBER
-                       ? (float)settings->step_back
+                       ? (float)fmin(settings->step_back, 1e9)
                        : half_width * slope + 0.5f * half_width;
     return fminf(wanted, distance);
+}
+
+/* A length from the settings as a float that the ray tracer can bear: past the scene nothing is met. */
+static float bounded(const struct box_scene *scene, double length)
+{
+    return (float)fmin(length, 4.0 * (double)scene->radius);
 }
 
 static float half_width(const struct box_scene *scene, const ps_box_settings *settings,
                         float distance)
 {
-    float size = settings->size > 0 ? (float)settings->size : (float)AUTOMATIC_SIZE * scene->radius;
+    float size =
+        settings->size > 0 ? bounded(scene, settings->size) : (float)AUTOMATIC_SIZE * scene->radius;
     if (!(settings->follow > 0))
         return size;
-    return fmaxf(fminf(size, (float)settings->follow * distance), SMALLEST_SIZE * size);
+    return fmaxf(fminf(size, (float)fmin(settings->follow, 1e9) * distance), SMALLEST_SIZE * size);
 }
 
 static ps_splat place_one(const struct box_scene *scene, const ps_box_settings *settings,
@@ -81,7 +88,7 @@ static ps_splat place_one(const struct box_scene *scene, const ps_box_settings *
     set_frame(scene, source, &splat);
     splat.centre = hit->position;
     splat.half_width = size;
-    splat.far_depth = settings->depth > 0 ? (float)settings->depth : size * slope + size;
+    splat.far_depth = settings->depth > 0 ? bounded(scene, settings->depth) : size * slope + size;
     if (settings->step_back_rule == STEP_BACK_FULL) {
         start_at_source(scene, source, hit->distance, &splat);
     } else {

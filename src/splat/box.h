@@ -3,12 +3,14 @@
  * Hoet 2014, section 3.3: an orthographic box around the first hit y of the source's ray, axis w
  * along the ray, half-width R. Three rules say where the box begins:
  *
- *   a number  the thesis: that far before y. Where light arrives at a slope the lit surface leaves
- * the box or shadows itself; 7 to 10 % of a Cornell box's light is lost, at any R. auto      b =
- * min(d, R tan(theta) + R/2) and depth R tan(theta) + R: room for the slope theta at y. full from
- * the source itself, whose tangent plane is where the bundle starts: each ray of the bundle lights
- * what it meets first, so edges that the central ray misses get their light (after Herzog et al.
- * 2007, "Global illumination using photon ray splatting").
+ *   a number  The thesis: that far before y. Where light arrives at a slope the lit surface leaves
+ *             the box or shadows itself; 7 to 10 % of a Cornell box's light is lost, at any R.
+ *   auto      b = min(d, R tan(theta) + R/2) and depth R tan(theta) + R: room for the slope theta
+ *             at y.
+ *   full      From the source itself, whose tangent plane is where the bundle starts: each ray of
+ *             the bundle lights what it meets first, so edges that the central ray misses get
+ *             their light (after Herzog et al. 2007, "Global illumination using photon ray
+ *             splatting").
  *
  * The size follows the distance d travelled, R = min(size, follow * d) but no less than size / 5,
  * as a photon differential would: light from close by, in a corner, makes small splats.

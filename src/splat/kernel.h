@@ -4,8 +4,8 @@
  *
  *     u = d.U / R, v = d.V / R, t = d.W         position in the box
  *     k = profile(u^2 + v^2) * scale / R^2      the kernel K, 1/m^2, integrates to 1 over its disc
- *     lit where u^2 + v^2 < 1, near <= t <= far, n.W < 0, and t against the depth map within the
- * bias irradiance += power * k * max(0, -n.W), weight += k
+ *     lit where u^2 + v^2 < 1, near <= t <= far, n.W < 0, and t is within the bias of the map
+ *     irradiance += power * k * max(0, -n.W), weight += k
  *
  * The cosine is there because K lies in the plane across the beam. No branches: masks, one gather
  * from the depth map and one from the profile, so that compilers turn the loop into 8 or 16 lanes.

@@ -178,7 +178,9 @@ static ps_hit resolve(const struct trace *trace, const ps_ray *ray, const struct
         return (ps_hit){.distance = INFINITY, .object = PS_NO_OBJECT};
     const struct shape *shape = &trace->scene->shapes[geometry];
     ps_vec3 normal = {hits->hit.Ng_x[lane], hits->hit.Ng_y[lane], hits->hit.Ng_z[lane]};
-    normal = ps_normalize(normal);
+    /* By the largest component first: the square of a very small or large one is no float. */
+    float largest = fmaxf(fabsf(normal.x), fmaxf(fabsf(normal.y), fabsf(normal.z)));
+    normal = ps_normalize(ps_scale(normal, 1.0f / largest));
     if (ps_dot(normal, ray->direction) > 0.0f)
         normal = ps_scale(normal, -1.0f);
     float distance = hits->ray.tfar[lane];

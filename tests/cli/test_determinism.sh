@@ -21,7 +21,7 @@ same default
 same stats --threads 2 --stats stats.json
 same batch1000 --threads 2 --batch 1000
 same batch17 --threads 3 --batch 17
-same batch_large --threads 2 --batch 1048576
+same batch_large --threads 2 --batch 4096
 same quiet --quiet
 
 # Of one instruction set, that is: others round otherwise, and that little.

@@ -106,6 +106,22 @@ if [ -c /dev/full ]; then
     done
 fi
 
+# --- numbers at the edge of what is allowed ---
+
+for size in 1e-30 1e18 1e300; do
+    run 0 $small -q -p visibility=shadowmap:size=$size,depth=1e300,bias=1e300,follow=1e300 -o edge.exr "$cornell"
+done
+cat >huge.psd <<'END'
+psd: 1
+camera: {location: [0, 0, -1e20], look_at: [0, 0, 0]}
+materials: {m: {diffuse: 0.5}}
+lights: [{point: {location: [0, 1e19, -1e19], intensity: 1}}]
+objects: [{sphere: {center: [0, 0, 0], radius: 1e19, material: m}}]
+END
+run 2 -q -o huge.exr huge.psd
+expect_text err "psplat: error: the scene's radius is"
+[ ! -e huge.exr ] || fail "a picture in spite of the error"
+
 # --- settings that only a plugin can judge ---
 
 run 2 $small -p injection=photon:bounces=0,roulette=0 -o init.exr "$cornell"

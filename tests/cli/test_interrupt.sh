@@ -14,6 +14,7 @@ interrupt() {
         sleep 0.1
         tries=$((tries + 1))
     done
+    sleep 0.5
     kill "-$signal" $process || fail "it ended before the signal"
     wait $process
     check_status $? 1
@@ -32,6 +33,9 @@ expect_no_text new/a.json '"passes": 1000000'
 
 # One endless pass: direct light alone, which is what black indirect light gives.
 interrupt TERM --size 48x27 -p injection=photon:count=2000000000
-expect_match new/a.json '"passes": 1,?$'
+expect_match new/a.json '"passes": 0,?$'
+expect_text out "psplat.passes: 0"
+expect_text out "interrupted in its first pass"
+expect_no_text out "psplat render"
 
 finish

@@ -36,7 +36,7 @@ for value in -1 9007199254740994 0.5 seed; do
     usage "--seed: expected a whole number 0..9007199254740992, got '$value'" --seed "$value" "$cornell"
 done
 for value in 0 1048577 many; do
-    usage "--batch: expected a whole number 1..1048576, got '$value'" --batch "$value" "$cornell"
+    usage "--batch: expected a whole number 1..4096, got '$value'" --batch "$value" "$cornell"
 done
 for value in 10 10x 10x0 0x10 65537x1 1x65537 1.5x2 -1x5 axb 10x10x10 10X10 "" x; do
     usage "--size: expected WxH, each 1..65536, got '$value'" --size "$value" "$cornell"

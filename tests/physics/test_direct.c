@@ -85,6 +85,33 @@ static void test_shadow(void **state)
     expect_radiance(floor_radiance(light, 1, ball), expected(1, 1));
 }
 
+/* Neither the shadow rays nor the light paths of a lamp that lies on a surface may meet that surface. */
+static void test_lamp_on_a_surface(void **state)
+{
+    (void)state;
+    static const char light[] = "{spotlight: {location: [0, 2, 0], point_at: [0, 0, 0], radius: 60,"
+                                " falloff: 60, intensity: 10}}";
+    static const char ceiling[] =
+        "  - quad: {corners: [[-9, 2, -9], [9, 2, -9], [9, 2, 9], [-9, 2, 9]],"
+        " material: floor}\n";
+    expect_radiance(floor_radiance(light, 1, ceiling), expected(1, 1));
+    static const char scene[] =
+        "psd: 1\n"
+        "camera: {location: [0, 1, 4], look_at: [0, 1, 0]}\n"
+        "image: {width: 16, height: 9}\n"
+        "materials: {floor: {diffuse: 0.6}}\n"
+        "lights: [%s]\n"
+        "objects:\n"
+        "  - quad: {corners: [[-9, 0, -9], [9, 0, -9], [9, 0, 9], [-9, 0, 9]],"
+        " material: floor}\n%s";
+    static const char *const choices[] = {"injection=photon:count=2000", NULL};
+    char text[2048];
+    snprintf(text, sizeof text, scene, light, ceiling);
+    struct rendering rendering = render_text(text, 2, choices);
+    assert_true(mean_of_all(&rendering.image, "indirect.G") > 0.01);
+    rendering_release(&rendering);
+}
+
 static void test_two_lights_add(void **state)
 {
     (void)state;
@@ -96,9 +123,8 @@ static void test_two_lights_add(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_point_light),
-        cmocka_unit_test(test_spotlight_edge),
-        cmocka_unit_test(test_shadow),
+        cmocka_unit_test(test_point_light),    cmocka_unit_test(test_spotlight_edge),
+        cmocka_unit_test(test_shadow),         cmocka_unit_test(test_lamp_on_a_surface),
         cmocka_unit_test(test_two_lights_add),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

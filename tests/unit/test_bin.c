@@ -15,6 +15,7 @@
 #define WIDTH 300 /* 19 x 13 tiles: three levels of the pyramid */
 #define HEIGHT 200
 #define SPLATS 400
+#define ALTITUDE 5.0f /* away from the origin, where no empty tile may seem to lie */
 
 struct bench {
     struct gbuffer gbuffer;
@@ -28,7 +29,7 @@ static bool sees_surface(uint32_t x, uint32_t y)
     return x < WIDTH && y < HEIGHT && !void_corner && (x * 7 + y * 13) % 11 != 0;
 }
 
-/* z = 0.1 sin(6 x) cos(5 y) over [0, 3] x [0, 2]. */
+/* z = ALTITUDE + 0.1 sin(6 x) cos(5 y) over [0, 3] x [0, 2]. */
 static void fill_lane(ps_tile *tile, uint32_t lane, uint32_t x, uint32_t y)
 {
     bool seen = sees_surface(x, y);
@@ -37,7 +38,7 @@ static void fill_lane(ps_tile *tile, uint32_t lane, uint32_t x, uint32_t y)
     normal = ps_normalize(normal);
     tile->position_x[lane] = seen ? px : 1e18f;
     tile->position_y[lane] = seen ? py : 1e18f;
-    tile->position_z[lane] = seen ? 0.1f * sinf(6 * px) * cosf(5 * py) : 1e18f;
+    tile->position_z[lane] = seen ? ALTITUDE + 0.1f * sinf(6 * px) * cosf(5 * py) : 1e18f;
     tile->normal_x[lane] = seen ? normal.x : 0;
     tile->normal_y[lane] = seen ? normal.y : 0;
     tile->normal_z[lane] = seen ? normal.z : 0;
@@ -49,7 +50,7 @@ static ps_splat random_splat(struct random *random)
 {
     ps_splat splat = {
         .centre = {3.2f * random_unit(random) - 0.1f, 2.2f * random_unit(random) - 0.1f,
-                   random_between(random, -0.15f, 0.15f)},
+                   ALTITUDE + random_between(random, -0.15f, 0.15f)},
         .half_width = random_unit(random) < 0.05f ? 0 : random_between(random, 0.01f, 0.3f),
         .axis_w = random_direction(random),
         .near_depth = -random_between(random, 0.0f, 0.5f),
@@ -236,6 +237,8 @@ static void test_pyramid_bounds_its_tiles(void **state)
     assert_true(fabsf(top->center.x - top->extent.x) < 0.011f);
     assert_true(fabsf(top->center.x + top->extent.x - 2.99f) < 0.011f);
     assert_true(fabsf(top->center.y + top->extent.y - 1.99f) < 0.011f);
+    assert_true(fabsf(top->center.z - ALTITUDE) < 0.05f && top->extent.z < 0.11f);
+    assert_true(top->normal_low.z > 0.5f);
     for (uint32_t tile = 0; tile < bench->gbuffer.tile_count; tile++) {
         const struct pyramid_node *node = &pyramid->nodes[tile];
         if (node->extent.x < 0)
@@ -262,6 +265,7 @@ static void test_smallest_picture(void **state)
     splats[0].axis_u = (ps_vec3){1, 0, 0};
     splats[0].axis_v = (ps_vec3){0, -1, 0};
     splats[0].axis_w = (ps_vec3){0, 0, -1};
+    splats[0].centre.z = ALTITUDE;
     splats[1] = splats[0];
     splats[0].centre.x = 1;
     assert_int_equal(bins_sort(&bins, &pyramid, splats, 2, 1, &error), PS_OK);

@@ -157,10 +157,12 @@ static void test_weight_keeps_the_mean_and_flattens(void **state)
     assert_true(weight.deviation / weight.mean < 0.9 * density.deviation / density.mean);
 }
 
-/* Mean of the three colours over the pixels with weight. */
+/* Mean of the three colours over the pixels with weight, after two passes. */
 static double mean_with_weight(const char *normalization)
 {
-    struct rendering rendering = render(cornell, normalization, NULL, NULL);
+    char text[16384];
+    snprintf(text, sizeof text, "%s\n  passes: 2\n", cornell); /* its section `render` is last */
+    struct rendering rendering = render(text, normalization, NULL, NULL);
     static const char *const names[3] = {"indirect.R", "indirect.G", "indirect.B"};
     const float *weight = image_channel(&rendering.image, "weight");
     double sum = 0;
