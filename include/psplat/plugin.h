@@ -6,6 +6,7 @@
 #include <psplat/math.h>
 #include <psplat/module.h>
 #include <psplat/param.h>
+#include <psplat/path.h>
 #include <psplat/strategy.h>
 #include <psplat/tile.h>
 #include <psplat/types.h>

@@ -15,9 +15,6 @@
  */
 #include <psplat/plugin.h>
 
-#include <stdio.h>
-
-#define LIKELIEST_SURVIVAL 0.98f
 #define BLOCK_BITS 24 /* samples that a pixel's block of the sequence holds, as a power of two */
 
 struct state {
@@ -52,17 +49,13 @@ static void start_paths(const ps_points *points, struct paths *paths)
     }
 }
 
-/* Whether a path goes on after a surface; divides the throughput of those that do by the
- * probability. */
-static int survives(const struct state *state, int64_t bounce, float number, ps_rgb *throughput)
+/* Whether a path goes on after a surface. */
+static int goes_on(const struct state *state, int64_t bounce, float number, ps_rgb *throughput)
 {
-    if (state->roulette && bounce >= state->roulette) {
-        float survival = fminf(ps_rgb_maximum(*throughput), LIKELIEST_SURVIVAL);
-        if (number >= survival)
-            return 0;
-        *throughput = ps_rgb_scale(*throughput, 1.0f / survival);
-    }
-    return ps_rgb_maximum(*throughput) > 0.0f;
+    float likelihood = ps_rgb_maximum(*throughput);
+    if (state->roulette && bounce >= state->roulette)
+        return ps_survives(likelihood, number, throughput);
+    return likelihood > 0.0f;
 }
 
 /* Follows all paths by one segment: adds the direct light of the surfaces they meet to the sums. */
@@ -101,7 +94,7 @@ static void extend_paths(const struct work *work, int64_t bounce, const uint64_t
     for (size_t i = 0; i < met; i++) {
         ps_rgb *sum = &sums[paths->pixels[i]];
         *sum = ps_rgb_add(*sum, ps_rgb_multiply(paths->throughput[i], direct[i]));
-        if (!survives(work->state, bounce, roulette[i], &paths->throughput[i]))
+        if (!goes_on(work->state, bounce, roulette[i], &paths->throughput[i]))
             continue;
         size_t to = paths->count++;
         paths->pixels[to] = paths->pixels[i];
@@ -154,12 +147,7 @@ static int32_t init(void *opaque, const ps_host *host, char *message, size_t siz
 {
     (void)host;
     const struct state *state = opaque;
-    if (state->bounces == 0 && state->roulette == 0) {
-        snprintf(message, size,
-                 "unlimited bounces (bounces=0) need Russian roulette (roulette > 0)");
-        return 1;
-    }
-    return 0;
+    return ps_check_bounces(state->bounces, state->roulette, message, size);
 }
 
 static const ps_param params[] = {

@@ -8,14 +8,9 @@
  * which keeps the mean.
  *
  * Emission and first direction share one four-dimensional Sobol point: low discrepancy over (light
- * direction, bounce direction) together, worth a third of the error of independent pairs.
+ * direction, bounce direction) together.
  */
 #include <psplat/plugin.h>
-
-#include <stdio.h>
-
-/* An albedo near 1 would keep a path alive for ever. */
-#define LIKELIEST_SURVIVAL 0.98f
 
 struct state {
     int64_t count;
@@ -85,12 +80,10 @@ static int reflect(const struct state *state, uint32_t bounce, const ps_hit *hit
     if (!(hit->distance < INFINITY))
         return 0;
     path->power = ps_rgb_multiply(path->power, hit->albedo);
-    if (state->roulette && bounce >= (uint32_t)state->roulette) {
-        float survival = fminf(ps_rgb_maximum(hit->albedo), LIKELIEST_SURVIVAL);
-        if (path->roulette >= survival)
-            return 0;
-        path->power = ps_rgb_scale(path->power, 1.0f / survival);
-    }
+    float likelihood = ps_rgb_maximum(hit->albedo);
+    if (state->roulette && bounce >= (uint32_t)state->roulette &&
+        !ps_survives(likelihood, path->roulette, &path->power))
+        return 0;
     if (!(ps_rgb_maximum(path->power) > 0.0f))
         return 0;
     ps_vec3 direction = ps_cosine_direction(hit->normal, path->direction[0], path->direction[1]);
@@ -155,12 +148,7 @@ static int32_t init(void *opaque, const ps_host *host, char *message, size_t siz
 {
     (void)host;
     const struct state *state = opaque;
-    if (state->bounces == 0 && state->roulette == 0) {
-        snprintf(message, size,
-                 "unlimited bounces (bounces=0) need Russian roulette (roulette > 0)");
-        return 1;
-    }
-    return 0;
+    return ps_check_bounces(state->bounces, state->roulette, message, size);
 }
 
 static const ps_param params[] = {

@@ -61,7 +61,7 @@ static float step_back(const ps_box_settings *settings, float half_width, float 
     return fminf(wanted, distance);
 }
 
-/* A length from the settings as a float that the ray tracer can bear: past the scene nothing is met. */
+/* A length from the settings as a float that the ray tracer can bear: past the scene is nothing. */
 static float bounded(const struct box_scene *scene, double length)
 {
     return (float)fmin(length, 4.0 * (double)scene->radius);

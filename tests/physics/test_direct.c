@@ -85,7 +85,7 @@ static void test_shadow(void **state)
     expect_radiance(floor_radiance(light, 1, ball), expected(1, 1));
 }
 
-/* Neither the shadow rays nor the light paths of a lamp that lies on a surface may meet that surface. */
+/* Neither shadow rays nor light paths of a lamp that lies on a surface may meet that surface. */
 static void test_lamp_on_a_surface(void **state)
 {
     (void)state;

@@ -1,0 +1,34 @@
+/* path.h: how random walks end: Russian roulette (Arvo and Kirk 1990). */
+#ifndef PSPLAT_PATH_H
+#define PSPLAT_PATH_H
+
+#include <psplat/math.h>
+#include <stdio.h>
+
+/* An albedo near 1 would keep a path alive for ever. */
+#define PS_LIKELIEST_SURVIVAL 0.98f
+
+/* Lets a path go on with the given probability (capped), decided by `number` in [0, 1): returns 0
+ * where it ends, and otherwise divides what it carries by the probability, which keeps the mean. */
+static inline int ps_survives(float probability, float number, ps_rgb *carried)
+{
+    float survival = fminf(probability, PS_LIKELIEST_SURVIVAL);
+    if (number >= survival)
+        return 0;
+    *carried = ps_rgb_scale(*carried, 1.0f / survival);
+    return 1;
+}
+
+/* For init: bounces without a limit (0) end only by roulette (0: never). Non-zero, and a message, if
+ * nothing ends them. */
+static inline int32_t ps_check_bounces(int64_t bounces, int64_t roulette, char *message,
+                                       size_t message_size)
+{
+    if (bounces != 0 || roulette != 0)
+        return 0;
+    snprintf(message, message_size,
+             "unlimited bounces (bounces=0) need Russian roulette (roulette > 0)");
+    return 1;
+}
+
+#endif
