@@ -96,6 +96,14 @@ static inline ps_vec3 ps_cosine_direction(ps_vec3 n, float u1, float u2)
     return ps_normalize(ps_add_scaled(in_plane, height, n));
 }
 
+/* The ray from a surface point to the side of its normal; `offset` (ps_pass.surface_offset) keeps it
+ * from meeting its own surface. */
+static inline ps_ray ps_leave_surface(ps_vec3 position, ps_vec3 normal, ps_vec3 direction,
+                                      float offset)
+{
+    return (ps_ray){ps_add_scaled(position, offset, normal), 0.0f, direction, INFINITY};
+}
+
 /* Direction uniform over the cone around unit vector axis whose half angle has cosine cos_limit. */
 static inline ps_vec3 ps_cone_direction(ps_vec3 axis, float cos_limit, float u1, float u2)
 {

@@ -26,6 +26,13 @@ static inline void ps_collect_points(const ps_tile *tile, ps_points *points)
     }
 }
 
+/* Where a pixel's own block of a sample sequence begins: 2^24 aligned indices, so that its first 2^k
+ * samples are stratified. */
+static inline uint64_t ps_sample_block(uint64_t tile, uint32_t lane)
+{
+    return (tile * PS_TILE_PIXELS + lane) << 24;
+}
+
 /* Adds irradiance (W/m^2), and weight 1, to a pixel of a tile. */
 static inline void ps_add_irradiance(ps_tile *tile, uint32_t lane, ps_rgb irradiance)
 {

@@ -15,8 +15,6 @@
  */
 #include <psplat/plugin.h>
 
-#define BLOCK_BITS 24 /* samples that a pixel's block of the sequence holds, as a power of two */
-
 struct state {
     int64_t samples;
     int64_t bounces;
@@ -72,9 +70,8 @@ static void extend_paths(const struct work *work, int64_t bounce, const uint64_t
     host->samples(host, PS_STREAM_PATH, (uint32_t)bounce, indices, paths->count, numbers);
     for (size_t i = 0; i < paths->count; i++) {
         ps_vec3 n = paths->normals[i];
-        ps_vec3 origin = ps_add_scaled(paths->positions[i], work->pass->surface_offset, n);
-        rays[i] =
-            (ps_ray){origin, 0, ps_cosine_direction(n, numbers[i][0], numbers[i][1]), INFINITY};
+        ps_vec3 direction = ps_cosine_direction(n, numbers[i][0], numbers[i][1]);
+        rays[i] = ps_leave_surface(paths->positions[i], n, direction, work->pass->surface_offset);
     }
     host->intersect(host, rays, paths->count, hits);
     size_t met = 0;
@@ -104,13 +101,6 @@ static void extend_paths(const struct work *work, int64_t bounce, const uint64_t
     }
 }
 
-/* The aligned block of the sample sequence that belongs to each point's pixel. */
-static void find_blocks(uint32_t tile, const ps_points *points, uint64_t *blocks)
-{
-    for (size_t i = 0; i < points->count; i++)
-        blocks[i] = ((uint64_t)tile * PS_TILE_PIXELS + points->lanes[i]) << BLOCK_BITS;
-}
-
 static void trace_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
@@ -122,7 +112,8 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
     uint64_t blocks[PS_TILE_PIXELS];
     ps_rgb sums[PS_TILE_PIXELS] = {{0, 0, 0}};
     ps_collect_points(tile, &points);
-    find_blocks((uint32_t)index, &points, blocks);
+    for (size_t i = 0; i < points.count; i++)
+        blocks[i] = ps_sample_block(index, points.lanes[i]);
     for (int64_t i = 0; i < state->samples; i++) {
         uint64_t sample = (uint64_t)work->pass->number * (uint64_t)state->samples + (uint64_t)i;
         start_paths(&points, &paths);

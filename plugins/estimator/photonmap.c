@@ -112,11 +112,9 @@ static void store_arrivals(const ps_host *host, const ps_pass *pass, const ps_so
 {
     ps_ray rays[PS_PATH_CHUNK];
     ps_hit hits[PS_PATH_CHUNK];
-    for (size_t i = 0; i < n; i++) {
-        ps_vec3 origin =
-            ps_add_scaled(sources[i].position, pass->surface_offset, sources[i].normal);
-        rays[i] = (ps_ray){origin, 0, sources[i].direction, INFINITY};
-    }
+    for (size_t i = 0; i < n; i++)
+        rays[i] = ps_leave_surface(sources[i].position, sources[i].normal, sources[i].direction,
+                                   pass->surface_offset);
     host->intersect(host, rays, n, hits);
     for (size_t i = 0; i < n; i++)
         if (hits[i].distance < INFINITY)
@@ -281,9 +279,8 @@ static void gather_once(const struct work *work, uint32_t worker, const ps_point
     host->samples(host, PS_STREAM_PATH, 0, samples, points->count, numbers);
     for (size_t i = 0; i < points->count; i++) {
         ps_vec3 n = points->normals[i];
-        ps_vec3 origin = ps_add_scaled(points->positions[i], work->pass->surface_offset, n);
-        rays[i] =
-            (ps_ray){origin, 0, ps_cosine_direction(n, numbers[i][0], numbers[i][1]), INFINITY};
+        ps_vec3 direction = ps_cosine_direction(n, numbers[i][0], numbers[i][1]);
+        rays[i] = ps_leave_surface(points->positions[i], n, direction, work->pass->surface_offset);
     }
     host->intersect(host, rays, points->count, hits);
     for (size_t i = 0; i < points->count; i++) {
@@ -310,7 +307,7 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     for (int64_t ray = 0; ray < rays; ray++) {
         uint64_t sample = (uint64_t)work->pass->number * (uint64_t)rays + (uint64_t)ray;
         for (size_t i = 0; i < points.count; i++)
-            samples[i] = ((index * PS_TILE_PIXELS + points.lanes[i]) << 24) + sample;
+            samples[i] = ps_sample_block(index, points.lanes[i]) + sample;
         gather_once(work, worker, &points, samples, sums);
     }
     for (size_t i = 0; i < points.count; i++)

@@ -87,8 +87,7 @@ static int reflect(const struct state *state, uint32_t bounce, const ps_hit *hit
     if (!(ps_rgb_maximum(path->power) > 0.0f))
         return 0;
     ps_vec3 direction = ps_cosine_direction(hit->normal, path->direction[0], path->direction[1]);
-    ps_vec3 origin = ps_add_scaled(hit->position, offset, hit->normal);
-    path->ray = (ps_ray){origin, 0.0f, direction, INFINITY};
+    path->ray = ps_leave_surface(hit->position, hit->normal, direction, offset);
     return 1;
 }
 

@@ -63,18 +63,17 @@ static int describe(struct loader *loader, ps_kind kind, const char *name)
 /* "injection" or "injection=photon" */
 static int print_one(struct loader *loader, const char *operand)
 {
-    char kind_name[32];
-    size_t length = strcspn(operand, "=");
-    snprintf(kind_name, sizeof kind_name, "%.*s", (int)(length < 31 ? length : 31), operand);
-    ps_kind kind = kind_find(kind_name);
+    const char *name;
+    ps_kind kind = kind_parse(operand, &name);
     if (kind == PS_KINDS) {
-        fprintf(stderr, "psplat: error: no kind of plugin '%s'; the kinds are:", kind_name);
+        fprintf(stderr, "psplat: error: no kind of plugin '%.*s'; the kinds are:",
+                (int)strcspn(operand, "="), operand);
         for (int i = 0; i < PS_KINDS; i++)
             fprintf(stderr, " %s", kinds[i].name);
         fprintf(stderr, "\n");
         return STATUS_USAGE;
     }
-    return operand[length] ? describe(loader, kind, operand + length + 1) : list_kind(loader, kind);
+    return name ? describe(loader, kind, name) : list_kind(loader, kind);
 }
 
 static int run(const struct argument *arguments, size_t count)

@@ -23,11 +23,10 @@ bool scene_input_override(struct scene_input *input, const char *text)
 {
     struct strategy_choice choice;
     struct error error;
-    char kind_name[32], message[sizeof error.text + 64];
-    size_t length = strcspn(text, "=");
-    snprintf(kind_name, sizeof kind_name, "%.*s", (int)(length < 31 ? length : 31), text);
-    ps_kind kind = kind_find(kind_name);
-    if (kind == PS_KINDS || !text[length]) {
+    char message[sizeof error.text + 64];
+    const char *wanted;
+    ps_kind kind = kind_parse(text, &wanted);
+    if (kind == PS_KINDS || !wanted) {
         snprintf(message, sizeof message,
                  "--plugin: expected KIND=NAME[:KEY=VALUE,...], got '%.200s'; 'psplat plugins' "
                  "lists the kinds",
@@ -35,12 +34,12 @@ bool scene_input_override(struct scene_input *input, const char *text)
         print_error(message);
         return false;
     }
-    ps_result result = settings_parse_choice(text + length + 1, &choice, &error);
+    ps_result result = settings_parse_choice(wanted, &choice, &error);
     if (result == PS_OK)
         result = settings_override(&input->description.render.strategies[kind], &choice, &error);
     if (result == PS_OK)
         return true;
-    snprintf(message, sizeof message, "--plugin %s: %s", kind_name, error.text);
+    snprintf(message, sizeof message, "--plugin %s: %s", kinds[kind].name, error.text);
     print_error(message);
     return false;
 }

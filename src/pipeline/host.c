@@ -189,11 +189,9 @@ static void place_chunk(void *user, uint64_t index, uint32_t worker)
     size_t first = index * PS_PATH_CHUNK, left = placement->n - first;
     size_t n = left < PS_PATH_CHUNK ? left : PS_PATH_CHUNK;
     const ps_source *sources = placement->sources + first;
-    for (size_t i = 0; i < n; i++) {
-        float offset = render->scene->surface_offset;
-        ps_vec3 origin = ps_add_scaled(sources[i].position, offset, sources[i].normal);
-        rays[i] = (ps_ray){origin, 0.0f, sources[i].direction, INFINITY};
-    }
+    for (size_t i = 0; i < n; i++)
+        rays[i] = ps_leave_surface(sources[i].position, sources[i].normal, sources[i].direction,
+                                   render->scene->surface_offset);
     trace_intersect(render->trace, RAYS_INCOHERENT, rays, n, hits);
     const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
     const ps_visibility_vtable *vtable = visibility->descriptor->vtable;

@@ -12,10 +12,13 @@ const struct kind kinds[PS_KINDS] = {
     [PS_DENOISER] = {"denoiser", "smooths the indirect light", "none"},
 };
 
-ps_kind kind_find(const char *name)
+ps_kind kind_parse(const char *text, const char **rest)
 {
+    size_t length = strcspn(text, "=");
     int kind = 0;
-    while (kind < PS_KINDS && strcmp(kinds[kind].name, name) != 0)
+    while (kind < PS_KINDS &&
+           (strlen(kinds[kind].name) != length || strncmp(kinds[kind].name, text, length) != 0))
         kind++;
+    *rest = text[length] ? text + length + 1 : NULL;
     return (ps_kind)kind;
 }

@@ -13,7 +13,8 @@ struct kind {
 /* The kinds by number (ps_kind). */
 extern const struct kind kinds[PS_KINDS];
 
-/* PS_KINDS where there is no such name. */
-ps_kind kind_find(const char *name);
+/* The kind that a text such as "filter" or "filter=tent" begins with; PS_KINDS where there is none.
+ * `rest` becomes what follows the '=', or NULL where there is none. */
+ps_kind kind_parse(const char *text, const char **rest);
 
 #endif

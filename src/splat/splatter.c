@@ -12,11 +12,19 @@
 /* The map of a splat without visibility: nothing is ever in the way. */
 static const float open_map[1] = {INFINITY};
 
-static size_t batch_size(uint32_t resolution, size_t wanted)
+/* Texels of one depth map; 0 without visibility. */
+static size_t map_texels(const struct splatter *splatter)
 {
-    size_t map = resolution ? (size_t)resolution * resolution * sizeof(float) : 1;
-    size_t fits = MAP_BUDGET / map;
-    return wanted < fits ? wanted : fits;
+    return (size_t)splatter->resolution * splatter->resolution;
+}
+
+/* At least 1: the largest map fits the budget many times. */
+static size_t batch_size(const struct splatter *splatter, size_t wanted)
+{
+    size_t texels = map_texels(splatter);
+    size_t fits = texels ? MAP_BUDGET / (texels * sizeof(float)) : wanted;
+    size_t batch = wanted < fits ? wanted : fits;
+    return batch > 0 ? batch : 1;
 }
 
 ps_result splatter_create(struct splatter *splatter, struct gbuffer *gbuffer, const ps_host *host,
@@ -36,8 +44,8 @@ ps_result splatter_create(struct splatter *splatter, struct gbuffer *gbuffer, co
     if (splatter->resolution > 64 || (splatter->resolution && !visibility.vtable->depth_maps))
         return error_set(error, PS_ERROR_INVALID,
                          "the visibility has no depth maps of resolution %u", splatter->resolution);
-    splatter->batch = batch_size(splatter->resolution, batch);
-    size_t map = (size_t)splatter->resolution * splatter->resolution * sizeof(float);
+    splatter->batch = batch_size(splatter, batch);
+    size_t map = map_texels(splatter) * sizeof(float);
     splatter->depths = malloc(map ? splatter->batch * map : 1);
     splatter->prepared = malloc(splatter->batch * sizeof *splatter->prepared);
     ps_result result = splatter->depths && splatter->prepared
@@ -61,7 +69,7 @@ void splatter_release(struct splatter *splatter)
 
 size_t splatter_bytes(const struct splatter *splatter)
 {
-    size_t map = (size_t)splatter->resolution * splatter->resolution * sizeof(float);
+    size_t map = map_texels(splatter) * sizeof(float);
     return splatter->batch * (map + sizeof *splatter->prepared) + bins_bytes(&splatter->bins);
 }
 
@@ -86,7 +94,7 @@ static void map_chunk(void *user, uint64_t index, uint32_t worker)
     struct splatter *splatter = batch->splatter;
     size_t first = index * MAP_CHUNK;
     size_t n = batch->n - first < MAP_CHUNK ? batch->n - first : MAP_CHUNK;
-    size_t texels = (size_t)splatter->resolution * splatter->resolution;
+    size_t texels = map_texels(splatter);
     float *depths = splatter->depths + first * texels;
     if (texels)
         splatter->visibility.vtable->depth_maps(splatter->visibility.state, splatter->host,
@@ -134,7 +142,7 @@ static ps_result add_batch(const struct batch *batch, struct error *error)
     splatter->kernel_seconds += clock_seconds() - binned;
     uint32_t pairs = splatter->bins.offsets[splatter->bins.tile_count];
     splatter->tests += (uint64_t)pairs * PS_TILE_PIXELS;
-    splatter->map_rays += (uint64_t)work.n * splatter->resolution * splatter->resolution;
+    splatter->map_rays += (uint64_t)work.n * map_texels(splatter);
     splatter->splats += work.n;
     return PS_OK;
 }

@@ -29,13 +29,12 @@ static void read_text(const char *text, struct scene_description *description)
 
 static void lay_over(struct render_description *render, const char *text)
 {
-    char kind_name[32];
+    const char *wanted;
     struct strategy_choice choice;
     struct error error;
-    snprintf(kind_name, sizeof kind_name, "%.*s", (int)strcspn(text, "="), text);
-    ps_kind kind = kind_find(kind_name);
-    assert_true(kind < PS_KINDS);
-    assert_int_equal(settings_parse_choice(strchr(text, '=') + 1, &choice, &error), PS_OK);
+    ps_kind kind = kind_parse(text, &wanted);
+    assert_true(kind < PS_KINDS && wanted);
+    assert_int_equal(settings_parse_choice(wanted, &choice, &error), PS_OK);
     assert_int_equal(settings_override(&render->strategies[kind], &choice, &error), PS_OK);
 }
 
