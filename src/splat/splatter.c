@@ -18,13 +18,11 @@ static size_t map_texels(const struct splatter *splatter)
     return (size_t)splatter->resolution * splatter->resolution;
 }
 
-/* At least 1: the largest map fits the budget many times. */
 static size_t batch_size(const struct splatter *splatter, size_t wanted)
 {
     size_t texels = map_texels(splatter);
     size_t fits = texels ? MAP_BUDGET / (texels * sizeof(float)) : wanted;
-    size_t batch = wanted < fits ? wanted : fits;
-    return batch > 0 ? batch : 1;
+    return wanted < fits ? wanted : fits;
 }
 
 ps_result splatter_create(struct splatter *splatter, struct gbuffer *gbuffer, const ps_host *host,
@@ -45,12 +43,12 @@ ps_result splatter_create(struct splatter *splatter, struct gbuffer *gbuffer, co
         return error_set(error, PS_ERROR_INVALID,
                          "the visibility has no depth maps of resolution %u", splatter->resolution);
     splatter->batch = batch_size(splatter, batch);
-    size_t map = map_texels(splatter) * sizeof(float);
-    splatter->depths = malloc(map ? splatter->batch * map : 1);
+    size_t map_bytes = splatter->batch * map_texels(splatter) * sizeof(float);
+    splatter->depths = malloc(map_bytes > 0 ? map_bytes : 1);
     splatter->prepared = malloc(splatter->batch * sizeof *splatter->prepared);
     ps_result result = splatter->depths && splatter->prepared
                            ? pyramid_create(gbuffer, &splatter->pyramid, error)
-                           : error_memory(error, splatter->batch * map, "depth maps");
+                           : error_memory(error, map_bytes, "depth maps");
     if (result == PS_OK)
         result = bins_create(gbuffer->tile_count, &splatter->bins, error);
     if (result != PS_OK)
