@@ -27,10 +27,14 @@ static bool read_map(struct reader *reader, const struct node *root, const char 
 
 static void read_camera(struct reader *reader, const struct node *root)
 {
-    struct camera_description *camera = &reader->description->camera;
     const struct item *item = node_find(root, "camera");
     if (!item) /* which the table of the whole file reports */
         return;
+    struct camera_description *camera = reader_allocate(reader, 1, sizeof *camera);
+    if (!camera)
+        return;
+    reader->description->cameras = camera;
+    reader->description->camera_count = 1;
     if (read_map(reader, root, "camera", camera, &camera->origin))
         check_camera(reader, item->key, item->value, camera);
     if (camera->angle == 0 && camera->vertical_angle == 0)
@@ -52,6 +56,7 @@ static void read_materials(struct reader *reader, const struct node *root)
         struct material_description *material =
             &description->materials[description->material_count++];
         fill_section(reader, section, item->key, item->value, material);
+        material->normal_map = NO_INDEX;
         material->name = reader_copy(reader, item->key->text);
         material->origin = reader_origin(reader, item->key);
         if (!names_put(&reader->materials, reader->arena, item->key->text, material))
@@ -138,6 +143,8 @@ static void finish_light(const struct reader *reader, const struct schema_sectio
 {
     struct light_description *light = element;
     light->kind = (enum light_kind)section->kind;
+    light->unit = UNIT_INTENSITY;
+    light->texture = NO_INDEX;
     light->origin = reader_origin(reader, item->key);
     if (good)
         check_light(reader, item->key, item->value, light);
@@ -149,6 +156,9 @@ static void finish_object(const struct reader *reader, const struct schema_secti
     struct object_description *object = element;
     object->kind = (enum object_kind)section->kind;
     object->origin = reader_origin(reader, item->key);
+    object->placement =
+        affine_of(object->transform.scale, object->transform.rotate, object->transform.translate);
+    object->texture = object->mesh = object->group = NO_INDEX;
     if (good)
         check_object(reader, item->key, item->value, object);
 }

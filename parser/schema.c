@@ -68,15 +68,27 @@ static const struct schema_row image_rows[] = {
 };
 
 static const struct schema_row material_rows[] = {
-    VALUE(PS_COLOR(struct material_description, diffuse, NULL, 0, 1, "",
-                   "share of the light that the surface reflects diffusely")),
+    {.param = {.name = "diffuse",
+               .type = PS_PARAM_COLOR,
+               .offset = offsetof(struct material_description, color.colors[0]),
+               .maximum = 1,
+               .unit = "",
+               .help = "share of the light that the surface reflects diffusely"},
+     .form = SCHEMA_VALUE},
 };
 
 #define LOCATION_ROW                                                                               \
     VALUE(PS_VEC3(struct light_description, location, NULL, "scene units", "where the light is"))
 #define INTENSITY_ROW                                                                              \
-    VALUE(PS_COLOR(struct light_description, intensity, NULL, 0, INFINITY, "W/sr",                 \
-                   "power that is sent into a unit of solid angle"))
+    {                                                                                              \
+        .param = {.name = "intensity",                                                             \
+                  .type = PS_PARAM_COLOR,                                                          \
+                  .offset = offsetof(struct light_description, amount),                            \
+                  .maximum = INFINITY,                                                             \
+                  .unit = "W/sr",                                                                  \
+                  .help = "power that is sent into a unit of solid angle"},                        \
+        .form = SCHEMA_VALUE                                                                       \
+    }
 
 static const struct schema_row point_rows[] = {LOCATION_ROW, INTENSITY_ROW};
 

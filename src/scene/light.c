@@ -12,7 +12,7 @@ struct light light_from_description(const struct light_description *description)
     struct light light = {
         .location = description->location,
         .axis = {0, 0, 1},
-        .intensity = description->intensity,
+        .intensity = description->amount,
         .cos_radius = -1.0f,
         .cos_falloff = -1.0f,
     };

@@ -86,9 +86,9 @@ ps_result scene_create(const struct scene_description *description, struct scene
     }
     scene->material_count = description->material_count;
     for (size_t i = 0; i < scene->material_count; i++)
-        scene->materials[i].diffuse = description->materials[i].diffuse;
+        scene->materials[i].diffuse = description->materials[i].color.colors[0];
     create_lights(description, scene);
-    scene->camera = camera_from_description(&description->camera, scene->width, scene->height);
+    scene->camera = camera_from_description(&description->cameras[0], scene->width, scene->height);
     measure(scene);
     if (scene->shape_count == 0 ||
         (scene->radius > SMALLEST_RADIUS && scene->radius < LARGEST_RADIUS))

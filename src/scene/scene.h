@@ -8,19 +8,7 @@
 #include "base/error.h"
 #include "scene/camera.h"
 #include "scene/light.h"
-
-enum shape_kind { SHAPE_MESH, SHAPE_SPHERE };
-
-struct shape {
-    enum shape_kind kind;
-    uint32_t material;
-    ps_vec3 *vertices; /* mesh */
-    size_t vertex_count;
-    uint32_t (*triangles)[3]; /* mesh */
-    size_t triangle_count;
-    ps_vec3 center; /* sphere */
-    float radius;
-};
+#include "scene/shape.h"
 
 struct material {
     ps_rgb diffuse; /* two-sided Lambertian reflectance */

@@ -11,28 +11,6 @@ static const uint32_t box_triangles[12][3] = {
     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5},
 };
 
-static ps_vec3 rotate_about(ps_vec3 p, int axis, float degrees)
-{
-    float c = cosf(degrees * PS_PI / 180.0f), s = sinf(degrees * PS_PI / 180.0f);
-    switch (axis) {
-    case 0:
-        return (ps_vec3){p.x, c * p.y - s * p.z, s * p.y + c * p.z};
-    case 1:
-        return (ps_vec3){c * p.x + s * p.z, p.y, c * p.z - s * p.x};
-    default:
-        return (ps_vec3){c * p.x - s * p.y, s * p.x + c * p.y, p.z};
-    }
-}
-
-static ps_vec3 apply(const struct transform_description *transform, ps_vec3 p)
-{
-    p = (ps_vec3){p.x * transform->scale.x, p.y * transform->scale.y, p.z * transform->scale.z};
-    p = rotate_about(p, 0, transform->rotate.x);
-    p = rotate_about(p, 1, transform->rotate.y);
-    p = rotate_about(p, 2, transform->rotate.z);
-    return ps_add(p, transform->translate);
-}
-
 static ps_result allocate_mesh(struct shape *shape, size_t vertices, size_t triangles,
                                struct error *error)
 {
@@ -65,7 +43,7 @@ static ps_result create_box(const struct object_description *object, struct shap
     for (unsigned i = 0; i < 8; i++) {
         const ps_vec3 *corner = object->vertices;
         ps_vec3 p = {corner[i & 1].x, corner[i >> 1 & 1].y, corner[i >> 2].z};
-        shape->vertices[i] = apply(&object->transform, p);
+        shape->vertices[i] = affine_point(&object->placement, p);
     }
     copy_triangles(shape, box_triangles);
     return PS_OK;
@@ -79,7 +57,7 @@ static ps_result create_mesh(const struct object_description *object,
     if (result != PS_OK)
         return result;
     for (size_t i = 0; i < object->vertex_count; i++)
-        shape->vertices[i] = apply(&object->transform, object->vertices[i]);
+        shape->vertices[i] = affine_point(&object->placement, object->vertices[i]);
     copy_triangles(shape, triangles);
     return PS_OK;
 }
@@ -98,17 +76,20 @@ ps_result shape_create(const struct object_description *object, struct shape *sh
                            shape, error);
     case OBJECT_SPHERE:
         shape->kind = SHAPE_SPHERE;
-        shape->center = apply(&object->transform, object->center);
-        shape->radius = (float)object->radius * fabsf(object->transform.scale.x);
+        shape->center = affine_point(&object->placement, object->center);
+        shape->radius = (float)object->radius * ps_length(object->placement.x);
         return PS_OK;
+    default:
+        return error_set(error, PS_ERROR_INVALID, "object of unknown kind %d", (int)object->kind);
     }
-    return error_set(error, PS_ERROR_INVALID, "object of unknown kind %d", (int)object->kind);
 }
 
 void shape_release(struct shape *shape)
 {
     free(shape->vertices);
     free(shape->triangles);
+    free(shape->normals);
+    free(shape->uv);
     *shape = (struct shape){.kind = SHAPE_MESH};
 }
 

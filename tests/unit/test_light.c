@@ -20,7 +20,7 @@ static struct light spot(double radius, double falloff)
         .kind = LIGHT_SPOT,
         .location = {1, 2, 3},
         .point_at = {1, 0, 3},
-        .intensity = {4, 2, 1},
+        .amount = {4, 2, 1},
         .radius = radius,
         .falloff = falloff,
     };
@@ -30,7 +30,7 @@ static struct light spot(double radius, double falloff)
 static struct light point(void)
 {
     const struct light_description description = {
-        .kind = LIGHT_POINT, .location = {1, 2, 3}, .intensity = {4, 2, 1}};
+        .kind = LIGHT_POINT, .location = {1, 2, 3}, .amount = {4, 2, 1}};
     return light_from_description(&description);
 }
 
@@ -168,7 +168,7 @@ static void test_aims_at_its_point(void **state)
     struct light_description description = {.kind = LIGHT_SPOT,
                                             .location = {1, 1, 1},
                                             .point_at = {3, 7, -2},
-                                            .intensity = {1, 1, 1},
+                                            .amount = {1, 1, 1},
                                             .radius = 1,
                                             .falloff = 2};
     struct light light = light_from_description(&description);
@@ -184,8 +184,10 @@ static void test_aims_at_its_point(void **state)
 static struct scene scene_with(const float *intensities, size_t count)
 {
     struct light_description lights[8] = {{.kind = LIGHT_POINT}};
+    struct camera_description camera = {.look_at = {0, 0, -1}, .up = {0, 1, 0}, .angle = 60};
     struct scene_description description = {
-        .camera = {.look_at = {0, 0, -1}, .up = {0, 1, 0}, .angle = 60},
+        .cameras = &camera,
+        .camera_count = 1,
         .image = {.width = 4, .height = 4},
         .lights = lights,
         .light_count = count,
@@ -193,8 +195,8 @@ static struct scene scene_with(const float *intensities, size_t count)
     struct scene scene;
     struct error error;
     for (size_t i = 0; i < count; i++)
-        lights[i] = (struct light_description){
-            .kind = LIGHT_POINT, .intensity = {intensities[i], 0, 2 * intensities[i]}};
+        lights[i] = (struct light_description){.kind = LIGHT_POINT,
+                                               .amount = {intensities[i], 0, 2 * intensities[i]}};
     assert_int_equal(scene_create(&description, &scene, &error), PS_OK);
     return scene;
 }

@@ -40,14 +40,14 @@ static void test_whole_scene(void **state)
         "materials:\n"
         "  white: {diffuse: 0.75}\n"
         "  red: {diffuse: [0.5, 0.25, 0.125]}\n");
-    assert_true(d.camera.vertical_angle == 37.5 && d.camera.angle == 0);
-    assert_vector(d.camera.location, 278, 273, -800);
-    assert_vector(d.camera.up, 0, 1, 0);
+    assert_true(d.cameras[0].vertical_angle == 37.5 && d.cameras[0].angle == 0);
+    assert_vector(d.cameras[0].location, 278, 273, -800);
+    assert_vector(d.cameras[0].up, 0, 1, 0);
     assert_int_equal(d.image.width, 1600);
     assert_true(d.image.exposure == -1);
     assert_int_equal(d.light_count, 2);
     assert_int_equal(d.lights[0].kind, LIGHT_SPOT);
-    assert_true(d.lights[0].radius == 50 && d.lights[0].intensity.b == 3e6F);
+    assert_true(d.lights[0].radius == 50 && d.lights[0].amount.b == 3e6F);
     assert_int_equal(d.lights[0].origin.line, 5);
     assert_int_equal(d.lights[0].origin.column, 5);
     assert_string_equal(d.lights[0].origin.file, "t");
@@ -63,7 +63,7 @@ static void test_whole_scene(void **state)
     assert_int_equal(d.objects[2].triangle_count, 2);
     assert_int_equal(d.objects[2].triangles[1][2], 3);
     assert_vector(d.objects[3].center, 4, 5, 6);
-    assert_true(d.materials[1].diffuse.g == 0.25F && d.materials[0].diffuse.b == 0.75F);
+    assert_true(d.materials[1].color.colors[0].g == 0.25F && d.materials[0].color.colors[0].b == 0.75F);
     scene_description_release(&d);
 }
 
@@ -73,7 +73,7 @@ static void test_defaults(void **state)
     struct scene_description d = parse_good(
         "psd: 1\n" CAMERA "lights: [{spotlight: {location: [0, 0, 0], point_at: [0, 0, 1], "
         "intensity: 1}}]\nobjects:\n");
-    assert_true(d.camera.angle == 67.38 && d.camera.vertical_angle == 0);
+    assert_true(d.cameras[0].angle == 67.38 && d.cameras[0].vertical_angle == 0);
     assert_int_equal(d.image.width, 800);
     assert_int_equal(d.image.height, 450);
     assert_true(d.lights[0].radius == 30 && d.lights[0].falloff == 45);
@@ -123,7 +123,7 @@ static void test_anchors_and_merges(void **state)
                    "  - point: {location: &v [7, 0, 0], intensity: 1}\n"
                    "  - point: {location: *v, intensity: !!float 1}\n");
     assert_vector(d.lights[1].location, 0, 5, 0);
-    assert_true(d.lights[1].intensity.r == 2 && d.lights[1].falloff == 60);
+    assert_true(d.lights[1].amount.r == 2 && d.lights[1].falloff == 60);
     assert_vector(d.lights[3].point_at, 0, 0, 9);
     assert_true(d.lights[3].radius == 1 && d.lights[3].falloff == 50);
     assert_vector(d.lights[5].location, 7, 0, 0);

@@ -23,8 +23,8 @@ static struct shape shape_of(struct object_description object)
 {
     struct shape shape;
     struct error error;
-    if (object.transform.scale.x == 0)
-        object.transform.scale = (ps_vec3){1, 1, 1};
+    if (affine_determinant(&object.placement) == 0)
+        object.placement = (struct affine)AFFINE_IDENTITY;
     assert_int_equal(shape_create(&object, &shape, &error), PS_OK);
     return shape;
 }
@@ -35,7 +35,7 @@ static ps_vec3 transformed(ps_vec3 scale, ps_vec3 rotate, ps_vec3 translate, ps_
     ps_vec3 corners[4] = {p, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     struct shape shape = shape_of((struct object_description){
         .kind = OBJECT_QUAD,
-        .transform = {scale, rotate, translate},
+        .placement = affine_of(scale, rotate, translate),
         .vertices = corners,
         .vertex_count = 4,
     });
@@ -132,7 +132,7 @@ static void test_box(void **state)
     expect_vector(low, 1, 2, 3);
     expect_vector(high, 2, 4, 6);
     shape_release(&shape);
-    object.transform = (struct transform_description){{2, 2, 2}, {10, 20, 30}, {7, 8, 9}};
+    object.placement = affine_of((ps_vec3){2, 2, 2}, (ps_vec3){10, 20, 30}, (ps_vec3){7, 8, 9});
     shape = shape_of(object);
     expect_box(&shape, 8 * 6, 4 * 22);
     shape_release(&shape);
@@ -146,7 +146,7 @@ static void test_box_turns_as_a_whole(void **state)
         .kind = OBJECT_BOX,
         .vertices = corners,
         .vertex_count = 2,
-        .transform = {{1, 1, 1}, {0, 90, 0}, {5, 0, 0}},
+        .placement = affine_of((ps_vec3){1, 1, 1}, (ps_vec3){0, 90, 0}, (ps_vec3){5, 0, 0}),
     });
     ps_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
     shape_extend_bounds(&shape, &low, &high);
@@ -162,7 +162,7 @@ static void test_sphere(void **state)
         .kind = OBJECT_SPHERE,
         .center = {1, 0, 0},
         .radius = 2,
-        .transform = {{-3, -3, -3}, {0, 0, 90}, {0, 0, 1}},
+        .placement = affine_of((ps_vec3){-3, -3, -3}, (ps_vec3){0, 0, 90}, (ps_vec3){0, 0, 1}),
     });
     ps_vec3 low = {-1, -1, -1}, high = {1, 1, 1};
     assert_int_equal(shape.kind, SHAPE_SPHERE);
