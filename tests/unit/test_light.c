@@ -14,6 +14,26 @@
 
 #define PI 3.14159265358979323846
 
+static const struct light_bounds no_bounds = {{0, 0, 0}, 0};
+
+static struct light create(const struct light_description *description)
+{
+    struct light light;
+    struct error error;
+    assert_int_equal(light_create(description, &no_bounds, NULL, &light, &error), PS_OK);
+    return light;
+}
+
+/* A ray by the two numbers that choose its direction, and its flux. */
+static ps_rgb emit(const struct light *light, float u1, float u2, ps_ray *ray)
+{
+    const float u[4] = {u1, u2, 0.5f, 0.5f};
+    ps_vec3 normal;
+    ps_rgb flux = light_emit(light, u, ray, &normal);
+    assert_true(normal.x == 0 && normal.y == 0 && normal.z == 0);
+    return flux;
+}
+
 static struct light spot(double radius, double falloff)
 {
     const struct light_description description = {
@@ -24,14 +44,14 @@ static struct light spot(double radius, double falloff)
         .radius = radius,
         .falloff = falloff,
     };
-    return light_from_description(&description);
+    return create(&description);
 }
 
 static struct light point(void)
 {
     const struct light_description description = {
         .kind = LIGHT_POINT, .location = {1, 2, 3}, .amount = {4, 2, 1}};
-    return light_from_description(&description);
+    return create(&description);
 }
 
 static void expect_near(double value, double expected)
@@ -114,7 +134,7 @@ static double emitted(const struct light *light)
     for (int i = 0; i < STEPS; i++)
         for (int k = 0; k < STEPS; k++) {
             ps_ray ray;
-            sum += light_emit(light, (i + 0.5f) / STEPS, (k + 0.5f) / STEPS, &ray).r;
+            sum += emit(light, (i + 0.5f) / STEPS, (k + 0.5f) / STEPS, &ray).r;
             assert_true(ray.origin.x == 1 && ray.origin.y == 2 && ray.origin.z == 3);
             assert_true(ray.tnear == 0 && isinf(ray.tfar));
         }
@@ -152,7 +172,7 @@ static void test_emission_is_even_over_the_cone(void **state)
     for (int i = 0; i < RAYS; i++) {
         ps_ray ray;
         float u1 = random_unit(&random), u2 = random_unit(&random);
-        light_emit(&light, u1, u2, &ray);
+        emit(&light, u1, u2, &ray);
         double height = (-ray.direction.y - limit) / (1 - limit);
         assert_true(height > -1e-5 && height < 1.00001);
         observed[(int)fmin(fmax(height, 0) * RINGS, RINGS - 1)]++;
@@ -171,9 +191,9 @@ static void test_aims_at_its_point(void **state)
                                             .amount = {1, 1, 1},
                                             .radius = 1,
                                             .falloff = 2};
-    struct light light = light_from_description(&description);
+    struct light light = create(&description);
     ps_ray ray;
-    light_emit(&light, 0.0f, 0.0f, &ray); /* the middle of the cone */
+    emit(&light, 0.0f, 0.0f, &ray); /* the middle of the cone */
     expect_near(ray.direction.x, 2.0 / 7);
     expect_near(ray.direction.y, 6.0 / 7);
     expect_near(ray.direction.z, -3.0 / 7);
