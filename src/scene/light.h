@@ -1,9 +1,9 @@
 /* light.h: light sources: what they send out, and what they give to a point.
  *
- * Two ways of sampling, which agree: light_emit starts a light path at the light, light_sample looks
- * from a point towards it. Lamps with a surface (rectangles, discs, emissive objects) are geometry
- * that shines; here they are triangles or a sphere, and only rays that meet them tell what is seen
- * of them. Each kind has its file, light_*.c, which states the method.
+ * Two ways of sampling, which agree: light_emit starts a light path at the light, light_sample
+ * looks from a point towards it. Lamps with a surface (rectangles, discs, emissive objects) are
+ * geometry that shines; here they are triangles or a sphere, and only rays that meet them tell what
+ * is seen of them. Each kind has its file, light_*.c, which states the method.
  *
  * Units: W (flux), W/sr (intensity), W/m^2 (irradiance), W/(m^2 sr) (radiance), metres standing for
  * scene units; pdfs of directions are by solid angle. Lights are constant once made, so all
@@ -140,27 +140,27 @@ void light_disc_triangles(const struct light_description *description, size_t se
 
 /* --- the whole light --- */
 
-/* Radiant flux, W; of sun and sky: through discs as large as the scene. Of a mesh with a pattern: an
- * estimate, good enough to share light paths by. */
+/* Radiant flux, W; of sun and sky: through discs as large as the scene. Of a mesh with a pattern:
+ * an estimate, good enough to share light paths by. */
 ps_rgb light_power(const struct light *light);
 
-/* Whether it is a point, in place or direction, so that all its shadow rays from a point are one and
- * no other ray can meet it. */
+/* Whether it is a point, in place or direction, so that all its shadow rays from a point are one
+ * and no other ray can meet it. */
 bool light_is_delta(const struct light *light);
 
 /* Intensity of a point or spot in unit direction `direction` away from it; black for others. */
 ps_rgb light_intensity(const struct light *light, ps_vec3 direction);
 
-/* Radiance that arrives out of infinity, seen in unit direction `direction`: of a sky, or a sun with
- * an angle; black for others. */
+/* Radiance that arrives out of infinity, seen in unit direction `direction`: of a sky, or a sun
+ * with an angle; black for others. */
 ps_rgb light_radiance_from(const struct light *light, ps_vec3 direction);
 
 /* --- sampling --- */
 
 /* Starts a light path: a ray from the light, and the flux (W) it stands for, value / pdf; its mean
  * is light_power. `u`: four numbers in [0,1), 0 and 1 for the direction, 2 and 3 for the position.
- * On a surface the ray starts where it is, `normal` being that of the side it leaves, for the caller
- * to move it off; else `normal` is 0. Rays of sun and sky start outside of the scene. */
+ * On a surface the ray starts where it is, `normal` being that of the side it leaves, for the
+ * caller to move it off; else `normal` is 0. Rays of sun and sky start outside of the scene. */
 ps_rgb light_emit(const struct light *light, const float u[4], ps_ray *ray, ps_vec3 *normal);
 
 struct light_sample {
@@ -177,9 +177,9 @@ bool light_sample(const struct light *light, ps_vec3 position, float u1, float u
                   struct light_sample *sample);
 
 /* The density by which light_sample chooses `direction` from `position`, if a ray in that direction
- * meets the light at `distance`, where its front's unit normal is `normal`; of sun and sky these two
- * do not matter. Of a mesh it is that of this point alone: where others lie in line with it, each
- * has its own. 0 for a delta. */
+ * meets the light at `distance`, where its front's unit normal is `normal`; of sun and sky these
+ * two do not matter. Of a mesh it is that of this point alone: where others lie in line with it,
+ * each has its own. 0 for a delta. */
 float light_pdf(const struct light *light, ps_vec3 position, ps_vec3 direction, float distance,
                 ps_vec3 normal);
 

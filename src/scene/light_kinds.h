@@ -71,8 +71,8 @@ ps_rgb light_sky_emit(const struct light_sky *sky, const float u[4], ps_ray *ray
 void light_sky_sample(const struct light_sky *sky, float u1, float u2, struct light_sample *sample);
 float light_sky_pdf(const struct light_sky *sky, ps_vec3 direction);
 
-/* Emission and sampling that surfaces share: density by solid angle of a point chosen uniformly over
- * an area, seen from `distance` at `cosine` to its normal; 0 where that is not positive. */
+/* Emission and sampling that surfaces share: density by solid angle of a point chosen uniformly
+ * over an area, seen from `distance` at `cosine` to its normal; 0 where that is not positive. */
 float light_pdf_of_area(float area, float distance, float cosine);
 
 /* Splits a number in [0,1) in two: which half it is in, and where in that half. */

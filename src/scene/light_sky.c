@@ -1,11 +1,12 @@
 /* light_sky.c: light from all around: one radiance, or a picture by longitude and latitude.
  *
  * The picture is interpolated bilinearly, for skies that are seen. Directions are chosen by a table
- * with one cell a pixel (Pharr, Jakob and Humphreys, "Physically based rendering", on image infinite
- * lights): the chance of a cell is the luminance that the interpolated picture has in it on average,
- * times its solid angle, so a cell is dark only where all of the picture in it is. Inside a cell
- * directions are uniform by solid angle (even in longitude and in the cosine of the polar angle),
- * which leaves no sine to divide by at the poles. Light paths start as those of a sun.
+ * with one cell a pixel (Pharr, Jakob and Humphreys, "Physically based rendering", on image
+ * infinite lights): the chance of a cell is the luminance that the interpolated picture has in it
+ * on average, times its solid angle, so a cell is dark only where all of the picture in it is.
+ * Inside a cell directions are uniform by solid angle (even in longitude and in the cosine of the
+ * polar angle), which leaves no sine to divide by at the poles. Light paths start as those of a
+ * sun.
  */
 #include "scene/light_kinds.h"
 
@@ -168,7 +169,7 @@ static ps_result distribute(struct light_sky *sky, struct error *error)
     ps_result result = check_picture(&sky->picture, error);
     if (result != PS_OK)
         return result;
-    float *weights = calloc(width * height, sizeof *weights);
+    float *weights = calloc(height, width * sizeof *weights);
     if (!weights)
         return error_memory(error, width * height * sizeof *weights, "the sky");
     sky->fluence = weigh_cells(sky, weights);

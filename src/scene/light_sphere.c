@@ -31,8 +31,8 @@ ps_rgb light_sphere_emit(const struct light_sphere *sphere, const float u[4], ps
     return light_sphere_power(sphere);
 }
 
-/* The versine of the cone that the sphere fills at distance d of its centre, more than r. Differences
- * of squares are products here, for points that almost touch the sphere. */
+/* The versine of the cone that the sphere fills at distance d of its centre, more than r.
+ * Differences of squares are products here, for points that almost touch the sphere. */
 static float versine_of(const struct light_sphere *sphere, float d)
 {
     float ratio = sphere->radius / d;

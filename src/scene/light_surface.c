@@ -11,7 +11,8 @@
 
 #include <stdlib.h>
 
-/* How many points, over all triangles, a pattern's mean is made from, and the most along an edge. */
+/* How many points, over all triangles, a pattern's mean is made from, and the most along an edge.
+ */
 #define PATTERN_POINTS 65536
 #define PATTERN_EDGE 64
 
@@ -45,8 +46,8 @@ struct shares {
     float of[3];
 };
 
-/* The unit square to a triangle: folded along the diagonal rather than squeezed into a corner (Heitz
- * 2019, "A low-distortion map between triangle and square"). */
+/* The unit square to a triangle: folded along the diagonal rather than squeezed into a corner
+ * (Heitz 2019, "A low-distortion map between triangle and square"). */
 static struct shares shares_of(float u1, float u2)
 {
     float a = u1 < u2 ? 0.5f * u1 : u1 - 0.5f * u2;
@@ -197,8 +198,8 @@ ps_rgb light_surface_emit(const struct light_surface *surface, const float u[4],
     return ps_rgb_multiply(plain_power(surface), point.pattern);
 }
 
-/* Cosine at the light towards a point that looks along `direction`; not above 0 where it sees a back
- * that does not shine. */
+/* Cosine at the light towards a point that looks along `direction`; not above 0 where it sees a
+ * back that does not shine. */
 static float cosine_at_light(const struct light_surface *surface, ps_vec3 direction, ps_vec3 normal)
 {
     float cosine = -ps_dot(direction, normal);
