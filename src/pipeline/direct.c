@@ -12,17 +12,16 @@ static ps_rgb connect(const struct scene *scene, const struct light *light, ps_v
 {
     static const ps_rgb nothing = {0, 0, 0};
     ps_vec3 origin = ps_add_scaled(position, scene->surface_offset, normal);
-    ps_vec3 to_light = ps_subtract(light->location, origin);
-    float distance = ps_length(to_light);
-    ps_vec3 direction = ps_scale(to_light, 1.0f / distance);
-    float cosine = ps_dot(direction, normal);
+    struct light_sample sample;
+    if (!light_sample(light, origin, 0.5f, 0.5f, &sample))
+        return nothing;
+    float cosine = ps_dot(sample.direction, normal);
     if (!(cosine > 0.0f))
         return nothing;
     /* A lamp may lie on a surface, which must not shadow it. */
-    float reach = fmaxf(distance - scene->surface_offset, 0.0f);
-    *ray = (ps_ray){origin, 0.0f, direction, reach};
-    ps_rgb intensity = light_intensity(light, ps_scale(direction, -1.0f));
-    return ps_rgb_scale(intensity, cosine / (distance * distance));
+    float reach = fmaxf(sample.distance - scene->surface_offset, 0.0f);
+    *ray = (ps_ray){origin, 0.0f, sample.direction, reach};
+    return ps_rgb_scale(sample.weight, cosine);
 }
 
 /* Adds one light to at most CHUNK points. */

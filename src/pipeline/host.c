@@ -130,7 +130,8 @@ static void host_emit_light(const ps_host *host, const float (*samples)[4], size
             continue;
         float probability;
         size_t light = scene_choose_light(scene, samples[i][2], &probability);
-        ps_rgb flux = light_emit(&scene->lights[light], samples[i][0], samples[i][1], &rays[i]);
+        ps_vec3 normal;
+        ps_rgb flux = light_emit(&scene->lights[light], samples[i], &rays[i], &normal);
         rays[i].tnear = scene->surface_offset; /* a lamp may lie on a surface */
         if (probability > 0.0f)
             power[i] = ps_rgb_scale(flux, 1.0f / probability);

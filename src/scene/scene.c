@@ -44,12 +44,17 @@ static ps_result create_shapes(const struct scene_description *description, stru
 }
 
 /* Lights share the light paths by power; a scene whose lights are all dark shares them evenly. */
-static void create_lights(const struct scene_description *description, struct scene *scene)
+static ps_result create_lights(const struct scene_description *description, struct scene *scene,
+                               struct error *error)
 {
-    scene->light_count = description->light_count;
+    struct light_bounds bounds = {scene->center, scene->radius};
     float total = 0.0f;
-    for (size_t i = 0; i < scene->light_count; i++) {
-        scene->lights[i] = light_from_description(&description->lights[i]);
+    for (size_t i = 0; i < description->light_count; i++) {
+        ps_result result =
+            light_create(&description->lights[i], &bounds, NULL, &scene->lights[i], error);
+        if (result != PS_OK)
+            return result;
+        scene->light_count++;
         ps_rgb power = light_power(&scene->lights[i]);
         total += power.r + power.g + power.b;
         scene->light_cdf[i] = total;
@@ -57,6 +62,7 @@ static void create_lights(const struct scene_description *description, struct sc
     for (size_t i = 0; i < scene->light_count; i++)
         scene->light_cdf[i] =
             total > 0.0f ? scene->light_cdf[i] / total : (float)(i + 1) / (float)scene->light_count;
+    return PS_OK;
 }
 
 static void measure(struct scene *scene)
@@ -82,6 +88,9 @@ ps_result scene_create(const struct scene_description *description, struct scene
     ps_result result = allocate_members(description, scene, error);
     if (result == PS_OK)
         result = create_shapes(description, scene, error);
+    measure(scene);
+    if (result == PS_OK)
+        result = create_lights(description, scene, error);
     if (result != PS_OK) {
         scene_release(scene);
         return result;
@@ -89,9 +98,7 @@ ps_result scene_create(const struct scene_description *description, struct scene
     scene->material_count = description->material_count;
     for (size_t i = 0; i < scene->material_count; i++)
         scene->materials[i].diffuse = description->materials[i].color.colors[0];
-    create_lights(description, scene);
     scene->camera = camera_from_description(&description->cameras[0], scene->width, scene->height);
-    measure(scene);
     if (scene->shape_count == 0 ||
         (scene->radius > SMALLEST_RADIUS && scene->radius < LARGEST_RADIUS))
         return PS_OK;
@@ -108,6 +115,8 @@ void scene_release(struct scene *scene)
         shape_release(&scene->shapes[i]);
     free(scene->shapes);
     free(scene->materials);
+    for (size_t i = 0; i < scene->light_count; i++)
+        light_release(&scene->lights[i]);
     free(scene->lights);
     free(scene->light_cdf);
     *scene = (struct scene){.shapes = NULL};
