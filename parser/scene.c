@@ -57,6 +57,7 @@ static void read_materials(struct reader *reader, const struct node *root)
             &description->materials[description->material_count++];
         fill_section(reader, section, item->key, item->value, material);
         material->normal_map = NO_INDEX;
+        material->opacity.colors[0] = (ps_rgb){1, 1, 1};
         material->name = reader_copy(reader, item->key->text);
         material->origin = reader_origin(reader, item->key);
         if (!names_put(&reader->materials, reader->arena, item->key->text, material))
@@ -207,5 +208,6 @@ void scene_read(struct reader *reader, const struct node *root)
     description->lights = read_list(reader, root, &lights, &description->light_count);
     description->objects = read_list(reader, root, &objects, &description->object_count);
     read_map(reader, root, "render", &description->render, NULL);
+    description->render.light_samples = 4;
     warn_dark(reader, root);
 }

@@ -390,7 +390,7 @@ static struct scene scene_with(const float *intensities, size_t count)
     for (size_t i = 0; i < count; i++)
         lights[i] = (struct light_description){.kind = LIGHT_POINT,
                                                .amount = {intensities[i], 0, 2 * intensities[i]}};
-    assert_int_equal(scene_create(&description, &scene, &error), PS_OK);
+    assert_int_equal(scene_create(&description, &scene, NULL, &error), PS_OK);
     return scene;
 }
 
@@ -401,8 +401,9 @@ static void expect_shares(const float *intensities, const double *shares, size_t
     struct scene scene = scene_with(intensities, count);
     double chosen[8] = {0}, said[8] = {0}, sum = 0;
     for (int i = 0; i < STEPS; i++) {
-        float probability;
-        size_t light = scene_choose_light(&scene, (i + 0.5f) / STEPS, &probability);
+        float probability, number = (i + 0.5f) / STEPS;
+        size_t light = scene_choose_light(&scene, &number, &probability);
+        assert_true(number >= 0 && number < 1);
         assert_true(light < count && probability > 0);
         chosen[light] += 1.0 / STEPS;
         said[light] = probability;
@@ -413,9 +414,9 @@ static void expect_shares(const float *intensities, const double *shares, size_t
         sum += said[i];
     }
     assert_true(fabs(sum - 1) < 1e-6);
-    float probability;
-    assert_true(shares[scene_choose_light(&scene, 0, &probability)] > 0);
-    assert_true(shares[scene_choose_light(&scene, 1 - 0x1p-24f, &probability)] > 0);
+    float probability, least = 0, most = 1 - 0x1p-24f;
+    assert_true(shares[scene_choose_light(&scene, &least, &probability)] > 0);
+    assert_true(shares[scene_choose_light(&scene, &most, &probability)] > 0);
     scene_release(&scene);
 }
 
