@@ -14,9 +14,22 @@ static bool is_light(ps_rgb value)
 
 /* --- making them --- */
 
-ps_result light_create(const struct light_description *description,
-                       const struct light_bounds *bounds, const struct sky_picture *picture,
-                       struct light *light, struct error *error)
+/* Passes the result on, but for a light whose power single precision can't hold. */
+static ps_result check_power(ps_result result, struct light *light, struct error *error)
+{
+    if (result == PS_OK) {
+        ps_rgb power = light_power(light);
+        if (isfinite(power.r + power.g + power.b))
+            return PS_OK;
+        result = error_set(error, PS_ERROR_INVALID, "the light's power is too large a number");
+    }
+    light_release(light);
+    return result;
+}
+
+static ps_result create_kind(const struct light_description *description,
+                             const struct light_bounds *bounds, const struct sky_picture *picture,
+                             struct light *light, struct error *error)
 {
     *light = (struct light){.emitter = EMITTER_SPOT};
     switch (description->kind) {
@@ -37,11 +50,19 @@ ps_result light_create(const struct light_description *description,
     return error_set(error, PS_ERROR_INVALID, "a lamp with a surface is geometry that shines");
 }
 
+ps_result light_create(const struct light_description *description,
+                       const struct light_bounds *bounds, const struct sky_picture *picture,
+                       struct light *light, struct error *error)
+{
+    return check_power(create_kind(description, bounds, picture, light, error), light, error);
+}
+
 ps_result light_create_mesh(const struct light_mesh *mesh, ps_rgb radiance, bool both_sides,
                             struct light *light, struct error *error)
 {
     *light = (struct light){.emitter = EMITTER_MESH};
-    return light_surface_create(mesh, radiance, both_sides, &light->surface, error);
+    ps_result result = light_surface_create(mesh, radiance, both_sides, &light->surface, error);
+    return check_power(result, light, error);
 }
 
 struct light light_create_sphere(ps_vec3 center, float radius, ps_rgb radiance, bool both_sides)

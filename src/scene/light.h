@@ -106,18 +106,19 @@ struct light {
 
 /* A point, spot, sun or sky; the others are surfaces, see below. `picture`, for a sky, must outlive
  * the light; NULL: the sky has one colour. PS_ERROR_INVALID: the unit does not fit the light, a
- * direction has no length, or the picture is empty or holds a number that is not finite;
- * PS_ERROR_MEMORY; or PS_OK: release the light. */
+ * direction has no length, the picture is empty or holds a number that is not finite, or the power
+ * overflows; PS_ERROR_MEMORY; or PS_OK: release the light. */
 ps_result light_create(const struct light_description *description,
                        const struct light_bounds *bounds, const struct sky_picture *picture,
                        struct light *light, struct error *error);
 
 /* All that `mesh` points at must outlive the light. Triangles without area are legal.
- * PS_ERROR_MEMORY; PS_ERROR_INVALID: the area is not finite; or PS_OK: release the light. */
+ * PS_ERROR_MEMORY; PS_ERROR_INVALID: area or power overflow; or PS_OK: release the light. */
 ps_result light_create_mesh(const struct light_mesh *mesh, ps_rgb radiance, bool both_sides,
                             struct light *light, struct error *error);
 
-/* A sphere that shines outwards, with `both_sides` inwards too. Nothing to release. */
+/* A sphere that shines outwards, with `both_sides` inwards too. Its power must
+ * not overflow. Nothing to release. */
 struct light light_create_sphere(ps_vec3 center, float radius, ps_rgb radiance, bool both_sides);
 
 /* Frees what the light owns, and zeroes it; a zeroed light may be released again. */

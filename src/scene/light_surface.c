@@ -141,10 +141,6 @@ ps_result light_surface_create(const struct light_mesh *mesh, ps_rgb radiance, b
     if (result != PS_OK)
         return result;
     surface->area = (float)surface->by_area.total;
-    if (!isfinite(surface->area)) {
-        light_surface_release(surface);
-        return error_set(error, PS_ERROR_INVALID, "an emissive mesh has no finite area");
-    }
     surface->mean = mean_of_pattern(surface);
     return PS_OK;
 }

@@ -156,13 +156,39 @@ static void test_points_of_a_sphere(void **state)
     }
 }
 
+/* More than a float holds is refused where that is possible, and dark where it is not. */
+static void test_overflow(void **state)
+{
+    (void)state;
+    static const ps_vec3 vertices[] = {{0, 0, 0}, {1e3f, 0, 0}, {0, 1e3f, 0}};
+    static const ps_vec3 vast[] = {{0, 0, 0}, {1e30f, 0, 0}, {0, 1e30f, 0}};
+    static const uint32_t triangles[][3] = {{0, 1, 2}};
+    const ps_rgb bright = {1e38f, 1, 1}, dim = {1, 1, 1};
+    struct light_mesh mesh = {.vertices = vertices, .triangles = triangles, .triangle_count = 1};
+    struct light light;
+    struct error error = {""};
+    assert_int_equal(light_create_mesh(&mesh, bright, false, &light, &error), PS_ERROR_INVALID);
+    assert_int_equal(light_create_mesh(&mesh, dim, false, &light, &error), PS_OK);
+    light_release(&light);
+    mesh.vertices = vast;
+    assert_int_equal(light_create_mesh(&mesh, dim, false, &light, &error), PS_ERROR_INVALID);
+    const struct light_description description = {
+        .kind = LIGHT_SUN, .direction = {0, -1, 0}, .amount = bright, .unit = UNIT_IRRADIANCE};
+    const struct light_bounds bounds = {{0, 0, 0}, 100};
+    assert_int_equal(light_create(&description, &bounds, NULL, &light, &error), PS_ERROR_INVALID);
+    const float u[4] = {0.1f, 0.2f, 0.3f, 0.4f};
+    ps_ray ray;
+    ps_vec3 normal;
+    light = light_create_sphere((ps_vec3){0, 0, 0}, 100, bright, false);
+    assert_true(light_emit(&light, u, &ray, &normal).r == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_points_and_spots),
-        cmocka_unit_test(test_suns_and_skies),
-        cmocka_unit_test(test_surfaces),
-        cmocka_unit_test(test_points_of_a_sphere),
+        cmocka_unit_test(test_points_and_spots), cmocka_unit_test(test_suns_and_skies),
+        cmocka_unit_test(test_surfaces),         cmocka_unit_test(test_points_of_a_sphere),
+        cmocka_unit_test(test_overflow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

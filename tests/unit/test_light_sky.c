@@ -1,5 +1,5 @@
-/* test_light_sky.c: light from all around, of one colour or of a picture. The scene is the sphere of
- * radius 5 around (1, 2, 3). */
+/* test_light_sky.c: light from all around, of one colour or of a picture. The scene is the sphere
+ * of radius 5 around (1, 2, 3). */
 #include "scene/light.h"
 
 #include "support/light_check.h"
@@ -67,8 +67,8 @@ static void test_directions_have_their_density(void **state)
         light_release(&lights[i]);
 }
 
-/* Each weight is the radiance seen in its direction over the density; where there is light, there is
- * density. */
+/* Each weight is the radiance seen in its direction over the density; where there is light, there
+ * is density. */
 static void test_samples(void **state)
 {
     (void)state;

@@ -95,7 +95,7 @@ static void test_irradiance(void **state)
     }
 }
 
-/* Inside of a furnace the irradiance is pi L anywhere, and nothing where only the outside shines. */
+/* In a furnace the irradiance is pi L anywhere, and nothing where only the outside shines. */
 static void test_irradiance_inside(void **state)
 {
     (void)state;
@@ -175,6 +175,17 @@ static void test_photons_agree_with_samples(void **state)
     expect_plate_agrees(&both, (ps_vec3){1.1f, 1.9f, 3}, (ps_vec3){0.6f, 0.8f, 0}, 0.08);
 }
 
+/* The side that faces away is hidden from outside, and not chosen. */
+static void test_far_side_has_no_density(void **state)
+{
+    (void)state;
+    struct light both = ball(0.5f, true);
+    const ps_vec3 position = {1, 2, 0}, ahead = {0, 0, 1}, near = {0, 0, -1};
+    expect_close(light_pdf(&both, position, ahead, 2.5f, near), 1 / (2 * PI * (1 - sqrt(35) / 6)),
+                 1e-4);
+    assert_true(light_pdf(&both, position, ahead, 3.5f, ahead) == 0);
+}
+
 static void test_no_size(void **state)
 {
     (void)state;
@@ -196,6 +207,7 @@ int main(void)
         cmocka_unit_test(test_power),
         cmocka_unit_test(test_emission_is_lambertian),
         cmocka_unit_test(test_photons_agree_with_samples),
+        cmocka_unit_test(test_far_side_has_no_density),
         cmocka_unit_test(test_no_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -114,8 +114,8 @@ static void test_other_densities_are_rejected(void **state)
 
 /* --- irradiance in closed form --- */
 
-/* Form factor of a rectangle a x b at height c, from a parallel element under its corner (Siegel and
- * Howell; Lambert). */
+/* Form factor of a rectangle a x b at height c, from a parallel element under its corner (Siegel
+ * and Howell; Lambert). */
 static double corner_factor(double a, double b, double c)
 {
     double x = a / c, y = b / c, p = sqrt(1 + x * x), q = sqrt(1 + y * y);
@@ -219,8 +219,8 @@ static void test_radiance_from_power(void **state)
 
 /* --- emission --- */
 
-/* Positions even over the lamp, directions by the cosine: 4 x 4 places, 4 rings of the squared sine,
- * 4 sectors, and the sides. `repeat` gives the same number twice, which must show. */
+/* Positions even over the lamp, directions by the cosine: 4 x 4 places, 4 rings of the squared
+ * sine, 4 sectors, and the sides. `repeat` gives the same number twice, which must show. */
 static double fit_emission(const struct light *light, int sides, bool repeat)
 {
     enum { RAYS = 400000, MOST = 512 };
@@ -375,6 +375,23 @@ static void test_degenerate_meshes(void **state)
     }
 }
 
+/* A lamp so small that the square of its area is nothing in single precision. */
+static void test_tiny_lamp(void **state)
+{
+    (void)state;
+    static const ps_vec3 vertices[] = {{0, 0, 0}, {4e-13f, 0, 0}, {0, 5e-13f, 0}};
+    static const uint32_t triangles[][3] = {{0, 1, 2}};
+    struct light_mesh mesh = {.vertices = vertices, .triangles = triangles, .triangle_count = 1};
+    struct light light = light_of_mesh(&mesh, false);
+    struct light_sample sample;
+    const ps_vec3 position = {0, 0, 2};
+    expect_close(light.surface.area, 1e-25, 1e-5);
+    assert_true(light_sample(&light, position, 0.3f, 0.6f, &sample));
+    expect_close(sample.weight.r, 6 * 1e-25 / 4, 1e-5);
+    expect_flux_is_power(&light, 1e-5);
+    light_release(&light);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -389,6 +406,7 @@ int main(void)
         cmocka_unit_test(test_a_rectangle_stays_stratified),
         cmocka_unit_test(test_pattern),
         cmocka_unit_test(test_degenerate_meshes),
+        cmocka_unit_test(test_tiny_lamp),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
