@@ -35,6 +35,8 @@ typedef struct ps_box_settings {
     int32_t step_back_rule; /* 0: auto, min(d, R tan(theta) + R/2); 1: full, from the source; -1:
                                step_back */
     int32_t reserved;
+    double grow; /* where sources were merged, R is multiplied by min(sqrt(merged), grow); at most
+                    1: not at all */
 } ps_box_settings;
 
 /* What the estimator works on in one pass. */
