@@ -144,6 +144,9 @@ struct ps_host {
 
     /* Non-zero when the user wants to stop: return PS_CANCELLED soon. [any thread] */
     int32_t (*cancelled)(const ps_host *host);
+
+    /* Where the camera stands, and the direction of the middle of its picture. [any thread] */
+    void (*camera)(const ps_host *host, ps_vec3 *position, ps_vec3 *direction);
 };
 
 #endif
