@@ -37,6 +37,8 @@ typedef struct ps_box_settings {
     int32_t step_back_rule; /* 0: auto, min(d, R tan(theta) + R/2); 1: full, from the source; -1:
                                step_back */
     int32_t reserved;
+    double grow; /* where sources were merged, R is multiplied by min(sqrt(merged), grow); at most
+                    1: not at all */
 } ps_box_settings;
 
 /* What the estimator works on in one pass. */
@@ -160,6 +162,9 @@ struct ps_host {
 
     /* Non-zero when the user wants to stop: return PS_CANCELLED soon. [any thread] */
     int32_t (*cancelled)(const ps_host *host);
+
+    /* Where the camera stands, and the direction of the middle of its picture. [any thread] */
+    void (*camera)(const ps_host *host, ps_vec3 *position, ps_vec3 *direction);
 };
 
 #endif

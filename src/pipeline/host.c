@@ -110,6 +110,15 @@ static void host_scene_bounds(const ps_host *host, ps_vec3 *center, float *radiu
     *radius = render_of(host)->scene->radius;
 }
 
+static void host_camera(const ps_host *host, ps_vec3 *position, ps_vec3 *direction)
+{
+    const struct scene *scene = render_of(host)->scene;
+    ps_ray middle =
+        camera_ray(&scene->camera, 0.5f * (float)scene->width, 0.5f * (float)scene->height);
+    *position = middle.origin;
+    *direction = middle.direction;
+}
+
 static void host_place_boxes(const ps_host *host, const ps_box_settings *settings,
                              const ps_source *sources, const ps_hit *hits, size_t n,
                              ps_splat *splats)
@@ -257,6 +266,7 @@ void host_create(struct render *render)
         .count = host_count,
         .progress = host_progress,
         .cancelled = host_cancelled,
+        .camera = host_camera,
     };
     host_add_light_transport(&render->host);
 }
