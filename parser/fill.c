@@ -119,7 +119,8 @@ static bool fill_row(struct reader *reader, struct subject subject, const struct
     case SCHEMA_MAP:
     case SCHEMA_NAMED:
     case SCHEMA_LIST:
-        break; /* sections of their own, read by who fills the description */
+    case SCHEMA_OTHER:
+        break; /* read by who fills the description, or before */
     }
     return true;
 }

@@ -1,6 +1,7 @@
 /* schema.c: the tables of the scene language; see schema.h. */
 #include "parser/schema.h"
 
+#include "parser/schema_language.h"
 #include "scene/description.h"
 #include <stdio.h>
 #include <string.h>
@@ -34,6 +35,10 @@
 static const struct schema_row scene_rows[] = {
     VALUE(PS_INT(struct schema_scene, psd, NULL, 1, 1, "",
                  "version of the format that the file is written in")),
+    SCHEMA_OTHER_ROW("include", "path of a file, or list of them", "none",
+                     "files that belong to the scene"),
+    PART(SCHEMA_NAMED, "parameters", "none", "names for formulas that the command line can set"),
+    SCHEMA_OTHER_ROW("define", "map of values by name", "none", "names for formulas"),
     PART(SCHEMA_MAP, "camera", NULL, "from where the scene is seen"),
     PART(SCHEMA_MAP, "image", "its defaults", "size and exposure of the picture"),
     PART(SCHEMA_NAMED, "materials", "none", "surfaces, by names that objects refer to"),
@@ -191,18 +196,18 @@ static const struct schema_section sections[] = {
 
 size_t schema_section_count(void)
 {
-    return COUNT(sections);
+    return COUNT(sections) + schema_language_count;
 }
 
 const struct schema_section *schema_section(size_t index)
 {
-    return &sections[index];
+    return index < COUNT(sections) ? &sections[index] : &schema_language[index - COUNT(sections)];
 }
 
 const struct schema_section *schema_find(const char *parent, const char *name)
 {
-    for (size_t i = 0; i < COUNT(sections); i++) {
-        const struct schema_section *section = &sections[i];
+    for (size_t i = 0; i < schema_section_count(); i++) {
+        const struct schema_section *section = schema_section(i);
         bool same_parent = parent && section->parent ? strcmp(parent, section->parent) == 0
                                                      : !parent && !section->parent;
         if (same_parent && strcmp(name, section->name) == 0)
@@ -260,6 +265,9 @@ void schema_describe(const struct schema_row *row, char *text, size_t size)
         break;
     case SCHEMA_LIST:
         snprintf(text, size, "list of maps of one key each");
+        break;
+    case SCHEMA_OTHER:
+        snprintf(text, size, "%s", row->domain);
         break;
     }
 }

@@ -25,7 +25,8 @@ enum schema_form {
     SCHEMA_STRATEGY,  /* plugin's name, or {name: {parameter: value, ...}} */
     SCHEMA_MAP,       /* the section of the same name */
     SCHEMA_NAMED,     /* map from names of the user's choice to sections with this parent */
-    SCHEMA_LIST       /* list of {section: {...}}, of the sections with this parent */
+    SCHEMA_LIST,      /* list of {section: {...}}, of the sections with this parent */
+    SCHEMA_OTHER      /* as `domain` says; read before the tables are (psd.h) */
 };
 
 struct schema_row {
@@ -34,6 +35,7 @@ struct schema_row {
     const char *absent;  /* what happens without the key, where there is no default; NULL: the key
                             is required if it has no default either */
     size_t fewest, most; /* of SCHEMA_POINTS and SCHEMA_TRIANGLES */
+    const char *domain;  /* of SCHEMA_OTHER: what the value may be */
 };
 
 struct schema_section {

@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-bool scene_input_read(struct scene_input *input, const char *path)
+bool scene_input_read(struct scene_input *input, const char *path,
+                      const struct scene_options *options)
 {
     struct error error;
     *input = (struct scene_input){.sink = diagnostics_create()};
@@ -13,10 +14,10 @@ bool scene_input_read(struct scene_input *input, const char *path)
         print_error("out of memory");
         return false;
     }
-    ps_result result = psd_read_file(path, input->sink, &input->description);
+    ps_result result = psd_read_file_with(path, &options->psd, input->sink, &input->description);
     if (result != PS_OK)
         diagnostics_print(input->sink, stderr);
-    return result == PS_OK;
+    return result == PS_OK && scene_options_choose_camera(options, &input->description);
 }
 
 bool scene_input_override(struct scene_input *input, const char *text)

@@ -3,7 +3,7 @@
 #ifndef CLI_SCENE_INPUT_H
 #define CLI_SCENE_INPUT_H
 
-#include "parser/psd.h"
+#include "cli/scene_options.h"
 #include "pipeline/settings.h"
 #include "scene/scene.h"
 
@@ -15,7 +15,8 @@ struct scene_input {
 
 /* Reads the scene. If that fails, prints why to stderr and returns false; release it in any case.
  */
-bool scene_input_read(struct scene_input *input, const char *path);
+bool scene_input_read(struct scene_input *input, const char *path,
+                      const struct scene_options *options);
 
 /* Lays "KIND=NAME[:KEY=VALUE,...]" over the scene's settings. Prints what is wrong with it. */
 bool scene_input_override(struct scene_input *input, const char *text);

@@ -154,7 +154,7 @@ static void test_arithmetic_values(void **state)
         struct error error;
         size_t position;
         double value = NAN;
-        assert_int_equal(arithmetic_evaluate(cases[i].text, &value, &position, &error), PS_OK);
+        assert_int_equal(arithmetic_evaluate(cases[i].text, NULL, &value, &position, &error), PS_OK);
         assert_true(fabs(value - cases[i].value) <= 1e-12 * fabs(cases[i].value));
     }
 }
