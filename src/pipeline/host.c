@@ -112,11 +112,8 @@ static void host_scene_bounds(const ps_host *host, ps_vec3 *center, float *radiu
 
 static void host_camera(const ps_host *host, ps_vec3 *position, ps_vec3 *direction)
 {
-    const struct scene *scene = render_of(host)->scene;
-    ps_ray middle =
-        camera_ray(&scene->camera, 0.5f * (float)scene->width, 0.5f * (float)scene->height);
-    *position = middle.origin;
-    *direction = middle.direction;
+    *position = render_of(host)->scene->camera.location;
+    *direction = render_of(host)->scene->camera.forward;
 }
 
 static void host_place_boxes(const ps_host *host, const ps_box_settings *settings,
