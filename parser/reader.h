@@ -13,7 +13,10 @@ struct reader {
     struct diagnostics *sink;
     struct scene_description *description;
     struct arena *arena;
-    struct names materials; /* struct material_description by name */
+    struct names materials, groups;    /* indices, see reference.h */
+    struct names textures;             /* indices, by what makes them the same */
+    struct group_entry *group_entries; /* of each group, see group.c */
+    size_t object_count;               /* in the file and all groups */
     bool out_of_memory;
 };
 
@@ -28,5 +31,13 @@ void *reader_allocate(struct reader *reader, size_t count, size_t size);
 
 /* A copy of the text for the description, or NULL, noted. */
 char *reader_copy(struct reader *reader, const char *text);
+
+/* Room for `more` items behind the `count` that the array has, zeroed. Returns the array, which may
+ * have moved, or NULL, noted, where it stays as it is. An array that grows so must only grow so. */
+void *reader_extend(struct reader *reader, void *array, size_t count, size_t more, size_t size);
+
+/* The path that `text`, which stands at the node, means: relative to the folder of the file that it
+ * stands in. For the description, or NULL, noted. */
+char *reader_path(struct reader *reader, const struct node *node, const char *text);
 
 #endif

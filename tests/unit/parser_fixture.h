@@ -17,7 +17,7 @@
 
 #define CAMERA "camera: {location: [0, 0, -1], look_at: [0, 0, 0]}\n"
 #define LIGHTS "lights: [{point: {location: [0, 5, 0], intensity: 1}}]\n"
-#define MATERIALS "materials: {white: {diffuse: 0.5}}\n"
+#define MATERIALS "materials: {white: {diffuse: 0.5}, black: {diffuse: 0}}\n"
 
 /* What follows starts on line 5. */
 #define HEAD "psd: 1\n" CAMERA LIGHTS MATERIALS
@@ -52,6 +52,17 @@ static inline ps_result parse(const char *text, size_t length,
             strcat(messages, "\n");
         }
     return result;
+}
+
+/* Parses a text about which there is nothing to say. */
+static inline struct scene_description parse_good(const char *text)
+{
+    struct scene_description description;
+    char messages[LONGEST_OUTPUT];
+    ps_result result = parse(text, strlen(text), &description, messages);
+    assert_string_equal(messages, "");
+    assert_int_equal(result, PS_OK);
+    return description;
 }
 
 static inline void expect_bytes(const char *text, size_t length, const char *expected)
