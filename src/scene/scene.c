@@ -32,8 +32,10 @@ static ps_result allocate_members(const struct scene_description *description, s
 static ps_result create_shapes(const struct scene_description *description, struct scene *scene,
                                struct error *error)
 {
+    const struct shape_surroundings surroundings = {.meshes = description->meshes};
     for (size_t i = 0; i < description->object_count; i++) {
-        ps_result result = shape_create(&description->objects[i], &scene->shapes[i], error);
+        ps_result result =
+            shape_create(&description->objects[i], &surroundings, &scene->shapes[i], error);
         if (result != PS_OK)
             return result;
         scene->shape_count++;

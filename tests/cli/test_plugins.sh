@@ -155,13 +155,17 @@ chosen injection "photon:count=50,bounces=2,roulette=2" -p injection=photon:boun
 # --- each strategy makes another picture than the default ---
 
 run 0 -q $small -o default.exr "$cornell"
-for choice in filter=box filter=tent filter=gaussian:sigma=0.2 visibility=none \
+for choice in filter=box filter=tent filter=gaussian:sigma=0.2 filter=cone filter=cone:k=9 \
+    filter=epanechnikov visibility=none \
     visibility=shadowmap:resolution=8 visibility=shadowmap:size=60 visibility=shadowmap:step_back=auto \
     visibility=shadowmap:step_back=15,bias=5 visibility=shadowmap:follow=0 visibility=shadowmap:depth=1 \
-    estimator=pathtrace estimator=photonmap estimator=vpl estimator=ambient estimator=vpl:visibility=no \
-    normalization=weight denoiser=gaussian injection=photon:bounces=0 injection=photon:bounces=3; do
+    estimator=pathtrace estimator=photonmap estimator=vpl estimator=ambient estimator=ssao estimator=vpl:visibility=no \
+    normalization=weight normalization=intensity:exposure=9 denoiser=gaussian \
+    denoiser=bilateral denoiser=bilateral:normal=1,sigma=9 injection=photon:bounces=0 injection=photon:bounces=3; do
     run 0 -q $small -p $choice -o other.exr "$cornell"
     expect_different other.exr default.exr
 done
+run 2 -q $small -p denoiser=bilateral:size=8 -o no.exr "$cornell"
+expect_text err "denoiser bilateral: size must be odd, got 8"
 
 finish
