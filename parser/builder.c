@@ -33,6 +33,7 @@ static struct node *create_node(struct builder *builder, enum node_kind kind, st
     bool container = kind == NODE_LIST || kind == NODE_MAP;
     node->kind = kind;
     node->mark = mark;
+    node->file = builder->file;
     node->weight = 1;
     node->height = container;
     node->open = container;

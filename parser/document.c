@@ -114,9 +114,7 @@ static void read_events(struct builder *builder, yaml_parser_t *parser)
 ps_result document_read(const char *file, const char *text, size_t length, struct diagnostics *sink,
                         struct document *document)
 {
-    static const struct node nothing = {
-        .kind = NODE_SCALAR, .mark = {1, 1, 1}, .plain = true, .text = ""};
-    *document = (struct document){.root = &nothing};
+    *document = (struct document){0};
     struct builder builder = {.file = file, .sink = sink, .arena = &document->arena};
     yaml_parser_t parser;
     if (!yaml_parser_initialize(&parser))
@@ -124,8 +122,9 @@ ps_result document_read(const char *file, const char *text, size_t length, struc
     yaml_parser_set_input_string(&parser, (const unsigned char *)text, length);
     read_events(&builder, &parser);
     yaml_parser_delete(&parser);
-    if (builder.root)
-        document->root = builder.root;
+    if (!builder.root && builder.result == PS_OK) /* an empty text */
+        builder_scalar(&builder, (struct mark){1, 1, 1}, (struct properties){0}, "", 0, true);
+    document->root = builder.root;
     return builder.result;
 }
 

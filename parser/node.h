@@ -37,6 +37,7 @@ struct node {
     bool plain;       /* a scalar without quotes */
     bool open;        /* a list or map that has not ended yet */
     const char *text; /* of a scalar */
+    const char *file; /* in which it was written; owned by the scene description */
     struct item *first, *last;
     size_t count;
     struct names names; /* of a map: its items by key */

@@ -6,7 +6,8 @@
 
 struct origin reader_origin(const struct reader *reader, const struct node *at)
 {
-    return (struct origin){reader->file, at->mark.line, at->mark.column};
+    const char *file = at->file ? at->file : reader->file;
+    return (struct origin){file, at->mark.line, at->mark.column};
 }
 
 void reader_error(const struct reader *reader, const struct node *at, const char *format, ...)
@@ -29,6 +30,20 @@ void *reader_allocate(struct reader *reader, size_t count, size_t size)
     if (!memory)
         reader->out_of_memory = true;
     return memory;
+}
+
+char *reader_path(struct reader *reader, const struct node *node, const char *text)
+{
+    const char *slash = node->file ? strrchr(node->file, '/') : NULL;
+    size_t folder = slash && text[0] != '/' ? (size_t)(slash - node->file) + 1 : 0;
+    size_t bytes = strlen(text) + 1;
+    char *path = reader_allocate(reader, folder + bytes, 1);
+    if (!path)
+        return NULL;
+    if (folder > 0)
+        memcpy(path, node->file, folder);
+    memcpy(path + folder, text, bytes);
+    return path;
 }
 
 char *reader_copy(struct reader *reader, const char *text)

@@ -9,7 +9,7 @@
 /* Steps report errors and go on, so that one run finds many; they leave the description releasable.
  * Running out of memory is noted, and reported once at the end. */
 struct reader {
-    const char *file; /* owned by the description */
+    const char *file; /* the main one; owned by the description */
     struct diagnostics *sink;
     struct scene_description *description;
     struct arena *arena;
@@ -20,6 +20,7 @@ struct reader {
     bool out_of_memory;
 };
 
+/* Where the node was written; of a node that was made, the main file. */
 struct origin reader_origin(const struct reader *reader, const struct node *at);
 
 /* Reports an error at the node; nothing where the node is NODE_BROKEN. */
@@ -28,6 +29,11 @@ void reader_error(const struct reader *reader, const struct node *at, const char
 
 /* Zeroed memory for the description, or NULL, noted. For a count of 0 it is NULL too. */
 void *reader_allocate(struct reader *reader, size_t count, size_t size);
+
+/* The path of a file that the node names: an absolute one as it is, another from the folder of the
+ * file in which the node was written (from the working folder where that is standard input or the
+ * command line). Owned by who puts it into the description; NULL when out of memory, noted. */
+char *reader_path(struct reader *reader, const struct node *node, const char *text);
 
 /* A copy of the text for the description, or NULL, noted. */
 char *reader_copy(struct reader *reader, const char *text);
