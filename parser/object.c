@@ -11,13 +11,13 @@
 bool object_place(struct reader *reader, const struct item *item, const struct object_keys *keys,
                   const struct object_context *context, struct object_context *placed)
 {
-    struct affine own, inverse;
+    struct affine own;
     *placed = *context;
     placed->hidden = context->hidden || !keys->camera;
     if (!placement_read(reader, item->key, item->value, &keys->placement, &own))
         return false;
     placed->placement = affine_compose(&context->placement, &own);
-    if (affine_invert(&placed->placement, &inverse))
+    if (placement_is_regular(&placed->placement))
         return true;
     reader_error(reader, item->key, "all transforms together are singular: they have no inverse");
     return false;

@@ -17,7 +17,12 @@ static double length_of(ps_vec3 v)
     return hypot(hypot((double)v.x, (double)v.y), (double)v.z);
 }
 
-static bool is_singular(const struct affine *map)
+static bool is_finite(ps_vec3 v)
+{
+    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
+}
+
+bool placement_is_regular(const struct affine *map)
 {
     const double x[3] = {map->x.x, map->x.y, map->x.z}, y[3] = {map->y.x, map->y.y, map->y.z};
     const double z[3] = {map->z.x, map->z.y, map->z.z};
@@ -25,7 +30,9 @@ static bool is_singular(const struct affine *map)
                     x[2] * (y[0] * z[1] - y[1] * z[0]);
     double most = length_of(map->x) * length_of(map->y) * length_of(map->z);
     struct affine inverse;
-    return !(fabs(volume) > SMALLEST_SHARE * most) || !affine_invert(map, &inverse);
+    return fabs(volume) > SMALLEST_SHARE * most && affine_invert(map, &inverse) &&
+           is_finite(map->translation) && is_finite(inverse.x) && is_finite(inverse.y) &&
+           is_finite(inverse.z) && is_finite(inverse.translation);
 }
 
 static struct affine from_matrix(const double m[12])
@@ -70,7 +77,7 @@ static bool read_plain(struct reader *reader, const struct node *at, const struc
             return false;
         }
     }
-    if (!is_singular(placement))
+    if (placement_is_regular(placement))
         return true;
     reader_error(reader, culprit, "%s is singular: it has no inverse",
                  matrix ? "the matrix" : "the transform");
@@ -101,7 +108,7 @@ static bool read_steps(struct reader *reader, const struct item *steps, struct a
     bool good = true;
     for (const struct item *item = steps->value->first; item; item = item->next)
         good = read_step(reader, item->value, placement) && good;
-    if (good && is_singular(placement)) {
+    if (good && !placement_is_regular(placement)) {
         reader_error(reader, steps->value, "the transform is singular: it has no inverse");
         good = false;
     }

@@ -10,4 +10,7 @@
 bool placement_read(struct reader *reader, const struct node *at, const struct node *map,
                     const struct placement_keys *keys, struct affine *placement);
 
+/* Whether the map has an inverse, of numbers that floats can hold. */
+bool placement_is_regular(const struct affine *map);
+
 #endif

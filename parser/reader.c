@@ -75,17 +75,3 @@ void *reader_extend(struct reader *reader, void *array, size_t count, size_t mor
         reader->out_of_memory = true;
     return array;
 }
-
-char *reader_path(struct reader *reader, const struct node *node, const char *text)
-{
-    (void)node;
-    const char *slash = strrchr(reader->file, '/');
-    size_t folder = slash && text[0] != '/' ? (size_t)(slash + 1 - reader->file) : 0;
-    size_t bytes = strlen(text) + 1;
-    char *path = reader_allocate(reader, folder + bytes, 1);
-    if (!path)
-        return NULL;
-    memcpy(path, reader->file, folder);
-    memcpy(path + folder, text, bytes);
-    return path;
-}

@@ -42,8 +42,4 @@ char *reader_copy(struct reader *reader, const char *text);
  * have moved, or NULL, noted, where it stays as it is. An array that grows so must only grow so. */
 void *reader_extend(struct reader *reader, void *array, size_t count, size_t more, size_t size);
 
-/* The path that `text`, which stands at the node, means: relative to the folder of the file that it
- * stands in. For the description, or NULL, noted. */
-char *reader_path(struct reader *reader, const struct node *node, const char *text);
-
 #endif

@@ -108,7 +108,7 @@ static void test_wrong_placements(void **state)
                         "matrix: [1, 2, 3, 0, 2, 4, 6, 0, 0, 0, 1, 0]}\n" SPHERE
                         "matrix: [1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, x]}\n" SPHERE
                         "matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], scale: 2}\n" SPHERE
-                        "scale: [1e-16, 1e-16, 1e-16]}\n",
+                        "scale: [1e-40, 1e-40, 1e-40]}\n",
          "6:69: error: matrix in sphere: expected a list of 12 numbers, got 3\n"
          "7:69: error: the matrix is singular: it has no inverse\n"
          "8:103: error: matrix in sphere: expected a number, got 'x'\n"
