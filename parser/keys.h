@@ -9,7 +9,7 @@
 #include "scene/description.h"
 
 /* Object kinds that a description has no objects of. */
-enum { KEYS_GROUP = 1000, KEYS_INSTANCE };
+enum { KEYS_MESH_FILE = 1000, KEYS_GROUP, KEYS_INSTANCE };
 
 struct point_list {
     ps_vec3 *items;
@@ -86,8 +86,13 @@ struct object_keys {
     struct triangle_list triangles;
     ps_number_or_choice extent;
     int32_t camera, open, smooth;
-    const struct node *file; /* height field */
+    const struct node *file; /* mesh, height field */
     const struct node *of;   /* instance */
+    const struct node *materials;
+    int32_t use; /* mesh: a bit for each word */
+    double unit;
+    int32_t up;
+    int32_t diffuse_only;
 };
 
 #endif

@@ -4,6 +4,7 @@
 #include "parser/check.h"
 #include "parser/fill.h"
 #include "parser/group.h"
+#include "parser/object_mesh.h"
 #include "parser/placement.h"
 #include "parser/texture.h"
 #include <stdlib.h>
@@ -134,10 +135,12 @@ static void read_object(struct reader *reader, const struct schema_section *sect
                                    .origin = reader_origin(reader, item->key),
                                }};
     bool good = fill_section(reader, section, item->key, item->value, &keys);
-    if (section->kind < KEYS_GROUP)
+    if (section->kind < KEYS_MESH_FILE)
         keys.object.kind = (enum object_kind)section->kind;
     if (section->kind == KEYS_GROUP && node_find(item->value, "objects"))
         read_group(reader, item, &keys, context);
+    else if (good && section->kind == KEYS_MESH_FILE)
+        object_mesh_read(reader, item, &keys, context);
     else if (good && section->kind == KEYS_INSTANCE)
         group_instance(reader, item, &keys, context);
     else if (good)

@@ -115,6 +115,24 @@ static const struct schema_row height_field_rows[] = {
     SHAPE_ROWS,
 };
 
+static const char *const mesh_parts[] = {"geometry", "materials", "camera", "lights", NULL};
+static const char *const axes[] = {"x", "y", "z", NULL};
+
+static const struct schema_row mesh_rows[] = {
+    ROW(SCHEMA_FILE, "file", KEYS(file), PS_PARAM_STRING, "", "the mesh: glTF, OBJ, PLY, ...", ANY),
+    ROW(SCHEMA_WORDS, "use", KEYS(use), PS_PARAM_STRING, "", "what is taken from the file",
+        LENGTH(1, 4), DEFAULT("[geometry, materials]"), .param.choices = mesh_parts),
+    VALUE(PS_NUMBER(struct object_keys, unit, "1", 0, INFINITY, PS_PARAM_OPEN_MIN, "scene units",
+                    "length of the file's unit")),
+    VALUE(PS_CHOICE(struct object_keys, up, "y", axes, "which axis of the file points upwards")),
+    OVERRIDE_ROW("those of the file"),
+    ROW(SCHEMA_MATERIALS, "materials", KEYS(materials), PS_PARAM_STRING, "",
+        "surfaces for some of the file's materials, by their names there", ANY, .absent = "none"),
+    BOOL("diffuse_only", KEYS(diffuse_only), "no",
+         "whether the gloss of the file's materials is left out"),
+    PLACED_ROWS,
+};
+
 static const struct schema_row group_rows[] = {
     PART(SCHEMA_LIST, "objects", "objects", NULL, "what is placed together"),
     PLACED_ROWS,
@@ -137,6 +155,7 @@ static const struct schema_section sections[] = {
     SECTION(plane, "objects", OBJECT_PLANE, "a large square"),
     SECTION(torus, "objects", OBJECT_TORUS, "a ring about the y axis"),
     SECTION(height_field, "objects", OBJECT_HEIGHT_FIELD, "a landscape from a picture"),
+    SECTION(mesh, "objects", KEYS_MESH_FILE, "what a mesh file holds"),
     SECTION(group, "objects", KEYS_GROUP, "objects that are transformed together"),
     SECTION(instance, "objects", KEYS_INSTANCE, "a group that has a name, placed once more"),
 };

@@ -165,7 +165,7 @@ static void test_objects(void **state)
         {HEAD "objects:\n  - blob: {}\n  - box:\n    material: white",
          "6:5: error: unknown object kind 'blob'; known are quad, box, triangles, sphere, "
          "cylinder, "
-         "cone, disc, plane, torus, height_field, group, instance\n"
+         "cone, disc, plane, torus, height_field, mesh, group, instance\n"
          "8:5: error: key 'material' stands beside 'box'; indent it to put it inside\n"},
         {HEAD "objects:\n  - box: {corners: [[0, 0, 0]], material: whit}\n",
          "6:20: error: corners in box: expected a list of 2 [x, y, z], got 1\n"

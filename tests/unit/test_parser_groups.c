@@ -74,7 +74,7 @@ static void test_wrong_groups(void **state)
               "group: {}, group: {objects: 5, scale: 0}]\n",
          "5:13: error: expected a list for a, got text\n"
          "5:20: error: unknown object kind 'c'; known are quad, box, triangles, sphere, cylinder, "
-         "cone, disc, plane, torus, height_field, group, instance\n"
+         "cone, disc, plane, torus, height_field, mesh, group, instance\n"
          "6:26: error: undefined group 'aa'; did you mean 'a'?\n"
          "6:46: error: of in instance: expected the name of a group, got a list\n"
          "6:52: error: missing key 'objects' in group\n"
