@@ -1,6 +1,6 @@
 /* fuzz_psd.c: feeds arbitrary bytes to the scene parser (libFuzzer).
  *
- *     clang -fsanitize=fuzzer,address,undefined ... && ./fuzz_psd tests/fuzz/corpus
+ *     clang -fsanitize=fuzzer,address,undefined ... && ./fuzz_psd tests/fuzz/corpus_psd
  *
  * Beyond crashes and leaks it checks the parser's promise: a failure has an error in the sink, a
  * success has none and holds what a scene needs.
