@@ -7,18 +7,19 @@
 #include "parser/arithmetic.h"
 
 #include "base/text.h"
-#include "parser/suggestion.h"
+#include "parser/function.h"
+#include "parser/word.h"
 #include <math.h>
-#include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 #define DEEPEST_EXPRESSION 64
-#define LONGEST_WORD 64
-#define MOST_ARGUMENTS 2
+#define LONGEST_NUMBER 64
 #define PI 3.14159265358979323846
 
 struct expression {
     const char *text;
+    const struct arithmetic_names *names;
     size_t at;
     int depth;
     bool failed;
@@ -26,27 +27,7 @@ struct expression {
     struct error *error;
 };
 
-static double radians(double degrees_)
-{
-    return degrees_ * (PI / 180);
-}
-
-static double degrees(double radians_)
-{
-    return radians_ * (180 / PI);
-}
-
-/* One of `unary` and `binary` is set. */
-static const struct function {
-    const char *name;
-    double (*unary)(double);
-    double (*binary)(double, double);
-} functions[] = {{"sqrt", sqrt, NULL},       {"sin", sin, NULL},  {"cos", cos, NULL},
-                 {"tan", tan, NULL},         {"abs", fabs, NULL}, {"radians", radians, NULL},
-                 {"degrees", degrees, NULL}, {"min", NULL, fmin}, {"max", NULL, fmax}};
-#define FUNCTION_COUNT (sizeof functions / sizeof functions[0])
-
-static double read_sum(struct expression *expression);
+static double read_value(struct expression *expression);
 
 /* Keeps the first error only; the message must have been written if this returns true. */
 static bool fail_at(struct expression *expression, size_t at)
@@ -73,7 +54,7 @@ static double finite_or_fail(struct expression *expression, size_t at, double va
 static char peek(struct expression *expression)
 {
     while (!expression->failed && expression->text[expression->at] != '\0' &&
-           strchr(" \t\n", expression->text[expression->at]))
+           strchr(WORD_BLANKS, expression->text[expression->at]))
         expression->at++;
     return expression->failed ? '\0' : expression->text[expression->at];
 }
@@ -107,38 +88,13 @@ static void expect(struct expression *expression, char character)
         fail_unexpected(expression, quoted);
 }
 
-static bool is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
-
-static bool is_letter(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-
-static size_t number_length(const char *text)
-{
-    size_t n = 0;
-    while (is_digit(text[n]) || text[n] == '.')
-        n++;
-    if (text[n] == 'e' || text[n] == 'E') {
-        size_t exponent = n + 1;
-        if (text[exponent] == '+' || text[exponent] == '-')
-            exponent++;
-        while (is_digit(text[exponent]))
-            n = ++exponent;
-    }
-    return n;
-}
-
 static double read_number(struct expression *expression)
 {
     const char *start = expression->text + expression->at;
-    size_t length = number_length(start);
-    char number[LONGEST_WORD + 1] = {0};
+    size_t length = word_number_length(start);
+    char number[LONGEST_NUMBER + 1] = {0};
     double value;
-    if (length <= LONGEST_WORD)
+    if (length <= LONGEST_NUMBER)
         memcpy(number, start, length);
     if (!text_to_number(number, &value))
         return fail(expression, expression->at, "this is not a number");
@@ -146,70 +102,112 @@ static double read_number(struct expression *expression)
     return value;
 }
 
+static void fail_count(struct expression *expression, size_t at, const struct function *function,
+                       size_t count)
+{
+    char most[32] = "";
+    if (function->most > function->fewest)
+        snprintf(most, sizeof most, " to %zu", function->most);
+    if (fail_at(expression, at))
+        error_set(expression->error, PS_ERROR_INVALID, "%s takes %zu%s argument%s, got %zu",
+                  function->name, function->fewest, most, function->most == 1 ? "" : "s", count);
+}
+
 static double apply(struct expression *expression, const struct function *function, size_t at)
 {
-    double arguments[MOST_ARGUMENTS];
-    size_t count = 0, wanted = function->binary ? 2 : 1;
+    double arguments[FUNCTION_MOST_ARGUMENTS];
+    size_t count = 0;
     expect(expression, '(');
     do {
-        double value = read_sum(expression);
-        if (count < MOST_ARGUMENTS)
+        double value = read_value(expression);
+        if (count < FUNCTION_MOST_ARGUMENTS)
             arguments[count] = value;
         count++;
     } while (accept(expression, ','));
     expect(expression, ')');
-    if (count != wanted && fail_at(expression, at))
-        error_set(expression->error, PS_ERROR_INVALID, "%s takes %zu argument%s, got %zu",
-                  function->name, wanted, wanted == 1 ? "" : "s", count);
+    if (count < function->fewest || count > function->most)
+        fail_count(expression, at, function, count);
     if (expression->failed)
         return 0;
-    double value = function->binary ? function->binary(arguments[0], arguments[1])
-                                    : function->unary(arguments[0]);
-    return finite_or_fail(expression, at, value);
+    return finite_or_fail(expression, at, function_apply(function, arguments, count));
+}
+
+static void suggest(const struct expression *expression, struct suggestion *suggestion)
+{
+    if (expression->names)
+        expression->names->suggest(expression->names->user, suggestion);
+    suggestion_consider(suggestion, "pi");
+    function_suggest(suggestion);
 }
 
 static double fail_unknown(struct expression *expression, size_t at, const char *word)
 {
     struct suggestion suggestion = suggestion_start(word);
-    suggestion_consider(&suggestion, "pi");
-    for (size_t i = 0; i < FUNCTION_COUNT; i++)
-        suggestion_consider(&suggestion, functions[i].name);
-    if (fail_at(expression, at)) {
-        char hint[SUGGESTION_TEXT];
-        suggestion_text(&suggestion, hint);
-        error_set(expression->error, PS_ERROR_INVALID, "unknown name '%s' in arithmetic%s", word,
-                  hint);
-    }
+    char hint[SUGGESTION_TEXT];
+    if (!fail_at(expression, at))
+        return 0;
+    if (word[1]) /* any name is near to a single letter */
+        suggest(expression, &suggestion);
+    suggestion_text(&suggestion, hint);
+    error_set(expression->error, PS_ERROR_INVALID, "unknown name '%s' in arithmetic%s", word, hint);
     return 0;
+}
+
+/* Reads ".x" to ".z", or ".r" to ".b"; -1: there is none. */
+static int read_component(struct expression *expression)
+{
+    static const char components[] = "xyzrgb";
+    const char *text = expression->text + expression->at;
+    if (text[0] != '.')
+        return -1;
+    const char *found = text[1] ? strchr(components, text[1]) : NULL;
+    if (!found || word_is_letter(text[2]) || word_is_digit(text[2])) {
+        fail(expression, expression->at + 1, "expected x, y, z, r, g or b after the '.'");
+        return -1;
+    }
+    expression->at += 2;
+    return (int)(found - components) % 3;
+}
+
+static double read_name(struct expression *expression, size_t at, const char *word)
+{
+    const struct arithmetic_names *names = expression->names;
+    double value = 0;
+    struct error error;
+    error.text[0] = '\0';
+    if (!names)
+        return fail_unknown(expression, at, word);
+    int component = read_component(expression);
+    if (expression->failed)
+        return 0;
+    enum arithmetic_found found = names->find(names->user, word, component, &value, &error);
+    if (found == ARITHMETIC_UNKNOWN)
+        return fail_unknown(expression, at, word);
+    return found == ARITHMETIC_FOUND ? value : fail(expression, at, error.text);
 }
 
 static double read_word(struct expression *expression)
 {
-    size_t start = expression->at, length = 0;
-    char word[LONGEST_WORD + 1] = {0};
-    while (is_letter(expression->text[expression->at])) {
-        if (length < LONGEST_WORD)
-            word[length++] = expression->text[expression->at];
-        expression->at++;
-    }
+    char word[WORD_NAME];
+    size_t start = expression->at, length = word_name_length(expression->text + start);
+    word_copy_name(expression->text + start, length, word);
+    expression->at += length;
     if (strcmp(word, "pi") == 0)
         return PI;
-    for (size_t i = 0; i < FUNCTION_COUNT; i++)
-        if (strcmp(word, functions[i].name) == 0)
-            return apply(expression, &functions[i], start);
-    return fail_unknown(expression, start, word);
+    const struct function *function = function_find(word);
+    return function ? apply(expression, function, start) : read_name(expression, start, word);
 }
 
 static double read_primary(struct expression *expression)
 {
     char next = peek(expression);
-    if (is_digit(next) || next == '.')
+    if (word_is_digit(next) || next == '.')
         return read_number(expression);
-    if (is_letter(next))
+    if (word_is_letter(next))
         return read_word(expression);
     if (!accept(expression, '('))
         return fail_unexpected(expression, "a number");
-    double value = read_sum(expression);
+    double value = read_value(expression);
     expect(expression, ')');
     return value;
 }
@@ -267,11 +265,39 @@ static double read_sum(struct expression *expression)
     }
 }
 
-ps_result arithmetic_evaluate(const char *text, double *value, size_t *position,
-                              struct error *error)
+static bool accept_text(struct expression *expression, const char *text)
 {
-    struct expression expression = {.text = text, .error = error};
-    double result = read_sum(&expression);
+    peek(expression);
+    size_t length = strlen(text);
+    if (expression->failed || strncmp(expression->text + expression->at, text, length) != 0)
+        return false;
+    expression->at += length;
+    return true;
+}
+
+static double read_value(struct expression *expression)
+{
+    double value = read_sum(expression);
+    if (accept_text(expression, "<="))
+        return value <= read_sum(expression);
+    if (accept_text(expression, ">="))
+        return value >= read_sum(expression);
+    if (accept_text(expression, "=="))
+        return value == read_sum(expression);
+    if (accept_text(expression, "!="))
+        return value != read_sum(expression);
+    if (accept(expression, '<'))
+        return value < read_sum(expression);
+    if (accept(expression, '>'))
+        return value > read_sum(expression);
+    return value;
+}
+
+ps_result arithmetic_evaluate(const char *text, const struct arithmetic_names *names, double *value,
+                              size_t *position, struct error *error)
+{
+    struct expression expression = {.text = text, .names = names, .error = error};
+    double result = read_value(&expression);
     if (peek(&expression) != '\0')
         fail_unexpected(&expression, "an operator");
     if (expression.failed) {
@@ -280,4 +306,9 @@ ps_result arithmetic_evaluate(const char *text, double *value, size_t *position,
     }
     *value = result;
     return PS_OK;
+}
+
+bool arithmetic_is_reserved(const char *name)
+{
+    return strcmp(name, "pi") == 0 || function_find(name);
 }

@@ -47,11 +47,12 @@ static struct node *create_node(struct builder *builder, enum node_kind kind, st
 static bool count_nodes(struct builder *builder, struct mark mark, const struct node *node)
 {
     builder->expanded_count += node->weight;
+    builder->budget->used += node->weight;
     size_t limit = MOST_EXPANSION * builder->node_count + EXPANSION_BASE;
     if (builder->expanded_count > limit)
         builder_report(builder, mark, "aliases expand this text to more than %zu values", limit);
-    else if (builder->expanded_count > MOST_NODES)
-        builder_report(builder, mark, "more than %zu values in one scene", MOST_NODES);
+    else if (builder->budget->used > builder->budget->most)
+        builder_report(builder, mark, "more than %zu values in one scene", builder->budget->most);
     else if (builder->depth + node->height > DEEPEST_NESTING)
         builder_report(builder, mark, "nested deeper than %d levels", DEEPEST_NESTING);
     else

@@ -23,11 +23,18 @@ struct frame {
     bool drop_value; /* the key was reported */
 };
 
-/* Zeroed but for the first three members: nothing was built yet. */
+/* How many values a scene may have, and how many it has so far. */
+struct budget {
+    size_t most, used;
+};
+
+/* Zeroed but for the first five members: nothing was built yet. */
 struct builder {
     const char *file;
+    struct mark start; /* of the text in the file: line 1, column 1 unless it is a part of it */
     struct diagnostics *sink;
     struct arena *arena; /* of the tree */
+    struct budget *budget;
     const struct node *root;
     struct names anchors; /* the latest node of each name */
     struct frame frames[DEEPEST_NESTING];

@@ -23,6 +23,8 @@
 struct source {
     char *name, *text;
     size_t length;
+    size_t includer; /* a source, or NO_SOURCE */
+    int includer_line, includer_column;
 };
 
 struct entry {
@@ -83,7 +85,7 @@ static size_t append_source(struct diagnostics *sink, const char *name)
         return NO_SOURCE;
     sink->sources = grown;
     struct source *source = &grown[sink->source_count];
-    *source = (struct source){.name = copy_bytes(name, strlen(name))};
+    *source = (struct source){.name = copy_bytes(name, strlen(name)), .includer = NO_SOURCE};
     return source->name ? sink->source_count++ : NO_SOURCE;
 }
 
@@ -105,6 +107,19 @@ const char *diagnostics_add_source(struct diagnostics *sink, const char *name, c
     sink->sources[index].text = copy;
     sink->sources[index].length = length - mark;
     return sink->sources[index].name;
+}
+
+void diagnostics_set_includer(struct diagnostics *sink, const char *name, const struct origin *from)
+{
+    size_t index = find_source(sink, name), includer = find_source(sink, from->file);
+    if (index == NO_SOURCE)
+        index = append_source(sink, name);
+    if (index == NO_SOURCE || includer == NO_SOURCE)
+        return;
+    struct source *source = &sink->sources[index];
+    source->includer = includer;
+    source->includer_line = from->line;
+    source->includer_column = from->column;
 }
 
 /* Replaces what would garble or steer a terminal: control characters and broken UTF-8. */
@@ -253,6 +268,19 @@ static void print_entry(const struct diagnostics *sink, const struct entry *entr
         print_line(stream, source, entry);
 }
 
+/* A file is included by one that was there before it, so that this ends. */
+static void print_includers(const struct diagnostics *sink, size_t source, FILE *stream)
+{
+    const char *lead = "In file included from";
+    for (; source != NO_SOURCE; lead = "                 from") {
+        const struct source *included = &sink->sources[source];
+        source = included->includer < source ? included->includer : NO_SOURCE;
+        if (source != NO_SOURCE)
+            fprintf(stream, "%s %s:%d:%d:\n", lead, sink->sources[source].name,
+                    included->includer_line, included->includer_column);
+    }
+}
+
 /* Entries that tie are in the order of their reports, which is the order of their addresses. */
 static int compare_entries(const void *a, const void *b)
 {
@@ -273,8 +301,11 @@ void diagnostics_print(const struct diagnostics *sink, FILE *stream)
     for (size_t i = 0; i < sink->entry_count; i++)
         sorted[i] = &sink->entries[i];
     qsort(sorted, sink->entry_count, sizeof sorted[0], compare_entries);
-    for (size_t i = 0; i < sink->entry_count; i++)
+    for (size_t i = 0; i < sink->entry_count; i++) {
+        if (i == 0 || sorted[i]->source != sorted[i - 1]->source)
+            print_includers(sink, sorted[i]->source, stream);
         print_entry(sink, sorted[i], stream);
+    }
     size_t errors = sink->counts[SEVERITY_ERROR];
     if (errors > DIAGNOSTICS_KEPT)
         fprintf(stream, "%zu errors (%d shown)\n", errors, DIAGNOSTICS_KEPT);

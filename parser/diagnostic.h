@@ -33,6 +33,11 @@ void diagnostics_destroy(struct diagnostics *sink);
 const char *diagnostics_add_source(struct diagnostics *sink, const char *name, const char *text,
                                    size_t length);
 
+/* Says which place in which file includes that one, whose first message is printed below "In file
+ * included from scene.psd:3:10:". Running out of memory leaves that line away. */
+void diagnostics_set_includer(struct diagnostics *sink, const char *name,
+                              const struct origin *from);
+
 /* `width` characters from the origin are underlined (0 counts as 1). An origin of NULL or with
  * line 0 has no position. What was reported before, word by word, is not reported again. */
 void diagnostics_report(struct diagnostics *sink, enum severity severity,

@@ -5,17 +5,19 @@
  */
 #include "parser/document.h"
 
-#include "parser/builder.h"
+#include "parser/encoding.h"
 #include <yaml.h>
 
-static struct mark mark_at(const yaml_mark_t *position)
+static struct mark mark_at(const struct builder *builder, const yaml_mark_t *position)
 {
-    return (struct mark){(int)position->line + 1, (int)position->column + 1, 1};
+    int first = position->line == 0 ? builder->start.column : 1;
+    return (struct mark){builder->start.line + (int)position->line, first + (int)position->column,
+                         1};
 }
 
-static struct mark mark_event(const yaml_event_t *event)
+static struct mark mark_event(const struct builder *builder, const yaml_event_t *event)
 {
-    struct mark mark = mark_at(&event->start_mark);
+    struct mark mark = mark_at(builder, &event->start_mark);
     const yaml_mark_t *start = &event->start_mark, *end = &event->end_mark;
     bool word = event->type == YAML_SCALAR_EVENT || event->type == YAML_ALIAS_EVENT;
     if (word && end->line == start->line && end->column > start->column)
@@ -32,14 +34,14 @@ static void take_document_start(struct builder *builder, const yaml_event_t *eve
 {
     if (!builder->root)
         return;
-    builder_report(builder, mark_event(event),
+    builder_report(builder, mark_event(builder, event),
                    "a second document starts here; a scene is one document");
     builder->result = PS_ERROR_INVALID;
 }
 
 static void take_scalar(struct builder *builder, const yaml_event_t *event)
 {
-    builder_scalar(builder, mark_event(event),
+    builder_scalar(builder, mark_event(builder, event),
                    properties_of(event->data.scalar.anchor, event->data.scalar.tag),
                    (const char *)event->data.scalar.value, event->data.scalar.length,
                    event->data.scalar.style == YAML_PLAIN_SCALAR_STYLE);
@@ -56,13 +58,13 @@ static void take_event(struct builder *builder, const yaml_event_t *event)
         break;
     case YAML_SEQUENCE_START_EVENT:
         builder_start(
-            builder, mark_event(event),
+            builder, mark_event(builder, event),
             properties_of(event->data.sequence_start.anchor, event->data.sequence_start.tag),
             NODE_LIST);
         break;
     case YAML_MAPPING_START_EVENT:
         builder_start(
-            builder, mark_event(event),
+            builder, mark_event(builder, event),
             properties_of(event->data.mapping_start.anchor, event->data.mapping_start.tag),
             NODE_MAP);
         break;
@@ -71,22 +73,31 @@ static void take_event(struct builder *builder, const yaml_event_t *event)
         builder_end(builder);
         break;
     case YAML_ALIAS_EVENT:
-        builder_alias(builder, mark_event(event), (const char *)event->data.alias.anchor);
+        builder_alias(builder, mark_event(builder, event), (const char *)event->data.alias.anchor);
         break;
     default:
         break;
     }
 }
 
+/* libyaml sees the end of a text on a line of its own, where something else may stand. */
+static struct mark within(const struct document *document, struct mark mark)
+{
+    struct mark end = document->start;
+    encoding_advance(document->text, document->length, &end.line, &end.column);
+    return mark.line > end.line ? end : mark;
+}
+
 /* libyaml points at where it noticed; its context says where that which is wrong began. */
-static void fail_yaml(struct builder *builder, const yaml_parser_t *parser)
+static void fail_yaml(struct builder *builder, const struct document *document,
+                      const yaml_parser_t *parser)
 {
     if (parser->error == YAML_MEMORY_ERROR) {
         builder->result = PS_ERROR_MEMORY;
         return;
     }
-    struct mark mark = mark_at(&parser->problem_mark);
-    struct mark context = mark_at(&parser->context_mark);
+    struct mark mark = within(document, mark_at(builder, &parser->problem_mark));
+    struct mark context = within(document, mark_at(builder, &parser->context_mark));
     const char *problem = parser->problem ? parser->problem : "this is not YAML";
     if (parser->context)
         builder_report(builder, mark, "%s, %s that begins at line %d, column %d", problem,
@@ -96,13 +107,14 @@ static void fail_yaml(struct builder *builder, const yaml_parser_t *parser)
     builder->result = PS_ERROR_INVALID;
 }
 
-static void read_events(struct builder *builder, yaml_parser_t *parser)
+static void read_events(struct builder *builder, const struct document *document,
+                        yaml_parser_t *parser)
 {
     bool ended = false;
     while (!ended && builder->result == PS_OK) {
         yaml_event_t event;
         if (!yaml_parser_parse(parser, &event)) {
-            fail_yaml(builder, parser);
+            fail_yaml(builder, document, parser);
             return;
         }
         ended = event.type == YAML_STREAM_END_EVENT;
@@ -111,25 +123,22 @@ static void read_events(struct builder *builder, yaml_parser_t *parser)
     }
 }
 
-ps_result document_read(const char *file, const char *text, size_t length, struct diagnostics *sink,
-                        struct document *document)
+ps_result document_read(const struct document *document, struct diagnostics *sink,
+                        struct arena *arena, struct budget *budget, const struct node **root)
 {
-    *document = (struct document){0};
-    struct builder builder = {.file = file, .sink = sink, .arena = &document->arena};
+    struct builder builder = {.file = document->file,
+                              .start = document->start,
+                              .sink = sink,
+                              .arena = arena,
+                              .budget = budget};
     yaml_parser_t parser;
     if (!yaml_parser_initialize(&parser))
         return PS_ERROR_MEMORY;
-    yaml_parser_set_input_string(&parser, (const unsigned char *)text, length);
-    read_events(&builder, &parser);
+    yaml_parser_set_input_string(&parser, (const unsigned char *)document->text, document->length);
+    read_events(&builder, document, &parser);
     yaml_parser_delete(&parser);
     if (!builder.root && builder.result == PS_OK) /* an empty text */
-        builder_scalar(&builder, (struct mark){1, 1, 1}, (struct properties){0}, "", 0, true);
-    document->root = builder.root;
+        builder_scalar(&builder, document->start, (struct properties){0}, "", 0, true);
+    *root = builder.root;
     return builder.result;
-}
-
-void document_release(struct document *document)
-{
-    arena_release(&document->arena);
-    *document = (struct document){0};
 }

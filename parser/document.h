@@ -2,21 +2,20 @@
 #ifndef PARSER_DOCUMENT_H
 #define PARSER_DOCUMENT_H
 
-#include "parser/diagnostic.h"
-#include "parser/node.h"
+#include "parser/builder.h"
 
+/* A text that passed encoding_check. */
 struct document {
-    struct arena arena;
-    const struct node *root; /* never NULL where document_read returned PS_OK */
+    const char *file;  /* names it in messages; nodes point to that name */
+    struct mark start; /* where the text starts in the file: line 1, column 1, or further on */
+    const char *text;
+    size_t length;
 };
 
-/* Reads a text that passed encoding_check. `file` names it in messages, and nodes point to that
- * name. PS_OK when there is a tree that can be looked at, though
- * errors may have been reported on the way; else PS_ERROR_INVALID or PS_ERROR_MEMORY (the latter
- * is not reported). To be released in any case. */
-ps_result document_read(const char *file, const char *text, size_t length, struct diagnostics *sink,
-                        struct document *document);
-
-void document_release(struct document *document);
+/* Reads a document into nodes of the arena, whose values are taken from the budget. PS_OK when
+ * there is a tree that can be looked at, though errors may have been reported on the way; else
+ * PS_ERROR_INVALID or PS_ERROR_MEMORY (the latter is not reported). */
+ps_result document_read(const struct document *document, struct diagnostics *sink,
+                        struct arena *arena, struct budget *budget, const struct node **root);
 
 #endif

@@ -51,6 +51,18 @@ size_t line_break_length(const char *text, size_t length)
     return code == '\n' || code == 0x85 || code == 0x2028 || code == 0x2029 ? bytes : 0;
 }
 
+void encoding_advance(const char *text, size_t length, int *line, int *column)
+{
+    for (size_t at = 0; at < length;) {
+        size_t line_break = line_break_length(text + at, length - at);
+        uint32_t code;
+        size_t bytes = line_break > 0 ? line_break : utf8_decode(text + at, length - at, &code);
+        at += bytes > 0 ? bytes : 1;
+        *line += line_break > 0;
+        *column = line_break > 0 ? 1 : *column + 1;
+    }
+}
+
 size_t byte_order_mark_length(const char *text, size_t length)
 {
     return length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;

@@ -16,6 +16,9 @@ size_t utf8_decode(const char *text, size_t length, uint32_t *code);
 /* Bytes of the line break that the text starts with, or 0. */
 size_t line_break_length(const char *text, size_t length);
 
+/* Moves a position, from 1, from where the text starts to where it ends. */
+void encoding_advance(const char *text, size_t length, int *line, int *column);
+
 /* Bytes of the byte order mark that the text starts with: 3 or 0. */
 size_t byte_order_mark_length(const char *text, size_t length);
 

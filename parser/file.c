@@ -2,10 +2,13 @@
 #include "parser/file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #define FIRST_BLOCK ((size_t)64 * 1024)
 
@@ -20,11 +23,17 @@ static ps_result grow(struct file_text *text, size_t *capacity, struct error *er
     return PS_OK;
 }
 
-static ps_result read_stream(FILE *stream, struct file_text *text, struct error *error)
+static ps_result fail_size(struct error *error, size_t most)
+{
+    size_t mebibyte = (size_t)1024 * 1024;
+    return error_set(error, PS_ERROR_INVALID, "larger than %zu MiB", most / mebibyte);
+}
+
+static ps_result read_stream(FILE *stream, size_t most, struct file_text *text, struct error *error)
 {
     size_t capacity = 0;
     errno = 0;
-    while (!feof(stream) && !ferror(stream) && text->length <= FILE_LARGEST) {
+    while (!feof(stream) && !ferror(stream) && text->length <= most) {
         ps_result result = text->length == capacity ? grow(text, &capacity, error) : PS_OK;
         if (result != PS_OK)
             return result;
@@ -32,10 +41,16 @@ static ps_result read_stream(FILE *stream, struct file_text *text, struct error 
     }
     if (ferror(stream))
         return error_set(error, PS_ERROR_IO, "cannot read: %s", strerror(errno));
-    if (text->length > FILE_LARGEST)
-        return error_set(error, PS_ERROR_INVALID, "larger than %zu MiB",
-                         FILE_LARGEST / (1024 * 1024));
-    return PS_OK;
+    return text->length > most ? fail_size(error, most) : PS_OK;
+}
+
+static void identify(int descriptor, struct file_text *text)
+{
+    struct stat status;
+    if (fstat(descriptor, &status) == 0) {
+        text->device = (uint64_t)status.st_dev;
+        text->serial = (uint64_t)status.st_ino;
+    }
 }
 
 ps_result file_read(const char *path, struct file_text *text, struct error *error)
@@ -44,9 +59,40 @@ ps_result file_read(const char *path, struct file_text *text, struct error *erro
     FILE *stream = standard_input ? stdin : fopen(path, "rb");
     if (!stream)
         return error_set(error, PS_ERROR_IO, "cannot open: %s", strerror(errno));
-    ps_result result = read_stream(stream, text, error);
+    identify(fileno(stream), text);
+    ps_result result = read_stream(stream, FILE_LARGEST, text, error);
     if (!standard_input)
         fclose(stream);
+    return result;
+}
+
+/* Looked at after opening, so that nothing can be put in its place in between. */
+static ps_result check_regular(int descriptor, struct error *error)
+{
+    struct stat status;
+    if (fstat(descriptor, &status) != 0)
+        return error_set(error, PS_ERROR_IO, "%s", strerror(errno));
+    if (S_ISREG(status.st_mode))
+        return PS_OK;
+    return error_set(error, PS_ERROR_INVALID, "it is %s",
+                     S_ISDIR(status.st_mode) ? "a directory" : "no regular file");
+}
+
+ps_result file_read_regular(const char *path, size_t most, struct file_text *text,
+                            struct error *error)
+{
+    int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+    if (descriptor < 0)
+        return error_set(error, PS_ERROR_IO, "%s", strerror(errno));
+    ps_result result = check_regular(descriptor, error);
+    FILE *stream = result == PS_OK ? fdopen(descriptor, "rb") : NULL;
+    if (!stream) {
+        close(descriptor);
+        return result != PS_OK ? result : error_memory(error, BUFSIZ, "a file");
+    }
+    identify(descriptor, text);
+    result = read_stream(stream, most, text, error);
+    fclose(stream);
     return result;
 }
 

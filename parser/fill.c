@@ -116,7 +116,8 @@ static bool fill_row(struct walk *walk, const struct schema_row *row, const stru
     case SCHEMA_STEPS:
     case SCHEMA_LIST:
     case SCHEMA_NAMED_LISTS:
-        break; /* sections of their own, read by who fills the description */
+    case SCHEMA_OTHER:
+        break; /* read by who fills the description, or before */
     }
     return true;
 }

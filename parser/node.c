@@ -4,6 +4,7 @@
  */
 #include "parser/node.h"
 
+#include "base/text.h"
 #include <string.h>
 
 bool node_append(struct node *node, struct arena *arena, const struct node *key,
@@ -23,6 +24,40 @@ bool node_append(struct node *node, struct arena *arena, const struct node *key,
     return true;
 }
 
+bool node_add(struct node *node, struct arena *arena, const struct node *key,
+              const struct node *value)
+{
+    node->weight += value->weight;
+    if (node->height <= value->height)
+        node->height = (uint8_t)(value->height + 1);
+    return node_append(node, arena, key, value);
+}
+
+struct node *node_start(struct arena *arena, const struct node *like)
+{
+    struct node *node = arena_allocate(arena, sizeof *node);
+    if (node)
+        *node = (struct node){.kind = like->kind,
+                              .mark = like->mark,
+                              .file = like->file,
+                              .weight = 1,
+                              .height = 1,
+                              .text = ""};
+    return node;
+}
+
+struct node *node_scalar(struct arena *arena, const struct node *like, const char *text)
+{
+    struct node *node = node_start(arena, like);
+    if (node) {
+        node->kind = NODE_SCALAR;
+        node->height = 0;
+        node->plain = true;
+        node->text = text;
+    }
+    return node;
+}
+
 const struct item *node_find(const struct node *node, const char *key)
 {
     return node->kind == NODE_MAP ? names_get(&node->names, key) : NULL;
@@ -33,6 +68,17 @@ bool node_is_null(const struct node *node)
     return node->kind == NODE_SCALAR && node->plain &&
            (node->text[0] == '\0' || strcmp(node->text, "~") == 0 ||
             strcmp(node->text, "null") == 0);
+}
+
+bool node_is_number(const struct node *node, double *number)
+{
+    double value;
+    return node->kind == NODE_SCALAR && text_to_number(node->text, number ? number : &value);
+}
+
+bool node_is_formula(const struct node *node)
+{
+    return node->kind == NODE_SCALAR && node->text[0] == '=';
 }
 
 const char *node_kind_name(const struct node *node)
@@ -70,11 +116,21 @@ static bool merge_one(struct node *node, struct arena *arena, const struct node 
     return true;
 }
 
+static bool names_by_formula(const struct node *value)
+{
+    if (value->kind != NODE_LIST)
+        return node_is_formula(value);
+    for (const struct item *item = value->first; item; item = item->next)
+        if (node_is_formula(item->value))
+            return true;
+    return false;
+}
+
 bool node_merge(struct node *node, struct arena *arena, const struct node **culprit)
 {
     *culprit = NULL;
     const struct item *merge = node_find(node, "<<");
-    if (!merge || !merge->key->plain)
+    if (!merge || !merge->key->plain || names_by_formula(merge->value))
         return true;
     if (!unlink_item(node, arena, merge))
         return false;

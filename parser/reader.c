@@ -12,14 +12,33 @@ struct origin reader_origin(const struct reader *reader, const struct node *at)
 
 void reader_error(const struct reader *reader, const struct node *at, const char *format, ...)
 {
-    if (at->kind == NODE_BROKEN)
-        return;
-    struct origin origin = reader_origin(reader, at);
     va_list arguments;
     va_start(arguments, format);
-    diagnostics_report_list(reader->sink, SEVERITY_ERROR, &origin, at->mark.width, format,
-                            arguments);
+    reader_error_list(reader, at, format, arguments);
     va_end(arguments);
+}
+
+void reader_error_list(const struct reader *reader, const struct node *at, const char *format,
+                       va_list arguments)
+{
+    struct origin origin = reader_origin(reader, at);
+    if (at->kind != NODE_BROKEN)
+        diagnostics_report_list(reader->sink, SEVERITY_ERROR, &origin, at->mark.width, format,
+                                arguments);
+}
+
+const char *reader_add_file(struct reader *reader, const char *name)
+{
+    struct scene_description *description = reader->description;
+    char **files =
+        realloc(description->files, (description->file_count + 1) * sizeof *description->files);
+    if (!files) {
+        reader->out_of_memory = true;
+        return NULL;
+    }
+    description->files = files;
+    files[description->file_count] = reader_copy(reader, name);
+    return files[description->file_count] ? files[description->file_count++] : NULL;
 }
 
 void *reader_allocate(struct reader *reader, size_t count, size_t size)

@@ -12,7 +12,7 @@ struct reader {
     const char *file; /* the main one; owned by the description */
     struct diagnostics *sink;
     struct scene_description *description;
-    struct arena *arena;
+    struct arena *arena;               /* of the tree */
     struct names materials, groups;    /* indices, see reference.h */
     struct names textures;             /* indices, by what makes them the same */
     struct group_entry *group_entries; /* of each group, see group.c */
@@ -26,6 +26,13 @@ struct origin reader_origin(const struct reader *reader, const struct node *at);
 /* Reports an error at the node; nothing where the node is NODE_BROKEN. */
 void reader_error(const struct reader *reader, const struct node *at, const char *format, ...)
     PRINTF_LIKE(3, 4);
+
+void reader_error_list(const struct reader *reader, const struct node *at, const char *format,
+                       va_list arguments) PRINTF_LIKE(3, 0);
+
+/* Adds a file to those that the description knows, and returns its name for nodes and origins; NULL
+ * when out of memory, noted. */
+const char *reader_add_file(struct reader *reader, const char *name);
 
 /* Zeroed memory for the description, or NULL, noted. For a count of 0 it is NULL too. */
 void *reader_allocate(struct reader *reader, size_t count, size_t size);

@@ -4,7 +4,6 @@
  */
 #include "parser/scene.h"
 
-#include "base/text.h"
 #include "parser/camera.h"
 #include "parser/fill.h"
 #include "parser/group.h"
@@ -74,19 +73,6 @@ static void warn_dark(const struct reader *reader, const struct node *root)
                            "the scene has no lights");
 }
 
-/* Another version may mean anything by its keys, so that no other message would help. */
-static bool is_other_version(const struct reader *reader, const struct node *root)
-{
-    const struct item *item = node_find(root, "psd");
-    double version = 1;
-    if (!item || item->value->kind != NODE_SCALAR || !text_to_number(item->value->text, &version) ||
-        version == 1)
-        return false;
-    reader_error(reader, item->value, "psd version %s is unknown; this psplat reads version 1",
-                 item->value->text);
-    return true;
-}
-
 static void read_sections(struct reader *reader, const struct node *root)
 {
     struct scene_description *description = reader->description;
@@ -103,8 +89,6 @@ static void read_sections(struct reader *reader, const struct node *root)
 void scene_read(struct reader *reader, const struct node *root)
 {
     struct schema_scene scene = {0};
-    if (is_other_version(reader, root))
-        return;
     fill_section(reader, schema_only("scene"), root, root, &scene);
     if (root->kind == NODE_MAP)
         read_sections(reader, root);

@@ -6,8 +6,8 @@
 #include <string.h>
 
 static const struct schema_part *const parts[] = {
-    &schema_scene_part, &schema_placement_part, &schema_material_part,
-    &schema_light_part, &schema_object_part,
+    &schema_scene_part,    &schema_language_part, &schema_placement_part,
+    &schema_material_part, &schema_light_part,    &schema_object_part,
 };
 
 size_t schema_section_count(void)
@@ -159,7 +159,7 @@ void schema_describe(const struct schema_row *row, char *text, size_t size)
         describe_pigment(row, text, size);
         break;
     default:
-        snprintf(text, size, "%s", fixed_text(row->form));
+        snprintf(text, size, "%s", row->domain ? row->domain : fixed_text(row->form));
         break;
     }
 }

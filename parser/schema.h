@@ -40,12 +40,14 @@ enum schema_form {
     SCHEMA_STRATEGY,       /* plugin's name, or {name: {parameter: value, ...}} */
 
     /* These hold sections of the family, which who fills the description reads. */
-    SCHEMA_MAP,        /* one map */
-    SCHEMA_NAMED,      /* map from names of the user's choice to maps */
-    SCHEMA_ITEMS,      /* list of maps */
-    SCHEMA_STEPS,      /* list of maps, each with one of the section's keys */
-    SCHEMA_LIST,       /* list of {section: {...}} */
-    SCHEMA_NAMED_LISTS /* map from names of the user's choice to such lists */
+    SCHEMA_MAP,         /* one map */
+    SCHEMA_NAMED,       /* map from names of the user's choice to maps */
+    SCHEMA_ITEMS,       /* list of maps */
+    SCHEMA_STEPS,       /* list of maps, each with one of the section's keys */
+    SCHEMA_LIST,        /* list of {section: {...}} */
+    SCHEMA_NAMED_LISTS, /* map from names of the user's choice to such lists */
+
+    SCHEMA_OTHER /* as `domain` says; read before the tables are (psd.h) */
 };
 
 struct schema_row {
@@ -57,6 +59,7 @@ struct schema_row {
     const char *shared;  /* section under which the manual has the row once for all that have it, or
                             NULL */
     size_t fewest, most; /* of lists */
+    const char *domain;  /* of SCHEMA_OTHER: what the value may be */
 
     /* Rows of a section with the same choice, not 0, exclude each other, but for those with the same
      * alternative. One of them must be given where the choice is demanded. */

@@ -11,8 +11,8 @@ struct schema_part {
     size_t count;
 };
 
-extern const struct schema_part schema_scene_part, schema_placement_part, schema_material_part,
-    schema_light_part, schema_object_part;
+extern const struct schema_part schema_scene_part, schema_language_part, schema_placement_part,
+    schema_material_part, schema_light_part, schema_object_part;
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

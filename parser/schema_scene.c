@@ -1,4 +1,5 @@
 /* schema_scene.c: the tables of the whole file, cameras, picture and settings; see schema.h. */
+#include "parser/schema_language.h"
 #include "parser/schema_rows.h"
 
 #define LARGEST_SEED 9007199254740992.0 /* 2^53: any double counts up to it in ones */
@@ -6,6 +7,11 @@
 static const struct schema_row scene_rows[] = {
     VALUE(PS_INT(struct schema_scene, psd, NULL, 1, 1, "",
                  "version of the format that the file is written in")),
+    SCHEMA_OTHER_ROW("include", "path of a file, or list of them", "none",
+                     "files that belong to the scene"),
+    PART(SCHEMA_NAMED, "parameters", "parameter", "none",
+         "names for formulas that the command line can set"),
+    SCHEMA_OTHER_ROW("define", "map of values by name", "none", "names for formulas"),
     PART(SCHEMA_MAP, "camera", "camera", "cameras, or a mesh, must bring one",
          "from where the scene is seen"),
     PART(SCHEMA_NAMED, "cameras", "camera", "none", "more cameras, by names of their own"),

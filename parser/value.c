@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "parser/arithmetic.h"
+#include "parser/word.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,17 +13,6 @@
 #define LONGEST_NUMBER 64 /* that text_to_number takes */
 #define TRIPLE_TEXT (3 * LONGEST_NUMBER + 8)
 #define DOMAIN_TEXT 256
-#define LARGEST_WHOLE 9007199254740992.0 /* 2^53: any double counts up to it in ones */
-
-/* Whole numbers keep all digits, as seeds need; text_from_number may round to what a float holds.
- */
-static void write_number(double value, char text[VALUE_NUMBER_TEXT])
-{
-    if (value == floor(value) && fabs(value) <= LARGEST_WHOLE)
-        snprintf(text, VALUE_NUMBER_TEXT, "%.0f", value);
-    else
-        text_from_number(value, text, VALUE_NUMBER_TEXT);
-}
 
 /* Points into the scalar where that is possible: it is as long as it looks, on one line. */
 static const char *evaluate(const struct reader *reader, struct subject subject,
@@ -31,8 +21,8 @@ static const char *evaluate(const struct reader *reader, struct subject subject,
     struct error error;
     size_t position;
     double value;
-    if (arithmetic_evaluate(node->text + 1, &value, &position, &error) == PS_OK) {
-        write_number(value, scratch);
+    if (arithmetic_evaluate(node->text + 1, NULL, &value, &position, &error) == PS_OK) {
+        word_write_number(value, scratch);
         return scratch;
     }
     struct node at = *node;

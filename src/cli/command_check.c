@@ -3,18 +3,27 @@
 #include "cli/scene_input.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static const struct option options[] = {
     {'p', "plugin", "KIND=NAME[:KEY=VALUE,...]", "check with another strategy"},
+    SCENE_OPTIONS,
+    {0, "parameters", NULL, "list the parameters of the scenes instead"},
 };
 
-static bool check_scene(const struct argument *arguments, size_t count, const char *path)
+static bool is_called(const struct argument *argument, const char *name)
+{
+    return argument->option && strcmp(argument->option->name, name) == 0;
+}
+
+static bool check_scene(const struct argument *arguments, size_t count,
+                        const struct scene_options *scene_options, const char *path)
 {
     struct scene_input input;
     struct render_settings settings;
-    bool good = scene_input_read(&input, path);
+    bool good = scene_input_read(&input, path, scene_options);
     for (size_t i = 0; i < count && good; i++)
-        if (arguments[i].option)
+        if (is_called(&arguments[i], "plugin"))
             good = scene_input_override(&input, arguments[i].value);
     if (good) {
         good = scene_input_resolve(&input, 1, 1, &settings);
@@ -25,21 +34,68 @@ static bool check_scene(const struct argument *arguments, size_t count, const ch
     return good;
 }
 
-static int run(const struct argument *arguments, size_t count)
+/* In the form of the parameters of plugins. */
+static void print_parameter(void *user, const struct psd_parameter *parameter)
+{
+    size_t *count = user;
+    ++*count;
+    printf("  %s\n", parameter->name);
+    if (parameter->help)
+        printf("      %s\n", parameter->help);
+    if (parameter->default_value)
+        printf("      %s; default: %s\n", parameter->type, parameter->default_value);
+    else
+        printf("      %s; required\n", parameter->type);
+}
+
+static bool list_parameters(const struct scene_options *scene_options, const char *path)
+{
+    struct diagnostics *sink = diagnostics_create();
+    size_t count = 0;
+    if (!sink) {
+        print_error("out of memory");
+        return false;
+    }
+    printf("%s:\n", path);
+    ps_result result =
+        psd_list_parameters(path, &scene_options->psd, sink, print_parameter, &count);
+    if (result == PS_OK && count == 0)
+        printf("  no parameters\n");
+    diagnostics_print(sink, stderr);
+    diagnostics_destroy(sink);
+    return result == PS_OK;
+}
+
+static int check_scenes(const struct argument *arguments, size_t count,
+                        const struct scene_options *scene_options)
 {
     int status = STATUS_OK;
     size_t scenes = 0;
+    bool lists = false;
+    for (size_t i = 0; i < count; i++)
+        lists = lists || is_called(&arguments[i], "parameters");
     for (size_t i = 0; i < count; i++) {
+        const char *path = arguments[i].value;
         if (arguments[i].option)
             continue;
         scenes++;
-        if (!check_scene(arguments, count, arguments[i].value))
+        if (!(lists ? list_parameters(scene_options, path)
+                    : check_scene(arguments, count, scene_options, path)))
             status = STATUS_USAGE;
     }
-    if (scenes == 0) {
-        print_error("check: which scene? Try 'psplat check --help'.");
-        return STATUS_USAGE;
-    }
+    if (scenes > 0)
+        return status;
+    print_error("check: which scene? Try 'psplat check --help'.");
+    return STATUS_USAGE;
+}
+
+static int run(const struct argument *arguments, size_t count)
+{
+    struct scene_options scene_options;
+    int status = STATUS_FAILED;
+    if (scene_options_take(&scene_options, arguments, count))
+        status = check_scenes(arguments, count, &scene_options);
+    scene_options_release(&scene_options);
     return status;
 }
 

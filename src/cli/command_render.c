@@ -19,6 +19,7 @@
 static const struct option options[] = {
     {'o', "output", "FILE", "write FILE (.exr or .png); may be given several times"},
     {'p', "plugin", "KIND=NAME[:KEY=VALUE,...]", "use another strategy, or other parameters"},
+    SCENE_OPTIONS,
     {0, "size", "WxH", "width and height of the picture in pixels"},
     {0, "passes", "N", "number of passes; more smooth edges and lessen noise"},
     {0, "seed", "N", "seed of the random numbers"},
@@ -36,6 +37,7 @@ struct job {
     size_t output_count;
     char *default_outputs[2]; /* owned */
     const char *stats_path, *size, *exposure, *isa;
+    struct scene_options scene;
     double passes, seed, threads, batch; /* negative: not given */
     bool quiet;
     struct progress progress;
@@ -117,7 +119,7 @@ static bool take_option(struct job *job, const struct argument *argument)
         return parse_whole_number(name, value, 1, 1024, &job->threads);
     else if (strcmp(name, "batch") == 0)
         return parse_whole_number(name, value, 1, 4096, &job->batch);
-    return true; /* --plugin waits for the scene */
+    return true; /* --plugin waits for the scene, which takes the others as it is read */
 }
 
 static bool take_arguments(struct job *job, const struct argument *arguments, size_t count)
@@ -252,8 +254,8 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     /* An interrupted render is repeated by asking for the passes that were done. */
     double passes = statistics_counter(statistics, "passes");
     settings->passes = (uint32_t)passes;
-    ps_result written =
-        output_describe(&image, description->path, settings, description->image.exposure, error);
+    ps_result written = output_describe(&image, description->path, &job->scene, settings,
+                                        description->image.exposure, error);
     if (written == PS_OK)
         written = write_files(job, &image, description->image.exposure, statistics, error);
     image_release(&image);
@@ -263,16 +265,16 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     return written;
 }
 
-static int render_job(struct job *job, const struct scene_description *description,
-                      struct render_settings *settings)
+static int render_job(struct job *job, struct scene_input *input, struct render_settings *settings)
 {
+    const struct scene_description *description = &input->description;
     struct scene scene;
     struct statistics statistics;
     struct error error;
     statistics_init(&statistics);
     double start = clock_seconds();
     statistics_add_seconds(&statistics, "load", start - job->progress.start);
-    ps_result result = scene_create(description, &scene, &error);
+    ps_result result = scene_input_build(input, &scene, &error);
     if (result == PS_OK) {
         result = render_and_write(job, description, &scene, settings, &statistics, &error);
         scene_release(&scene);
@@ -280,7 +282,8 @@ static int render_job(struct job *job, const struct scene_description *descripti
     statistics_destroy(&statistics);
     if (result == PS_OK)
         return STATUS_OK;
-    print_error(error.text);
+    if (error.text[0])
+        print_error(error.text);
     return result == PS_ERROR_INVALID ? STATUS_USAGE : STATUS_FAILED;
 }
 
@@ -291,10 +294,11 @@ static int load_and_render(struct job *job, const struct argument *arguments, si
     uint32_t threads = job->threads > 0 ? (uint32_t)job->threads : parallel_processor_count();
     size_t batch = job->batch > 0 ? (size_t)job->batch : DEFAULT_BATCH;
     int status = STATUS_USAGE;
-    if (scene_input_read(&input, job->scene_path) && override(job, arguments, count, &input) &&
+    if (scene_input_read(&input, job->scene_path, &job->scene) &&
+        override(job, arguments, count, &input) &&
         scene_input_resolve(&input, threads, batch, &settings)) {
         settings.isa = job->isa;
-        status = render_job(job, &input.description, &settings);
+        status = render_job(job, &input, &settings);
         settings_release(&settings);
     }
     scene_input_release(&input);
@@ -305,12 +309,14 @@ static int run(const struct argument *arguments, size_t count)
 {
     struct job job = {.passes = -1, .seed = -1, .threads = -1, .batch = -1};
     int status = STATUS_USAGE;
-    if (take_arguments(&job, arguments, count)) {
+    if (take_arguments(&job, arguments, count) &&
+        scene_options_take(&job.scene, arguments, count)) {
         status = STATUS_FAILED;
         progress_start(&job.progress, job.quiet);
         if (choose_outputs(&job) && check_outputs(&job))
             status = load_and_render(&job, arguments, count);
     }
+    scene_options_release(&job.scene);
     free(job.default_outputs[0]);
     free(job.default_outputs[1]);
     return status;

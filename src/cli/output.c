@@ -98,11 +98,19 @@ static void print_word(FILE *stream, const char *word)
     fputc('\'', stream);
 }
 
+static void print_next(void *stream, const char *word)
+{
+    fputc(' ', stream);
+    print_word(stream, word);
+}
+
 static void print_command(FILE *stream, const struct image *image, const char *scene_path,
+                          const struct scene_options *options,
                           const struct render_settings *settings, double exposure)
 {
-    fprintf(stream, "psplat render ");
-    print_word(stream, strcmp(scene_path, "<stdin>") == 0 ? "-" : scene_path);
+    fprintf(stream, "psplat render");
+    print_next(stream, strcmp(scene_path, "<stdin>") == 0 ? "-" : scene_path);
+    scene_options_each_word(options, print_next, stream);
     fprintf(stream, " --size %zux%zu --passes %" PRIu32 " --seed %" PRIu64, image->width,
             image->height, settings->passes, settings->seed);
     if (settings->isa)
@@ -120,6 +128,7 @@ static void print_command(FILE *stream, const struct image *image, const char *s
 }
 
 static ps_result set_command(struct image *image, const char *scene_path,
+                             const struct scene_options *options,
                              const struct render_settings *settings, double exposure,
                              struct error *error)
 {
@@ -128,7 +137,7 @@ static ps_result set_command(struct image *image, const char *scene_path,
     FILE *stream = open_memstream(&text, &length);
     if (!stream)
         return error_memory(error, 4096, "the picture's description");
-    print_command(stream, image, scene_path, settings, exposure);
+    print_command(stream, image, scene_path, options, settings, exposure);
     fclose(stream);
     ps_result result = image_set_attribute(image, "psplat.command", text, error);
     free(text);
@@ -136,6 +145,7 @@ static ps_result set_command(struct image *image, const char *scene_path,
 }
 
 ps_result output_describe(struct image *image, const char *scene_path,
+                          const struct scene_options *options,
                           const struct render_settings *settings, double exposure,
                           struct error *error)
 {
@@ -162,5 +172,5 @@ ps_result output_describe(struct image *image, const char *scene_path,
     }
     if (result != PS_OK || settings->passes == 0)
         return result; /* what was interrupted in its first pass can't be repeated */
-    return set_command(image, scene_path, settings, exposure, error);
+    return set_command(image, scene_path, options, settings, exposure, error);
 }

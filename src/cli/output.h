@@ -2,6 +2,7 @@
 #ifndef CLI_OUTPUT_H
 #define CLI_OUTPUT_H
 
+#include "cli/scene_options.h"
 #include "image/image.h"
 #include "pipeline/settings.h"
 
@@ -19,6 +20,7 @@ ps_result output_write(const struct image *image, const char *path, double expos
 /* Attributes that say how the picture was made: version, scene, every setting, and the command that
  * repeats it. */
 ps_result output_describe(struct image *image, const char *scene_path,
+                          const struct scene_options *options,
                           const struct render_settings *settings, double exposure,
                           struct error *error);
 

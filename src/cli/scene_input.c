@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-bool scene_input_read(struct scene_input *input, const char *path)
+bool scene_input_read(struct scene_input *input, const char *path,
+                      const struct scene_options *options)
 {
     struct error error;
     *input = (struct scene_input){.sink = diagnostics_create()};
@@ -13,10 +14,10 @@ bool scene_input_read(struct scene_input *input, const char *path)
         print_error("out of memory");
         return false;
     }
-    ps_result result = psd_read_file(path, input->sink, &input->description);
+    ps_result result = psd_read_file_with(path, &options->psd, input->sink, &input->description);
     if (result != PS_OK)
         diagnostics_print(input->sink, stderr);
-    return result == PS_OK;
+    return result == PS_OK && scene_options_choose_camera(options, &input->description);
 }
 
 bool scene_input_override(struct scene_input *input, const char *text)
@@ -60,6 +61,18 @@ bool scene_input_resolve(struct scene_input *input, uint32_t threads, size_t bat
                                         report, input->sink, settings);
     diagnostics_print(input->sink, stderr);
     return result == PS_OK;
+}
+
+ps_result scene_input_build(struct scene_input *input, struct scene *scene, struct error *error)
+{
+    struct origin where = {0};
+    ps_result result = scene_create(&input->description, scene, &where, error);
+    if (result == PS_OK || where.line == 0)
+        return result;
+    diagnostics_report(input->sink, SEVERITY_ERROR, &where, 0, "%s", error->text);
+    diagnostics_print(input->sink, stderr);
+    error->text[0] = '\0';
+    return result;
 }
 
 void scene_input_release(struct scene_input *input)

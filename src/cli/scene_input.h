@@ -3,8 +3,9 @@
 #ifndef CLI_SCENE_INPUT_H
 #define CLI_SCENE_INPUT_H
 
-#include "parser/psd.h"
+#include "cli/scene_options.h"
 #include "pipeline/settings.h"
+#include "scene/scene.h"
 
 struct scene_input {
     struct diagnostics *sink;
@@ -14,7 +15,8 @@ struct scene_input {
 
 /* Reads the scene. If that fails, prints why to stderr and returns false; release it in any case.
  */
-bool scene_input_read(struct scene_input *input, const char *path);
+bool scene_input_read(struct scene_input *input, const char *path,
+                      const struct scene_options *options);
 
 /* Lays "KIND=NAME[:KEY=VALUE,...]" over the scene's settings. Prints what is wrong with it. */
 bool scene_input_override(struct scene_input *input, const char *text);
@@ -23,6 +25,9 @@ bool scene_input_override(struct scene_input *input, const char *text);
  * warnings. */
 bool scene_input_resolve(struct scene_input *input, uint32_t threads, size_t batch,
                          struct render_settings *settings);
+
+/* Makes the scene. An error that has a place in a file is printed, and its text is empty then. */
+ps_result scene_input_build(struct scene_input *input, struct scene *scene, struct error *error);
 
 void scene_input_release(struct scene_input *input);
 

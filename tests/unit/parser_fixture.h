@@ -17,7 +17,7 @@
 
 #define CAMERA "camera: {location: [0, 0, -1], look_at: [0, 0, 0]}\n"
 #define LIGHTS "lights: [{point: {location: [0, 5, 0], intensity: 1}}]\n"
-#define MATERIALS "materials: {white: {diffuse: 0.5}, black: {diffuse: 0}}\n"
+#define MATERIALS "materials: {white: {diffuse: 0.5}}\n"
 
 /* What follows starts on line 5. */
 #define HEAD "psd: 1\n" CAMERA LIGHTS MATERIALS

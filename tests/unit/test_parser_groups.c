@@ -1,6 +1,9 @@
 /* test_parser_groups.c: groups and their instances. */
 #include "parser_fixture.h"
 
+#undef MATERIALS
+#define MATERIALS "materials: {white: {diffuse: 0.5}, black: {diffuse: 0}}\n"
+
 #define SPHERE "sphere: {center: [0, 0, 0], radius: 1, material: white"
 
 static void test_groups_are_flat(void **state)

@@ -3,6 +3,9 @@
 
 #include "scratch.h"
 
+#undef MATERIALS
+#define MATERIALS "materials: {white: {diffuse: 0.5}, black: {diffuse: 0}}\n"
+
 /* Two triangles, of materials that the file says are red and blue. */
 static const char obj[] = "mtllib m.mtl\n"
                           "v 0 0 0\nv 1 0 0\nv 0 0 1\n"

@@ -183,8 +183,9 @@ static void test_scene_bounds(void **state)
     expect_vector(scene.center, 3, 2, -1);
     assert_true(fabsf(scene.radius - 3) < 1e-5f);
     assert_true(scene.surface_offset > 0 && scene.surface_offset < 1e-3f * scene.radius);
-    assert_true(scene.materials[scene.shapes[0].material].diffuse.r == 1);
-    assert_true(scene.materials[scene.shapes[1].material].diffuse.r == 0.5f);
+    assert_true(scene.materials[scene.shapes[0].material].components[0].diffuse.colors[0].r == 1);
+    assert_true(scene.materials[scene.shapes[1].material].components[0].diffuse.colors[0].r ==
+                0.5f);
     scene_release(&scene);
 }
 
@@ -202,7 +203,7 @@ static struct camera camera(double angle, double vertical_angle, size_t width, s
 
 static void expect_ray(const struct camera *camera, double x, double y, double across, double up)
 {
-    ps_ray ray = camera_ray(camera, (float)x, (float)y);
+    ps_ray ray = camera_ray(camera, (float)x, (float)y, NULL);
     double length = sqrt(across * across + up * up + 1);
     expect_vector(ray.origin, 1, 2, 3);
     expect_vector(ray.direction, across / length, up / length, -1 / length);
@@ -240,7 +241,7 @@ static void test_camera_aims_and_stays_upright(void **state)
         .location = {5, 1, 2}, .look_at = {1, 4, -3}, .up = {0, 1, 0}, .angle = 40};
     struct camera view = camera_from_description(&description, 64, 48);
     ps_vec3 forward = ps_normalize((ps_vec3){-4, 3, -5});
-    expect_vector(camera_ray(&view, 32, 24).direction, forward.x, forward.y, forward.z);
+    expect_vector(camera_ray(&view, 32, 24, NULL).direction, forward.x, forward.y, forward.z);
     assert_true(fabsf(view.across.y) < 1e-7f); /* the horizon is level */
     assert_true(view.down.y < 0);
     assert_true(fabsf(ps_dot(view.across, view.down)) < 1e-9f);
