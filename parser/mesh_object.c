@@ -214,7 +214,6 @@ static void add_object(const struct builder *builder, const struct aiMesh *sourc
         .material = source->mMaterialIndex < job->scene->mNumMaterials
                         ? job->materials[source->mMaterialIndex]
                         : NO_INDEX,
-        .transform = {.scale = {1, 1, 1}},
         .placement = *placement,
         .texture = NO_INDEX,
         .mesh = mesh,

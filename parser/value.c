@@ -70,20 +70,35 @@ static bool set_scalar(struct reader *reader, struct subject subject, const ps_p
     return text && store(reader, subject, row, node, text, state);
 }
 
+/* The text of a number, or NULL, reported. */
+static const char *number_text(const struct reader *reader, struct subject subject,
+                               const struct node *node, char scratch[VALUE_NUMBER_TEXT],
+                               double *number)
+{
+    const char *text = value_text(reader, subject, node, "a number", scratch);
+    if (!text || text_to_number(text, number))
+        return text;
+    reader_error(reader, node, "%s in %s: expected a number, got '%.80s'", subject.key,
+                 subject.section, text);
+    return NULL;
+}
+
+bool value_number(const struct reader *reader, struct subject subject, const struct node *node,
+                  double *number)
+{
+    char scratch[VALUE_NUMBER_TEXT];
+    return number_text(reader, subject, node, scratch, number) != NULL;
+}
+
 /* Numbers are checked one by one, so that an error points at the one that is wrong. */
 static bool append_number(const struct reader *reader, struct subject subject,
                           const struct node *node, char text[TRIPLE_TEXT])
 {
     char scratch[VALUE_NUMBER_TEXT];
     double number;
-    const char *item = value_text(reader, subject, node, "a number", scratch);
+    const char *item = number_text(reader, subject, node, scratch, &number);
     if (!item)
         return false;
-    if (!text_to_number(item, &number)) {
-        reader_error(reader, node, "%s in %s: expected a number, got '%.80s'", subject.key,
-                     subject.section, item);
-        return false;
-    }
     size_t used = strlen(text);
     snprintf(text + used, TRIPLE_TEXT - used, "%s%s", used > 1 ? ", " : "", item);
     return true;

@@ -22,6 +22,10 @@ const char *value_text(const struct reader *reader, struct subject subject, cons
 bool value_set(struct reader *reader, struct subject subject, const struct schema_row *row,
                const struct node *node, void *state);
 
+/* Reads one number; false where it was reported. */
+bool value_number(const struct reader *reader, struct subject subject, const struct node *node,
+                  double *number);
+
 /* Reads a list of three integers, 0 to largest. */
 bool value_indices(struct reader *reader, struct subject subject, const struct node *node,
                    uint32_t largest, uint32_t indices[3]);
