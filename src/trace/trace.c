@@ -5,6 +5,9 @@
  * edges, which the fast mode lets slip through. The structure is built by one thread: a parallel
  * build may order leaves differently for another number of threads, and then rays that tie choose
  * other triangles.
+ *
+ * Shadow rays are never announced as coherent: Embree 3.13's frustum traversal of occlusion queries
+ * runs for ever in scenes with instances.
  */
 #include "trace/trace.h"
 
@@ -287,8 +290,7 @@ void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray
     }
 }
 
-void trace_occluded(const struct trace *trace, enum ray_kind kind, const ps_ray *rays, size_t n,
-                    uint8_t *blocked)
+void trace_occluded(const struct trace *trace, const ps_ray *rays, size_t n, uint8_t *blocked)
 {
     _Alignas(64) ps_packet packet;
     _Alignas(64) int valid[PACKET];
@@ -296,7 +298,7 @@ void trace_occluded(const struct trace *trace, enum ray_kind kind, const ps_ray 
         size_t lanes = n - first < PACKET ? n - first : PACKET;
         load_rays(&packet, valid, rays + first, lanes, MASK_LIGHT);
         struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)&packet;
-        shim_occluded16(valid, trace->embree, &embree->ray, kind != RAYS_INCOHERENT);
+        shim_occluded16(valid, trace->embree, &embree->ray, 0);
         for (size_t lane = 0; lane < lanes; lane++)
             blocked[first + lane] = packet.tfar[lane] < 0.0f; /* -inf: something was met */
     }
