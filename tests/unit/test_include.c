@@ -176,23 +176,33 @@ static ps_result read_empty(void *user, const char *path, size_t most, struct fi
     return PS_OK;
 }
 
-static void test_too_many_files(void **state)
+static void expect_end(size_t count, const char *format, size_t *read, const char *message)
 {
-    (void)state;
-    char text[8192] = HEAD "include:\n", messages[LONGEST_OUTPUT];
-    size_t read = 0;
-    for (int i = 0; i < 300; i++)
-        sprintf(text + strlen(text), "- f%d\n", i);
-    const struct psd_files files = {&read, read_empty};
+    static char text[100000], messages[LONGEST_OUTPUT];
+    char *at = text + sprintf(text, HEAD "include:\n");
+    for (size_t i = 0; i < count; i++)
+        at += sprintf(at, format, i);
+    const struct psd_files files = {read, read_empty};
     const struct psd_options options = {.files = &files};
     struct scene_description d;
     struct diagnostics *sink = diagnostics_create();
+    *read = 0;
     assert_int_equal(psd_read_text_with("t", text, strlen(text), &options, sink, &d),
                      PS_ERROR_INVALID);
     print_all(sink, messages);
-    assert_non_null(strstr(messages, "t:261:3: error: more than 256 files in one scene\n"));
-    assert_true(read < 300); /* further ones are not even read, once that is clear */
+    assert_non_null(strstr(messages, message));
+    assert_int_equal(diagnostics_error_count(sink), 1);
     diagnostics_destroy(sink);
+}
+
+static void test_too_many_files(void **state)
+{
+    (void)state;
+    size_t read;
+    expect_end(300, "- f%zu\n", &read, "t:261:3: error: more than 256 files in one scene\n");
+    assert_int_equal(read, 256);
+    expect_end(5000, "- f\n", &read, "t:4102:3: error: more than 4096 files are included\n");
+    assert_int_equal(read, 1); /* a name that is known needs no reading */
 }
 
 /* --- the file system --------------------------------------------------------------------------- */
