@@ -146,7 +146,7 @@ static bool fill(struct expansion *expansion, const char *section, const struct 
     const struct node *at = node_find(head, section)->key;
     if (has_broken(head))
         return false;
-    if (fill_section(expansion->reader, schema_language_find(section), at, head, state))
+    if (fill_section(expansion->reader, schema_only(section), at, head, state))
         return true;
     expansion->errors++;
     return false;

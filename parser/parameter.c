@@ -97,7 +97,7 @@ struct parameter parameter_read(struct expansion *expansion, const struct item *
 {
     struct schema_parameter state = {0};
     struct parameter parameter = {0};
-    const struct schema_section *section = schema_language_find("parameter");
+    const struct schema_section *section = schema_only("parameter");
     if (!fill_section(expansion->reader, section, item->key, item->value, &state))
         expansion->errors++;
     parameter.type = (enum schema_type)state.type;

@@ -73,3 +73,24 @@ char *reader_copy(struct reader *reader, const char *text)
         memcpy(copy, text, bytes);
     return copy;
 }
+
+/* Arrays have room for a power of two. */
+static size_t room_for(size_t count)
+{
+    size_t room = 1;
+    while (room < count)
+        room *= 2;
+    return count ? room : 0;
+}
+
+void *reader_extend(struct reader *reader, void *array, size_t count, size_t more, size_t size)
+{
+    size_t room = room_for(count + more);
+    if (!array || room > room_for(count))
+        array = realloc(array, (room ? room : 1) * size);
+    if (array)
+        memset((char *)array + count * size, 0, more * size);
+    else
+        reader->out_of_memory = true;
+    return array;
+}

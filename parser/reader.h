@@ -12,8 +12,11 @@ struct reader {
     const char *file; /* the main one; owned by the description */
     struct diagnostics *sink;
     struct scene_description *description;
-    struct arena *arena;    /* of the tree */
-    struct names materials; /* struct material_description by name */
+    struct arena *arena;               /* of the tree */
+    struct names materials, groups;    /* indices, see reference.h */
+    struct names textures;             /* indices, by what makes them the same */
+    struct group_entry *group_entries; /* of each group, see group.c */
+    size_t object_count;               /* in the file and all groups */
     bool out_of_memory;
 };
 
@@ -41,5 +44,9 @@ char *reader_path(struct reader *reader, const struct node *node, const char *te
 
 /* A copy of the text for the description, or NULL, noted. */
 char *reader_copy(struct reader *reader, const char *text);
+
+/* Room for `more` items behind the `count` that the array has, zeroed. Returns the array, which may
+ * have moved, or NULL, noted, where it stays as it is. An array that grows so must only grow so. */
+void *reader_extend(struct reader *reader, void *array, size_t count, size_t more, size_t size);
 
 #endif

@@ -1,8 +1,6 @@
 #include "parser/schema_language.h"
 
-#include <string.h>
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+#include "parser/schema_rows.h"
 
 static const char *const types[] = {[TYPE_AUTO] = "auto",
                                     [TYPE_NUMBER] = "number",
@@ -44,34 +42,16 @@ static const struct schema_row if_rows[] = {
                      "what stands in the list where it does not"),
 };
 
-const struct schema_section schema_language[] = {
-    {.name = "parameter",
-     .parent = "parameters",
-     .summary = "a value that the command line can set",
-     .rows = parameter_rows,
-     .row_count = COUNT(parameter_rows)},
-    {.name = "for",
-     .summary = "a loop, in any list",
-     .rows = for_rows,
-     .row_count = COUNT(for_rows)},
-    {.name = "if",
-     .summary = "a condition, in any list",
-     .rows = if_rows,
-     .row_count = COUNT(if_rows)},
+static const struct schema_section sections[] = {
+    ONLY(parameter, "a value that the command line can set"),
+    ONLY(for, "a loop, in any list"),
+    ONLY(if, "a condition, in any list"),
 };
 
-const size_t schema_language_count = COUNT(schema_language);
-
-const struct schema_section *schema_language_find(const char *name)
-{
-    size_t i = 0;
-    while (strcmp(schema_language[i].name, name) != 0)
-        i++;
-    return &schema_language[i];
-}
+const struct schema_part schema_language_part = {sections, COUNT(sections)};
 
 const struct schema_row *schema_language_top(const char *key)
 {
-    const struct param_table table = schema_table(schema_find(NULL, "scene"));
+    const struct param_table table = schema_table(schema_only("scene"));
     return (const struct schema_row *)param_find(&table, key);
 }

@@ -28,12 +28,6 @@ struct schema_condition {
     int32_t holds;
 };
 
-extern const struct schema_section schema_language[];
-extern const size_t schema_language_count;
-
-/* One of these sections. */
-const struct schema_section *schema_language_find(const char *name);
-
 /* The row of a key of the whole file, or NULL. */
 const struct schema_row *schema_language_top(const char *key);
 

@@ -22,6 +22,8 @@ typedef enum ps_stream {
     PS_STREAM_BOUNCE = 2,
     PS_STREAM_SPLAT = 3, /* rotation of a splat's frame */
     PS_STREAM_PATH = 4,  /* path tracing */
+    PS_STREAM_VIEW = 5,  /* mirrors and glass between camera and surface */
+    PS_STREAM_LIGHT = 6, /* points of lights that have a size */
     PS_STREAM_PLUGIN = 64
 } ps_stream;
 
@@ -35,6 +37,8 @@ typedef struct ps_box_settings {
     int32_t step_back_rule; /* 0: auto, min(d, R tan(theta) + R/2); 1: full, from the source; -1:
                                step_back */
     int32_t reserved;
+    double grow; /* where sources were merged, R is multiplied by min(sqrt(merged), grow); at most
+                    1: not at all */
 } ps_box_settings;
 
 /* What the estimator works on in one pass. */
@@ -46,6 +50,7 @@ typedef struct ps_pass {
     uint32_t thread_count;
     float surface_offset; /* how far to move a ray's origin off the surface it leaves, along the
                              normal */
+    uint32_t specular;    /* 1: some surface mirrors, shines by gloss or refracts */
 } ps_pass;
 
 /* A body of parallel_for: item `index`, on worker `worker` < thread_count. */
@@ -88,15 +93,30 @@ struct ps_host {
                     size_t n, float (*samples)[4]);
 
     /* Starts light paths: chooses lights by power, and for each gives the ray and the power (W)
-     * that it would carry if it were the only one; divide by the number of paths. Zero power where
-     * there are no lights. [any thread] */
+     * that it would carry if it were the only one; divide by the number of paths. The first two
+     * numbers choose the direction, the others the light and the point on it. Zero power where there
+     * are no lights. [any thread] */
     void (*emit_light)(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
                        ps_rgb *power);
 
-    /* Direct irradiance (W/m^2) from all lights at points with normals, shadow rays included. [any
+    /* How each surface that was met sends light on, or takes it from: by the surface's own
+     * distribution, with four numbers each. Only for hits at finite distance. [any thread] */
+    void (*scatter)(const ps_host *host, ps_direction direction, const ps_ray *rays,
+                    const ps_hit *hits, const float (*samples)[4], size_t n, ps_scatter *scattered);
+
+    /* Radiance (W/(m^2 sr)) that the lights' light, reflected once by what each ray met, sends back
+     * along the ray; shadow rays included, mirrors and glass left out: what they show is emission.
+     * `stream`, `set` and `indices` as for samples, drawn only where lights have a size. [any
      * thread] */
-    void (*direct_irradiance)(const ps_host *host, const ps_vec3 *positions, const ps_vec3 *normals,
-                              size_t n, ps_rgb *irradiance);
+    void (*direct_radiance)(const ps_host *host, const ps_ray *rays, const ps_hit *hits,
+                            uint32_t stream, uint32_t set, const uint64_t *indices, size_t n,
+                            ps_rgb *radiance);
+
+    /* Radiance (W/(m^2 sr)) that what each ray met, be it the sky, emits along it. `pdfs`: those of
+     * the scatterings that the rays come from; where a pdf is not 0, the radiance is weighed against
+     * direct_radiance's own sampling at the ray's origin (Veach and Guibas 1995). [any thread] */
+    void (*emitted_radiance)(const ps_host *host, const ps_ray *rays, const ps_hit *hits,
+                             const float *pdfs, size_t n, ps_rgb *radiance);
 
     /* Centre and radius of the sphere around the scene. [any thread] */
     void (*scene_bounds)(const ps_host *host, ps_vec3 *center, float *radius);
@@ -142,6 +162,9 @@ struct ps_host {
 
     /* Non-zero when the user wants to stop: return PS_CANCELLED soon. [any thread] */
     int32_t (*cancelled)(const ps_host *host);
+
+    /* Where the camera stands, and the direction of the middle of its picture. [any thread] */
+    void (*camera)(const ps_host *host, ps_vec3 *position, ps_vec3 *direction);
 };
 
 #endif

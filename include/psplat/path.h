@@ -1,9 +1,13 @@
-/* path.h: how random walks end: Russian roulette (Arvo and Kirk 1990). */
+/* path.h: how random walks end. Russian roulette: Arvo and Kirk 1990. */
 #ifndef PSPLAT_PATH_H
 #define PSPLAT_PATH_H
 
 #include <psplat/math.h>
 #include <stdio.h>
+
+/* Mirrors and glass that a path may meet between two diffuse surfaces; between facing mirrors it would
+ * run for ever. */
+#define PS_LONGEST_CHAIN 32
 
 /* An albedo near 1 would keep a path alive for ever. */
 #define PS_LIKELIEST_SURVIVAL 0.98f

@@ -2,8 +2,10 @@
 #ifndef PSPLAT_PLUGIN_H
 #define PSPLAT_PLUGIN_H
 
+#include <psplat/cell.h>
 #include <psplat/host.h>
 #include <psplat/math.h>
+#include <psplat/merge.h>
 #include <psplat/module.h>
 #include <psplat/param.h>
 #include <psplat/path.h>

@@ -118,7 +118,8 @@ typedef struct ps_denoiser_vtable {
     ps_number_or_choice size;                                                                      \
     double follow;                                                                                 \
     ps_number_or_choice depth;                                                                     \
-    ps_number_or_choice step_back;
+    ps_number_or_choice step_back;                                                                 \
+    double grow;
 
 #define PS_BOX_CHOICES                                                                             \
     static const char *const box_auto[] = {"auto", NULL};                                          \
@@ -135,14 +136,17 @@ typedef struct ps_denoiser_vtable {
                      "reach of the box past the first hit; auto: what the hit's slope needs"),     \
         PS_NUMBER_OR(                                                                              \
             state, step_back, step_back_default, 0, INFINITY, 0, box_step_back, "scene units",     \
-            "start of the box before the first hit; auto: by its slope, full: the source")
+            "start of the box before the first hit; auto: by its slope, full: the source"),        \
+        PS_NUMBER(state, grow, "1.5", 1, INFINITY, 0, "",                                          \
+                  "limit of the growth of size, sqrt(sources merged into one); 1: none")
 
 /* The parameters as host->place_boxes wants them. */
 #define PS_BOX_SETTINGS(state)                                                                     \
     (ps_box_settings)                                                                              \
     {                                                                                              \
         .size = (state)->size.number, .follow = (state)->follow, .depth = (state)->depth.number,   \
-        .step_back = (state)->step_back.number, .step_back_rule = (state)->step_back.choice        \
+        .step_back = (state)->step_back.number, .step_back_rule = (state)->step_back.choice,       \
+        .grow = (state)->grow                                                                      \
     }
 
 #endif

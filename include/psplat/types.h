@@ -36,16 +36,45 @@ typedef struct ps_ray {
 
 #define PS_NO_OBJECT UINT32_MAX
 
+#define PS_HIT_BACK 1u     /* the ray met the back of the surface, or came from inside */
+#define PS_HIT_SPECULAR 2u /* the surface also mirrors or refracts: host->scatter knows how */
+#define PS_HIT_EMISSIVE 4u /* it shines by itself */
+
 /* Where a ray met a surface. `distance` is INFINITY, and `object` PS_NO_OBJECT, where it met none;
- * the other members are then unset. */
+ * the other members are then unset. Both normals have length 1 and lie on the side that the ray came
+ * from. */
 typedef struct ps_hit {
     ps_vec3 position;
     float distance;
-    ps_vec3 normal; /* on the side that the ray came from */
+    ps_vec3 normal; /* for shading: smoothed, bent by bumps */
     uint32_t object;
-    ps_rgb albedo; /* diffuse reflectance, 0..1 */
+    ps_rgb albedo; /* diffuse reflectance towards the ray's origin, 0..1 */
     uint32_t material;
+    ps_vec3 geometric_normal; /* of the surface itself: the side that rays leave to */
+    uint32_t flags;           /* PS_HIT_... */
+    ps_vec3 texture_point;    /* where its textures are looked up */
+    float uv[2];
 } ps_hit;
+
+/* How light went on at a surface. */
+typedef enum ps_lobe {
+    PS_DIFFUSE = 0,
+    PS_GLOSSY = 1,  /* into directions around the mirrored one */
+    PS_SPECULAR = 2 /* mirrored or refracted: one direction alone */
+} ps_lobe;
+
+/* One direction in which a surface scatters, drawn by the surface's own distribution. */
+typedef struct ps_scatter {
+    ps_vec3 direction;
+    ps_vec3 normal;    /* of the surface, on the side that the direction leaves to */
+    ps_rgb weight;     /* what is carried is multiplied by this; black: absorbed */
+    float probability; /* by which the lobe was chosen among the surface's lobes; it is in weight */
+    float pdf;         /* of the direction by solid angle, with probability; 0: PS_SPECULAR */
+    uint32_t lobe;     /* ps_lobe */
+} ps_scatter;
+
+/* Which way a path runs: refraction and smoothed normals tell the two apart (Veach 1997, ch. 5). */
+typedef enum ps_direction { PS_FROM_CAMERA = 0, PS_FROM_LIGHT = 1 } ps_direction;
 
 /* Sixteen rays, structure of arrays, laid out as the ray tracer wants them. The caller fills
  * origin, direction, tnear and tfar; tracing shortens tfar to the first hit, or leaves it. `tail`
@@ -65,8 +94,9 @@ typedef struct ps_source {
     ps_vec3 normal; /* of the surface that the source lies on */
     ps_vec3 direction;
     ps_rgb power; /* W */
-    uint32_t
+    uint16_t
         bounce;    /* diffuse surfaces met so far, this one included: 1 = lit by a light directly */
+    uint16_t lobe; /* ps_lobe by which the surface sent it out; not PS_DIFFUSE: a caustic */
     float merged;  /* how many emitted sources this one stands for (1 when none were merged) */
     uint64_t path; /* number of the light path, counted over all passes; keys random streams */
 } ps_source;
@@ -100,8 +130,11 @@ typedef struct ps_tile {
     float position_x[PS_TILE_PIXELS], position_y[PS_TILE_PIXELS], position_z[PS_TILE_PIXELS];
     float normal_x[PS_TILE_PIXELS], normal_y[PS_TILE_PIXELS], normal_z[PS_TILE_PIXELS];
     float albedo_r[PS_TILE_PIXELS], albedo_g[PS_TILE_PIXELS], albedo_b[PS_TILE_PIXELS];
-    float depth[PS_TILE_PIXELS]; /* distance from the camera */
+    float depth[PS_TILE_PIXELS]; /* distance from the camera, along the way that light takes */
     uint32_t object[PS_TILE_PIXELS], material[PS_TILE_PIXELS];
+    /* What mirrors and glass on the way leave of the light from here to the camera: radiance in the
+     * picture is throughput * albedo / pi * irradiance. */
+    float throughput_r[PS_TILE_PIXELS], throughput_g[PS_TILE_PIXELS], throughput_b[PS_TILE_PIXELS];
     /* What an estimator adds to: indirect irradiance (W/m^2), and the weight of what was added, 0
      * where the pixel learned nothing. */
     float irradiance_r[PS_TILE_PIXELS], irradiance_g[PS_TILE_PIXELS], irradiance_b[PS_TILE_PIXELS];

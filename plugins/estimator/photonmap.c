@@ -12,7 +12,8 @@
  * plane weigh less, and those that arrive from behind the surface nothing.
  *
  * With `gather`, photons stay where the sources are, with the power that leaves the surface, and
- * the estimate is looked up where cosine-distributed rays from the pixel land (final gather).
+ * the estimate is looked up where cosine-distributed rays from the pixel land (final gather), after
+ * mirrors, gloss and glass on their way.
  *
  * FLANN's single kd-tree is exact and deterministic; its default parameters are neither. Its
  * searches only read the index, and the one global that a call touches is the log level, always
@@ -28,6 +29,9 @@
 /* Photons higher above the tangent plane than this times r do not count; up to half of it they
  * count fully, so that curved surfaces keep their light. */
 #define FLATNESS 0.25f
+
+/* Sets of the random numbers that choose points on lights; directions take 0, 1, 2, ... */
+#define LIGHT_SETS 0x10000u
 
 enum filter { FILTER_BOX, FILTER_CONE, FILTER_GAUSSIAN };
 static const char *const filter_choices[] = {"box", "cone", "gaussian", NULL};
@@ -106,6 +110,16 @@ static void map_add(struct map *map, ps_vec3 position, ps_vec3 normal, ps_vec3 d
     map->photons[map->count++] = (struct photon){direction, normal, power};
 }
 
+/* The photons' density in a surface falls with the slope to the surface itself; irradiance is meant
+ * for the smoothed or bent normal. */
+static float shading_factor(const ps_ray *ray, const ps_hit *hit)
+{
+    if (memcmp(&hit->normal, &hit->geometric_normal, sizeof hit->normal) == 0)
+        return 1.0f;
+    float cosine = -ps_dot(ray->direction, hit->geometric_normal);
+    return fmaxf(0.0f, -ps_dot(ray->direction, hit->normal)) / fmaxf(cosine, 1e-4f);
+}
+
 /* Where the light of sources arrives. */
 static void store_arrivals(const ps_host *host, const ps_pass *pass, const ps_source *sources,
                            size_t n, struct map *map)
@@ -118,15 +132,17 @@ static void store_arrivals(const ps_host *host, const ps_pass *pass, const ps_so
     host->intersect(host, rays, n, hits);
     for (size_t i = 0; i < n; i++)
         if (hits[i].distance < INFINITY)
-            map_add(map, hits[i].position, hits[i].normal, sources[i].direction, sources[i].power);
+            map_add(map, hits[i].position, hits[i].geometric_normal, sources[i].direction,
+                    ps_rgb_scale(sources[i].power, shading_factor(&rays[i], &hits[i])));
 }
 
-/* Where it leaves: the direction does not matter then. */
+/* Where it leaves diffuse surfaces: the direction does not matter then. */
 static void store_departures(const ps_source *sources, size_t n, struct map *map)
 {
     for (size_t i = 0; i < n; i++)
-        map_add(map, sources[i].position, sources[i].normal, ps_scale(sources[i].normal, -1.0f),
-                sources[i].power);
+        if (sources[i].lobe == PS_DIFFUSE)
+            map_add(map, sources[i].position, sources[i].normal, ps_scale(sources[i].normal, -1.0f),
+                    sources[i].power);
 }
 
 static ps_result store_photons(const struct state *state, const ps_host *host, const ps_pass *pass,
@@ -265,34 +281,117 @@ static void estimate_tile(void *user, uint64_t index, uint32_t worker)
         ps_add_irradiance(tile, points.lanes[i], irradiance[i]);
 }
 
-/* One ray of the final gather from each point: adds the exitance (W/m^2) where it lands. */
+/* Rays of the final gather that are still under way, and where they have come. */
+struct gathering {
+    size_t count;
+    uint64_t samples[PS_TILE_PIXELS];
+    size_t targets[PS_TILE_PIXELS]; /* point that each belongs to */
+    ps_ray rays[PS_TILE_PIXELS];
+    ps_hit hits[PS_TILE_PIXELS];
+    ps_rgb throughput[PS_TILE_PIXELS];
+    float pdfs[PS_TILE_PIXELS];
+    float numbers[PS_TILE_PIXELS][4];
+};
+
+static void start_gathering(const struct work *work, const ps_points *points,
+                            const uint64_t *samples, struct gathering *g)
+{
+    g->count = points->count;
+    for (size_t i = 0; i < points->count; i++) {
+        g->samples[i] = samples[i];
+        g->targets[i] = i;
+        g->throughput[i] = (ps_rgb){1, 1, 1};
+        g->pdfs[i] = 0.0f;
+    }
+    work->host->samples(work->host, PS_STREAM_PATH, 0, samples, points->count, g->numbers);
+    for (size_t i = 0; i < points->count; i++) {
+        ps_vec3 n = points->normals[i];
+        ps_vec3 direction = ps_cosine_direction(n, g->numbers[i][0], g->numbers[i][1]);
+        g->rays[i] =
+            ps_leave_surface(points->positions[i], n, direction, work->pass->surface_offset);
+    }
+}
+
+/* Adds pi times the radiance that mirrors, glass and gloss on the way show of the lights. */
+static void add_lights(const struct work *work, uint32_t chain, struct gathering *g, ps_rgb *sums)
+{
+    ps_rgb emitted[PS_TILE_PIXELS], gloss[PS_TILE_PIXELS];
+    const ps_host *host = work->host;
+    size_t met = 0;
+    host->emitted_radiance(host, g->rays, g->hits, g->pdfs, g->count, emitted);
+    for (size_t i = 0; i < g->count; i++) {
+        ps_rgb *sum = &sums[g->targets[i]];
+        if (chain > 0) /* from a point itself it is direct light */
+            *sum = ps_rgb_add(*sum,
+                              ps_rgb_scale(ps_rgb_multiply(g->throughput[i], emitted[i]), PS_PI));
+        if (!(g->hits[i].distance < INFINITY))
+            continue;
+        g->samples[met] = g->samples[i];
+        g->targets[met] = g->targets[i];
+        g->rays[met] = g->rays[i];
+        g->hits[met] = g->hits[i];
+        g->throughput[met++] = g->throughput[i];
+    }
+    g->count = met;
+    if (!work->pass->specular)
+        return;
+    for (size_t i = 0; i < met; i++)
+        g->hits[i].albedo = (ps_rgb){0, 0, 0};
+    host->direct_radiance(host, g->rays, g->hits, PS_STREAM_PATH, LIGHT_SETS + chain, g->samples,
+                          met, gloss);
+    for (size_t i = 0; i < met; i++)
+        sums[g->targets[i]] = ps_rgb_add(
+            sums[g->targets[i]], ps_rgb_scale(ps_rgb_multiply(g->throughput[i], gloss[i]), PS_PI));
+}
+
+/* Sends rays on over mirrors, gloss and glass; those that end at a diffuse lobe take the exitance
+ * (W/m^2) there. */
+static void look_up_or_go_on(const struct work *work, uint32_t worker, uint32_t chain,
+                             struct gathering *g, ps_rgb *sums)
+{
+    ps_scatter scattered[PS_TILE_PIXELS];
+    ps_vec3 positions[PS_TILE_PIXELS], normals[PS_TILE_PIXELS];
+    ps_rgb exitance[PS_TILE_PIXELS], share[PS_TILE_PIXELS];
+    size_t targets[PS_TILE_PIXELS], ended = 0, left = 0;
+    const ps_host *host = work->host;
+    host->samples(host, PS_STREAM_PATH, chain + 1, g->samples, g->count, g->numbers);
+    host->scatter(host, PS_FROM_CAMERA, g->rays, g->hits, (const float(*)[4])g->numbers, g->count,
+                  scattered);
+    for (size_t i = 0; i < g->count; i++) {
+        const ps_scatter *on = &scattered[i];
+        if (!(ps_rgb_maximum(on->weight) > 0.0f))
+            continue;
+        if (on->lobe == PS_DIFFUSE) {
+            positions[ended] = g->hits[i].position;
+            normals[ended] = g->hits[i].normal;
+            share[ended] = ps_rgb_scale(g->throughput[i], 1.0f / on->probability);
+            targets[ended++] = g->targets[i];
+            continue;
+        }
+        g->rays[left] = ps_leave_surface(g->hits[i].position, on->normal, on->direction,
+                                         work->pass->surface_offset);
+        g->samples[left] = g->samples[i];
+        g->targets[left] = g->targets[i];
+        g->throughput[left] = ps_rgb_multiply(g->throughput[i], on->weight);
+        g->pdfs[left++] = on->pdf;
+    }
+    g->count = left;
+    estimate_points(work, worker, positions, normals, ended, exitance);
+    for (size_t i = 0; i < ended; i++)
+        sums[targets[i]] = ps_rgb_add(sums[targets[i]], ps_rgb_multiply(share[i], exitance[i]));
+}
+
+/* One ray of the final gather from each point. */
 static void gather_once(const struct work *work, uint32_t worker, const ps_points *points,
                         const uint64_t *samples, ps_rgb *sums)
 {
-    const ps_host *host = work->host;
-    float numbers[PS_TILE_PIXELS][4];
-    ps_ray rays[PS_TILE_PIXELS];
-    ps_hit hits[PS_TILE_PIXELS];
-    ps_vec3 positions[PS_TILE_PIXELS], normals[PS_TILE_PIXELS];
-    ps_rgb exitance[PS_TILE_PIXELS];
-    size_t targets[PS_TILE_PIXELS], met = 0;
-    host->samples(host, PS_STREAM_PATH, 0, samples, points->count, numbers);
-    for (size_t i = 0; i < points->count; i++) {
-        ps_vec3 n = points->normals[i];
-        ps_vec3 direction = ps_cosine_direction(n, numbers[i][0], numbers[i][1]);
-        rays[i] = ps_leave_surface(points->positions[i], n, direction, work->pass->surface_offset);
+    struct gathering g;
+    start_gathering(work, points, samples, &g);
+    for (uint32_t chain = 0; g.count > 0 && chain <= PS_LONGEST_CHAIN; chain++) {
+        work->host->intersect(work->host, g.rays, g.count, g.hits);
+        add_lights(work, chain, &g, sums);
+        look_up_or_go_on(work, worker, chain, &g, sums);
     }
-    host->intersect(host, rays, points->count, hits);
-    for (size_t i = 0; i < points->count; i++) {
-        if (!(hits[i].distance < INFINITY))
-            continue;
-        positions[met] = hits[i].position;
-        normals[met] = hits[i].normal;
-        targets[met++] = i;
-    }
-    estimate_points(work, worker, positions, normals, met, exitance);
-    for (size_t i = 0; i < met; i++)
-        sums[targets[i]] = ps_rgb_add(sums[targets[i]], exitance[i]);
 }
 
 static void gather_tile(void *user, uint64_t index, uint32_t worker)

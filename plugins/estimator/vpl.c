@@ -9,6 +9,9 @@
  * light that corners get from close by with them. Without visibility it is splatting indirect
  * illumination (Dachsbacher and Stamminger 2006), and the left half of figure 5 in Hoet 2014.
  *
+ * Sources on mirrors and glass shine into one direction and can't be point lights: caustics are left
+ * out. They are counted in the statistics.
+ *
  * Cost is lights times pixels, so only `lights` sources, drawn at random from all, are used, with
  * the power of all.
  */
@@ -86,11 +89,21 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
         ps_add_irradiance(tile, points.lanes[i], sums[i]);
 }
 
-static double total_power(const ps_source *sources, size_t n)
+static int can_be_light(const ps_source *source)
+{
+    return source->lobe == PS_DIFFUSE;
+}
+
+/* Of the sources that can be point lights; the others are counted. */
+static double total_power(const ps_source *sources, size_t n, uint64_t *left_out)
 {
     double total = 0;
-    for (size_t i = 0; i < n; i++)
-        total += ps_luminance(sources[i].power);
+    for (size_t i = 0; i < n; i++) {
+        if (can_be_light(&sources[i]))
+            total += ps_luminance(sources[i].power);
+        else
+            ++*left_out;
+    }
     return total;
 }
 
@@ -113,22 +126,25 @@ static ps_result choose_lights(const struct state *state, const ps_host *host, c
 {
     const ps_source *sources;
     size_t n, room = (size_t)state->lights;
-    uint64_t seen = 0;
+    uint64_t seen = 0, left_out = 0;
     double progress, power = 0;
     ps_result result;
     do {
         result = host->next_sources(host, &sources, &n, &progress);
-        for (size_t i = 0; result == PS_OK && i < n; i++, seen++) {
-            size_t place = place_in_sample(host, pass, seen, room);
+        for (size_t i = 0; result == PS_OK && i < n; i++) {
+            if (!can_be_light(&sources[i]))
+                continue;
+            size_t place = place_in_sample(host, pass, seen++, room);
             if (place < room)
                 lights[place] = sources[i];
         }
-        power += result == PS_OK ? total_power(sources, n) : 0;
+        power += result == PS_OK ? total_power(sources, n, &left_out) : 0;
     } while (result == PS_OK && n > 0);
     size_t taken = seen < room ? (size_t)seen : room;
-    double share = total_power(lights, taken);
+    double share = total_power(lights, taken, &left_out);
     for (size_t i = 0; i < taken && share > 0; i++)
         lights[i].power = ps_rgb_scale(lights[i].power, (float)(power / share));
+    host->count(host, "sources left out", (double)left_out);
     *count = taken;
     return result;
 }

@@ -1,16 +1,19 @@
 /* photon.c: sources by photon tracing.
  *
- * Light paths start at the lights with a share Phi / N of their power. At every diffuse surface a
- * path leaves a source that carries power * albedo in a cosine-distributed direction, and goes on
- * along that very direction: the source's bundled ray is the path's next segment. So the first
- * bounce needs no special case, and `bounces: 1` is the thesis's single bounce. Russian roulette
- * (Arvo and Kirk 1990) ends paths with the albedo's complement and divides the survivors' power,
- * which keeps the mean.
+ * Light paths start at the lights with a share Phi / N of their power. At every surface a path leaves
+ * a source in a direction that the surface scatters to, with the power that it scatters (at a diffuse
+ * one, power * albedo), and goes on along that very direction: the source's bundled ray is the path's
+ * next segment. So the first bounce needs no special case, and `bounces: 1` is the thesis's single
+ * bounce. Sources on mirrors and glass make caustics; these surfaces do not count as bounces.
+ * Russian roulette (Arvo and Kirk 1990) ends paths at diffuse surfaces with the albedo's complement
+ * and divides the survivors' power, which keeps the mean.
  *
  * Emission and first direction share one four-dimensional Sobol point: low discrepancy over (light
  * direction, bounce direction) together.
  */
 #include <psplat/plugin.h>
+
+#include <string.h>
 
 struct state {
     int64_t count;
@@ -21,8 +24,10 @@ struct state {
 struct path {
     ps_ray ray;
     ps_rgb power;
-    uint64_t index;               /* over all passes */
-    float direction[2], roulette; /* random numbers of the next surface */
+    uint64_t index;   /* over all passes */
+    float numbers[4]; /* for the next surface: two for the direction, roulette, choice of lobe */
+    uint32_t bounces; /* diffuse surfaces met */
+    uint32_t chain;   /* others since the last one */
 };
 
 static uint64_t path_count(const void *state)
@@ -53,75 +58,104 @@ static void start_paths(const struct state *state, const ps_host *host, const ps
             .ray = rays[i],
             .power = ps_rgb_scale(power[i], 1.0f / (float)state->count),
             .index = indices[i],
-            .direction = {shared[i][2], shared[i][3]},
-            .roulette = other[i][2],
+            .numbers = {shared[i][2], shared[i][3], other[i][2], other[i][3]},
         };
 }
 
-/* Random numbers for the surfaces that the paths meet at bounce `bounce` > 1. */
-static void draw_bounce(const ps_host *host, uint32_t bounce, struct path *paths, size_t n)
+/* Random numbers for the surfaces that the paths meet at the end of segment `segment` > 0. */
+static void draw_surface(const ps_host *host, uint32_t segment, struct path *paths, size_t n)
 {
     uint64_t indices[PS_PATH_CHUNK] = {0};
     float points[PS_PATH_CHUNK][4];
     for (size_t i = 0; i < n; i++)
         indices[i] = paths[i].index;
-    host->samples(host, PS_STREAM_BOUNCE, bounce, indices, n, points);
-    for (size_t i = 0; i < n; i++) {
-        paths[i].direction[0] = points[i][0];
-        paths[i].direction[1] = points[i][1];
-        paths[i].roulette = points[i][2];
-    }
+    host->samples(host, PS_STREAM_BOUNCE, segment + 1, indices, n, points);
+    for (size_t i = 0; i < n; i++)
+        memcpy(paths[i].numbers, points[i], sizeof points[i]);
 }
 
-/* Reflects a path at its hit; 0 when it ends there. */
-static int reflect(const struct state *state, uint32_t bounce, const ps_hit *hit, float offset,
-                   struct path *path)
+/* Whether a path goes on after a surface that scatters like this; its power is then what is left. */
+static int goes_on(const struct state *state, const ps_scatter *scattered, struct path *path)
 {
-    if (!(hit->distance < INFINITY))
-        return 0;
-    path->power = ps_rgb_multiply(path->power, hit->albedo);
-    float likelihood = ps_rgb_maximum(hit->albedo);
-    if (state->roulette && bounce >= (uint32_t)state->roulette &&
-        !ps_survives(likelihood, path->roulette, &path->power))
-        return 0;
+    path->power = ps_rgb_multiply(path->power, scattered->weight);
     if (!(ps_rgb_maximum(path->power) > 0.0f))
         return 0;
-    ps_vec3 direction = ps_cosine_direction(hit->normal, path->direction[0], path->direction[1]);
-    path->ray = ps_leave_surface(hit->position, hit->normal, direction, offset);
-    return 1;
+    if (scattered->lobe != PS_DIFFUSE)
+        return ++path->chain <= PS_LONGEST_CHAIN;
+    path->chain = 0;
+    path->bounces++;
+    if (state->bounces && path->bounces > (uint32_t)state->bounces)
+        return 0;
+    return !state->roulette || path->bounces < (uint32_t)state->roulette ||
+           ps_survives(ps_rgb_maximum(scattered->weight), path->numbers[2], &path->power);
 }
 
-static ps_source source_of(const struct path *path, const ps_hit *hit, uint32_t bounce)
+static ps_source source_of(const struct path *path, const ps_hit *hit, const ps_scatter *scattered)
 {
     return (ps_source){
         .position = hit->position,
-        .normal = hit->normal,
-        .direction = path->ray.direction,
+        .normal = scattered->normal,
+        .direction = scattered->direction,
         .power = path->power,
-        .bounce = bounce,
+        .bounce = (uint16_t)path->bounces,
+        .lobe = (uint16_t)scattered->lobe,
         .merged = 1.0f,
         .path = path->index,
     };
 }
 
-/* Carries all paths to their next surface; returns how many go on, moved to the front. */
-static size_t bounce_paths(const struct state *state, const ps_host *host, const ps_pass *pass,
-                           uint32_t bounce, struct path *paths, size_t n, ps_source *sources)
+/* Traces the paths, and keeps those that meet something, moved to the front with their hits. */
+static size_t trace_paths(const ps_host *host, struct path *paths, size_t n, ps_ray *rays,
+                          ps_hit *hits)
 {
-    ps_ray rays[PS_PATH_CHUNK];
-    ps_hit hits[PS_PATH_CHUNK];
     for (size_t i = 0; i < n; i++)
         rays[i] = paths[i].ray;
     host->intersect(host, rays, n, hits);
-    if (bounce > 1)
-        draw_bounce(host, bounce, paths, n);
+    size_t met = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (!(hits[i].distance < INFINITY))
+            continue;
+        paths[met] = paths[i];
+        rays[met] = rays[i];
+        hits[met++] = hits[i];
+    }
+    return met;
+}
+
+/* Whether a path that left a source may leave another: past the last diffuse bounce only mirrors and
+ * glass can make one. */
+static int may_go_on(const struct state *state, const ps_pass *pass, const struct path *path)
+{
+    return pass->specular || !state->bounces || path->bounces < (uint32_t)state->bounces;
+}
+
+/* Carries all paths to their next surface, where they leave `count` sources; returns how many go on,
+ * moved to the front. */
+static size_t extend_paths(const struct state *state, const ps_host *host, const ps_pass *pass,
+                           uint32_t segment, struct path *paths, size_t n, ps_source *sources,
+                           size_t *count)
+{
+    ps_ray rays[PS_PATH_CHUNK];
+    ps_hit hits[PS_PATH_CHUNK];
+    ps_scatter scattered[PS_PATH_CHUNK];
+    float numbers[PS_PATH_CHUNK][4];
+    n = trace_paths(host, paths, n, rays, hits);
+    if (segment > 0)
+        draw_surface(host, segment, paths, n);
+    for (size_t i = 0; i < n; i++)
+        memcpy(numbers[i], paths[i].numbers, sizeof numbers[i]);
+    host->scatter(host, PS_FROM_LIGHT, rays, hits, (const float(*)[4])numbers, n, scattered);
     size_t alive = 0;
+    *count = 0;
     for (size_t i = 0; i < n; i++) {
         struct path path = paths[i];
-        if (!reflect(state, bounce, &hits[i], pass->surface_offset, &path))
+        if (!goes_on(state, &scattered[i], &path))
             continue;
-        sources[alive] = source_of(&path, &hits[i], bounce);
-        paths[alive++] = path;
+        sources[(*count)++] = source_of(&path, &hits[i], &scattered[i]);
+        path.ray = ps_leave_surface(hits[i].position, scattered[i].normal, scattered[i].direction,
+                                    pass->surface_offset);
+        if (may_go_on(state, pass, &path))
+            paths[alive++] = path;
     }
     return alive;
 }
@@ -134,11 +168,10 @@ static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pa
     ps_source sources[PS_PATH_CHUNK];
     start_paths(state, host, pass, first, n, paths);
     ps_result result = PS_OK;
-    for (uint32_t bounce = 1; n > 0 && result == PS_OK; bounce++) {
-        if (state->bounces && bounce > (uint32_t)state->bounces)
-            break;
-        n = bounce_paths(state, host, pass, bounce, paths, n, sources);
-        result = sink->append(sink->core, sources, n);
+    for (uint32_t segment = 0; n > 0 && result == PS_OK; segment++) {
+        size_t count;
+        n = extend_paths(state, host, pass, segment, paths, n, sources, &count);
+        result = sink->append(sink->core, sources, count);
     }
     return result;
 }

@@ -265,16 +265,16 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     return written;
 }
 
-static int render_job(struct job *job, const struct scene_description *description,
-                      struct render_settings *settings)
+static int render_job(struct job *job, struct scene_input *input, struct render_settings *settings)
 {
+    const struct scene_description *description = &input->description;
     struct scene scene;
     struct statistics statistics;
     struct error error;
     statistics_init(&statistics);
     double start = clock_seconds();
     statistics_add_seconds(&statistics, "load", start - job->progress.start);
-    ps_result result = scene_create(description, &scene, &error);
+    ps_result result = scene_input_build(input, &scene, &error);
     if (result == PS_OK) {
         result = render_and_write(job, description, &scene, settings, &statistics, &error);
         scene_release(&scene);
@@ -282,7 +282,8 @@ static int render_job(struct job *job, const struct scene_description *descripti
     statistics_destroy(&statistics);
     if (result == PS_OK)
         return STATUS_OK;
-    print_error(error.text);
+    if (error.text[0])
+        print_error(error.text);
     return result == PS_ERROR_INVALID ? STATUS_USAGE : STATUS_FAILED;
 }
 
@@ -297,7 +298,7 @@ static int load_and_render(struct job *job, const struct argument *arguments, si
         override(job, arguments, count, &input) &&
         scene_input_resolve(&input, threads, batch, &settings)) {
         settings.isa = job->isa;
-        status = render_job(job, &input.description, &settings);
+        status = render_job(job, &input, &settings);
         settings_release(&settings);
     }
     scene_input_release(&input);

@@ -63,6 +63,18 @@ bool scene_input_resolve(struct scene_input *input, uint32_t threads, size_t bat
     return result == PS_OK;
 }
 
+ps_result scene_input_build(struct scene_input *input, struct scene *scene, struct error *error)
+{
+    struct origin where = {0};
+    ps_result result = scene_create(&input->description, scene, &where, error);
+    if (result == PS_OK || where.line == 0)
+        return result;
+    diagnostics_report(input->sink, SEVERITY_ERROR, &where, 0, "%s", error->text);
+    diagnostics_print(input->sink, stderr);
+    error->text[0] = '\0';
+    return result;
+}
+
 void scene_input_release(struct scene_input *input)
 {
     scene_description_release(&input->description);

@@ -5,6 +5,7 @@
 
 #include "cli/scene_options.h"
 #include "pipeline/settings.h"
+#include "scene/scene.h"
 
 struct scene_input {
     struct diagnostics *sink;
@@ -24,6 +25,9 @@ bool scene_input_override(struct scene_input *input, const char *text);
  * warnings. */
 bool scene_input_resolve(struct scene_input *input, uint32_t threads, size_t batch,
                          struct render_settings *settings);
+
+/* Makes the scene. An error that has a place in a file is printed, and its text is empty then. */
+ps_result scene_input_build(struct scene_input *input, struct scene *scene, struct error *error);
 
 void scene_input_release(struct scene_input *input);
 

@@ -40,12 +40,22 @@ static void add_vector(struct film *film, enum film_plane x, size_t pixel, ps_ve
     add_color(film, x, pixel, (ps_rgb){vector.x, vector.y, vector.z});
 }
 
+/* The share of the light that arrives where a pixel looks, and that its albedo and the way to the
+ * camera leave. */
+static ps_rgb reflectance_of(const ps_tile *tile, uint32_t lane)
+{
+    ps_rgb albedo = {tile->albedo_r[lane], tile->albedo_g[lane], tile->albedo_b[lane]};
+    ps_rgb throughput = {tile->throughput_r[lane], tile->throughput_g[lane],
+                         tile->throughput_b[lane]};
+    return ps_rgb_multiply(albedo, throughput);
+}
+
 static void add_lane(struct film *film, const ps_tile *tile, ps_rgb direct, uint32_t lane,
                      size_t pixel)
 {
     if (tile->object[lane] == PS_NO_OBJECT)
         return;
-    ps_rgb albedo = {tile->albedo_r[lane], tile->albedo_g[lane], tile->albedo_b[lane]};
+    ps_rgb albedo = reflectance_of(tile, lane);
     ps_rgb reflectance = ps_rgb_scale(albedo, 1.0f / PS_PI);
     ps_rgb irradiance = {tile->irradiance_r[lane], tile->irradiance_g[lane],
                          tile->irradiance_b[lane]};
@@ -65,10 +75,13 @@ void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t in
 {
     const ps_tile *tile = &gbuffer->tiles[index];
     const ps_rgb *direct = &gbuffer->direct[(size_t)index * PS_TILE_PIXELS];
+    const ps_rgb *emitted = &gbuffer->emitted[(size_t)index * PS_TILE_PIXELS];
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
         uint32_t x, y;
-        if (gbuffer_pixel(gbuffer, index, lane, &x, &y))
-            add_lane(film, tile, direct[lane], lane, y * film->width + x);
+        if (!gbuffer_pixel(gbuffer, index, lane, &x, &y))
+            continue;
+        add_color(film, FILM_DIRECT_R, y * film->width + x, emitted[lane]);
+        add_lane(film, tile, direct[lane], lane, y * film->width + x);
     }
 }
 

@@ -11,7 +11,7 @@
 enum film_plane {
     FILM_DIRECT_R,
     FILM_DIRECT_G,
-    FILM_DIRECT_B, /* reflected direct radiance */
+    FILM_DIRECT_B, /* radiance that is emitted, or direct light reflected */
     FILM_COLOR_R,
     FILM_COLOR_G,
     FILM_COLOR_B, /* reflected indirect radiance */

@@ -13,8 +13,9 @@
 struct gbuffer {
     size_t width, height;
     uint32_t tiles_across, tiles_down, tile_count;
-    ps_tile *tiles; /* 64-byte aligned, owned */
-    ps_rgb *direct; /* direct irradiance, tile_count * PS_TILE_PIXELS, owned */
+    ps_tile *tiles;  /* 64-byte aligned, owned */
+    ps_rgb *direct;  /* direct irradiance, tile_count * PS_TILE_PIXELS, owned */
+    ps_rgb *emitted; /* radiance collected on the way there, of the same size, owned */
 };
 
 ps_result gbuffer_create(size_t width, size_t height, struct gbuffer *gbuffer, struct error *error);
@@ -27,10 +28,16 @@ size_t gbuffer_bytes(const struct gbuffer *gbuffer);
 bool gbuffer_pixel(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane, uint32_t *x,
                    uint32_t *y);
 
-/* Fills tile `tile` with what the camera sees through points `jitter_x`, `jitter_y` (0..1) of its
- * pixels, and zeroes its accumulators. */
-void gbuffer_trace_tile(struct gbuffer *gbuffer, const struct trace *trace,
-                        const struct camera *camera, uint32_t tile, float jitter_x, float jitter_y);
+/* Makes all lanes of a tile see nothing, and zeroes its accumulators and emitted radiance. */
+void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t tile);
+
+/* Lets a lane see what was hit, at the end of a way of length `travelled` that leaves `throughput` of
+ * its light. */
+void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throughput,
+                   float travelled);
+
+/* Lane of number i when a tile is walked in 4x4 blocks. */
+uint32_t gbuffer_block_lane(uint32_t i);
 
 /* Forgets the indirect light of an unfinished pass. */
 void gbuffer_clear_indirect(struct gbuffer *gbuffer);

@@ -4,13 +4,14 @@
  * decoded straight into the planes, which the library converts to float on the way. It could also
  * search a damaged file for chunks that its table does not list; that is switched off, because half
  * a picture that looks whole is worse than an error. The first of the library's messages is the one
- * shown: the later ones follow from it.
+ * shown: the later ones follow from it. Rasters are read from memory, others from their file.
  */
-#include "image/image.h"
+#include "image/raster_decode.h"
 
 #include <OpenEXR/openexr.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define PIXEL_LIMIT (INT64_C(1) << 31)
@@ -21,12 +22,17 @@
 struct exr_source {
     exr_context_t context;
     const char *path;
+    const struct raster_source *memory; /* NULL: from the file */
+    const char *const *channels;        /* those wanted; NULL: all */
     struct error *error;
     char message[256]; /* the library's first complaint, or empty */
     struct image image;
     exr_decode_pipeline_t decoder;
     bool decoding; /* the decoder has been initialised */
     exr_attr_box2i_t window;
+    float
+        *spare; /* where channels go that are not wanted: the library crashes if told to skip one */
+    size_t spare_count;
 };
 
 static void keep_first_message(exr_const_context_t context, exr_result_t code, const char *message)
@@ -42,19 +48,31 @@ static void keep_first_message(exr_const_context_t context, exr_result_t code, c
     }
 }
 
+/* How a message of a picture's file starts. */
+static const char *before_path(const struct exr_source *source)
+{
+    return source->memory ? "" : "cannot read '";
+}
+
+static const char *after_path(const struct exr_source *source)
+{
+    return source->memory ? ": " : "': ";
+}
+
 static ps_result explain(const struct exr_source *source, exr_result_t code)
 {
     if (code == EXR_ERR_SUCCESS) {
         return PS_OK;
     }
     return error_set(source->error, code == EXR_ERR_OUT_OF_MEMORY ? PS_ERROR_MEMORY : PS_ERROR_IO,
-                     "cannot read '%s': %s", source->path,
+                     "%s%s%s%s", before_path(source), source->path, after_path(source),
                      source->message[0] ? source->message : exr_get_default_error_message(code));
 }
 
 static ps_result refuse(const struct exr_source *source, const char *why)
 {
-    return error_set(source->error, PS_ERROR_INVALID, "cannot read '%s': %s", source->path, why);
+    return error_set(source->error, PS_ERROR_INVALID, "%s%s%s%s", before_path(source), source->path,
+                     after_path(source), why);
 }
 
 /* B44 and B44A come out as noise for some channel types and tile sizes (measured against the C++
@@ -100,13 +118,29 @@ static ps_result read_size(struct exr_source *source)
     int64_t height = (int64_t)window->max.y - window->min.y + 1;
     if (width <= 0 || height <= 0 || width > INT32_MAX / SAMPLE_SIZE ||
         width > PIXEL_LIMIT / height) {
-        return error_set(source->error, PS_ERROR_INVALID,
-                         "cannot read '%s': its size, %lld x %lld, cannot be", source->path,
-                         (long long)width, (long long)height);
+        return error_set(source->error, PS_ERROR_INVALID, "%s%s%sits size, %lld x %lld, cannot be",
+                         before_path(source), source->path, after_path(source), (long long)width,
+                         (long long)height);
+    }
+    if (source->memory) {
+        ps_result result =
+            raster_check_size(source->path, width, height, 4 * sizeof(float), source->error);
+        if (result != PS_OK) {
+            return result;
+        }
     }
     source->image.width = (size_t)width;
     source->image.height = (size_t)height;
     return PS_OK;
+}
+
+static bool is_wanted(const struct exr_source *source, const char *name)
+{
+    const char *const *wanted = source->channels;
+    while (wanted && *wanted && strcmp(*wanted, name) != 0) {
+        wanted++;
+    }
+    return !wanted || *wanted;
 }
 
 static ps_result add_channels(struct exr_source *source)
@@ -127,11 +161,14 @@ static ps_result add_channels(struct exr_source *source)
         if (image_channel(&source->image, entry->name.str)) {
             return refuse(source, "it has two channels of one name");
         }
+        if (!is_wanted(source, entry->name.str)) {
+            continue;
+        }
         if (!image_add_channel(&source->image, entry->name.str)) {
             return error_set(source->error, PS_ERROR_MEMORY,
-                             "cannot read '%s': out of memory for %zu x %zu pixels of %d channels",
-                             source->path, source->image.width, source->image.height,
-                             list->num_channels);
+                             "%s%s%sout of memory for %zu x %zu pixels of %d channels",
+                             before_path(source), source->path, after_path(source),
+                             source->image.width, source->image.height, list->num_channels);
         }
     }
     return PS_OK;
@@ -160,33 +197,65 @@ static ps_result add_attributes(struct exr_source *source)
     return explain(source, code);
 }
 
+static exr_result_t provide_spare(struct exr_source *source, const exr_chunk_info_t *chunk)
+{
+    size_t count = (size_t)chunk->width * (size_t)chunk->height;
+    if (!source->channels || count <= source->spare_count) {
+        return EXR_ERR_SUCCESS;
+    }
+    free(source->spare);
+    source->spare = malloc(count * sizeof *source->spare);
+    source->spare_count = source->spare ? count : 0;
+    return source->spare ? EXR_ERR_SUCCESS : EXR_ERR_OUT_OF_MEMORY;
+}
+
+/* Tells the decoder where the channels of a chunk go whose upper left pixel in the picture is
+ * (column, line). Decoder and picture have them in the order of the file. */
+static void direct_channels(struct exr_source *source, const exr_chunk_info_t *chunk, size_t column,
+                            size_t line)
+{
+    const struct image *image = &source->image;
+    size_t taken = 0;
+    for (int i = 0; i < source->decoder.channel_count; i++) {
+        exr_coding_channel_info_t *channel = &source->decoder.channels[i];
+        bool wanted = taken < image->channel_count &&
+                      strcmp(image->channels[taken].name, channel->channel_name) == 0;
+        float *samples = source->spare;
+        size_t width = (size_t)chunk->width;
+        if (wanted) {
+            width = image->width;
+            samples = image->channels[taken++].samples + line * width + column;
+        }
+        channel->user_data_type = EXR_PIXEL_FLOAT;
+        channel->user_bytes_per_element = (int16_t)SAMPLE_SIZE;
+        channel->user_pixel_stride = SAMPLE_SIZE;
+        channel->user_line_stride = (int32_t)width * SAMPLE_SIZE;
+        channel->decode_to_ptr = (uint8_t *)samples;
+    }
+}
+
 /* Decodes the chunk whose upper left pixel in the picture is (column, line). */
 static exr_result_t decode_chunk(struct exr_source *source, const exr_chunk_info_t *chunk,
                                  size_t column, size_t line)
 {
-    struct image *image = &source->image;
+    const struct image *image = &source->image;
     exr_decode_pipeline_t *decoder = &source->decoder;
     if (chunk->width <= 0 || chunk->height <= 0 || (size_t)chunk->width > image->width - column ||
         (size_t)chunk->height > image->height - line) {
         return EXR_ERR_CORRUPT_CHUNK;
     }
-    exr_result_t code = source->decoding
-                            ? exr_decoding_update(source->context, PART, chunk, decoder)
-                            : exr_decoding_initialize(source->context, PART, chunk, decoder);
+    bool first = !source->decoding;
+    exr_result_t code = first ? exr_decoding_initialize(source->context, PART, chunk, decoder)
+                              : exr_decoding_update(source->context, PART, chunk, decoder);
+    if (code == EXR_ERR_SUCCESS) {
+        source->decoding = true;
+        code = provide_spare(source, chunk);
+    }
     if (code != EXR_ERR_SUCCESS) {
         return code;
     }
-    for (int i = 0; i < decoder->channel_count; i++) {
-        exr_coding_channel_info_t *channel = &decoder->channels[i];
-        float *samples = image->channels[i].samples;
-        channel->user_data_type = EXR_PIXEL_FLOAT;
-        channel->user_bytes_per_element = (int16_t)SAMPLE_SIZE;
-        channel->user_pixel_stride = SAMPLE_SIZE;
-        channel->user_line_stride = (int32_t)image->width * SAMPLE_SIZE;
-        channel->decode_to_ptr = (uint8_t *)(samples + line * image->width + column);
-    }
-    if (!source->decoding) {
-        source->decoding = true;
+    direct_channels(source, chunk, column, line);
+    if (first) {
         code = exr_decoding_choose_default_routines(source->context, PART, decoder);
     }
     return code == EXR_ERR_SUCCESS ? exr_decoding_run(source->context, PART, decoder) : code;
@@ -248,33 +317,73 @@ static ps_result read_picture(struct exr_source *source)
     if (result == PS_OK) {
         result = add_attributes(source);
     }
-    if (result != PS_OK) {
+    if (result != PS_OK || source->image.channel_count == 0) {
         return result;
     }
     result = storage == EXR_STORAGE_TILED ? read_tiles(source) : read_lines(source);
     if (source->decoding) {
         exr_decoding_destroy(source->context, &source->decoder);
     }
+    free(source->spare);
     return result;
+}
+
+static int64_t memory_size(exr_const_context_t context, void *user_data)
+{
+    const struct exr_source *source = user_data;
+    (void)context;
+    return (int64_t)source->memory->size;
+}
+
+/* Past the end it gives what there is, as read(2) does. */
+static int64_t memory_read(exr_const_context_t context, void *user_data, void *buffer,
+                           uint64_t size, uint64_t offset, exr_stream_error_func_ptr_t report)
+{
+    const struct raster_source *memory = ((const struct exr_source *)user_data)->memory;
+    (void)context;
+    (void)report;
+    if (offset >= memory->size) {
+        return 0;
+    }
+    uint64_t left = memory->size - offset;
+    memcpy(buffer, memory->bytes + offset, size < left ? size : left);
+    return (int64_t)(size < left ? size : left);
+}
+
+static ps_result read_source(struct exr_source *source, struct image *image)
+{
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    setup.error_handler_fn = keep_first_message;
+    setup.user_data = source;
+    setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    if (source->memory) {
+        setup.size_fn = memory_size;
+        setup.read_fn = memory_read;
+    }
+    ps_result result = explain(source, exr_start_read(&source->context, source->path, &setup));
+    if (result != PS_OK) {
+        return result;
+    }
+    result = read_picture(source);
+    exr_finish(&source->context);
+    if (result != PS_OK) {
+        image_release(&source->image);
+        return result;
+    }
+    *image = source->image;
+    return PS_OK;
 }
 
 ps_result image_read_exr(const char *path, struct image *image, struct error *error)
 {
     struct exr_source source = {.path = path, .error = error};
-    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    setup.error_handler_fn = keep_first_message;
-    setup.user_data = &source;
-    setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
-    ps_result result = explain(&source, exr_start_read(&source.context, path, &setup));
-    if (result != PS_OK) {
-        return result;
-    }
-    result = read_picture(&source);
-    exr_finish(&source.context);
-    if (result != PS_OK) {
-        image_release(&source.image);
-        return result;
-    }
-    *image = source.image;
-    return PS_OK;
+    return read_source(&source, image);
+}
+
+ps_result exr_read_channels(const struct raster_source *memory, const char *const *channels,
+                            struct image *image, struct error *error)
+{
+    struct exr_source source = {
+        .path = memory->path, .memory = memory, .channels = channels, .error = error};
+    return read_source(&source, image);
 }

@@ -29,6 +29,13 @@ float tonemap_srgb(float linear)
     return (float)srgb_from_linear(linear);
 }
 
+double tonemap_linear(double display)
+{
+    double size = fabs(display);
+    double linear = size <= 0.04045 ? size / 12.92 : pow((size + 0.055) / 1.055, 2.4);
+    return copysign(linear, display);
+}
+
 /* f(x) = x for x <= a, and 1 - (1 - a) exp(-(x - a) / (1 - a)) beyond, with a = SHOULDER: value a
  * and slope 1 on both sides of a, rising towards 1. */
 static double filmic_curve(double linear)

@@ -9,6 +9,9 @@
  */
 float tonemap_srgb(float linear);
 
+/* Its inverse, display to linear; beyond 1 the formula goes on, negative values are mirrored. */
+double tonemap_linear(double display);
+
 enum tone_curve {
     TONE_CLIP,  /* values above 1 clip: the thesis's display values, and what comparisons use */
     TONE_FILMIC /* "simple tone curve": identity-like below 0.6, smooth shoulder to 1; monotonic, C1

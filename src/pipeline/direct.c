@@ -1,76 +1,210 @@
 #include "pipeline/direct.h"
 
-#include <psplat/math.h>
+#include "base/sample.h"
+#include <psplat/host.h>
 #include <psplat/tile.h>
 
 #define CHUNK 256
 
-/* The shadow ray from a point to a light, and the irradiance it stands for where nothing is in the
- * way: E = I cos / r^2. */
-static ps_rgb connect(const struct scene *scene, const struct light *light, ps_vec3 position,
-                      ps_vec3 normal, ps_ray *ray)
+/* Points that receive light: of a surface hit, or of the G-buffer, of which only position and normal
+ * are known. */
+struct receivers {
+    const struct scene *scene;
+    size_t n; /* at most CHUNK */
+    const ps_vec3 *positions, *normals;
+    const ps_ray *rays; /* NULL: irradiance is asked for */
+    const ps_hit *hits;
+    float (*numbers)[4]; /* NULL: no light has a size */
+};
+
+/* Two of a point's four numbers, or these moved by Roberts's sequence for many lights. */
+static void numbers_for_light(const float numbers[4], size_t light, float pair[2])
 {
-    static const ps_rgb nothing = {0, 0, 0};
-    ps_vec3 origin = ps_add_scaled(position, scene->surface_offset, normal);
-    ps_vec3 to_light = ps_subtract(light->location, origin);
-    float distance = ps_length(to_light);
-    ps_vec3 direction = ps_scale(to_light, 1.0f / distance);
-    float cosine = ps_dot(direction, normal);
-    if (!(cosine > 0.0f))
-        return nothing;
-    /* A lamp may lie on a surface, which must not shadow it. */
-    float reach = fmaxf(distance - scene->surface_offset, 0.0f);
-    *ray = (ps_ray){origin, 0.0f, direction, reach};
-    ps_rgb intensity = light_intensity(light, ps_scale(direction, -1.0f));
-    return ps_rgb_scale(intensity, cosine / (distance * distance));
+    size_t first = light % 2 * 2;
+    float turns = (float)(light / 2);
+    float a = numbers[first] + 0.7548777f * turns, b = numbers[first + 1] + 0.5698403f * turns;
+    pair[0] = fminf(a - floorf(a), 0x1.fffffep-1f);
+    pair[1] = fminf(b - floorf(b), 0x1.fffffep-1f);
 }
 
-/* Adds one light to at most CHUNK points. */
-static void add_light(const struct scene *scene, const struct trace *trace,
-                      enum coherence coherence, const struct light *light, const ps_vec3 *positions,
-                      const ps_vec3 *normals, size_t n, ps_rgb *irradiance)
+/* What the receiver makes of irradiance 1 across a beam from `direction`. */
+static ps_rgb response(const struct receivers *to, size_t i, ps_vec3 direction, float light_pdf)
+{
+    float cosine = fmaxf(0.0f, ps_dot(direction, to->normals[i]));
+    if (!to->hits)
+        return (ps_rgb){cosine, cosine, cosine};
+    const ps_hit *hit = &to->hits[i];
+    if (!(ps_dot(direction, hit->geometric_normal) > 0.0f))
+        return (ps_rgb){0, 0, 0};
+    ps_rgb reflected = ps_rgb_scale(hit->albedo, cosine / PS_PI);
+    if (!(hit->flags & PS_HIT_SPECULAR))
+        return reflected;
+    return ps_rgb_add(reflected,
+                      material_gloss(&to->scene->materials[hit->material], to->scene->microfacets,
+                                     &to->rays[i], hit, direction, light_pdf));
+}
+
+/* The shadow ray from a receiver to a light, and what arrives where nothing is in the way. */
+static ps_rgb connect(const struct receivers *to, size_t i, size_t light, ps_ray *ray)
+{
+    static const ps_rgb nothing = {0, 0, 0};
+    const struct scene *scene = to->scene;
+    ps_vec3 away = to->hits ? to->hits[i].geometric_normal : to->normals[i];
+    ps_vec3 origin = ps_add_scaled(to->positions[i], scene->surface_offset, away);
+    float pair[2] = {0, 0};
+    if (to->numbers)
+        numbers_for_light(to->numbers[i], light, pair);
+    struct light_sample sample;
+    if (!light_sample(&scene->lights[light], origin, pair[0], pair[1], &sample))
+        return nothing;
+    if (!(ps_dot(sample.direction, to->normals[i]) > 0.0f))
+        return nothing;
+    /* A lamp may lie on a surface, which must not shadow it. */
+    float reach = fmaxf(sample.distance - scene->surface_offset, 0.0f);
+    *ray = (ps_ray){origin, 0.0f, sample.direction, reach};
+    return ps_rgb_multiply(sample.weight, response(to, i, sample.direction, sample.pdf));
+}
+
+static void add_light(const struct receivers *to, const struct trace *trace, enum ray_kind kind,
+                      size_t light, ps_rgb *sums)
 {
     ps_ray rays[CHUNK];
     ps_rgb unshadowed[CHUNK];
-    size_t points[CHUNK];
+    size_t targets[CHUNK];
     uint8_t blocked[CHUNK];
     size_t count = 0;
-    for (size_t i = 0; i < n; i++) {
-        unshadowed[count] = connect(scene, light, positions[i], normals[i], &rays[count]);
-        points[count] = i;
+    for (size_t i = 0; i < to->n; i++) {
+        unshadowed[count] = connect(to, i, light, &rays[count]);
+        targets[count] = i;
         count += ps_rgb_maximum(unshadowed[count]) > 0.0f;
     }
-    trace_occluded(trace, coherence, rays, count, blocked);
+    trace_occluded(trace, kind, rays, count, blocked);
     for (size_t i = 0; i < count; i++)
         if (!blocked[i])
-            irradiance[points[i]] = ps_rgb_add(irradiance[points[i]], unshadowed[i]);
+            sums[targets[i]] = ps_rgb_add(sums[targets[i]], unshadowed[i]);
 }
 
-void direct_irradiance(const struct scene *scene, const struct trace *trace,
-                       enum coherence coherence, const ps_vec3 *positions, const ps_vec3 *normals,
-                       size_t n, ps_rgb *irradiance)
+static void add_lights(const struct receivers *to, const struct trace *trace, enum ray_kind kind,
+                       ps_rgb *sums)
 {
+    for (size_t light = 0; light < to->scene->light_count; light++)
+        add_light(to, trace, kind, light, sums);
+}
+
+/* Draws `n` points' numbers, where some light needs them; else NULL. */
+static float (*draw(const struct scene *scene, const struct light_numbers *from, size_t first,
+                    size_t n, float (*room)[4]))[4]
+{
+    if (!scene->has_sized_lights)
+        return NULL;
+    uint32_t key = sample_key(from->seed, from->stream, from->set);
     for (size_t i = 0; i < n; i++)
-        irradiance[i] = (ps_rgb){0, 0, 0};
+        sample_point(key, from->indices[first + i], room[i]);
+    return room;
+}
+
+void direct_radiance(const struct scene *scene, const struct trace *trace, const ps_ray *rays,
+                     const ps_hit *hits, size_t n, const struct light_numbers *numbers,
+                     ps_rgb *radiance)
+{
+    ps_vec3 positions[CHUNK], normals[CHUNK];
+    float room[CHUNK][4];
     for (size_t first = 0; first < n; first += CHUNK) {
         size_t count = n - first < CHUNK ? n - first : CHUNK;
-        for (size_t light = 0; light < scene->light_count; light++)
-            add_light(scene, trace, coherence, &scene->lights[light], positions + first,
-                      normals + first, count, irradiance + first);
+        for (size_t i = 0; i < count; i++) {
+            positions[i] = hits[first + i].position;
+            normals[i] = hits[first + i].normal;
+            radiance[first + i] = (ps_rgb){0, 0, 0};
+        }
+        struct receivers to = {
+            .scene = scene,
+            .n = count,
+            .positions = positions,
+            .normals = normals,
+            .rays = rays + first,
+            .hits = hits + first,
+            .numbers = draw(scene, numbers, first, count, room),
+        };
+        add_lights(&to, trace, RAYS_INCOHERENT, radiance + first);
+    }
+}
+
+/* The share of a direction found by scattering with density `pdf`, where the light's own sampling
+ * has `light_pdf` (power heuristic). */
+static float scattering_share(float pdf, float light_pdf)
+{
+    if (!(pdf > 0.0f))
+        return 1.0f;
+    float ratio = light_pdf / pdf;
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+static ps_rgb sky_radiance(const struct scene *scene, const ps_ray *ray, float pdf)
+{
+    ps_rgb sum = {0, 0, 0};
+    for (size_t i = 0; i < scene->light_count && scene->has_sky; i++) {
+        const struct light *light = &scene->lights[i];
+        ps_rgb radiance = light_radiance_from(light, ray->direction);
+        if (!(ps_rgb_maximum(radiance) > 0.0f))
+            continue;
+        float light_density =
+            pdf > 0.0f ? light_pdf(light, ray->origin, ray->direction, INFINITY, (ps_vec3){0, 0, 0})
+                       : 0.0f;
+        sum = ps_rgb_add(sum, ps_rgb_scale(radiance, scattering_share(pdf, light_density)));
+    }
+    return sum;
+}
+
+static ps_rgb surface_radiance(const struct scene *scene, const ps_ray *ray, const ps_hit *hit,
+                               float pdf)
+{
+    if (!(hit->flags & PS_HIT_EMISSIVE))
+        return (ps_rgb){0, 0, 0};
+    ps_rgb radiance = material_emission(&scene->materials[hit->material], hit);
+    uint32_t light = scene->object_lights[hit->object];
+    if (!(pdf > 0.0f) || light == NO_LIGHT)
+        return radiance;
+    bool back = hit->flags & PS_HIT_BACK;
+    ps_vec3 front = ps_scale(hit->geometric_normal, back ? -1.0f : 1.0f);
+    float light_density =
+        light_pdf(&scene->lights[light], ray->origin, ray->direction, hit->distance, front);
+    return ps_rgb_scale(radiance, scattering_share(pdf, light_density));
+}
+
+void emitted_radiance(const struct scene *scene, const ps_ray *rays, const ps_hit *hits,
+                      const float *pdfs, size_t n, ps_rgb *radiance)
+{
+    for (size_t i = 0; i < n; i++) {
+        float pdf = pdfs ? pdfs[i] : 0.0f;
+        radiance[i] = hits[i].distance < INFINITY ? surface_radiance(scene, &rays[i], &hits[i], pdf)
+                                                  : sky_radiance(scene, &rays[i], pdf);
     }
 }
 
 void direct_light_tile(const struct scene *scene, const struct trace *trace,
-                       struct gbuffer *gbuffer, uint32_t index)
+                       struct gbuffer *gbuffer, uint32_t index, uint64_t seed, uint32_t pass)
 {
     ps_rgb *direct = &gbuffer->direct[(size_t)index * PS_TILE_PIXELS];
-    ps_rgb irradiance[PS_TILE_PIXELS];
+    ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}};
+    uint64_t indices[PS_TILE_PIXELS];
+    float room[PS_TILE_PIXELS][4];
+    uint32_t samples = scene->has_sized_lights ? scene->light_samples : 1;
     ps_points points;
     ps_collect_points(&gbuffer->tiles[index], &points);
-    direct_irradiance(scene, trace, RAYS_COHERENT, points.positions, points.normals, points.count,
-                      irradiance);
+    struct light_numbers numbers = {seed, PS_STREAM_LIGHT, 0, indices};
+    struct receivers to = {.scene = scene,
+                           .n = points.count,
+                           .positions = points.positions,
+                           .normals = points.normals};
+    for (uint32_t sample = 0; sample < samples; sample++) {
+        for (size_t i = 0; i < points.count; i++)
+            indices[i] =
+                ps_sample_block(index, points.lanes[i]) + (uint64_t)pass * samples + sample;
+        to.numbers = draw(scene, &numbers, 0, points.count, room);
+        add_lights(&to, trace, RAYS_COHERENT, irradiance);
+    }
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         direct[lane] = (ps_rgb){0, 0, 0};
     for (size_t i = 0; i < points.count; i++)
-        direct[points.lanes[i]] = irradiance[i];
+        direct[points.lanes[i]] = ps_rgb_scale(irradiance[i], 1.0f / (float)samples);
 }

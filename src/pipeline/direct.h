@@ -1,18 +1,33 @@
-/* direct.h: direct light: what the light sources give to points, with shadow rays. */
+/* direct.h: light straight from the lights, by shadow rays; and what surfaces and sky emit.
+ *
+ * Each light is sampled once for each point; lights without a size need no random numbers. Where
+ * gloss can also find a light by scattering, both ways are weighed (Veach and Guibas 1995).
+ */
 #ifndef PIPELINE_DIRECT_H
 #define PIPELINE_DIRECT_H
 
 #include "film/gbuffer.h"
-#include "trace/trace.h"
 
-/* Irradiance (W/m^2) of n points with normals from all lights. `coherence`: whether the
- * points are neighbours. Any thread. */
-void direct_irradiance(const struct scene *scene, const struct trace *trace,
-                       enum coherence coherence, const ps_vec3 *positions, const ps_vec3 *normals,
-                       size_t n, ps_rgb *irradiance);
+/* Which random numbers choose points on lights; see ps_host.samples. */
+struct light_numbers {
+    uint64_t seed;
+    uint32_t stream, set;
+    const uint64_t *indices; /* one for each point */
+};
 
-/* Fills the direct irradiance of tile `tile`. */
+/* Radiance that the surfaces hit reflect back along the rays, of light straight from the lights. */
+void direct_radiance(const struct scene *scene, const struct trace *trace, const ps_ray *rays,
+                     const ps_hit *hits, size_t n, const struct light_numbers *numbers,
+                     ps_rgb *radiance);
+
+/* Radiance that what the rays met (or the sky) emits along them. `pdfs` (NULL: all 0) as in
+ * ps_host.emitted_radiance. */
+void emitted_radiance(const struct scene *scene, const ps_ray *rays, const ps_hit *hits,
+                      const float *pdfs, size_t n, ps_rgb *radiance);
+
+/* Fills in the direct irradiance of a tile's pixels: the mean of scene->light_samples shadow rays for
+ * each light that has a size. */
 void direct_light_tile(const struct scene *scene, const struct trace *trace,
-                       struct gbuffer *gbuffer, uint32_t tile);
+                       struct gbuffer *gbuffer, uint32_t tile, uint64_t seed, uint32_t pass);
 
 #endif

@@ -2,7 +2,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/sample.h"
-#include "pipeline/direct.h"
+#include "pipeline/host_light.h"
 #include "pipeline/render_state.h"
 #include "splat/box.h"
 #include <psplat/math.h>
@@ -96,21 +96,6 @@ static ps_result host_for_each_tile(const ps_host *host, ps_body body, void *use
     return PS_OK;
 }
 
-static void host_intersect(const ps_host *host, const ps_ray *rays, size_t n, ps_hit *hits)
-{
-    trace_intersect(render_of(host)->trace, RAYS_INCOHERENT, rays, n, hits);
-}
-
-static void host_occluded(const ps_host *host, const ps_ray *rays, size_t n, uint8_t *blocked)
-{
-    trace_occluded(render_of(host)->trace, RAYS_INCOHERENT, rays, n, blocked);
-}
-
-static void host_intersect_packets(const ps_host *host, ps_packet *packets, size_t n)
-{
-    trace_packets(render_of(host)->trace, packets, n);
-}
-
 static void host_samples(const ps_host *host, uint32_t stream, uint32_t set,
                          const uint64_t *indices, size_t n, float (*samples)[4])
 {
@@ -119,36 +104,16 @@ static void host_samples(const ps_host *host, uint32_t stream, uint32_t set,
         sample_point(key, indices[i], samples[i]);
 }
 
-static void host_emit_light(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
-                            ps_rgb *power)
-{
-    const struct scene *scene = render_of(host)->scene;
-    for (size_t i = 0; i < n; i++) {
-        power[i] = (ps_rgb){0, 0, 0};
-        rays[i] = (ps_ray){{0, 0, 0}, 0, {0, 0, 1}, 0};
-        if (scene->light_count == 0)
-            continue;
-        float probability;
-        size_t light = scene_choose_light(scene, samples[i][2], &probability);
-        ps_rgb flux = light_emit(&scene->lights[light], samples[i][0], samples[i][1], &rays[i]);
-        rays[i].tnear = scene->surface_offset; /* a lamp may lie on a surface */
-        if (probability > 0.0f)
-            power[i] = ps_rgb_scale(flux, 1.0f / probability);
-    }
-}
-
-static void host_direct_irradiance(const ps_host *host, const ps_vec3 *positions,
-                                   const ps_vec3 *normals, size_t n, ps_rgb *irradiance)
-{
-    const struct render *render = render_of(host);
-    direct_irradiance(render->scene, render->trace, RAYS_INCOHERENT, positions, normals, n,
-                      irradiance);
-}
-
 static void host_scene_bounds(const ps_host *host, ps_vec3 *center, float *radius)
 {
     *center = render_of(host)->scene->center;
     *radius = render_of(host)->scene->radius;
+}
+
+static void host_camera(const ps_host *host, ps_vec3 *position, ps_vec3 *direction)
+{
+    *position = render_of(host)->scene->camera.location;
+    *direction = render_of(host)->scene->camera.forward;
 }
 
 static void host_place_boxes(const ps_host *host, const ps_box_settings *settings,
@@ -286,12 +251,7 @@ void host_create(struct render *render)
         .release = host_release,
         .parallel_for = host_parallel_for,
         .for_each_tile = host_for_each_tile,
-        .intersect = host_intersect,
-        .occluded = host_occluded,
-        .intersect_packets = host_intersect_packets,
         .samples = host_samples,
-        .emit_light = host_emit_light,
-        .direct_irradiance = host_direct_irradiance,
         .scene_bounds = host_scene_bounds,
         .place_boxes = host_place_boxes,
         .next_sources = host_next_sources,
@@ -303,7 +263,9 @@ void host_create(struct render *render)
         .count = host_count,
         .progress = host_progress,
         .cancelled = host_cancelled,
+        .camera = host_camera,
     };
+    host_add_light_transport(&render->host);
 }
 
 void host_report_splatter(struct render *render)

@@ -4,7 +4,9 @@
 #include "base/parallel.h"
 #include "base/sample.h"
 #include "pipeline/direct.h"
+#include "pipeline/pixel_filter.h"
 #include "pipeline/render_state.h"
+#include "pipeline/view.h"
 #include <string.h>
 
 static void report_progress(const struct render *render, const char *stage, double fraction)
@@ -73,32 +75,29 @@ static void destroy(struct render *render)
 /* Where in its pixels a pass looks: the first at their centres, later ones at points spread over
  * them, the same in all pixels so that a pass stays coherent. Not a matter of how many passes there
  * will be: a pass depends on its own number alone. */
-struct jitter {
-    float x, y;
-};
-
-static struct jitter pass_jitter(const struct render *render)
+static void set_jitter(const struct render *render, struct view_pass *view)
 {
+    view->jitter_x = view->jitter_y = 0.5f;
     if (render->pass.number == 0)
-        return (struct jitter){0.5f, 0.5f};
-    float point[4];
+        return;
+    float numbers[4], point[2];
     sample_point(sample_key(render->settings->seed, PS_STREAM_PIXEL, 0), render->pass.number,
-                 point);
-    return (struct jitter){point[0], point[1]};
+                 numbers);
+    pixel_filter_point(render->scene->pixel_filter, numbers, point);
+    view->jitter_x = point[0];
+    view->jitter_y = point[1];
 }
 
 struct tile_work {
     struct render *render;
-    struct jitter jitter;
+    struct view_pass view;
 };
 
 static void trace_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct tile_work *work = user;
-    struct render *render = work->render;
-    gbuffer_trace_tile(&render->gbuffer, render->trace, &render->scene->camera, (uint32_t)index,
-                       work->jitter.x, work->jitter.y);
+    view_trace_tile(&work->view, (uint32_t)index);
 }
 
 static void light_tile(void *user, uint64_t index, uint32_t worker)
@@ -106,7 +105,8 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct tile_work *work = user;
     struct render *render = work->render;
-    direct_light_tile(render->scene, render->trace, &render->gbuffer, (uint32_t)index);
+    direct_light_tile(render->scene, render->trace, &render->gbuffer, (uint32_t)index,
+                      render->settings->seed, render->pass.number);
 }
 
 static void add_tile(void *user, uint64_t index, uint32_t worker)
@@ -152,9 +152,18 @@ static ps_result run_pass(struct render *render, uint32_t number, struct error *
         .tile_count = render->gbuffer.tile_count,
         .thread_count = render->settings->threads,
         .surface_offset = render->scene->surface_offset,
+        .specular = render->scene->microfacets != NULL,
     };
     report_progress(render, "direct light", (double)number / render->settings->passes);
-    struct tile_work work = {render, pass_jitter(render)};
+    struct tile_work work = {
+        render,
+        {.scene = render->scene,
+         .trace = render->trace,
+         .gbuffer = &render->gbuffer,
+         .seed = render->settings->seed,
+         .number = number},
+    };
+    set_jitter(render, &work.view);
     over_tiles(&work, "gbuffer", trace_tile);
     over_tiles(&work, "direct", light_tile);
     ps_result result = estimate(render, error);

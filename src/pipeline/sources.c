@@ -143,7 +143,7 @@ ps_result source_stream_next(struct source_stream *stream, const ps_source **sou
     stream->batch.count = 0;
     while (stream->next_path < stream->path_count && stream->batch.count == 0 && result == PS_OK) {
         do
-            result = inject(stream, error);
+            result = stream->host->cancelled(stream->host) ? PS_CANCELLED : inject(stream, error);
         while (stratification->whole_pass && stream->next_path < stream->path_count &&
                result == PS_OK);
         if (result == PS_OK && stream->batch.count > 0)

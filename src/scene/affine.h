@@ -32,14 +32,19 @@ static inline ps_vec3 affine_point(const struct affine *map, ps_vec3 p)
     return ps_add(affine_direction(map, p), map->translation);
 }
 
-/* The signed factor on volumes; 0 where the map is flat. */
-static inline float affine_determinant(const struct affine *map)
+/* The signed factor on volumes: 0 where the map is flat, below 0 where it mirrors. A double,
+ * because the cube of a small scale is no float. */
+static inline double affine_determinant(const struct affine *map)
 {
-    return ps_dot(map->x, ps_cross(map->y, map->z));
+    const ps_vec3 *x = &map->x, *y = &map->y, *z = &map->z;
+    return x->x * ((double)y->y * z->z - (double)y->z * z->y) +
+           x->y * ((double)y->z * z->x - (double)y->x * z->z) +
+           x->z * ((double)y->x * z->y - (double)y->y * z->x);
 }
 
-/* A normal's image, times the determinant's size: the cofactor matrix, which needs no inverse and
- * keeps the side that a triangle's winding gives. Not of length 1. */
+/* A normal's image, times the determinant: the cofactor matrix, which needs no inverse. It lies on
+ * the side that the image of a triangle's winding gives; where the map mirrors, that is the image
+ * of the other side. Not of length 1. */
 static inline ps_vec3 affine_normal(const struct affine *map, ps_vec3 n)
 {
     ps_vec3 sum = ps_scale(ps_cross(map->y, map->z), n.x);
@@ -58,22 +63,15 @@ static inline struct affine affine_compose(const struct affine *outer, const str
     };
 }
 
-/* Applied in this order: scale, rotate about x, then y, then z (degrees, right-handed), translate. */
+/* Applied in this order: scale, rotate about x, then y, then z (degrees, right-handed),
+ * translate. */
 struct affine affine_of(ps_vec3 scale, ps_vec3 rotate, ps_vec3 translate);
 
 /* False where the map has no inverse. */
-static inline bool affine_invert(const struct affine *map, struct affine *inverse)
-{
-    float determinant = affine_determinant(map);
-    if (!(fabsf(determinant) > 0.0f) || !isfinite(determinant))
-        return false;
-    ps_vec3 a = ps_scale(ps_cross(map->y, map->z), 1.0f / determinant);
-    ps_vec3 b = ps_scale(ps_cross(map->z, map->x), 1.0f / determinant);
-    ps_vec3 c = ps_scale(ps_cross(map->x, map->y), 1.0f / determinant);
-    *inverse =
-        (struct affine){{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}, {0.0f, 0.0f, 0.0f}};
-    inverse->translation = ps_scale(affine_direction(inverse, map->translation), -1.0f);
-    return true;
-}
+bool affine_invert(const struct affine *map, struct affine *inverse);
+
+/* Whether the map is one of rotations, translations, mirrors and a scale by equal factors, to
+ * within the rounding of some such maps in a row: 1e-5 of that factor. False where it is flat. */
+bool affine_is_similarity(const struct affine *map);
 
 #endif

@@ -7,30 +7,62 @@ static double half_tangent(double degrees)
     return tan(degrees * (3.14159265358979323846 / 360.0));
 }
 
+/* Of the picture at distance 1, or anywhere where it is orthographic. */
+static double half_width_of(const struct camera_description *description, double aspect)
+{
+    if (description->kind == CAMERA_ORTHOGRAPHIC)
+        return 0.5 * description->width;
+    if (description->vertical_angle > 0)
+        return half_tangent(description->vertical_angle) * aspect;
+    return half_tangent(description->angle);
+}
+
 struct camera camera_from_description(const struct camera_description *description, size_t width,
                                       size_t height)
 {
     double aspect = (double)width / (double)height;
-    double half_width = description->vertical_angle > 0
-                            ? half_tangent(description->vertical_angle) * aspect
-                            : half_tangent(description->angle);
+    double half_width = half_width_of(description, aspect);
     double half_height = half_width / aspect;
-    ps_vec3 forward = ps_normalize(ps_subtract(description->look_at, description->location));
+    ps_vec3 view = ps_subtract(description->look_at, description->location);
+    ps_vec3 forward = ps_normalize(view);
     ps_vec3 right = ps_normalize(ps_cross(forward, description->up));
     ps_vec3 up = ps_cross(right, forward);
     struct camera camera = {
+        .orthographic = description->kind == CAMERA_ORTHOGRAPHIC,
         .location = description->location,
+        .forward = forward,
         .across = ps_scale(right, (float)(2.0 * half_width / (double)width)),
         .down = ps_scale(up, (float)(-2.0 * half_height / (double)height)),
+        .lens_u = ps_scale(right, (float)description->aperture),
+        .lens_v = ps_scale(up, (float)description->aperture),
+        .aperture = (float)description->aperture,
+        .focus = description->focus > 0 ? (float)description->focus : ps_length(view),
     };
     camera.corner = ps_add_scaled(forward, (float)-half_width, right);
     camera.corner = ps_add_scaled(camera.corner, (float)half_height, up);
     return camera;
 }
 
-ps_ray camera_ray(const struct camera *camera, float x, float y)
+/* Moves the ray's start over the lens, and keeps where it is sharp. */
+static ps_ray bend(const struct camera *camera, ps_ray ray, const float lens[2])
 {
-    ps_vec3 direction = ps_add_scaled(camera->corner, x, camera->across);
-    direction = ps_add_scaled(direction, y, camera->down);
-    return (ps_ray){camera->location, 0.0f, ps_normalize(direction), INFINITY};
+    float distance = camera->focus / ps_dot(ray.direction, camera->forward);
+    ps_vec3 sharp = ps_add_scaled(ray.origin, distance, ray.direction);
+    float radius = sqrtf(lens[0]), phi = 2.0f * PS_PI * lens[1];
+    ray.origin = ps_add_scaled(ray.origin, radius * cosf(phi), camera->lens_u);
+    ray.origin = ps_add_scaled(ray.origin, radius * sinf(phi), camera->lens_v);
+    ray.direction = ps_normalize(ps_subtract(sharp, ray.origin));
+    return ray;
+}
+
+ps_ray camera_ray(const struct camera *camera, float x, float y, const float lens[2])
+{
+    ps_vec3 point = ps_add_scaled(camera->corner, x, camera->across);
+    point = ps_add_scaled(point, y, camera->down);
+    ps_ray ray = {camera->location, 0.0f, ps_normalize(point), INFINITY};
+    if (camera->orthographic) {
+        ray.origin = ps_add(camera->location, ps_subtract(point, camera->forward));
+        ray.direction = camera->forward;
+    }
+    return camera->aperture > 0.0f ? bend(camera, ray, lens) : ray;
 }

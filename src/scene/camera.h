@@ -1,19 +1,28 @@
-/* camera.h: a pinhole camera: rays through points of the picture. */
+/* camera.h: rays from the camera through points of the picture.
+ *
+ * Perspective through a pinhole or a thin lens (Cook et al. 1984), or orthographic.
+ */
 #ifndef SCENE_CAMERA_H
 #define SCENE_CAMERA_H
 
 #include "scene/description.h"
 
 struct camera {
+    bool orthographic;
     ps_vec3 location;
+    ps_vec3 forward;      /* unit */
     ps_vec3 corner;       /* from the location to the picture's upper left corner, at distance 1 */
     ps_vec3 across, down; /* the picture's width and height there, one pixel long */
+    ps_vec3 lens_u, lens_v; /* the lens's radius along the picture's sides */
+    float aperture;         /* the lens's radius; 0: none */
+    float focus;            /* distance along `forward` at which things are sharp */
 };
 
 struct camera camera_from_description(const struct camera_description *description, size_t width,
                                       size_t height);
 
-/* Ray through point (x, y) of the picture, in pixels from the upper left corner. */
-ps_ray camera_ray(const struct camera *camera, float x, float y);
+/* Ray through point (x, y) of the picture, in pixels from the upper left corner. `lens`: two numbers
+ * in [0,1) that choose a point of the lens; without a lens they are not used. */
+ps_ray camera_ray(const struct camera *camera, float x, float y, const float lens[2]);
 
 #endif

@@ -184,15 +184,9 @@ enum object_kind {
     OBJECT_INSTANCE      /* group */
 };
 
-/* Applied in this order: scale, rotate about x, then y, then z (right-handed), translate. */
-struct transform_description {
-    ps_vec3 scale, rotate, translate;
-};
-
 struct object_description {
     enum object_kind kind;
     size_t material; /* an instance's: instead of those of its objects, or NO_INDEX */
-    struct transform_description transform; /* as written; the parser makes placement of it */
     struct affine placement; /* from the object's space to that of the file, or group */
     ps_vec3 *vertices;       /* quad: 4 in order around; box: 2 opposite corners; triangles: any */
     size_t vertex_count;

@@ -1,59 +1,193 @@
+/* light.c: what every light can do, passed on to its kind. */
 #include "scene/light.h"
 
-#include <psplat/math.h>
+#include "scene/light_kinds.h"
 
-static float cosine_of_degrees(double degrees)
+static const ps_rgb black = {0, 0, 0};
+
+/* False for NaN too. */
+static bool is_light(ps_rgb value)
 {
-    return (float)cos(degrees * (3.14159265358979323846 / 180.0));
+    float sum = value.r + value.g + value.b;
+    return sum > 0.0f && isfinite(sum);
 }
 
-struct light light_from_description(const struct light_description *description)
+/* --- making them --- */
+
+/* Passes the result on, but for a light whose power single precision can't hold. */
+static ps_result check_power(ps_result result, struct light *light, struct error *error)
 {
-    struct light light = {
-        .location = description->location,
-        .axis = {0, 0, 1},
-        .intensity = description->amount,
-        .cos_radius = -1.0f,
-        .cos_falloff = -1.0f,
-    };
-    if (description->kind == LIGHT_SPOT) {
-        light.axis = ps_normalize(ps_subtract(description->point_at, description->location));
-        light.cos_radius = cosine_of_degrees(description->radius);
-        light.cos_falloff = cosine_of_degrees(description->falloff);
+    if (result == PS_OK) {
+        ps_rgb power = light_power(light);
+        if (isfinite(power.r + power.g + power.b))
+            return PS_OK;
+        result = error_set(error, PS_ERROR_INVALID, "the light's power is too large a number");
     }
-    return light;
+    light_release(light);
+    return result;
 }
 
-/* The fraction of full intensity at the cosine to the axis. */
-static float edge(const struct light *light, float cosine)
+static ps_result create_kind(const struct light_description *description,
+                             const struct light_bounds *bounds, const struct sky_picture *picture,
+                             struct light *light, struct error *error)
 {
-    if (cosine >= light->cos_radius)
-        return 1.0f;
-    if (cosine <= light->cos_falloff)
-        return 0.0f;
-    float t = (cosine - light->cos_falloff) / (light->cos_radius - light->cos_falloff);
-    return t * t * (3.0f - 2.0f * t);
+    *light = (struct light){.emitter = EMITTER_SPOT};
+    switch (description->kind) {
+    case LIGHT_POINT:
+    case LIGHT_SPOT:
+        return light_spot_create(description, &light->spot, error);
+    case LIGHT_SUN:
+        light->emitter = EMITTER_SUN;
+        return light_sun_create(description, bounds, &light->sun, error);
+    case LIGHT_SKY:
+        light->emitter = EMITTER_SKY;
+        return light_sky_create(description, bounds, picture, &light->sky, error);
+    case LIGHT_RECTANGLE:
+    case LIGHT_DISC:
+    case LIGHT_SPHERE:
+        break;
+    }
+    return error_set(error, PS_ERROR_INVALID, "a lamp with a surface is geometry that shines");
 }
+
+ps_result light_create(const struct light_description *description,
+                       const struct light_bounds *bounds, const struct sky_picture *picture,
+                       struct light *light, struct error *error)
+{
+    return check_power(create_kind(description, bounds, picture, light, error), light, error);
+}
+
+ps_result light_create_mesh(const struct light_mesh *mesh, ps_rgb radiance, bool both_sides,
+                            struct light *light, struct error *error)
+{
+    *light = (struct light){.emitter = EMITTER_MESH};
+    ps_result result = light_surface_create(mesh, radiance, both_sides, &light->surface, error);
+    return check_power(result, light, error);
+}
+
+struct light light_create_sphere(ps_vec3 center, float radius, ps_rgb radiance, bool both_sides)
+{
+    return (struct light){
+        .emitter = EMITTER_SPHERE,
+        .sphere = {center, radius, radiance, both_sides},
+    };
+}
+
+void light_release(struct light *light)
+{
+    if (light->emitter == EMITTER_MESH)
+        light_surface_release(&light->surface);
+    if (light->emitter == EMITTER_SKY)
+        light_sky_release(&light->sky);
+    *light = (struct light){.emitter = EMITTER_SPOT};
+}
+
+/* --- the whole light --- */
 
 ps_rgb light_power(const struct light *light)
 {
-    /* The cubic's mean over its range of cosines is 1/2. */
-    float inside = 1.0f - light->cos_radius;
-    float border = 0.5f * (light->cos_radius - light->cos_falloff);
-    return ps_rgb_scale(light->intensity, 2.0f * PS_PI * (inside + border));
+    switch (light->emitter) {
+    case EMITTER_SPOT:
+        return light_spot_power(&light->spot);
+    case EMITTER_SUN:
+        return light_sun_power(&light->sun);
+    case EMITTER_MESH:
+        return light_surface_power(&light->surface);
+    case EMITTER_SPHERE:
+        return light_sphere_power(&light->sphere);
+    case EMITTER_SKY:
+        return light_sky_power(&light->sky);
+    }
+    return black;
+}
+
+bool light_is_delta(const struct light *light)
+{
+    return light->emitter == EMITTER_SPOT ||
+           (light->emitter == EMITTER_SUN && !(light->sun.versine > 0.0f));
 }
 
 ps_rgb light_intensity(const struct light *light, ps_vec3 direction)
 {
-    /* Rounding may take a dot product past -1, where a light that shines all around would end. */
-    float cosine = fmaxf(ps_dot(direction, light->axis), -1.0f);
-    return ps_rgb_scale(light->intensity, edge(light, cosine));
+    return light->emitter == EMITTER_SPOT ? light_spot_intensity(&light->spot, direction) : black;
 }
 
-ps_rgb light_emit(const struct light *light, float u1, float u2, ps_ray *ray)
+ps_rgb light_radiance_from(const struct light *light, ps_vec3 direction)
 {
-    ps_vec3 direction = ps_cone_direction(light->axis, light->cos_falloff, u1, u2);
-    *ray = (ps_ray){light->location, 0.0f, direction, INFINITY};
-    float solid_angle = 2.0f * PS_PI * (1.0f - light->cos_falloff);
-    return ps_rgb_scale(light_intensity(light, direction), solid_angle);
+    if (light->emitter == EMITTER_SUN)
+        return light_sun_radiance(&light->sun, direction);
+    if (light->emitter == EMITTER_SKY)
+        return light_sky_radiance(&light->sky, direction);
+    return black;
+}
+
+/* --- sampling --- */
+
+static ps_rgb emit(const struct light *light, const float u[4], ps_ray *ray, ps_vec3 *normal)
+{
+    switch (light->emitter) {
+    case EMITTER_SPOT:
+        return light_spot_emit(&light->spot, u, ray);
+    case EMITTER_SUN:
+        return light_sun_emit(&light->sun, u, ray);
+    case EMITTER_MESH:
+        return light_surface_emit(&light->surface, u, ray, normal);
+    case EMITTER_SPHERE:
+        return light_sphere_emit(&light->sphere, u, ray, normal);
+    case EMITTER_SKY:
+        return light_sky_emit(&light->sky, u, ray);
+    }
+    return black;
+}
+
+ps_rgb light_emit(const struct light *light, const float u[4], ps_ray *ray, ps_vec3 *normal)
+{
+    *ray = (ps_ray){{0, 0, 0}, 0.0f, {0, 0, 1}, INFINITY};
+    *normal = (ps_vec3){0, 0, 0};
+    ps_rgb flux = emit(light, u, ray, normal);
+    return is_light(flux) ? flux : black;
+}
+
+static bool sample_kind(const struct light *light, ps_vec3 position, float u1, float u2,
+                        struct light_sample *sample)
+{
+    switch (light->emitter) {
+    case EMITTER_SPOT:
+        return light_spot_sample(&light->spot, position, sample);
+    case EMITTER_SUN:
+        light_sun_sample(&light->sun, u1, u2, sample);
+        return true;
+    case EMITTER_MESH:
+        return light_surface_sample(&light->surface, position, u1, u2, sample);
+    case EMITTER_SPHERE:
+        return light_sphere_sample(&light->sphere, position, u1, u2, sample);
+    case EMITTER_SKY:
+        light_sky_sample(&light->sky, u1, u2, sample);
+        return true;
+    }
+    return false;
+}
+
+bool light_sample(const struct light *light, ps_vec3 position, float u1, float u2,
+                  struct light_sample *sample)
+{
+    return sample_kind(light, position, u1, u2, sample) && is_light(sample->weight);
+}
+
+float light_pdf(const struct light *light, ps_vec3 position, ps_vec3 direction, float distance,
+                ps_vec3 normal)
+{
+    switch (light->emitter) {
+    case EMITTER_SPOT:
+        return 0.0f;
+    case EMITTER_SUN:
+        return light_sun_pdf(&light->sun, direction);
+    case EMITTER_MESH:
+        return light_surface_pdf(&light->surface, direction, distance, normal);
+    case EMITTER_SPHERE:
+        return light_sphere_pdf(&light->sphere, position, direction, distance, normal);
+    case EMITTER_SKY:
+        return light_sky_pdf(&light->sky, direction);
+    }
+    return 0.0f;
 }

@@ -1,6 +1,9 @@
-/* scene.h: a scene ready to be traced: shapes in world space, materials, lights, camera.
+/* scene.h: a scene ready to be traced: shapes, groups and their instances, materials, lights, cameras.
  *
- * Made once from a description and constant afterwards, so every thread may read it.
+ * Made once from a description and constant afterwards, so every thread may read it. Shapes come in
+ * this order: those of the world, in world space, then those of each group, in the group's space.
+ * Everything that a ray can meet has a number, its object: first the world's shapes, then for each
+ * instance the shapes of its group.
  */
 #ifndef SCENE_SCENE_H
 #define SCENE_SCENE_H
@@ -8,34 +11,70 @@
 #include "base/error.h"
 #include "scene/camera.h"
 #include "scene/light.h"
+#include "scene/material.h"
 #include "scene/shape.h"
+#include "scene/texture.h"
 
-struct material {
-    ps_rgb diffuse; /* two-sided Lambertian reflectance */
+#define NO_LIGHT UINT32_MAX
+#define NO_MATERIAL UINT32_MAX
+
+/* A run of shapes that are placed together. */
+struct group {
+    size_t first_shape, shape_count;
+};
+
+struct instance {
+    const struct group *group;
+    struct affine placement;
+    float front;       /* -1 where the placement mirrors, which turns windings, else 1 */
+    uint32_t material; /* instead of its shapes', or NO_MATERIAL */
+    bool hidden;       /* from the camera */
+    uint32_t first_object;
 };
 
 struct scene {
     struct shape *shapes;
-    size_t shape_count;
+    size_t shape_count, world_shape_count;
+    struct group *groups;
+    size_t group_count;
+    struct instance *instances;
+    size_t instance_count;
+    uint32_t object_count;
+    struct texture *textures;
+    size_t texture_count;
     struct material *materials;
     size_t material_count;
+    struct microfacet_table *microfacets; /* NULL where no material mirrors */
     struct light *lights;
     float *light_cdf; /* cumulative share of power, light_count entries, last 1 */
     size_t light_count;
+    void **owned; /* arrays that lights borrow: owned_count entries */
+    size_t owned_count;
+    uint32_t *object_lights; /* the light that an object is, or NO_LIGHT */
+    bool has_sized_lights;   /* some light's sampling needs random numbers */
+    bool has_sky;            /* something shines from infinity */
+    bool sky_is_hidden;      /* from the camera itself */
     struct camera camera;
+    enum pixel_filter pixel_filter;
+    uint32_t light_samples;
     size_t width, height;
-    ps_vec3 center; /* of the bounding sphere of shapes */
+    size_t dropped_triangles; /* without area */
+    ps_vec3 center;           /* of the bounding sphere of shapes */
     float radius;
     float surface_offset; /* see ps_pass */
 };
 
-/* PS_ERROR_MEMORY, or PS_OK; release it with scene_release. */
+/* PS_OK, or a message, and in `where` (may be NULL) what it is about; release it with scene_release.
+ * Reads texture files. */
 ps_result scene_create(const struct scene_description *description, struct scene *scene,
-                       struct error *error);
+                       struct origin *where, struct error *error);
 void scene_release(struct scene *scene);
 
-/* Chooses a light by power with u in [0,1); returns its index and probability. Needs light_count >
- * 0. */
-size_t scene_choose_light(const struct scene *scene, float u, float *probability);
+/* Bytes that shapes and textures take. */
+size_t scene_bytes(const struct scene *scene);
+
+/* Chooses a light by power with *u in [0,1), which is rescaled so that it can be used again; returns
+ * its index and probability. Needs light_count > 0. */
+size_t scene_choose_light(const struct scene *scene, float *u, float *probability);
 
 #endif

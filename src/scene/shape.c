@@ -1,87 +1,78 @@
 #include "scene/shape.h"
 
-#include <psplat/math.h>
+#include "scene/shape_build.h"
 #include <stdlib.h>
 
-static const uint32_t quad_triangles[2][3] = {{0, 1, 2}, {0, 2, 3}};
-
-/* Corner i of a box has x, y, z of the high corner where bits 0, 1, 2 of i are set. */
-static const uint32_t box_triangles[12][3] = {
-    {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5},
+static shape_builder *const builders[] = {
+    [OBJECT_QUAD] = shape_quad,           [OBJECT_BOX] = shape_box,
+    [OBJECT_TRIANGLES] = shape_triangles, [OBJECT_SPHERE] = shape_ellipsoid,
+    [OBJECT_CYLINDER] = shape_cylinder,   [OBJECT_CONE] = shape_cone,
+    [OBJECT_DISC] = shape_disc,           [OBJECT_PLANE] = shape_plane,
+    [OBJECT_TORUS] = shape_torus,         [OBJECT_HEIGHT_FIELD] = shape_height_field,
+    [OBJECT_MESH] = shape_mesh,
 };
 
-static ps_result allocate_mesh(struct shape *shape, size_t vertices, size_t triangles,
-                               struct error *error)
+/* Lists of triangles may come empty, or be of nothing but slivers; a shape with a name may not. */
+static bool may_be_empty(const struct object_description *object)
 {
-    size_t vertex_bytes = vertices * sizeof *shape->vertices;
-    size_t triangle_bytes = triangles * sizeof *shape->triangles;
-    shape->kind = SHAPE_MESH;
-    shape->vertices = malloc(vertex_bytes ? vertex_bytes : 1);
-    shape->triangles = malloc(triangle_bytes ? triangle_bytes : 1);
-    shape->vertex_count = vertices;
-    shape->triangle_count = triangles;
-    if (shape->vertices && shape->triangles)
-        return PS_OK;
-    shape_release(shape);
-    return error_memory(error, vertex_bytes + triangle_bytes, "a mesh");
+    return object->kind == OBJECT_TRIANGLES || object->kind == OBJECT_MESH;
 }
 
-static void copy_triangles(struct shape *shape, const uint32_t (*triangles)[3])
+static ps_result create(const struct object_description *object,
+                        const struct shape_surroundings *surroundings, struct shape *shape,
+                        struct error *error)
 {
-    for (size_t i = 0; i < shape->triangle_count; i++)
-        for (int k = 0; k < 3; k++)
-            shape->triangles[i][k] = triangles[i][k];
-}
-
-static ps_result create_box(const struct object_description *object, struct shape *shape,
-                            struct error *error)
-{
-    ps_result result = allocate_mesh(shape, 8, 12, error);
+    ps_result result = shape_check(object, surroundings, error);
     if (result != PS_OK)
         return result;
-    for (unsigned i = 0; i < 8; i++) {
-        const ps_vec3 *corner = object->vertices;
-        ps_vec3 p = {corner[i & 1].x, corner[i >> 1 & 1].y, corner[i >> 2].z};
-        shape->vertices[i] = affine_point(&object->placement, p);
-    }
-    copy_triangles(shape, box_triangles);
-    return PS_OK;
+    if (object->kind == OBJECT_SPHERE && affine_is_similarity(&object->placement))
+        return shape_exact_sphere(object, shape, error);
+    result = builders[object->kind](object, surroundings, shape, error);
+    if (result == PS_OK)
+        result = shape_place(object, shape, error);
+    if (result == PS_OK && shape->triangle_count == 0 && !may_be_empty(object))
+        return shape_invalid(object, error, "it has no area");
+    return result;
 }
 
-static ps_result create_mesh(const struct object_description *object,
-                             const uint32_t (*triangles)[3], size_t triangle_count,
-                             struct shape *shape, struct error *error)
-{
-    ps_result result = allocate_mesh(shape, object->vertex_count, triangle_count, error);
-    if (result != PS_OK)
-        return result;
-    for (size_t i = 0; i < object->vertex_count; i++)
-        shape->vertices[i] = affine_point(&object->placement, object->vertices[i]);
-    copy_triangles(shape, triangles);
-    return PS_OK;
-}
-
-ps_result shape_create(const struct object_description *object, struct shape *shape,
+ps_result shape_create(const struct object_description *object,
+                       const struct shape_surroundings *surroundings, struct shape *shape,
                        struct error *error)
 {
-    *shape = (struct shape){.material = (uint32_t)object->material};
-    switch (object->kind) {
-    case OBJECT_QUAD:
-        return create_mesh(object, quad_triangles, 2, shape, error);
-    case OBJECT_BOX:
-        return create_box(object, shape, error);
-    case OBJECT_TRIANGLES:
-        return create_mesh(object, (const uint32_t(*)[3])object->triangles, object->triangle_count,
-                           shape, error);
-    case OBJECT_SPHERE:
-        shape->kind = SHAPE_SPHERE;
-        shape->center = affine_point(&object->placement, object->center);
-        shape->radius = (float)object->radius * ps_length(object->placement.x);
+    *shape = (struct shape){.material = (uint32_t)object->material, .hidden = object->hidden};
+    ps_result result = create(object, surroundings, shape, error);
+    if (result != PS_OK)
+        shape_release(shape);
+    return result;
+}
+
+/* Never NULL for want of a size. */
+static void *allocate_array(size_t count, size_t size)
+{
+    return calloc(count ? count : 1, size);
+}
+
+ps_result shape_allocate(struct shape *shape, size_t vertices, size_t triangles, unsigned parts,
+                         struct error *error)
+{
+    shape->kind = SHAPE_MESH;
+    if (vertices > UINT32_MAX || triangles > UINT32_MAX)
+        return error_set(error, PS_ERROR_INVALID,
+                         "a mesh of %zu vertices and %zu triangles is more than can be traced",
+                         vertices, triangles);
+    shape->vertices = allocate_array(vertices, sizeof *shape->vertices);
+    shape->triangles = allocate_array(triangles, sizeof *shape->triangles);
+    if (parts & MESH_NORMALS)
+        shape->normals = allocate_array(vertices, sizeof *shape->normals);
+    if (parts & MESH_UV)
+        shape->uv = allocate_array(vertices, sizeof *shape->uv);
+    shape->vertex_count = vertices;
+    shape->triangle_count = triangles;
+    if (shape->vertices && shape->triangles && (shape->normals || !(parts & MESH_NORMALS)) &&
+        (shape->uv || !(parts & MESH_UV)))
         return PS_OK;
-    default:
-        return error_set(error, PS_ERROR_INVALID, "object of unknown kind %d", (int)object->kind);
-    }
+    return error_memory(
+        error, vertices * sizeof *shape->vertices + triangles * sizeof *shape->triangles, "a mesh");
 }
 
 void shape_release(struct shape *shape)
@@ -99,6 +90,7 @@ static void extend(ps_vec3 p, ps_vec3 *low, ps_vec3 *high)
     *high = (ps_vec3){fmaxf(high->x, p.x), fmaxf(high->y, p.y), fmaxf(high->z, p.z)};
 }
 
+/* By triangles: a list may hold vertices that none of them uses. */
 void shape_extend_bounds(const struct shape *shape, ps_vec3 *low, ps_vec3 *high)
 {
     if (shape->kind == SHAPE_SPHERE) {
@@ -106,6 +98,7 @@ void shape_extend_bounds(const struct shape *shape, ps_vec3 *low, ps_vec3 *high)
         extend(ps_subtract(shape->center, extent), low, high);
         extend(ps_add(shape->center, extent), low, high);
     }
-    for (size_t i = 0; i < shape->vertex_count; i++)
-        extend(shape->vertices[i], low, high);
+    for (size_t i = 0; i < shape->triangle_count; i++)
+        for (int k = 0; k < 3; k++)
+            extend(shape->vertices[shape->triangles[i][k]], low, high);
 }

@@ -67,11 +67,22 @@ static float bounded(const struct box_scene *scene, double length)
     return (float)fmin(length, 4.0 * (double)scene->radius);
 }
 
+/* A merged source has the light of many: over as many times the area, a splat is no brighter than
+ * theirs, and as many splats overlap as without merging. But larger splats lose light at edges and
+ * creases, so there is a limit. */
+static float growth(const ps_box_settings *settings, const ps_source *source)
+{
+    if (!(settings->grow > 1.0 && source->merged > 1.0f))
+        return 1.0f;
+    return fminf(sqrtf(source->merged), (float)fmin(settings->grow, 1e9));
+}
+
 static float half_width(const struct box_scene *scene, const ps_box_settings *settings,
-                        float distance)
+                        const ps_source *source, float distance)
 {
     float size =
         settings->size > 0 ? bounded(scene, settings->size) : (float)AUTOMATIC_SIZE * scene->radius;
+    size = bounded(scene, (double)size * (double)growth(settings, source));
     if (!(settings->follow > 0))
         return size;
     return fmaxf(fminf(size, (float)fmin(settings->follow, 1e9) * distance), SMALLEST_SIZE * size);
@@ -83,7 +94,7 @@ static ps_splat place_one(const struct box_scene *scene, const ps_box_settings *
     ps_splat splat = {.power = source->power, .path = source->path};
     if (!(hit->distance < INFINITY))
         return splat;
-    float size = half_width(scene, settings, hit->distance);
+    float size = half_width(scene, settings, source, hit->distance);
     float slope = slope_of(-ps_dot(source->direction, hit->normal));
     set_frame(scene, source, &splat);
     splat.centre = hit->position;

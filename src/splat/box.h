@@ -13,7 +13,8 @@
  *             splatting").
  *
  * The size follows the distance d travelled, R = min(size, follow * d) but no less than size / 5,
- * as a photon differential would: light from close by, in a corner, makes small splats.
+ * as a photon differential would: light from close by, in a corner, makes small splats. Where
+ * sources were merged, `size` grows with the square root of their number (see grow).
  */
 #ifndef SPLAT_BOX_H
 #define SPLAT_BOX_H

@@ -51,4 +51,21 @@ static inline void shim_occluded16(const int *valid, RTCScene scene, struct RTCR
 }
 #endif
 
+/* Members of lane `lane` of a filter's N hits, for which Embree has accessors in C++ alone: arrays of N
+ * in the order of struct RTCHit16. */
+static inline unsigned shim_hit_triangle(const struct RTCHitN *hits, unsigned n, unsigned lane)
+{
+    return ((const unsigned *)(const void *)hits)[5 * n + lane];
+}
+
+static inline float shim_hit_u(const struct RTCHitN *hits, unsigned n, unsigned lane)
+{
+    return ((const float *)(const void *)hits)[3 * n + lane];
+}
+
+static inline float shim_hit_v(const struct RTCHitN *hits, unsigned n, unsigned lane)
+{
+    return ((const float *)(const void *)hits)[4 * n + lane];
+}
+
 #endif

@@ -9,7 +9,7 @@
 #include "trace/trace.h"
 
 #include "trace/embree_shim.h"
-#include <psplat/math.h>
+#include "trace/surface.h"
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,10 +21,22 @@ _Static_assert(sizeof(struct RTCRayHit16) <= sizeof(ps_packet), "ps_packet must 
 _Static_assert(offsetof(struct RTCRay16, tfar) == offsetof(ps_packet, tfar), "ps_packet order");
 _Static_assert(offsetof(struct RTCRayHit16, hit) == offsetof(ps_packet, tail), "ps_packet order");
 
+/* Rays of the camera see geometry with the first bit, all others geometry with the second. */
+#define MASK_CAMERA 1u
+#define MASK_LIGHT 2u
+
+/* What a filter for cut-outs needs to know of its geometry. */
+struct cutout {
+    const struct shape *shape;
+    const struct material *material;
+};
+
 struct trace {
     const struct scene *scene;
     RTCDevice device;
     RTCScene embree;
+    RTCScene *groups;       /* group_count entries */
+    struct cutout *cutouts; /* shape_count entries */
     atomic_llong bytes;
 };
 
@@ -68,15 +80,96 @@ static RTCGeometry create_geometry(struct trace *trace, const struct shape *shap
     return mesh;
 }
 
-static ps_result add_shapes(struct trace *trace, struct error *error)
+/* Lets rays through where there is no surface. */
+static void filter_cutouts(const struct RTCFilterFunctionNArguments *arguments)
 {
-    for (size_t i = 0; i < trace->scene->shape_count; i++) {
-        RTCGeometry geometry = create_geometry(trace, &trace->scene->shapes[i]);
-        rtcSetGeometryMask(geometry, 0xffffffffu);
+    const struct cutout *cutout = arguments->geometryUserPtr;
+    for (unsigned i = 0; i < arguments->N; i++)
+        if (arguments->valid[i] == -1 &&
+            !surface_is_opaque(cutout->shape, cutout->material,
+                               shim_hit_triangle(arguments->hit, arguments->N, i),
+                               shim_hit_u(arguments->hit, arguments->N, i),
+                               shim_hit_v(arguments->hit, arguments->N, i)))
+            arguments->valid[i] = 0;
+}
+
+/* An instance's material may have cut-outs where its group's has none: they are the group's. */
+static void set_cutouts(struct trace *trace, size_t index, RTCGeometry geometry)
+{
+    const struct shape *shape = &trace->scene->shapes[index];
+    const struct material *material = &trace->scene->materials[shape->material];
+    if (!material->has_opacity || shape->kind != SHAPE_MESH)
+        return;
+    trace->cutouts[index] = (struct cutout){shape, material};
+    rtcSetGeometryUserData(geometry, &trace->cutouts[index]);
+    rtcSetGeometryIntersectFilterFunction(geometry, filter_cutouts);
+    rtcSetGeometryOccludedFilterFunction(geometry, filter_cutouts);
+}
+
+static unsigned mask_of(bool hidden)
+{
+    return hidden ? MASK_LIGHT : MASK_CAMERA | MASK_LIGHT;
+}
+
+/* Attaches a run of shapes to a scene, numbered from 0. */
+static void attach_shapes(struct trace *trace, RTCScene embree, size_t first, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct shape *shape = &trace->scene->shapes[first + i];
+        RTCGeometry geometry = create_geometry(trace, shape);
+        set_cutouts(trace, first + i, geometry);
+        rtcSetGeometryMask(geometry, mask_of(shape->hidden));
         rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(trace->embree, geometry, (unsigned)i);
+        rtcAttachGeometryByID(embree, geometry, (unsigned)i);
         rtcReleaseGeometry(geometry);
     }
+}
+
+static RTCScene new_scene(struct trace *trace)
+{
+    RTCScene embree = rtcNewScene(trace->device);
+    rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);
+    return embree;
+}
+
+static void build_groups(struct trace *trace)
+{
+    for (size_t i = 0; i < trace->scene->group_count; i++) {
+        const struct group *group = &trace->scene->groups[i];
+        trace->groups[i] = new_scene(trace);
+        attach_shapes(trace, trace->groups[i], group->first_shape, group->shape_count);
+        rtcCommitScene(trace->groups[i]);
+    }
+}
+
+/* Instances are numbered after the world's shapes. */
+static void attach_instances(struct trace *trace)
+{
+    const struct scene *scene = trace->scene;
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        const struct instance *instance = &scene->instances[i];
+        RTCGeometry geometry = rtcNewGeometry(trace->device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, trace->groups[instance->group - scene->groups]);
+        _Static_assert(sizeof(struct affine) == 12 * sizeof(float), "columns without gaps");
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
+                                &instance->placement);
+        rtcSetGeometryMask(geometry, mask_of(instance->hidden));
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(trace->embree, geometry, (unsigned)(scene->world_shape_count + i));
+        rtcReleaseGeometry(geometry);
+    }
+}
+
+static ps_result build(struct trace *trace, struct error *error)
+{
+    const struct scene *scene = trace->scene;
+    trace->groups = calloc(scene->group_count + 1, sizeof *trace->groups);
+    trace->cutouts = calloc(scene->shape_count + 1, sizeof *trace->cutouts);
+    if (!trace->groups || !trace->cutouts)
+        return error_memory(error, scene->shape_count * sizeof *trace->cutouts, "the ray tracer");
+    build_groups(trace);
+    attach_shapes(trace, trace->embree, 0, scene->world_shape_count);
+    attach_instances(trace);
     rtcCommitScene(trace->embree);
     if (rtcGetDeviceError(trace->device) != RTC_ERROR_NONE)
         return embree_error(trace, "build the scene", error);
@@ -102,9 +195,8 @@ ps_result trace_create(const struct scene *scene, const char *isa, struct trace 
                          (int)rtcGetDeviceError(NULL));
     }
     rtcSetDeviceMemoryMonitorFunction(trace->device, count_bytes, trace);
-    trace->embree = rtcNewScene(trace->device);
-    rtcSetSceneFlags(trace->embree, RTC_SCENE_FLAG_ROBUST);
-    ps_result result = add_shapes(trace, error);
+    trace->embree = new_scene(trace);
+    ps_result result = build(trace, error);
     if (result != PS_OK) {
         trace_destroy(trace);
         return result;
@@ -118,7 +210,12 @@ void trace_destroy(struct trace *trace)
     if (!trace)
         return;
     rtcReleaseScene(trace->embree);
+    for (size_t i = 0; trace->groups && i < trace->scene->group_count; i++)
+        if (trace->groups[i])
+            rtcReleaseScene(trace->groups[i]);
     rtcReleaseDevice(trace->device);
+    free(trace->groups);
+    free(trace->cutouts);
     free(trace);
 }
 
@@ -141,86 +238,65 @@ static void load_ray(ps_packet *packet, size_t lane, const ps_ray *ray)
 }
 
 /* Fills up to 16 lanes; the rest are marked invalid. */
-static void load_rays(ps_packet *packet, int valid[PACKET], const ps_ray *rays, size_t n)
+static void load_rays(ps_packet *packet, int valid[PACKET], const ps_ray *rays, size_t n,
+                      uint32_t mask)
 {
     memset(packet, 0, sizeof *packet);
-    memset(packet->mask, 0xff, sizeof packet->mask);
     struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)packet;
     memset(embree->hit.geomID, 0xff, sizeof embree->hit.geomID);
     memset(embree->hit.instID, 0xff, sizeof embree->hit.instID);
     for (size_t lane = 0; lane < PACKET; lane++) {
         valid[lane] = lane < n ? -1 : 0;
+        packet->mask[lane] = mask;
         load_ray(packet, lane, &rays[lane < n ? lane : 0]);
     }
-}
-
-/* Barycentric interpolation of the vertices: more exact than origin + distance * direction. */
-static ps_vec3 mesh_position(const struct shape *shape, uint32_t triangle, float u, float v)
-{
-    const uint32_t *corner = shape->triangles[triangle];
-    ps_vec3 p = ps_scale(shape->vertices[corner[0]], 1.0f - u - v);
-    p = ps_add_scaled(p, u, shape->vertices[corner[1]]);
-    return ps_add_scaled(p, v, shape->vertices[corner[2]]);
-}
-
-static ps_vec3 sphere_position(const struct shape *shape, const ps_ray *ray, float distance)
-{
-    ps_vec3 p = ps_add_scaled(ray->origin, distance, ray->direction);
-    ps_vec3 outward = ps_normalize(ps_subtract(p, shape->center));
-    return ps_add_scaled(shape->center, shape->radius, outward);
 }
 
 static ps_hit resolve(const struct trace *trace, const ps_ray *ray, const struct RTCRayHit16 *hits,
                       size_t lane)
 {
-    uint32_t geometry = hits->hit.geomID[lane];
+    uint32_t geometry = hits->hit.geomID[lane], instance = hits->hit.instID[0][lane];
     if (geometry == RTC_INVALID_GEOMETRY_ID)
         return (ps_hit){.distance = INFINITY, .object = PS_NO_OBJECT};
-    const struct shape *shape = &trace->scene->shapes[geometry];
-    ps_vec3 normal = {hits->hit.Ng_x[lane], hits->hit.Ng_y[lane], hits->hit.Ng_z[lane]};
-    /* By the largest component first: the square of a very small or large one is no float. */
-    float largest = fmaxf(fabsf(normal.x), fmaxf(fabsf(normal.y), fabsf(normal.z)));
-    normal = ps_normalize(ps_scale(normal, 1.0f / largest));
-    if (ps_dot(normal, ray->direction) > 0.0f)
-        normal = ps_scale(normal, -1.0f);
-    float distance = hits->ray.tfar[lane];
-    return (ps_hit){
-        .position = shape->kind == SHAPE_MESH ? mesh_position(shape, hits->hit.primID[lane],
-                                                              hits->hit.u[lane], hits->hit.v[lane])
-                                              : sphere_position(shape, ray, distance),
-        .distance = distance,
-        .normal = normal,
-        .object = geometry,
-        .albedo = trace->scene->materials[shape->material].diffuse,
-        .material = shape->material,
+    bool in_world = instance == RTC_INVALID_GEOMETRY_ID;
+    struct intersection at = {
+        .instance = in_world ? NO_INSTANCE : instance - (uint32_t)trace->scene->world_shape_count,
+        .shape = geometry,
+        .triangle = hits->hit.primID[lane],
+        .u = hits->hit.u[lane],
+        .v = hits->hit.v[lane],
+        .normal = {hits->hit.Ng_x[lane], hits->hit.Ng_y[lane], hits->hit.Ng_z[lane]},
+        .distance = hits->ray.tfar[lane],
     };
+    return surface_resolve(trace->scene, ray, &at);
 }
 
-void trace_intersect(const struct trace *trace, enum coherence coherence, const ps_ray *rays,
-                     size_t n, ps_hit *hits)
+void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray *rays, size_t n,
+                     ps_hit *hits)
 {
     _Alignas(64) ps_packet packet;
     _Alignas(64) int valid[PACKET];
     for (size_t first = 0; first < n; first += PACKET) {
         size_t lanes = n - first < PACKET ? n - first : PACKET;
-        load_rays(&packet, valid, rays + first, lanes);
+        load_rays(&packet, valid, rays + first, lanes,
+                  kind == RAYS_CAMERA ? MASK_CAMERA : MASK_LIGHT);
         struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)&packet;
-        shim_intersect16(valid, trace->embree, embree, coherence == RAYS_COHERENT);
+        shim_intersect16(valid, trace->embree, embree, kind != RAYS_INCOHERENT);
         for (size_t lane = 0; lane < lanes; lane++)
             hits[first + lane] = resolve(trace, &rays[first + lane], embree, lane);
     }
 }
 
-void trace_occluded(const struct trace *trace, enum coherence coherence, const ps_ray *rays,
-                    size_t n, uint8_t *blocked)
+void trace_occluded(const struct trace *trace, enum ray_kind kind, const ps_ray *rays, size_t n,
+                    uint8_t *blocked)
 {
     _Alignas(64) ps_packet packet;
     _Alignas(64) int valid[PACKET];
     for (size_t first = 0; first < n; first += PACKET) {
         size_t lanes = n - first < PACKET ? n - first : PACKET;
-        load_rays(&packet, valid, rays + first, lanes);
+        load_rays(&packet, valid, rays + first, lanes, MASK_LIGHT);
         struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)&packet;
-        shim_occluded16(valid, trace->embree, &embree->ray, coherence == RAYS_COHERENT);
+        shim_occluded16(valid, trace->embree, &embree->ray, kind != RAYS_INCOHERENT);
         for (size_t lane = 0; lane < lanes; lane++)
             blocked[first + lane] = packet.tfar[lane] < 0.0f; /* -inf: something was met */
     }
@@ -233,7 +309,8 @@ void trace_packets(const struct trace *trace, ps_packet *packets, size_t n)
     for (size_t i = 0; i < n; i++) {
         struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)&packets[i];
         memset(packets[i].time, 0, sizeof packets[i].time);
-        memset(packets[i].mask, 0xff, sizeof packets[i].mask);
+        for (size_t lane = 0; lane < PACKET; lane++)
+            packets[i].mask[lane] = MASK_LIGHT;
         memset(packets[i].flags, 0, sizeof packets[i].flags);
         memset(embree->hit.geomID, 0xff, sizeof embree->hit.geomID);
         memset(embree->hit.instID, 0xff, sizeof embree->hit.instID);

@@ -11,7 +11,8 @@
 
 struct trace;
 
-enum coherence { RAYS_INCOHERENT, RAYS_COHERENT };
+/* Coherent rays run close together; those of the camera do, and do not see hidden objects. */
+enum ray_kind { RAYS_INCOHERENT, RAYS_COHERENT, RAYS_CAMERA };
 
 /* Builds the acceleration structure over the scene, which must outlive it. `isa`: "baseline",
  * "avx2" or "avx512" limits the instructions used, NULL does not. */
@@ -22,13 +23,13 @@ void trace_destroy(struct trace *trace);
 /* Bytes that the acceleration structure takes now. */
 size_t trace_bytes(const struct trace *trace);
 
-/* First hits of n rays, resolved to position, normal and albedo. */
-void trace_intersect(const struct trace *trace, enum coherence coherence, const ps_ray *rays,
-                     size_t n, ps_hit *hits);
+/* First hits of n rays. */
+void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray *rays, size_t n,
+                     ps_hit *hits);
 
 /* 1 where something lies between tnear and tfar. */
-void trace_occluded(const struct trace *trace, enum coherence coherence, const ps_ray *rays,
-                    size_t n, uint8_t *blocked);
+void trace_occluded(const struct trace *trace, enum ray_kind kind, const ps_ray *rays, size_t n,
+                    uint8_t *blocked);
 
 /* Shortens tfar of each ray of n coherent packets to its first hit. */
 void trace_packets(const struct trace *trace, ps_packet *packets, size_t n);

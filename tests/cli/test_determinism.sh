@@ -56,7 +56,18 @@ run 0 $other --threads 1 -o other1.exr
 run 0 $other --threads 3 --batch 100 -o other3.exr
 expect_same other1.exr other3.exr
 expect_different other1.exr one.exr
-for estimator in pathtrace:samples=4,bounces=0 photonmap photonmap:gather=2 vpl:lights=50 ambient; do
+other="$other --plugin denoiser=bilateral:size=9 --plugin normalization=intensity:exposure=2"
+run 0 $other --threads 1 -o smooth1.exr
+run 0 $other --threads 3 --batch 100 -o smooth3.exr
+expect_same smooth1.exr smooth3.exr
+expect_different smooth1.exr other1.exr
+for stratification in grid:centre=camera,threshold=3,levels=4 cascade octree; do
+    few="--size 80x45 --passes 2 -p injection=photon:count=3000,bounces=3 -p stratification=$stratification $cornell"
+    run 0 $few --threads 1 -o merged1.exr
+    run 0 $few --threads 3 --batch 100 -o merged3.exr
+    expect_same merged1.exr merged3.exr
+done
+for estimator in pathtrace:samples=4,bounces=0 photonmap photonmap:gather=2 vpl:lights=50 ambient ssao; do
     few="--size 80x45 --passes 2 -p injection=photon:count=1000 -p estimator=$estimator $cornell"
     run 0 $few --threads 1 -o estimator1.exr
     run 0 $few --threads 3 --batch 100 -o estimator3.exr

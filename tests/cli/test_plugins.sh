@@ -129,7 +129,7 @@ render:
   filter: {gaussian: {sigma: 0.7}}
   normalization: weight
 END
-shadowmap="follow=0.25,depth=auto,step_back=full"
+shadowmap="follow=0.25,depth=auto,step_back=full,grow=1.5"
 # What the scene says.
 chosen visibility "shadowmap:size=30,$shadowmap,resolution=4,bias=slope" $scene
 chosen filter "gaussian:sigma=0.7" $scene
@@ -140,7 +140,7 @@ chosen visibility "shadowmap:size=30,$shadowmap,resolution=4,bias=2" -p visibili
 chosen visibility "shadowmap:size=30,$shadowmap,resolution=4,bias=slope" -p visibility=shadowmap $scene
 chosen normalization "weight:exposure=2" -p normalization=weight:exposure=2 $scene
 # Another strategy: nothing of the scene's choice stays.
-chosen visibility "none:size=auto,follow=0.25,depth=auto,step_back=auto" -p visibility=none $scene
+chosen visibility "none:size=auto,follow=0.25,depth=auto,step_back=auto,grow=1.5" -p visibility=none $scene
 chosen filter "box" -p filter=box $scene
 # There and back again: the scene's parameters are gone.
 chosen filter "gaussian:sigma=0.5" -p filter=box -p filter=gaussian $scene
@@ -155,13 +155,17 @@ chosen injection "photon:count=50,bounces=2,roulette=2" -p injection=photon:boun
 # --- each strategy makes another picture than the default ---
 
 run 0 -q $small -o default.exr "$cornell"
-for choice in filter=box filter=tent filter=gaussian:sigma=0.2 visibility=none \
+for choice in filter=box filter=tent filter=gaussian:sigma=0.2 filter=cone filter=cone:k=9 \
+    filter=epanechnikov visibility=none \
     visibility=shadowmap:resolution=8 visibility=shadowmap:size=60 visibility=shadowmap:step_back=auto \
     visibility=shadowmap:step_back=15,bias=5 visibility=shadowmap:follow=0 visibility=shadowmap:depth=1 \
-    estimator=pathtrace estimator=photonmap estimator=vpl estimator=ambient estimator=vpl:visibility=no \
-    normalization=weight denoiser=gaussian injection=photon:bounces=0 injection=photon:bounces=3; do
+    estimator=pathtrace estimator=photonmap estimator=vpl estimator=ambient estimator=ssao estimator=vpl:visibility=no \
+    normalization=weight normalization=intensity:exposure=9 denoiser=gaussian \
+    denoiser=bilateral denoiser=bilateral:normal=1,sigma=9 injection=photon:bounces=0 injection=photon:bounces=3; do
     run 0 -q $small -p $choice -o other.exr "$cornell"
     expect_different other.exr default.exr
 done
+run 2 -q $small -p denoiser=bilateral:size=8 -o no.exr "$cornell"
+expect_text err "denoiser bilateral: size must be odd, got 8"
 
 finish

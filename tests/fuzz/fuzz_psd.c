@@ -1,6 +1,6 @@
 /* fuzz_psd.c: feeds arbitrary bytes to the scene parser (libFuzzer).
  *
- *     clang -fsanitize=fuzzer,address,undefined ... && ./fuzz_psd tests/fuzz/corpus
+ *     clang -fsanitize=fuzzer,address,undefined ... && ./fuzz_psd tests/fuzz/corpus_psd
  *
  * The parser reads no files here. Lines of "%%%%%%" cut an input into pieces: the first is the scene,
  * the next what it finds in every file that it includes, and any further ones what --set is given;
@@ -25,19 +25,57 @@ static void require(bool condition)
         abort();
 }
 
-static void check_description(const struct scene_description *description)
+static void check_pigment(const struct scene_description *description,
+                          const struct pigment_description *pigment)
 {
-    require(description->image.width >= 1 && description->image.height >= 1);
-    require(description->camera_count >= 1);
-    for (size_t i = 0; i < description->camera_count; i++)
-        require(!(description->cameras[i].angle > 0 && description->cameras[i].vertical_angle > 0));
-    for (size_t i = 0; i < description->object_count; i++) {
-        const struct object_description *object = &description->objects[i];
-        require(object->material < description->material_count);
+    require(pigment->kind != PIGMENT_IMAGE || pigment->texture < description->texture_count);
+}
+
+static void check_materials(const struct scene_description *description)
+{
+    for (size_t i = 0; i < description->material_count; i++) {
+        const struct material_description *material = &description->materials[i];
+        check_pigment(description, &material->color);
+        check_pigment(description, &material->emission);
+        check_pigment(description, &material->bump);
+        require((material->kind == MATERIAL_MIX) == (material->component_count > 0));
+        for (size_t j = 0; j < material->component_count; j++)
+            require(material->components[j] < i && material->weights[j] > 0);
+    }
+}
+
+static void check_objects(const struct scene_description *description,
+                          const struct object_description *objects, size_t count, bool in_group)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct object_description *object = &objects[i];
+        struct affine inverse;
+        require(affine_invert(&object->placement, &inverse));
+        if (object->kind == OBJECT_INSTANCE)
+            require(!in_group && object->group < description->group_count);
+        else
+            require(object->material < description->material_count);
+        require(object->kind != OBJECT_MESH || object->mesh < description->mesh_count);
         for (size_t j = 0; j < object->triangle_count; j++)
             for (int k = 0; k < 3; k++)
                 require(object->triangles[j][k] < object->vertex_count);
     }
+}
+
+static void check_description(const struct scene_description *description)
+{
+    require(description->image.width >= 1 && description->image.height >= 1);
+    require(description->camera_count >= 1);
+    for (size_t i = 0; i < description->camera_count; i++) {
+        const struct camera_description *camera = &description->cameras[i];
+        int sizes = (camera->angle > 0) + (camera->vertical_angle > 0) + (camera->width > 0);
+        require(camera->name && sizes == 1);
+    }
+    check_materials(description);
+    check_objects(description, description->objects, description->object_count, false);
+    for (size_t i = 0; i < description->group_count; i++)
+        check_objects(description, description->groups[i].objects,
+                      description->groups[i].object_count, true);
 }
 
 static void discard_printed(const struct diagnostics *sink)

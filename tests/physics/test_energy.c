@@ -20,10 +20,13 @@
 #define STEP 3 /* every third pixel in x and y */
 #define RAYS 256
 
+/* The scene's light has no size. */
+static const struct light_numbers no_numbers = {0};
+
 /* Single-bounce radiance that pixel (x, y) reflects, green channel. */
 static double gather(const struct scene *scene, const struct trace *trace, size_t x, size_t y)
 {
-    ps_ray eye = camera_ray(&scene->camera, (float)x + 0.5f, (float)y + 0.5f), rays[RAYS];
+    ps_ray eye = camera_ray(&scene->camera, (float)x + 0.5f, (float)y + 0.5f, NULL), rays[RAYS];
     ps_hit first, hits[RAYS];
     trace_intersect(trace, RAYS_INCOHERENT, &eye, 1, &first);
     if (!(first.distance < INFINITY))
@@ -38,12 +41,11 @@ static double gather(const struct scene *scene, const struct trace *trace, size_
     trace_intersect(trace, RAYS_INCOHERENT, rays, RAYS, hits);
     double sum = 0;
     for (size_t i = 0; i < RAYS; i++) {
-        ps_rgb irradiance;
+        ps_rgb radiance;
         if (!(hits[i].distance < INFINITY))
             continue;
-        direct_irradiance(scene, trace, RAYS_INCOHERENT, &hits[i].position, &hits[i].normal, 1,
-                          &irradiance);
-        sum += first.albedo.g * hits[i].albedo.g / PS_PI * irradiance.g;
+        direct_radiance(scene, trace, &rays[i], &hits[i], 1, &no_numbers, &radiance);
+        sum += first.albedo.g * radiance.g;
     }
     return sum / RAYS;
 }

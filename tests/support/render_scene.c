@@ -60,7 +60,7 @@ struct rendering render_text_in_batches(const char *text, uint32_t threads, size
     assert_int_equal(
         settings_resolve(loader, &description.render, threads, batch, report, NULL, &settings),
         PS_OK);
-    assert_int_equal(scene_create(&description, &scene, &error), PS_OK);
+    assert_int_equal(scene_create(&description, &scene, NULL, &error), PS_OK);
     statistics_init(&rendering.statistics);
     ps_result result =
         render_run(&scene, &settings, &callbacks, &rendering.statistics, &rendering.image, &error);
@@ -86,7 +86,7 @@ struct scene scene_of_text(const char *text)
     struct scene scene;
     struct error error;
     read_text(text, &description);
-    assert_int_equal(scene_create(&description, &scene, &error), PS_OK);
+    assert_int_equal(scene_create(&description, &scene, NULL, &error), PS_OK);
     scene_description_release(&description);
     return scene;
 }

@@ -54,6 +54,17 @@ static inline ps_result parse(const char *text, size_t length,
     return result;
 }
 
+/* Parses a text about which there is nothing to say. */
+static inline struct scene_description parse_good(const char *text)
+{
+    struct scene_description description;
+    char messages[LONGEST_OUTPUT];
+    ps_result result = parse(text, strlen(text), &description, messages);
+    assert_string_equal(messages, "");
+    assert_int_equal(result, PS_OK);
+    return description;
+}
+
 static inline void expect_bytes(const char *text, size_t length, const char *expected)
 {
     struct scene_description description;

@@ -75,6 +75,37 @@ static void test_size_follows_distance(void **state)
     expect_near(place(unlimited, 0.001f, 1).half_width, 3);
 }
 
+static double half_width_of(float merged, ps_box_settings settings, float distance)
+{
+    ps_source source = {
+        .normal = {0, 1, 0}, .direction = {0, 1, 0}, .merged = merged, .power = {1, 1, 1}};
+    ps_hit hit = {.position = {0, distance, 0}, .distance = distance, .normal = {0, -1, 0}};
+    ps_splat splat;
+    box_place(&scene, &settings, &source, &hit, 1, &splat);
+    return splat.half_width;
+}
+
+/* By the square root of what was merged, up to a limit; then the distance limits as ever. */
+static void test_size_grows_with_what_was_merged(void **state)
+{
+    (void)state;
+    const ps_box_settings settings = {.size = 2, .grow = 3};
+    expect_near(half_width_of(4, settings, 100), 4);
+    expect_near(half_width_of(2, settings, 100), 2 * sqrt(2));
+    expect_near(half_width_of(9, settings, 100), 6);
+    expect_near(half_width_of(1000, settings, 100), 6);
+    assert_true(half_width_of(1, settings, 100) == 2);
+    assert_true(half_width_of(0.5f, settings, 100) == 2);
+    const ps_box_settings none = {.size = 2, .grow = 1};
+    assert_true(half_width_of(9, none, 100) == 2);
+    const ps_box_settings follows = {.size = 2, .grow = 3, .follow = 0.25};
+    expect_near(half_width_of(9, follows, 100), 6);
+    expect_near(half_width_of(9, follows, 16), 4);
+    expect_near(half_width_of(9, follows, 0.1f), 1.2);
+    const ps_box_settings vast = {.size = 2, .grow = INFINITY};
+    expect_near(half_width_of(1e12f, vast, 100), 4 * RADIUS);
+}
+
 /* b = min(d, R tan + R / 2), depth R tan + R. */
 static void test_automatic_step_back(void **state)
 {
@@ -274,6 +305,7 @@ int main(void)
         cmocka_unit_test(test_carries_the_source),
         cmocka_unit_test(test_size),
         cmocka_unit_test(test_size_follows_distance),
+        cmocka_unit_test(test_size_grows_with_what_was_merged),
         cmocka_unit_test(test_automatic_step_back),
         cmocka_unit_test(test_steep_slopes_are_limited),
         cmocka_unit_test(test_numbers),

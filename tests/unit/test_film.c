@@ -41,9 +41,12 @@ static int close_bench(void **state)
 static void see(ps_tile *tile, ps_rgb *direct, uint32_t lane, float value)
 {
     tile->object[lane] = tile->material[lane] = 0;
-    tile->albedo_r[lane] = 0.5f;
-    tile->albedo_g[lane] = 0.25f;
-    tile->albedo_b[lane] = 1;
+    tile->albedo_r[lane] = 1; /* times the throughput: 0.5, 0.25, 1 */
+    tile->albedo_g[lane] = 0.0625f;
+    tile->albedo_b[lane] = 0.5f;
+    tile->throughput_r[lane] = 0.5f;
+    tile->throughput_g[lane] = 4;
+    tile->throughput_b[lane] = 2;
     tile->normal_x[lane] = 1;
     tile->position_x[lane] = value;
     tile->position_y[lane] = 2 * value;
@@ -73,7 +76,7 @@ static float pixel_value(uint32_t x, uint32_t y)
 static void add_pass(uint32_t first, float factor)
 {
     for (uint32_t tile = 0; tile < bench.gbuffer.tile_count; tile++) {
-        memset(&bench.gbuffer.tiles[tile], 0, sizeof bench.gbuffer.tiles[tile]);
+        gbuffer_clear_tile(&bench.gbuffer, tile);
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
             uint32_t x, y;
             ps_rgb *direct = &bench.gbuffer.direct[tile * PS_TILE_PIXELS + lane];
@@ -94,6 +97,22 @@ static void expect(enum film_plane plane, uint32_t x, uint32_t y, double expecte
     double value = bench.film.planes[plane][y * WIDTH + x];
     if (fabs(value - expected) > 1e-5 * fabs(expected))
         fail_msg("plane %d at (%u, %u): %.8g, expected %.8g", (int)plane, x, y, value, expected);
+}
+
+/* What is emitted joins the direct light, also where no surface is seen. */
+static void test_emission_is_added(void **state)
+{
+    (void)state;
+    gbuffer_clear_tile(&bench.gbuffer, 0);
+    bench.gbuffer.emitted[0] = (ps_rgb){1, 2, 3};
+    bench.gbuffer.emitted[1] = (ps_rgb){4, 5, 6};
+    bench.gbuffer.direct[0] = bench.gbuffer.direct[1] = (ps_rgb){0, 0, 0};
+    see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[1], 1, 1);
+    film_add_tile(&bench.film, &bench.gbuffer, 0);
+    expect(FILM_DIRECT_B, 0, 0, 3);
+    expect(FILM_COVERAGE, 0, 0, 0);
+    expect(FILM_DIRECT_R, 1, 0, 4 + 5 * 0.5 / PI);
+    expect(FILM_COVERAGE, 1, 0, 1);
 }
 
 static void test_lanes_are_pixels(void **state)
@@ -210,7 +229,7 @@ static void test_clear_indirect(void **state)
             const ps_tile *it = &bench.gbuffer.tiles[tile];
             assert_true(it->irradiance_r[i] == 0 && it->irradiance_g[i] == 0 &&
                         it->irradiance_b[i] == 0 && it->weight[i] == 0);
-            assert_true(it->albedo_b[i] == 1 && it->depth[i] > 0); /* the rest stays */
+            assert_true(it->albedo_b[i] == 0.5f && it->depth[i] > 0); /* the rest stays */
         }
 }
 
@@ -222,6 +241,7 @@ int main(void)
         FILM_TEST(test_lanes_are_pixels),      FILM_TEST(test_new_film_is_empty),
         FILM_TEST(test_passes_add_up),         FILM_TEST(test_average),
         FILM_TEST(test_partly_covered_pixels), FILM_TEST(test_uncovered_pixels),
+        FILM_TEST(test_emission_is_added),
         FILM_TEST(test_clear_indirect),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -83,7 +83,8 @@ static void test_messages_name_their_files(void **state)
          "t:6:10: error: duplicate name 'n' in define; the first is in lib/b.psd, line 5\n"
          "In file included from lib/a.psd:4:4:\n"
          "                 from t:5:10:\n"
-         "lib/b.psd:4:3: error: missing key 'diffuse' in material\n"
+         "lib/b.psd:4:3: error: material needs one of diffuse, mirror, metal, glossy, dielectric, "
+         "mix\n"
          "lib/b.psd:4:9: error: unknown key 'diffus' in material; did you mean 'diffuse'?\n"
          "lib/b.psd:5:15: error: division by zero\n"
          "lib/b.psd:5:19: error: the name 'k' is taken in t, line 7\n"},

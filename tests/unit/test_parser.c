@@ -5,16 +5,6 @@
 #include "parser/schema.h"
 #include <math.h>
 
-static struct scene_description parse_good(const char *text)
-{
-    struct scene_description description;
-    char messages[LONGEST_OUTPUT];
-    ps_result result = parse(text, strlen(text), &description, messages);
-    assert_string_equal(messages, "");
-    assert_int_equal(result, PS_OK);
-    return description;
-}
-
 static void assert_vector(ps_vec3 v, double x, double y, double z)
 {
     assert_true(v.x == (float)x && v.y == (float)y && v.z == (float)z);
@@ -56,14 +46,15 @@ static void test_whole_scene(void **state)
     assert_int_equal(d.objects[0].kind, OBJECT_BOX);
     assert_string_equal(d.materials[d.objects[0].material].name, "red");
     assert_vector(d.objects[0].vertices[1], 1, 2, 3);
-    assert_vector(d.objects[0].transform.rotate, 0, 17, 0);
-    assert_vector(d.objects[0].transform.scale, 1, 1, 1);
+    assert_true(fabs(d.objects[0].placement.x.z + sin(17 * acos(-1) / 180)) < 1e-6);
+    assert_vector(d.objects[0].placement.y, 0, 1, 0);
     assert_int_equal(d.objects[1].vertex_count, 4);
-    assert_vector(d.objects[2].transform.scale, 2, 2, 2);
+    assert_vector(d.objects[2].placement.z, 0, 0, 2);
     assert_int_equal(d.objects[2].triangle_count, 2);
     assert_int_equal(d.objects[2].triangles[1][2], 3);
     assert_vector(d.objects[3].center, 4, 5, 6);
-    assert_true(d.materials[1].color.colors[0].g == 0.25F && d.materials[0].color.colors[0].b == 0.75F);
+    assert_true(d.materials[1].color.colors[0].g == 0.25F &&
+                d.materials[0].color.colors[0].b == 0.75F);
     scene_description_release(&d);
 }
 
@@ -154,9 +145,18 @@ static void test_arithmetic_values(void **state)
         struct error error;
         size_t position;
         double value = NAN;
-        assert_int_equal(arithmetic_evaluate(cases[i].text, NULL, &value, &position, &error), PS_OK);
+        assert_int_equal(arithmetic_evaluate(cases[i].text, NULL, &value, &position, &error),
+                         PS_OK);
         assert_true(fabs(value - cases[i].value) <= 1e-12 * fabs(cases[i].value));
     }
+}
+
+static bool has_family(const char *family)
+{
+    for (size_t i = 0; i < schema_section_count(); i++)
+        if (strcmp(schema_section(i)->family, family) == 0)
+            return true;
+    return false;
 }
 
 static void test_schema(void **state)
@@ -166,7 +166,7 @@ static void test_schema(void **state)
     for (size_t i = 0; i < schema_section_count(); i++) {
         const struct schema_section *section = schema_section(i);
         struct param_table table = schema_table(section);
-        assert_ptr_equal(schema_find(section->parent, section->name), section);
+        assert_ptr_equal(schema_find(section->family, section->name), section);
         assert_true(strlen(section->summary) > 0);
         for (size_t j = 0; j < section->row_count; j++, rows++) {
             const struct schema_row *row = &section->rows[j];
@@ -174,11 +174,12 @@ static void test_schema(void **state)
             schema_describe(row, type, sizeof type);
             assert_true(strlen(type) > 0 && strlen(row->param.help) > 0 && row->param.unit);
             assert_ptr_equal(param_find(&table, row->param.name), &row->param);
-            bool nested = row->form == SCHEMA_MAP;
-            assert_true(!nested || schema_find(NULL, row->param.name));
+            assert_true(!row->family || has_family(row->family));
+            assert_true(row->form < SCHEMA_MAP || row->form == SCHEMA_OTHER || row->family);
+            assert_true(!row->shared || schema_only(row->shared));
         }
     }
-    assert_true(rows > 50);
+    assert_true(rows > 200);
     assert_null(schema_find("lights", "box"));
 }
 

@@ -109,7 +109,22 @@ static void test_cameras(void **state)
          "2:55: error: up is along the direction of view; the camera's roll is undefined\n"},
         {"psd: 1\ncamera: {location: [1, 9, 3], look_at: [0, 0, 0], angle: 1, vertical_angle: "
          "1}\n" LIGHTS,
-         "2:77: error: camera has both angle and vertical_angle; give one of them\n"}};
+         "2:77: error: camera has both angle and vertical_angle; give one of them\n"},
+        {"psd: 1\ncamera: {location: [1, 9, 3], look_at: [0, 0, 0], projection: orthographic, "
+         "angle: 9}\n" LIGHTS,
+         "2:1: error: missing key 'width' in camera, which an orthographic one requires\n"
+         "2:84: error: an orthographic camera has no angle; it has a width\n"},
+        {"psd: 1\ncamera: {location: [1, 9, 3], look_at: [0, 0, 0], width: 5, aperture: -1, focus: "
+         "0}\n" LIGHTS,
+         "2:71: error: aperture in camera: expected number >= 0, got '-1'\n"
+         "2:82: error: focus in camera: expected number > 0, got '0'\n"},
+        {"psd: 1\ncamera: {location: [1, 9, 3], look_at: [0, 0, 0], width: 5}\n" LIGHTS,
+         "2:58: error: width is of an orthographic camera; a perspective one has an angle\n"},
+        {"psd: 1\n" LIGHTS "cameras: {}\n", "3:1: error: the scene has no camera\n"},
+        {"psd: 1\n" CAMERA LIGHTS "cameras: {camera: {location: [0, 0, 1], look_at: [0, 0, 0]}}\n",
+         "4:11: error: the camera without a name is called 'camera' already\n"},
+        {HEAD "image: {filter: cone}\n",
+         "5:17: error: filter in image: expected box | tent | gaussian, got 'cone'\n"}};
     EXPECT_ALL(cases);
 }
 
@@ -117,12 +132,15 @@ static void test_lights(void **state)
 {
     (void)state;
     static const struct bad cases[] = {
-        {"psd: 1\n" CAMERA "lights:\n  - spotligt: {}\n  - sun: {}\n  - point\n  - {}\n  - 5: {}",
+        {"psd: 1\n" CAMERA "lights:\n  - spotligt: {}\n  - laser: {}\n  - point\n  - {}\n  - 5: {}",
          "4:5: error: unknown light kind 'spotligt'; did you mean 'spotlight'?\n"
-         "5:5: error: unknown light kind 'sun'; known are point, spotlight\n"
+         "5:5: error: unknown light kind 'laser'; known are point, spotlight, sun, rectangle, "
+         "disc, "
+         "sphere, sky\n"
          "6:5: error: expected a map with one key in lights, got text\n"
          "7:5: error: expected a map with one key in lights, got an empty map\n"
-         "8:5: error: unknown light kind '5'; known are point, spotlight\n"},
+         "8:5: error: unknown light kind '5'; known are point, spotlight, sun, rectangle, disc, "
+         "sphere, sky\n"},
         {"psd: 1\n" CAMERA "lights: {}", "3:9: error: expected a list for lights, got a map\n"},
         {"psd: 1\n" CAMERA "lights:\n  - spotlight: {location: [0, 0, 0], point_at: [0, 0, 0], "
          "intensity: 1, radius: 50}\n  - point: {intensity: -1}\n",
@@ -145,7 +163,9 @@ static void test_objects(void **state)
     (void)state;
     static const struct bad cases[] = {
         {HEAD "objects:\n  - blob: {}\n  - box:\n    material: white",
-         "6:5: error: unknown object kind 'blob'; known are quad, box, triangles, sphere\n"
+         "6:5: error: unknown object kind 'blob'; known are quad, box, triangles, sphere, "
+         "cylinder, "
+         "cone, disc, plane, torus, height_field, mesh, group, instance\n"
          "8:5: error: key 'material' stands beside 'box'; indent it to put it inside\n"},
         {HEAD "objects:\n  - box: {corners: [[0, 0, 0]], material: whit}\n",
          "6:20: error: corners in box: expected a list of 2 [x, y, z], got 1\n"
@@ -161,14 +181,12 @@ static void test_objects(void **state)
          "indices\n"
          "6:114: error: triangles in triangles: expected integer 0..2, got '-1'\n"
          "6:118: error: triangles in triangles: expected integer 0..2, got '0.5'\n"},
-        {HEAD "objects:\n  - sphere: {center: [0, 0, 0], radius: 1, material: white, "
-              "scale: [1, 2, 1]}\n"
+        {HEAD "objects:\n"
               "  - sphere: {center: [0, 0, 0], radius: 0, material: white, scale: big}\n"
               "  - sphere: {center: [0, 0, 0], radius: 1, material: white, scale: 0}\n",
-         "6:68: error: a sphere can only be scaled by equal factors\n"
-         "7:41: error: radius in sphere: expected number > 0, got '0'\n"
-         "7:68: error: scale in sphere: expected [x, y, z] or one number, got 'big'\n"
-         "8:68: error: a factor of scale is 0\n"}};
+         "6:41: error: radius in sphere: expected number > 0, got '0'\n"
+         "6:68: error: scale in sphere: expected [x, y, z] or one number, got 'big'\n"
+         "7:68: error: a factor of scale is 0\n"}};
     EXPECT_ALL(cases);
 }
 

@@ -57,9 +57,20 @@ static size_t count_text(const char *start, const char *end, const char *text)
     return count;
 }
 
-static void expected_line(const struct schema_row *row, char *line, size_t size)
+/* Rows that many sections share are documented in one, to which the others refer. */
+static bool is_here(const struct schema_section *section, const struct schema_row *row)
+{
+    return !row->shared || strcmp(row->shared, section->name) == 0;
+}
+
+static void expected_line(const struct schema_section *section, const struct schema_row *row,
+                          char *line, size_t size)
 {
     char domain[256];
+    if (!is_here(section, row)) {
+        snprintf(line, size, "\n.Sx %s .\n", row->shared);
+        return;
+    }
     const ps_param *param = &row->param;
     schema_describe(row, domain, sizeof domain);
     const char *fallback = param->default_value ? param->default_value : row->absent;
@@ -77,22 +88,27 @@ static size_t count_missing(const struct schema_section *section)
     char heading[128], line[1024];
     const char *end;
     size_t missing = 0;
-    snprintf(heading, sizeof heading, ".Ss %s", section->name);
+    char name[64];
+    schema_heading(section, name, sizeof name);
+    snprintf(heading, sizeof heading, ".Ss %s", name);
     const char *start = find_part(heading, ends, &end);
     if (!start) {
         print_error("psd(5) has no section '%s'\n", heading);
         return 1;
     }
+    size_t rows = 0;
     for (size_t i = 0; i < section->row_count; i++) {
-        expected_line(&section->rows[i], line, sizeof line);
+        bool here = is_here(section, &section->rows[i]);
+        expected_line(section, &section->rows[i], line, sizeof line);
         if (count_text(start, end, line) != 1) {
             print_error("psd(5), '%s': missing:%s", heading, line);
             missing++;
         }
+        rows += here;
     }
-    if (count_text(start, end, "\n.It ") != section->row_count) {
+    if (count_text(start, end, "\n.It ") != rows) {
         print_error("psd(5), '%s': %zu keys, the table has %zu\n", heading,
-                    count_text(start, end, "\n.It "), section->row_count);
+                    count_text(start, end, "\n.It "), rows);
         missing++;
     }
     return missing;
@@ -117,26 +133,46 @@ static void test_no_other_section_is_documented(void **state)
     assert_int_equal(count_text(start, end, "\n.Ss "), schema_section_count());
 }
 
-/* A map's items are sections; those that a list or a map of names can hold are named there. */
-static void test_parts_name_their_sections(void **state)
+/* Where a key holds sections of several kinds, its text names all of them. */
+static void expect_kinds(const struct schema_section *section, const struct schema_row *row)
 {
     static const char *const ends[] = {"\n.It ", "\n.El", NULL};
-    (void)state;
-    const struct schema_section *scene = schema_find(NULL, "scene");
+    char line[1024], heading[1024], name[80];
+    const char *end;
+    expected_line(section, row, line, sizeof line);
+    snprintf(heading, sizeof heading, "%.*s", (int)strlen(line) - 2, line + 1);
+    const char *start = find_part(heading, ends, &end);
+    assert_non_null(start);
     for (size_t i = 0; i < schema_section_count(); i++) {
-        const struct schema_section *section = schema_section(i);
-        if (!section->parent)
-            continue;
-        char heading[1024], line[1024];
-        const char *end;
-        for (size_t j = 0; j < scene->row_count; j++)
-            if (strcmp(scene->rows[j].param.name, section->parent) == 0)
-                expected_line(&scene->rows[j], line, sizeof line);
-        snprintf(heading, sizeof heading, "%.*s", (int)strlen(line) - 2, line + 1);
-        const char *start = find_part(heading, ends, &end);
-        assert_non_null(start);
-        if (count_text(start, end, section->name) == 0)
-            fail_msg("psd(5): '%s' does not name '%s'", section->parent, section->name);
+        const struct schema_section *kind = schema_section(i);
+        snprintf(name, sizeof name, "%s", kind->name);
+        if (strcmp(kind->family, row->family) == 0 && count_text(start, end, name) == 0)
+            fail_msg("psd(5): '%s' does not name '%s'", row->param.name, kind->name);
+    }
+}
+
+static void test_lists_name_their_kinds(void **state)
+{
+    (void)state;
+    const struct schema_section *scene = schema_only("scene");
+    for (size_t i = 0; i < scene->row_count; i++)
+        if (scene->rows[i].form == SCHEMA_LIST)
+            expect_kinds(scene, &scene->rows[i]);
+}
+
+/* The patterns stand in a part of their own, as many keys take them. */
+static void test_patterns_are_named(void **state)
+{
+    static const char *const ends[] = {"\n.Sh ", "\n.Ss ", NULL};
+    (void)state;
+    const char *end;
+    const char *start = find_part(".Sh PATTERNS", ends, &end);
+    assert_non_null(start);
+    for (size_t i = 0; i < schema_section_count(); i++) {
+        char item[80];
+        snprintf(item, sizeof item, "\n.It Cm %s\n", schema_section(i)->name);
+        if (strcmp(schema_section(i)->family, "pigments") == 0 && count_text(start, end, item) != 1)
+            fail_msg("psd(5), PATTERNS: no '%s'", schema_section(i)->name);
     }
 }
 
@@ -145,7 +181,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_keys_are_documented),
         cmocka_unit_test(test_no_other_section_is_documented),
-        cmocka_unit_test(test_parts_name_their_sections),
+        cmocka_unit_test(test_lists_name_their_kinds),
+        cmocka_unit_test(test_patterns_are_named),
     };
     return cmocka_run_group_tests(tests, read_page, NULL);
 }

@@ -1,0 +1,41 @@
+/* mesh_import.h: takes geometry, materials, cameras and lights from a mesh file.
+ *
+ * assimp reads the file (OBJ with MTL, glTF 2, PLY, STL and a few more; mesh_format.h lists them);
+ * what it returns is not trusted, and some files are checked before assimp sees them, since its
+ * readers fall over hostile ones. Texture coordinates come with v upwards; normals are the file's,
+ * or those of its smoothing groups, or none. Cameras and lights are carried into the scene. Where
+ * request maps change lengths by a factor s, intensities change by s^2, so that the picture stays
+ * the same; radiances and a sun's irradiance stay. Colours are linear, those of textures as their
+ * encoding says. No state outside of the arguments; may run in several threads at once.
+ */
+#ifndef PARSER_MESH_IMPORT_H
+#define PARSER_MESH_IMPORT_H
+
+#include "base/error.h"
+#include "scene/description.h"
+
+/* What to take from a mesh file, and how to carry it into the scene. */
+struct mesh_request {
+    const char *path;
+    bool geometry, materials, camera, lights; /* what to use */
+    double unit;                              /* scene units for each unit of the file */
+    int32_t up;              /* which axis of the file points upwards: 0 x, 1 y, 2 z */
+    bool diffuse_only;       /* leave out the gloss of the file's materials */
+    struct affine placement; /* applied last */
+    struct origin origin;
+};
+
+/* What was mended, for warnings. */
+struct mesh_report {
+    size_t dropped_triangles, dropped_lights, missing_textures;
+    char notes[512];
+};
+
+/* Reads the file into a fragment: meshes, objects (OBJECT_MESH), materials (each with its name in
+ * the file), textures, cameras, lights, whose indices refer to the fragment's own arrays. Objects of
+ * a material that the file lacks, or that was not asked for, have material NO_INDEX. The fragment is
+ * released with scene_description_release. PS_ERROR_IO, _INVALID or _MEMORY with a message. */
+ps_result mesh_import(const struct mesh_request *request, struct scene_description *fragment,
+                      struct mesh_report *report, struct error *error);
+
+#endif

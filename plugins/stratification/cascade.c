@@ -1,0 +1,179 @@
+/* cascade.c: the sources of each cell become one; cells are coarser farther from the camera.
+ *
+ * Grids of `resolution` cells a side lie in one another, all around the camera; each has cells
+ * `growth` times as large as the one inside of it, and a source belongs to the smallest that it lies
+ * in. So what is close to the viewer keeps its detail, and far light costs little (Kaplanyan and
+ * Dachsbacher 2010, "Cascaded light propagation volumes for real-time indirect illumination"; for
+ * splatting Hoet 2014, sections 3.2.1 and 5.3.2). What lies outside of all of them is for `beyond`
+ * to decide.
+ *
+ * `drop` loses the light of sources beyond, here alone of all stratifications, and the statistics
+ * count them.
+ */
+#include <psplat/plugin.h>
+
+PS_MERGE_CHOICES
+
+#define MOST_LEVELS (PS_CELL_LAYERS - 1) /* one layer is for what lies beyond */
+
+static const char *const cell_choices[] = {"auto", NULL};
+static const char *const beyond_choices[] = {"keep", "merge", "drop", NULL};
+
+enum { BEYOND_KEEP = 0, BEYOND_MERGE = 1, BEYOND_DROP = 2 };
+
+struct state {
+    int64_t levels;
+    int64_t resolution;
+    ps_number_or_choice cell;
+    double growth;
+    int32_t beyond;
+    PS_MERGE_MEMBERS
+};
+
+struct cascades {
+    ps_lattice lattices[MOST_LEVELS + 1]; /* the last is for what lies beyond */
+    double reach[MOST_LEVELS];            /* half the side of each cascade */
+    ps_vec3 middle;
+    uint32_t count;
+};
+
+/* Side of the cells of the outermost cascade, over that of the innermost. */
+static double outermost_growth(const struct state *state)
+{
+    return pow(state->growth, (double)(state->levels - 1));
+}
+
+/* Side of the innermost cells; auto: so that the outermost cascade holds all of the scene. */
+static double innermost_side(const struct state *state, const ps_host *host, ps_vec3 middle)
+{
+    ps_vec3 center;
+    float radius;
+    if (state->cell.choice < 0)
+        return state->cell.number;
+    host->scene_bounds(host, &center, &radius);
+    double reach = (double)ps_length(ps_subtract(center, middle)) + (double)radius;
+    /* Rounding must leave nothing outside. */
+    return 1.001 * 2.0 * reach / ((double)state->resolution * outermost_growth(state));
+}
+
+static struct cascades cascades_of(const struct state *state, const ps_host *host)
+{
+    struct cascades cascades = {.count = (uint32_t)state->levels};
+    ps_vec3 direction, center;
+    float radius;
+    host->camera(host, &cascades.middle, &direction);
+    host->scene_bounds(host, &center, &radius);
+    double side = innermost_side(state, host, cascades.middle);
+    for (uint32_t i = 0; i < cascades.count; i++, side *= state->growth) {
+        double reach = 0.5 * side * (double)state->resolution;
+        ps_vec3 half = {(float)reach, (float)reach, (float)reach};
+        cascades.reach[i] = reach;
+        cascades.lattices[i] = (ps_lattice){ps_subtract(cascades.middle, half), side};
+    }
+    const ps_lattice *outermost = &cascades.lattices[cascades.count - 1];
+    cascades.lattices[cascades.count] =
+        ps_lattice_over(outermost->origin, outermost->side, center, radius);
+    return cascades;
+}
+
+/* The smallest cascade that holds the position; their number where none does. */
+static uint32_t cascade_around(const struct cascades *cascades, ps_vec3 position)
+{
+    ps_vec3 away = ps_subtract(position, cascades->middle);
+    float farthest = fmaxf(fabsf(away.x), fmaxf(fabsf(away.y), fabsf(away.z)));
+    uint32_t layer = 0;
+    while (layer < cascades->count && !((double)farthest < cascades->reach[layer]))
+        layer++;
+    return layer;
+}
+
+static void add_sources(const struct state *state, const ps_host *host, ps_source *sources,
+                        size_t n, ps_strata *strata)
+{
+    struct cascades cascades = cascades_of(state, host);
+    size_t beyond = 0;
+    for (size_t i = 0; i < n; i++) {
+        uint32_t layer = cascade_around(&cascades, sources[i].position);
+        int outside = layer == cascades.count;
+        beyond += (size_t)outside;
+        if (outside && state->beyond == BEYOND_DROP)
+            ps_source_remove(&sources[i]);
+        if (!outside || state->beyond == BEYOND_MERGE)
+            ps_strata_add(strata, i,
+                          ps_cell_key(&cascades.lattices[layer], layer, sources[i].position));
+    }
+    host->count(host, "sources beyond", (double)beyond);
+}
+
+static ps_result combine(const void *opaque, const ps_host *host, const ps_pass *pass,
+                         ps_source *sources, size_t *n)
+{
+    const struct state *state = opaque;
+    ps_strata strata;
+    ps_merge_settings settings = {
+        .representative = state->representative,
+        .normal_angle = state->normal_angle,
+        .per_cell = 1,
+    };
+    if (!ps_strata_create(&strata, host, pass, sources, *n))
+        return PS_ERROR_MEMORY;
+    add_sources(state, host, sources, *n, &strata);
+    ps_strata_from_cells(&strata);
+    ps_strata_merge(&strata, &settings, n);
+    ps_strata_release(&strata);
+    return PS_OK;
+}
+
+static int32_t init(void *opaque, const ps_host *host, char *message, size_t size)
+{
+    const struct state *state = opaque;
+    ps_vec3 center;
+    float radius;
+    double outermost = state->cell.number * outermost_growth(state);
+    host->scene_bounds(host, &center, &radius);
+    if (state->cell.choice >= 0 || state->beyond != BEYOND_MERGE ||
+        !ps_cells_too_small(outermost, radius))
+        return 0;
+    snprintf(message, size,
+             "cell=%g is too small: the scene would be more than %u of the outermost cells across",
+             state->cell.number, PS_CELLS_ACROSS);
+    return 1;
+}
+
+static const ps_param params[] = {
+    PS_INT(struct state, levels, "4", 1, MOST_LEVELS, "cascades", "number of grids"),
+    PS_INT(struct state, resolution, "256", 2, 1000000, "cells",
+           "cells along the side of each grid"),
+    PS_NUMBER_OR(struct state, cell, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, cell_choices,
+                 "scene units",
+                 "side of the innermost cells; auto: so that the outermost grid holds the scene"),
+    PS_NUMBER(struct state, growth, "2", 1, 16, PS_PARAM_OPEN_MIN, "",
+              "side of the cells of a grid over that of the next one inside"),
+    PS_CHOICE(
+        struct state, beyond, "merge", beyond_choices,
+        "sources outside of all grids; merge: by cells of the outermost size, drop: lose them"),
+    PS_MERGE_PARAMS(struct state),
+};
+
+static const ps_stratification_vtable vtable = {
+    .size = sizeof vtable,
+    .whole_pass = 1,
+    .combine = combine,
+};
+
+static const ps_descriptor descriptor = {
+    .size = sizeof descriptor,
+    .kind = PS_STRATIFICATION,
+    .name = "cascade",
+    .version = "1.0",
+    .summary = "the sources of each cell become one; cells are coarser farther from the camera",
+    .paper = "Hoet 2014, sections 3.2.1 and 5.3.2; Kaplanyan and Dachsbacher 2010",
+    .params = params,
+    .param_count = sizeof params / sizeof params[0],
+    .param_size = sizeof params[0],
+    .state_size = sizeof(struct state),
+    .init = init,
+    .vtable = &vtable,
+};
+
+PS_MODULE(stratification, cascade, &descriptor)

@@ -1,0 +1,160 @@
+/* grid.c: the sources of each cell of a grid become one (Hoet 2014, sections 3.2.1 and 4.2).
+ *
+ * Where a cell holds fewer sources than `threshold`, it and its block of 2x2x2 cells merge as a
+ * whole, and blocks of blocks do, level by level. A bucket limits what becomes one source: without,
+ * crowded cells end as few very bright sources beside dim ones, which shows as blotches (section
+ * 5.3.2).
+ *
+ * The grid is a sorted list of sources (see cell.h), not an array of cells: 40 bytes a source at any
+ * resolution, where the array took 40 bytes a cell, 256^3 of them (section 5.1). So it has no
+ * outside either: cells go on wherever sources are, and `centre` only says where borders lie.
+ */
+#include <psplat/plugin.h>
+
+PS_MERGE_CHOICES
+
+static const char *const cell_choices[] = {"auto", NULL};
+static const char *const centre_choices[] = {"scene", "camera", NULL};
+
+enum { CENTRE_SCENE = 0, CENTRE_CAMERA = 1 };
+
+struct state {
+    int64_t resolution;
+    ps_number_or_choice cell;
+    int32_t centre;
+    int64_t threshold;
+    int64_t levels;
+    int64_t bucket;
+    int64_t per_cell;
+    PS_MERGE_MEMBERS
+    double side; /* of a cell */
+};
+
+/* The grid of `resolution` cells a side is the cube around the scene's sphere, moved to the centre;
+ * all others have a corner of cells at the centre. */
+static ps_lattice lattice_of(const struct state *state, const ps_host *host)
+{
+    ps_vec3 center, corner, direction;
+    float radius;
+    host->scene_bounds(host, &center, &radius);
+    corner = center;
+    if (state->centre == CENTRE_CAMERA)
+        host->camera(host, &corner, &direction);
+    if (state->cell.choice >= 0)
+        corner = ps_subtract(corner, (ps_vec3){radius, radius, radius});
+    return ps_lattice_over(corner, state->side, center, radius);
+}
+
+static void add_sources(const struct state *state, const ps_host *host, const ps_source *sources,
+                        size_t n, ps_strata *strata)
+{
+    ps_lattice lattice = lattice_of(state, host);
+    for (size_t i = 0; i < n; i++)
+        ps_strata_add(strata, i, ps_cell_key(&lattice, 0, sources[i].position));
+}
+
+static uint64_t block_of(const ps_strata *strata, size_t stratum, unsigned level)
+{
+    return strata->entries[strata->starts[stratum]].key >> 3 * level;
+}
+
+/* Strata [first, last) of one block become one if any of them holds too few. */
+static void join_block(const struct state *state, ps_strata *strata, size_t first, size_t last)
+{
+    int sparse = 0;
+    for (size_t i = first; i < last; i++)
+        sparse |= strata->starts[i + 1] - strata->starts[i] < (size_t)state->threshold;
+    for (size_t i = first; i < last; i++)
+        if (!sparse || i == last - 1)
+            ps_strata_end_at(strata, strata->starts[i + 1]);
+}
+
+/* Goes over the blocks of a level. The strata that are left are written over those that were: they
+ * are not more, so none is overwritten before it was read. */
+static void join_level(const struct state *state, ps_strata *strata, unsigned level)
+{
+    size_t before = strata->count;
+    strata->count = 0;
+    for (size_t first = 0, last; first < before; first = last) {
+        uint64_t block = block_of(strata, first, level);
+        for (last = first + 1; last < before && block_of(strata, last, level) == block;)
+            last++;
+        join_block(state, strata, first, last);
+    }
+}
+
+static ps_result combine(const void *opaque, const ps_host *host, const ps_pass *pass,
+                         ps_source *sources, size_t *n)
+{
+    const struct state *state = opaque;
+    ps_strata strata;
+    ps_merge_settings settings = {
+        .representative = state->representative,
+        .normal_angle = state->normal_angle,
+        .per_cell = (uint64_t)state->per_cell,
+        .bucket = (uint64_t)state->bucket,
+    };
+    if (!ps_strata_create(&strata, host, pass, sources, *n))
+        return PS_ERROR_MEMORY;
+    add_sources(state, host, sources, *n, &strata);
+    ps_strata_from_cells(&strata);
+    for (unsigned level = 1; level <= (unsigned)state->levels && state->threshold > 1; level++)
+        join_level(state, &strata, level);
+    ps_strata_merge(&strata, &settings, n);
+    ps_strata_release(&strata);
+    return PS_OK;
+}
+
+static int32_t init(void *opaque, const ps_host *host, char *message, size_t size)
+{
+    struct state *state = opaque;
+    ps_vec3 center;
+    float radius;
+    host->scene_bounds(host, &center, &radius);
+    state->side = state->cell.choice >= 0 ? 2.0 * (double)radius / (double)state->resolution
+                                          : state->cell.number;
+    if (state->cell.choice >= 0 || !ps_cells_too_small(state->side, radius))
+        return 0;
+    snprintf(message, size, "cell=%g is too small: the scene would be more than %u cells across",
+             state->side, PS_CELLS_ACROSS);
+    return 1;
+}
+
+static const ps_param params[] = {
+    PS_INT(struct state, resolution, "128", 1, 1000000, "cells",
+           "cells across the sphere around the scene, where cell is auto"),
+    PS_NUMBER_OR(struct state, cell, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, cell_choices,
+                 "scene units", "side of a cell; auto: by resolution"),
+    PS_CHOICE(struct state, centre, "scene", centre_choices, "where the middle of the grid lies"),
+    PS_INT(struct state, threshold, "2", 1, 1000000000, "sources",
+           "a cell with fewer merges with its block of 2x2x2; 1: none does"),
+    PS_INT(struct state, levels, "1", 0, 20, "levels", "how often blocks may merge"),
+    PS_INT(struct state, bucket, "0", 0, 1000000000, "sources",
+           "how many sources may become one; 0: any number"),
+    PS_INT(struct state, per_cell, "1", 1, 1000000000, "sources",
+           "how many sources stay in a cell that holds as many"),
+    PS_MERGE_PARAMS(struct state),
+};
+
+static const ps_stratification_vtable vtable = {
+    .size = sizeof vtable,
+    .whole_pass = 1,
+    .combine = combine,
+};
+
+static const ps_descriptor descriptor = {
+    .size = sizeof descriptor,
+    .kind = PS_STRATIFICATION,
+    .name = "grid",
+    .version = "1.0",
+    .summary = "the sources of each cell of a grid become one",
+    .paper = "Hoet 2014, sections 3.2.1 and 4.2",
+    .params = params,
+    .param_count = sizeof params / sizeof params[0],
+    .param_size = sizeof params[0],
+    .state_size = sizeof(struct state),
+    .init = init,
+    .vtable = &vtable,
+};
+
+PS_MODULE(stratification, grid, &descriptor)

@@ -1,0 +1,111 @@
+/* octree.c: the sources of each leaf of an octree become one.
+ *
+ * A node splits while it holds more than `capacity` sources, down to `depth`. So cells are small
+ * where light is dense and large where it is not, and the power of the sources that are left differs
+ * little: Hoet 2014 (section 5.1) names the octree as what a grid of fixed cells lacks.
+ *
+ * No tree is built. Sorted by Morton code (see cell.h), a node is a run of sources that share the
+ * leading bits (Warren and Salmon 1993, "A parallel hashed oct-tree N-body algorithm").
+ */
+#include <psplat/plugin.h>
+
+PS_MERGE_CHOICES
+
+struct state {
+    int64_t capacity;
+    int64_t depth;
+    PS_MERGE_MEMBERS
+};
+
+/* Cells of the deepest level; the root is the cube around the scene's sphere. */
+static void add_sources(const ps_host *host, const ps_source *sources, size_t n, ps_strata *strata)
+{
+    ps_vec3 center;
+    float radius;
+    host->scene_bounds(host, &center, &radius);
+    ps_lattice lattice = {ps_subtract(center, (ps_vec3){radius, radius, radius}),
+                          2.0 * (double)radius / PS_CELLS_ACROSS};
+    for (size_t i = 0; i < n; i++)
+        ps_strata_add(strata, i, ps_cell_key(&lattice, 0, sources[i].position));
+}
+
+/* Whether the two lie in the same node of that depth. */
+static int share_node(const ps_strata *strata, size_t a, size_t b, unsigned depth)
+{
+    unsigned shift = 3 * (PS_CELL_BITS - depth);
+    return strata->entries[a].key >> shift == strata->entries[b].key >> shift;
+}
+
+/* The depth of the leaf that begins at entry `first`: the highest node that begins there and holds
+ * no more than the capacity. */
+static unsigned leaf_depth(const struct state *state, const ps_strata *strata, size_t first)
+{
+    size_t capacity = (size_t)state->capacity, left = strata->entry_count - first;
+    for (unsigned depth = 0; depth < (unsigned)state->depth; depth++) {
+        int begins = first == 0 || !share_node(strata, first - 1, first, depth);
+        if (begins && (left <= capacity || !share_node(strata, first, first + capacity, depth)))
+            return depth;
+    }
+    return (unsigned)state->depth;
+}
+
+static void split_into_leaves(const struct state *state, ps_strata *strata)
+{
+    for (size_t first = 0, end; first < strata->entry_count; first = end) {
+        unsigned depth = leaf_depth(state, strata, first);
+        for (end = first + 1; end < strata->entry_count && share_node(strata, first, end, depth);)
+            end++;
+        ps_strata_end_at(strata, end);
+    }
+}
+
+static ps_result combine(const void *opaque, const ps_host *host, const ps_pass *pass,
+                         ps_source *sources, size_t *n)
+{
+    const struct state *state = opaque;
+    ps_strata strata;
+    ps_merge_settings settings = {
+        .representative = state->representative,
+        .normal_angle = state->normal_angle,
+        .per_cell = 1,
+    };
+    if (!ps_strata_create(&strata, host, pass, sources, *n))
+        return PS_ERROR_MEMORY;
+    add_sources(host, sources, *n, &strata);
+    ps_strata_sort(&strata);
+    split_into_leaves(state, &strata);
+    ps_strata_merge(&strata, &settings, n);
+    ps_strata_release(&strata);
+    return PS_OK;
+}
+
+static const ps_param params[] = {
+    PS_INT(struct state, capacity, "8", 1, 1000000000, "sources",
+           "a node that holds more splits into eight"),
+    PS_INT(struct state, depth, "10", 0, 20, "levels",
+           "how often nodes split at most; the sources of a deepest node merge, however many"),
+    PS_MERGE_PARAMS(struct state),
+};
+
+static const ps_stratification_vtable vtable = {
+    .size = sizeof vtable,
+    .whole_pass = 1,
+    .combine = combine,
+};
+
+static const ps_descriptor descriptor = {
+    .size = sizeof descriptor,
+    .kind = PS_STRATIFICATION,
+    .name = "octree",
+    .version = "1.0",
+    .summary = "the sources of each leaf of an octree become one",
+    .paper = "Hoet 2014, section 5.1; Warren and Salmon 1993, A parallel hashed oct-tree N-body "
+             "algorithm",
+    .params = params,
+    .param_count = sizeof params / sizeof params[0],
+    .param_size = sizeof params[0],
+    .state_size = sizeof(struct state),
+    .vtable = &vtable,
+};
+
+PS_MODULE(stratification, octree, &descriptor)

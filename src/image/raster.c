@@ -1,0 +1,203 @@
+/* raster.c: fetches a picture's bytes, sees what they are, and has them decoded.
+ *
+ * The file is read as a whole first, so that pictures inside of other files take the same way.
+ */
+#include "image/raster_decode.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+typedef ps_result (*raster_reader)(const struct raster_source *source, struct raster *raster,
+                                   struct error *error);
+
+static const struct format {
+    const char *magic;
+    size_t length;
+    raster_reader read;
+} formats[] = {
+    {"\x89PNG\r\n\x1a\n", 8, raster_read_png},
+    {"\xff\xd8\xff", 3, raster_read_jpeg},
+    {"\x76\x2f\x31\x01", 4, raster_read_exr},
+};
+
+#define FORMAT_COUNT (sizeof formats / sizeof *formats)
+
+static size_t bytes_per_pixel(const struct raster *raster)
+{
+    static const size_t sizes[] = {
+        [RASTER_BYTE] = 1, [RASTER_SHORT] = 2, [RASTER_HALF] = 2, [RASTER_FLOAT] = 4};
+    return raster->channels * sizes[raster->sample];
+}
+
+size_t raster_bytes(const struct raster *raster)
+{
+    return (size_t)raster->width * raster->height * bytes_per_pixel(raster);
+}
+
+void *raster_row(const struct raster *raster, size_t row)
+{
+    return (unsigned char *)raster->samples + row * raster->width * bytes_per_pixel(raster);
+}
+
+void raster_release(struct raster *raster)
+{
+    free(raster->samples);
+    *raster = (struct raster){0};
+}
+
+ps_result raster_check_size(const char *path, int64_t width, int64_t height, size_t pixel_bytes,
+                            struct error *error)
+{
+    if (width <= 0 || height <= 0) {
+        return error_set(error, PS_ERROR_INVALID, "%s: a picture of %lld x %lld pixels cannot be",
+                         path, (long long)width, (long long)height);
+    }
+    if (width > RASTER_SIDE_LIMIT || height > RASTER_SIDE_LIMIT ||
+        (uint64_t)width * (uint64_t)height > RASTER_PIXEL_LIMIT) {
+        double gibibytes = (double)width * (double)height * (double)pixel_bytes * 0x1p-30;
+        return error_set(error, PS_ERROR_INVALID,
+                         "%s: %lld x %lld pixels (%.3g GiB of memory) are beyond the limit of %d a "
+                         "side and 2^30 in all",
+                         path, (long long)width, (long long)height, gibibytes, RASTER_SIDE_LIMIT);
+    }
+    return PS_OK;
+}
+
+ps_result raster_check_expansion(const struct raster_source *source, uint64_t decoded,
+                                 uint64_t expansion, struct error *error)
+{
+    if (decoded / expansion <= source->size) {
+        return PS_OK;
+    }
+    return error_set(error, PS_ERROR_IO,
+                     "%s: it ends too early: %zu bytes cannot hold the picture that it states",
+                     source->path, source->size);
+}
+
+ps_result raster_allocate(const char *path, struct raster *raster, struct error *error)
+{
+    ps_result result =
+        raster_check_size(path, raster->width, raster->height, bytes_per_pixel(raster), error);
+    if (result != PS_OK) {
+        return result;
+    }
+    raster->samples = malloc(raster_bytes(raster));
+    if (!raster->samples) {
+        return error_set(error, PS_ERROR_MEMORY,
+                         "%s: out of memory: wanted %zu bytes for %u x %u pixels", path,
+                         raster_bytes(raster), raster->width, raster->height);
+    }
+    return PS_OK;
+}
+
+static ps_result decode(const struct raster_source *source, struct raster *raster,
+                        struct error *error)
+{
+    if (source->size == 0) {
+        return error_set(error, PS_ERROR_INVALID, "%s: it is empty", source->path);
+    }
+    for (size_t i = 0; i < FORMAT_COUNT; i++) {
+        const struct format *format = &formats[i];
+        if (source->size >= format->length &&
+            memcmp(source->bytes, format->magic, format->length) == 0) {
+            return format->read(source, raster, error);
+        }
+    }
+    return error_set(error, PS_ERROR_INVALID,
+                     "%s: its content is none of a picture that can be read (PNG, JPEG, OpenEXR)",
+                     source->path);
+}
+
+static ps_result decode_or_release(const struct raster_source *source, struct raster *raster,
+                                   struct error *error)
+{
+    struct raster decoded = {0};
+    ps_result result = decode(source, &decoded, error);
+    if (result != PS_OK) {
+        raster_release(&decoded);
+        return result;
+    }
+    *raster = decoded;
+    return PS_OK;
+}
+
+static ps_result refuse_system(const char *path, const char *what, struct error *error)
+{
+    return error_set(error, PS_ERROR_IO, "%s: cannot %s: %s", path, what, strerror(errno));
+}
+
+/* Only files have a size to be known beforehand; a pipe could make the program wait for ever. */
+static ps_result check_regular(const char *path, const struct stat *status, struct error *error)
+{
+    if (S_ISDIR(status->st_mode)) {
+        return error_set(error, PS_ERROR_IO, "%s: it is a directory", path);
+    }
+    if (!S_ISREG(status->st_mode)) {
+        return error_set(error, PS_ERROR_IO, "%s: it is not a regular file", path);
+    }
+    return PS_OK;
+}
+
+static ps_result read_bytes(int descriptor, const char *path, unsigned char *bytes, size_t size,
+                            struct error *error)
+{
+    for (size_t done = 0; done < size;) {
+        ssize_t count = read(descriptor, bytes + done, size - done);
+        if (count < 0 && errno == EINTR) {
+            continue;
+        }
+        if (count < 0) {
+            return refuse_system(path, "read", error);
+        }
+        if (count == 0) {
+            return error_set(error, PS_ERROR_IO, "%s: it became shorter while it was read", path);
+        }
+        done += (size_t)count;
+    }
+    return PS_OK;
+}
+
+static ps_result read_descriptor(int descriptor, const char *path, struct raster *raster,
+                                 struct error *error)
+{
+    struct stat status;
+    if (fstat(descriptor, &status) != 0) {
+        return refuse_system(path, "read", error);
+    }
+    ps_result result = check_regular(path, &status, error);
+    if (result != PS_OK) {
+        return result;
+    }
+    size_t size = (size_t)status.st_size;
+    unsigned char *bytes = malloc(size + 1);
+    if (!bytes) {
+        return error_set(error, PS_ERROR_MEMORY, "%s: out of memory: wanted %zu bytes", path, size);
+    }
+    result = read_bytes(descriptor, path, bytes, size, error);
+    if (result == PS_OK) {
+        struct raster_source source = {path, bytes, size};
+        result = decode_or_release(&source, raster, error);
+    }
+    free(bytes);
+    return result;
+}
+
+ps_result raster_read(const char *path, const unsigned char *bytes, size_t size,
+                      struct raster *raster, struct error *error)
+{
+    if (bytes) {
+        struct raster_source source = {path, bytes, size};
+        return decode_or_release(&source, raster, error);
+    }
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0) {
+        return refuse_system(path, "open", error);
+    }
+    ps_result result = read_descriptor(descriptor, path, raster, error);
+    close(descriptor);
+    return result;
+}

@@ -1,0 +1,56 @@
+/* raster.h: pictures as textures want them: interleaved, in the precision of their file.
+ *
+ * A colour of an 8-bit picture takes 3 bytes here and 12 as floats, which decides whether large
+ * textures fit in memory; so samples stay as they were stored, and whoever reads them decodes them.
+ * PNG through libpng, JPEG through libjpeg, OpenEXR through its C interface; told apart by their
+ * first bytes, since names lie.
+ */
+#ifndef IMAGE_RASTER_H
+#define IMAGE_RASTER_H
+
+#include "base/error.h"
+
+#include <stdbool.h>
+
+#define RASTER_SIDE_LIMIT 65536                /* pixels */
+#define RASTER_PIXEL_LIMIT (UINT64_C(1) << 30) /* pixels in all */
+
+enum raster_sample {
+    RASTER_BYTE,  /* uint8_t, 255 is 1 */
+    RASTER_SHORT, /* uint16_t, 65535 is 1 */
+    RASTER_HALF,  /* uint16_t, the bits of a half float */
+    RASTER_FLOAT  /* float */
+};
+
+/* Owns its samples. Zero-initialise before the first use. */
+struct raster {
+    uint32_t width, height;
+    uint32_t channels; /* 1: grey; 2: grey, alpha; 3: red, green, blue; 4: with alpha */
+    enum raster_sample sample;
+    bool srgb; /* colours carry the sRGB transfer function, by their type of file; alpha never */
+    void *samples; /* row-major, top row first, native byte order */
+};
+
+/* Reads a PNG, JPEG or OpenEXR picture: from `bytes` where that is not NULL, else from the file.
+ *
+ * PNG: every colour type and depth, interlaced or not; a palette becomes colours, a transparent
+ * colour alpha, 1 to 4 bits become 8. Gamma and colour profiles are ignored.
+ * JPEG: grey, YCbCr and RGB, 8 bits; CMYK is refused. Colour profiles and the orientation that EXIF
+ * states are ignored.
+ * OpenEXR: R, G, B or Y, with A where there is one, other channels are skipped; what image_read_exr
+ * refuses is refused here; the picture is the data window. Colours stay premultiplied by alpha, as
+ * the format has them. NaN is read as 0 and infinity as the largest half float, 65504. Samples are
+ * half floats where these hold every one.
+ *
+ * PS_ERROR_IO: the file cannot be read, is truncated or damaged; PS_ERROR_INVALID: no picture of a
+ * known kind or size; PS_ERROR_MEMORY. Messages start with `path`. `raster` is written only on
+ * success, and what it held is not released: pass an empty one. Any number of threads. */
+ps_result raster_read(const char *path, const unsigned char *bytes, size_t size,
+                      struct raster *raster, struct error *error);
+
+void raster_release(struct raster *raster);
+
+/* Of the samples. */
+size_t raster_bytes(const struct raster *raster);
+
+#endif

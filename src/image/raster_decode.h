@@ -1,0 +1,44 @@
+/* raster_decode.h: what the readers of one type of file share; for src/image alone. */
+#ifndef IMAGE_RASTER_DECODE_H
+#define IMAGE_RASTER_DECODE_H
+
+#include "image/image.h"
+#include "image/raster.h"
+
+/* A whole file in memory; borrowed. */
+struct raster_source {
+    const char *path; /* for messages */
+    const unsigned char *bytes;
+    size_t size;
+};
+
+/* Each reads `source` into `raster`, as raster_read says; on failure the caller releases `raster`,
+ * whatever it holds by then. */
+ps_result raster_read_png(const struct raster_source *source, struct raster *raster,
+                          struct error *error);
+ps_result raster_read_jpeg(const struct raster_source *source, struct raster *raster,
+                           struct error *error);
+ps_result raster_read_exr(const struct raster_source *source, struct raster *raster,
+                          struct error *error);
+
+/* As image_read_exr, from memory, with the limits of a raster, and with messages that start with
+ * the path. Only the channels of the list, which NULL ends, that the file has; maybe none. */
+ps_result exr_read_channels(const struct raster_source *source, const char *const *channels,
+                            struct image *image, struct error *error);
+
+/* Refuses pictures without a size and those beyond the limits. */
+ps_result raster_check_size(const char *path, int64_t width, int64_t height, size_t bytes_per_pixel,
+                            struct error *error);
+
+/* Refuses a picture that the file is too short for: one that even at `expansion` decoded bytes for
+ * each of its own would end too early. Keeps a small hostile file from taking gigabytes. */
+ps_result raster_check_expansion(const struct raster_source *source, uint64_t decoded,
+                                 uint64_t expansion, struct error *error);
+
+/* Checks the size that `raster` states, and allocates its samples. */
+ps_result raster_allocate(const char *path, struct raster *raster, struct error *error);
+
+/* Where a row's samples start, 0 is the top one. */
+void *raster_row(const struct raster *raster, size_t row);
+
+#endif

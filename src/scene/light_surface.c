@@ -1,0 +1,270 @@
+/* light_surface.c: triangles that shine: rectangles, discs, emissive meshes.
+ *
+ * Points are uniform over the area: a triangle by its share, then a point in it. Sampling by solid
+ * angle (Arvo 1995) has less noise close by, but needs to choose among triangles by what they look
+ * like from each point; area is right for any mesh, and one table serves all points. Light paths
+ * leave with the cosine distribution of a Lambertian emitter.
+ *
+ * Normals and areas are computed in double, for triangles whose edges square to nothing in float.
+ */
+#include "scene/light_kinds.h"
+
+#include <stdlib.h>
+
+/* How many points, over all triangles, a pattern's mean is made from, and the most along an edge.
+ */
+#define PATTERN_POINTS 65536
+#define PATTERN_EDGE 64
+
+struct corners {
+    ps_vec3 p[3];
+};
+
+static struct corners corners_of(const struct light_mesh *mesh, size_t triangle)
+{
+    const uint32_t *index = mesh->triangles[triangle];
+    return (struct corners){
+        {mesh->vertices[index[0]], mesh->vertices[index[1]], mesh->vertices[index[2]]}};
+}
+
+/* The triangle's area, and its unit normal where that is more than 0. */
+static double measure(const struct corners *corners, ps_vec3 *normal)
+{
+    const ps_vec3 *p = corners->p;
+    double ax = (double)p[1].x - p[0].x, ay = (double)p[1].y - p[0].y;
+    double az = (double)p[1].z - p[0].z, bx = (double)p[2].x - p[0].x;
+    double by = (double)p[2].y - p[0].y, bz = (double)p[2].z - p[0].z;
+    double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;
+    double length = sqrt(x * x + y * y + z * z);
+    if (length > 0.0)
+        *normal = (ps_vec3){(float)(x / length), (float)(y / length), (float)(z / length)};
+    return 0.5 * length;
+}
+
+/* A point of a triangle by its shares of the corners. */
+struct shares {
+    float of[3];
+};
+
+/* The unit square to a triangle: folded along the diagonal rather than squeezed into a corner
+ * (Heitz 2019, "A low-distortion map between triangle and square"). */
+static struct shares shares_of(float u1, float u2)
+{
+    float a = u1 < u2 ? 0.5f * u1 : u1 - 0.5f * u2;
+    float b = u1 < u2 ? u2 - 0.5f * u1 : 0.5f * u2;
+    return (struct shares){{fmaxf(0.0f, 1.0f - a - b), a, b}};
+}
+
+static ps_vec3 point_of(const struct corners *corners, const struct shares *shares)
+{
+    const ps_vec3 *p = corners->p;
+    ps_vec3 along = ps_scale(ps_subtract(p[1], p[0]), shares->of[1]);
+    along = ps_add_scaled(along, shares->of[2], ps_subtract(p[2], p[0]));
+    return ps_add(p[0], along);
+}
+
+static ps_rgb pattern_at(const struct light_mesh *mesh, size_t triangle, ps_vec3 position,
+                         const struct shares *shares)
+{
+    if (!mesh->pattern)
+        return (ps_rgb){1, 1, 1};
+    float uv[2] = {0, 0};
+    for (int i = 0; mesh->uv && i < 3; i++) {
+        uv[0] += shares->of[i] * mesh->uv[mesh->triangles[triangle][i]][0];
+        uv[1] += shares->of[i] * mesh->uv[mesh->triangles[triangle][i]][1];
+    }
+    return mesh->pattern(mesh->pattern_user, position, uv);
+}
+
+static ps_rgb triangle_mean(const struct light_mesh *mesh, size_t triangle, size_t edge)
+{
+    struct corners corners = corners_of(mesh, triangle);
+    ps_rgb sum = {0, 0, 0};
+    for (size_t i = 0; i < edge; i++)
+        for (size_t k = 0; k < edge; k++) {
+            struct shares shares =
+                shares_of(((float)i + 0.5f) / (float)edge, ((float)k + 0.5f) / (float)edge);
+            ps_vec3 position = point_of(&corners, &shares);
+            sum = ps_rgb_add(sum, pattern_at(mesh, triangle, position, &shares));
+        }
+    return ps_rgb_scale(sum, 1.0f / (float)(edge * edge));
+}
+
+/* The pattern's mean by a grid of points in each triangle. */
+static ps_rgb mean_of_pattern(const struct light_surface *surface)
+{
+    const struct light_mesh *mesh = &surface->mesh;
+    double red = 0.0, green = 0.0, blue = 0.0;
+    if (!mesh->pattern || mesh->triangle_count == 0)
+        return (ps_rgb){1, 1, 1};
+    size_t edge = (size_t)sqrt((double)PATTERN_POINTS / (double)mesh->triangle_count);
+    edge = edge < 1 ? 1 : (edge > PATTERN_EDGE ? PATTERN_EDGE : edge);
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        float probability = distribution_probability(&surface->by_area, i);
+        if (!(probability > 0.0f))
+            continue;
+        ps_rgb mean = ps_rgb_scale(triangle_mean(mesh, i, edge), probability);
+        red += (double)mean.r;
+        green += (double)mean.g;
+        blue += (double)mean.b;
+    }
+    return (ps_rgb){(float)red, (float)green, (float)blue};
+}
+
+static ps_result distribute_by_area(struct light_surface *surface, struct error *error)
+{
+    size_t count = surface->mesh.triangle_count;
+    float *areas = calloc(count, sizeof *areas);
+    if (!areas)
+        return error_memory(error, count * sizeof *areas, "an emissive mesh");
+    ps_vec3 normal;
+    for (size_t i = 0; i < count; i++) {
+        struct corners corners = corners_of(&surface->mesh, i);
+        areas[i] = (float)measure(&corners, &normal);
+    }
+    ps_result result = distribution_create(areas, count, &surface->by_area, error);
+    free(areas);
+    return result;
+}
+
+ps_result light_surface_create(const struct light_mesh *mesh, ps_rgb radiance, bool both_sides,
+                               struct light_surface *surface, struct error *error)
+{
+    *surface = (struct light_surface){
+        .mesh = *mesh,
+        .radiance = radiance,
+        .both_sides = both_sides,
+    };
+    if (mesh->triangle_count == 0)
+        return PS_OK;
+    ps_result result = distribute_by_area(surface, error);
+    if (result != PS_OK)
+        return result;
+    surface->area = (float)surface->by_area.total;
+    surface->mean = mean_of_pattern(surface);
+    return PS_OK;
+}
+
+void light_surface_release(struct light_surface *surface)
+{
+    distribution_release(&surface->by_area);
+    *surface = (struct light_surface){.area = 0.0f};
+}
+
+/* Power of the surface where its pattern is 1. */
+static ps_rgb plain_power(const struct light_surface *surface)
+{
+    float sides = surface->both_sides ? 2.0f : 1.0f;
+    return ps_rgb_scale(surface->radiance, sides * PS_PI * surface->area);
+}
+
+ps_rgb light_surface_power(const struct light_surface *surface)
+{
+    return ps_rgb_multiply(plain_power(surface), surface->mean);
+}
+
+struct surface_point {
+    ps_vec3 position, normal; /* the front's */
+    ps_rgb pattern;
+};
+
+/* Needs an area. */
+static struct surface_point choose_point(const struct light_surface *surface, float u1, float u2)
+{
+    struct surface_point point = {.normal = {0, 0, 1}};
+    size_t triangle = distribution_choose(&surface->by_area, u1, &u1);
+    struct corners corners = corners_of(&surface->mesh, triangle);
+    struct shares shares = shares_of(u1, u2);
+    measure(&corners, &point.normal);
+    point.position = point_of(&corners, &shares);
+    point.pattern = pattern_at(&surface->mesh, triangle, point.position, &shares);
+    return point;
+}
+
+ps_rgb light_surface_emit(const struct light_surface *surface, const float u[4], ps_ray *ray,
+                          ps_vec3 *normal)
+{
+    if (!(surface->area > 0.0f))
+        return (ps_rgb){0, 0, 0};
+    float u1 = u[0];
+    struct surface_point point = choose_point(surface, u[2], u[3]);
+    bool is_back = surface->both_sides && light_take_half(&u1);
+    *normal = is_back ? ps_scale(point.normal, -1.0f) : point.normal;
+    *ray = (ps_ray){point.position, 0.0f, ps_cosine_direction(*normal, u1, u[1]), INFINITY};
+    return ps_rgb_multiply(plain_power(surface), point.pattern);
+}
+
+/* Cosine at the light towards a point that looks along `direction`; not above 0 where it sees a
+ * back that does not shine. */
+static float cosine_at_light(const struct light_surface *surface, ps_vec3 direction, ps_vec3 normal)
+{
+    float cosine = -ps_dot(direction, normal);
+    return surface->both_sides ? fabsf(cosine) : cosine;
+}
+
+bool light_surface_sample(const struct light_surface *surface, ps_vec3 position, float u1, float u2,
+                          struct light_sample *sample)
+{
+    if (!(surface->area > 0.0f))
+        return false;
+    struct surface_point point = choose_point(surface, u1, u2);
+    ps_vec3 to_light = ps_subtract(point.position, position);
+    float distance = ps_length(to_light);
+    if (!(distance > 0.0f))
+        return false;
+    ps_vec3 direction = ps_scale(to_light, 1.0f / distance);
+    float pdf = light_surface_pdf(surface, direction, distance, point.normal);
+    ps_rgb radiance = ps_rgb_multiply(surface->radiance, point.pattern);
+    *sample = (struct light_sample){direction, distance, ps_rgb_scale(radiance, 1.0f / pdf), pdf};
+    return pdf > 0.0f;
+}
+
+float light_surface_pdf(const struct light_surface *surface, ps_vec3 direction, float distance,
+                        ps_vec3 normal)
+{
+    return light_pdf_of_area(surface->area, distance, cosine_at_light(surface, direction, normal));
+}
+
+ps_rgb light_surface_radiance(const struct light_description *description, double area)
+{
+    bool is_flat = description->kind == LIGHT_RECTANGLE || description->kind == LIGHT_DISC;
+    double sides = is_flat && description->both_sides ? 2.0 : 1.0;
+    if (description->unit != UNIT_POWER)
+        return description->amount;
+    if (!(area > 0.0))
+        return (ps_rgb){0, 0, 0};
+    return ps_rgb_scale(description->amount, (float)(1.0 / (PI_DOUBLE * area * sides)));
+}
+
+void light_rectangle_triangles(const struct light_description *description, ps_vec3 vertices[4],
+                               uint32_t triangles[2][3])
+{
+    static const float corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    static const uint32_t halves[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    for (int i = 0; i < 4; i++) {
+        ps_vec3 along = ps_scale(description->half_edges[0], corners[i][0]);
+        along = ps_add_scaled(along, corners[i][1], description->half_edges[1]);
+        vertices[i] = ps_add(description->location, along);
+    }
+    for (int i = 0; i < 6; i++)
+        triangles[i / 3][i % 3] = halves[i / 3][i % 3];
+}
+
+void light_disc_triangles(const struct light_description *description, size_t segments,
+                          ps_vec3 *vertices, uint32_t (*triangles)[3])
+{
+    ps_vec3 u, v;
+    ps_frame(ps_normalize(description->direction), &u, &v);
+    double step = 2.0 * PI_DOUBLE / (double)segments;
+    /* A polygon's area is N/2 R^2 sin(2 pi / N). */
+    double radius = description->radius * sqrt(step / sin(step));
+    vertices[0] = description->location;
+    for (size_t i = 0; i < segments; i++) {
+        ps_vec3 along = ps_scale(u, (float)(radius * cos(step * (double)i)));
+        along = ps_add_scaled(along, (float)(radius * sin(step * (double)i)), v);
+        vertices[i + 1] = ps_add(description->location, along);
+        triangles[i][0] = 0;
+        triangles[i][1] = (uint32_t)i + 1;
+        triangles[i][2] = (uint32_t)((i + 1) % segments) + 1;
+    }
+}

@@ -1,0 +1,426 @@
+#include "scene/material.h"
+
+#include "scene/fresnel.h"
+#include <string.h>
+
+/* Grazing directions, where cosines divide. */
+#define SMALLEST_COSINE 1e-4f
+
+#define MOST_LOBES (2 * MATERIAL_MOST_COMPONENTS)
+
+/* --- construction ------------------------------------------------------------------------------ */
+
+static struct component component_create(const struct material_description *description,
+                                         float share, const struct texture *textures)
+{
+    struct component component = {
+        .kind = COMPONENT_REFLECTOR,
+        .share = share,
+        .specular = pigment_create(&description->color, textures),
+        .roughness = pigment_create(&description->roughness, textures),
+    };
+    switch (description->kind) {
+    case MATERIAL_DIFFUSE:
+        component.kind = COMPONENT_DIFFUSE;
+        component.diffuse = component.specular;
+        break;
+    case MATERIAL_MIRROR:
+        component.constant = true;
+        break;
+    case MATERIAL_GLOSSY:
+        component.kind = COMPONENT_GLOSSY;
+        component.diffuse = component.specular;
+        component.specular = pigment_create(&description->specular, textures);
+        break;
+    case MATERIAL_DIELECTRIC:
+        component.kind = COMPONENT_DIELECTRIC;
+        component.ior = (float)description->ior;
+        component.absorption = description->absorption;
+        break;
+    case MATERIAL_METAL:
+    case MATERIAL_MIX:
+        break;
+    }
+    return component;
+}
+
+/* Adds the components of a material, which may be a mix of others. */
+static ps_result add_components(const struct scene_description *description, size_t index,
+                                float share, const struct texture *textures,
+                                struct material *material, struct error *error)
+{
+    const struct material_description *from = &description->materials[index];
+    for (size_t i = 0; from->kind == MATERIAL_MIX && i < from->component_count; i++) {
+        ps_result result =
+            add_components(description, from->components[i], share * (float)from->weights[i],
+                           textures, material, error);
+        if (result != PS_OK)
+            return result;
+    }
+    if (from->kind == MATERIAL_MIX)
+        return PS_OK;
+    if (material->component_count == MATERIAL_MOST_COMPONENTS)
+        return error_set(error, PS_ERROR_INVALID, "a mix of more than %d materials",
+                         MATERIAL_MOST_COMPONENTS);
+    struct component component = component_create(from, share, textures);
+    material->specular = material->specular || component.kind != COMPONENT_DIFFUSE;
+    material->components[material->component_count++] = component;
+    return PS_OK;
+}
+
+static bool is_black(const struct pigment_description *pigment)
+{
+    const ps_rgb *colors = pigment->colors;
+    bool two = pigment->kind != PIGMENT_COLOR && pigment->kind != PIGMENT_IMAGE;
+    return !(ps_rgb_maximum(colors[0]) > 0.0f) && !(two && ps_rgb_maximum(colors[1]) > 0.0f);
+}
+
+ps_result material_create(const struct scene_description *description, size_t index,
+                          const struct texture *textures, struct material *material,
+                          struct error *error)
+{
+    const struct material_description *from = &description->materials[index];
+    *material = (struct material){
+        .emissive = !is_black(&from->emission),
+        .emission_both = from->emission_both,
+        .has_opacity = from->opacity.kind != PIGMENT_COLOR || from->opacity.colors[0].r < 0.5f,
+        .has_bump = from->bump.kind != PIGMENT_COLOR,
+        .emission = pigment_create(&from->emission, textures),
+        .opacity = pigment_create(&from->opacity, textures),
+        .bump = pigment_create(&from->bump, textures),
+        .normal_map = from->normal_map == NO_INDEX ? NULL : &textures[from->normal_map],
+    };
+    return add_components(description, index, 1.0f, textures, material, error);
+}
+
+void material_create_lamp(ps_rgb radiance, bool both_sides, struct material *material)
+{
+    struct pigment_description emission = {.kind = PIGMENT_COLOR, .colors = {radiance}};
+    *material = (struct material){
+        .emissive = true,
+        .emission_both = both_sides,
+        .emission = pigment_create(&emission, NULL),
+    };
+}
+
+/* --- lobes --------------------------------------------------------------------------------------- */
+
+/* A surface point seen from a direction: what is needed of it more than once. */
+struct view {
+    const struct material *material;
+    const struct microfacet_table *table;
+    const ps_hit *hit;
+    ps_vec3 out;  /* unit, back along the ray */
+    float cosine; /* of `out` to the shading normal, > 0 */
+};
+
+static struct view view_of(const struct material *material, const struct microfacet_table *table,
+                           const ps_hit *hit, ps_vec3 ray_direction)
+{
+    ps_vec3 out = ps_scale(ray_direction, -1.0f);
+    float cosine = fmaxf(ps_dot(out, hit->normal), SMALLEST_COSINE);
+    return (struct view){material, table, hit, out, cosine};
+}
+
+static ps_rgb color_at(const struct pigment *pigment, const ps_hit *hit)
+{
+    return pigment_color(pigment, hit->texture_point, hit->uv);
+}
+
+static float roughness_at(const struct component *component, const ps_hit *hit)
+{
+    return pigment_number(&component->roughness, hit->texture_point, hit->uv);
+}
+
+static bool is_smooth(float roughness)
+{
+    return roughness < MICROFACET_SMOOTHEST;
+}
+
+/* The share of the light from all around that the component's reflector sends to `cosine`. */
+static ps_rgb reflector_albedo(const struct component *component, const struct view *view,
+                               float cosine)
+{
+    ps_rgb f0 = color_at(&component->specular, view->hit);
+    float roughness = roughness_at(component, view->hit);
+    if (component->constant)
+        return f0;
+    if (is_smooth(roughness))
+        return fresnel_schlick(f0, cosine);
+    return microfacet_albedo(view->table, f0, roughness, cosine);
+}
+
+static ps_rgb complement(ps_rgb a)
+{
+    return (ps_rgb){fmaxf(0.0f, 1.0f - a.r), fmaxf(0.0f, 1.0f - a.g), fmaxf(0.0f, 1.0f - a.b)};
+}
+
+/* The component's diffuse albedo towards `cosine`, with its share. */
+static ps_rgb diffuse_albedo(const struct component *component, const struct view *view,
+                             float cosine)
+{
+    if (component->kind != COMPONENT_DIFFUSE && component->kind != COMPONENT_GLOSSY)
+        return (ps_rgb){0, 0, 0};
+    ps_rgb albedo = ps_rgb_scale(color_at(&component->diffuse, view->hit), component->share);
+    if (component->kind == COMPONENT_DIFFUSE)
+        return albedo;
+    return ps_rgb_multiply(albedo, complement(reflector_albedo(component, view, cosine)));
+}
+
+ps_rgb material_albedo(const struct material *material, const struct microfacet_table *table,
+                       const ps_hit *hit, ps_vec3 ray_direction)
+{
+    struct view view = view_of(material, table, hit, ray_direction);
+    ps_rgb sum = {0, 0, 0};
+    for (uint32_t i = 0; i < material->component_count; i++)
+        sum = ps_rgb_add(sum, diffuse_albedo(&material->components[i], &view, view.cosine));
+    return sum;
+}
+
+ps_rgb material_emission(const struct material *material, const ps_hit *hit)
+{
+    if (!material->emissive || ((hit->flags & PS_HIT_BACK) && !material->emission_both))
+        return (ps_rgb){0, 0, 0};
+    return color_at(&material->emission, hit);
+}
+
+/* A way in which light may go on: the diffuse or the other lobe of a component. */
+struct lobe {
+    const struct component *component;
+    bool diffuse;
+    float probability;
+};
+
+static size_t add_lobe(struct lobe *lobes, size_t count, const struct component *component,
+                       bool diffuse, float albedo)
+{
+    if (!(albedo > 0.0f))
+        return count;
+    lobes[count] = (struct lobe){component, diffuse, albedo};
+    return count + 1;
+}
+
+/* The surface's lobes with their probabilities, by albedo. */
+static size_t list_lobes(const struct view *view, struct lobe lobes[MOST_LOBES])
+{
+    size_t count = 0;
+    float sum = 0.0f;
+    for (uint32_t i = 0; i < view->material->component_count; i++) {
+        const struct component *component = &view->material->components[i];
+        float diffuse = ps_rgb_maximum(diffuse_albedo(component, view, view->cosine));
+        float other = 0.0f;
+        if (component->kind == COMPONENT_DIELECTRIC)
+            other = component->share;
+        else if (component->kind != COMPONENT_DIFFUSE)
+            other =
+                component->share * ps_rgb_maximum(reflector_albedo(component, view, view->cosine));
+        count = add_lobe(lobes, count, component, true, diffuse);
+        count = add_lobe(lobes, count, component, false, other);
+    }
+    for (size_t i = 0; i < count; i++)
+        sum += lobes[i].probability;
+    for (size_t i = 0; i < count; i++)
+        lobes[i].probability /= sum;
+    return count;
+}
+
+/* Chooses a lobe, and rescales the number so that it can be used again. */
+static const struct lobe *choose_lobe(const struct lobe *lobes, size_t count, float *number)
+{
+    float left = *number;
+    size_t i = 0;
+    while (i + 1 < count && left >= lobes[i].probability)
+        left -= lobes[i++].probability;
+    *number = fminf(left / lobes[i].probability, 0x1.fffffep-1f);
+    return &lobes[i];
+}
+
+/* --- scattering ------------------------------------------------------------------------------ */
+
+static ps_vec3 to_frame(const ps_vec3 frame[3], ps_vec3 w)
+{
+    return (ps_vec3){ps_dot(w, frame[0]), ps_dot(w, frame[1]), ps_dot(w, frame[2])};
+}
+
+static ps_vec3 from_frame(const ps_vec3 frame[3], ps_vec3 w)
+{
+    return ps_add_scaled(ps_add_scaled(ps_scale(frame[0], w.x), w.y, frame[1]), w.z, frame[2]);
+}
+
+static void shading_frame(const ps_hit *hit, ps_vec3 frame[3])
+{
+    frame[2] = hit->normal;
+    ps_frame(frame[2], &frame[0], &frame[1]);
+}
+
+static ps_scatter mirror(const struct lobe *lobe, const struct view *view)
+{
+    const struct component *component = lobe->component;
+    ps_vec3 n = view->hit->normal;
+    ps_rgb reflected = reflector_albedo(component, view, view->cosine);
+    return (ps_scatter){
+        .direction =
+            ps_normalize(ps_add_scaled(ps_scale(view->out, -1.0f), 2.0f * ps_dot(view->out, n), n)),
+        .weight = ps_rgb_scale(reflected, component->share),
+        .lobe = PS_SPECULAR,
+    };
+}
+
+static ps_scatter reflect_roughly(const struct lobe *lobe, const struct view *view,
+                                  ps_direction direction, const float sample[4])
+{
+    const struct component *component = lobe->component;
+    float roughness = roughness_at(component, view->hit);
+    ps_rgb f0 = color_at(&component->specular, view->hit);
+    ps_vec3 frame[3];
+    shading_frame(view->hit, frame);
+    ps_vec3 out = to_frame(frame, view->out);
+    out.z = fmaxf(out.z, SMALLEST_COSINE);
+    ps_vec3 in = microfacet_sample(roughness, out, sample[0], sample[1]);
+    float eye = direction == PS_FROM_CAMERA ? out.z : in.z;
+    ps_rgb weight = ps_rgb_multiply(microfacet_weight(roughness, f0, out, in),
+                                    microfacet_compensation(view->table, f0, roughness, eye));
+    return (ps_scatter){
+        .direction = ps_normalize(from_frame(frame, in)),
+        .weight = ps_rgb_scale(weight, component->share),
+        .pdf = microfacet_pdf(roughness, out, in),
+        .lobe = PS_GLOSSY,
+    };
+}
+
+static ps_scatter scatter_diffusely(const struct lobe *lobe, const struct view *view,
+                                    ps_direction direction, const float sample[4])
+{
+    ps_vec3 n = view->hit->normal;
+    ps_vec3 w = ps_cosine_direction(n, sample[0], sample[1]);
+    float cosine = ps_dot(w, n);
+    return (ps_scatter){
+        .direction = w,
+        .weight = diffuse_albedo(lobe->component, view,
+                                 direction == PS_FROM_CAMERA ? view->cosine : cosine),
+        .pdf = cosine / PS_PI,
+        .lobe = PS_DIFFUSE,
+    };
+}
+
+static ps_rgb transmittance(ps_rgb absorption, float distance)
+{
+    return (ps_rgb){expf(-absorption.r * distance), expf(-absorption.g * distance),
+                    expf(-absorption.b * distance)};
+}
+
+/* Mirrors or refracts, by chance. Radiance is squeezed into a smaller solid angle on the denser side;
+ * power is not. */
+static ps_scatter pass_surface(const struct lobe *lobe, const struct view *view,
+                               ps_direction direction, float number)
+{
+    const struct component *component = lobe->component;
+    bool inside = view->hit->flags & PS_HIT_BACK;
+    float eta = inside ? 1.0f / component->ior : component->ior;
+    float far_cosine, reflectance = fresnel_dielectric(view->cosine, eta, &far_cosine);
+    ps_vec3 n = view->hit->normal;
+    ps_rgb weight = {component->share, component->share, component->share};
+    if (inside)
+        weight = ps_rgb_multiply(weight, transmittance(component->absorption, view->hit->distance));
+    ps_scatter scattered = {.lobe = PS_SPECULAR, .weight = weight};
+    if (number < reflectance) {
+        scattered.direction =
+            ps_add_scaled(ps_scale(view->out, -1.0f), 2.0f * ps_dot(view->out, n), n);
+    } else {
+        ps_vec3 along = ps_scale(view->out, -1.0f / eta);
+        scattered.direction = ps_add_scaled(along, view->cosine / eta - far_cosine, n);
+        scattered.weight = ps_rgb_multiply(weight, color_at(&component->specular, view->hit));
+        if (direction == PS_FROM_CAMERA)
+            scattered.weight = ps_rgb_scale(scattered.weight, 1.0f / (eta * eta));
+    }
+    scattered.direction = ps_normalize(scattered.direction);
+    return scattered;
+}
+
+static ps_scatter follow_lobe(const struct lobe *lobe, const struct view *view,
+                              ps_direction direction, const float sample[4], float number)
+{
+    const struct component *component = lobe->component;
+    if (lobe->diffuse)
+        return scatter_diffusely(lobe, view, direction, sample);
+    if (component->kind == COMPONENT_DIELECTRIC)
+        return pass_surface(lobe, view, direction, number);
+    if (component->constant || is_smooth(roughness_at(component, view->hit)))
+        return mirror(lobe, view);
+    return reflect_roughly(lobe, view, direction, sample);
+}
+
+/* What light paths lose or gain at smoothed and bent normals (Veach 1997, section 5.3). */
+static float shading_correction(const struct view *view, ps_vec3 w)
+{
+    ps_vec3 shading = view->hit->normal, true_normal = view->hit->geometric_normal;
+    if (memcmp(&shading, &true_normal, sizeof shading) == 0)
+        return 1.0f;
+    float in = ps_dot(view->out, shading) / fmaxf(ps_dot(view->out, true_normal), SMALLEST_COSINE);
+    float away = fabsf(ps_dot(w, true_normal)) / fmaxf(fabsf(ps_dot(w, shading)), SMALLEST_COSINE);
+    return fmaxf(in, 0.0f) * away;
+}
+
+ps_scatter material_scatter(const struct material *material, const struct microfacet_table *table,
+                            ps_direction direction, const ps_ray *ray, const ps_hit *hit,
+                            const float sample[4])
+{
+    struct lobe lobes[MOST_LOBES];
+    struct view view = view_of(material, table, hit, ray->direction);
+    size_t count = list_lobes(&view, lobes);
+    if (count == 0)
+        return (ps_scatter){.direction = hit->normal, .normal = hit->normal, .probability = 1.0f};
+    float number = sample[3];
+    const struct lobe *lobe = choose_lobe(lobes, count, &number);
+    ps_scatter scattered = follow_lobe(lobe, &view, direction, sample, number);
+    scattered.probability = lobe->probability;
+    scattered.pdf *= lobe->probability;
+    float factor = 1.0f / lobe->probability;
+    float side = ps_dot(scattered.direction, hit->geometric_normal);
+    bool crosses = ps_dot(scattered.direction, hit->normal) < 0.0f;
+    scattered.normal = crosses ? ps_scale(hit->geometric_normal, -1.0f) : hit->geometric_normal;
+    if (crosses != (side < 0.0f)) /* a bent normal would send it through the surface */
+        factor = 0.0f;
+    else if (direction == PS_FROM_LIGHT)
+        factor *= shading_correction(&view, scattered.direction);
+    scattered.weight = ps_rgb_scale(scattered.weight, factor);
+    return scattered;
+}
+
+/* Veach and Guibas 1995: the share of a sampling with density `own` beside one with `other`. */
+static float power_heuristic(float own, float other)
+{
+    if (!(other > 0.0f))
+        return 1.0f;
+    float ratio = other / own;
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+ps_rgb material_gloss(const struct material *material, const struct microfacet_table *table,
+                      const ps_ray *ray, const ps_hit *hit, ps_vec3 in, float light_pdf)
+{
+    struct lobe lobes[MOST_LOBES];
+    struct view view = view_of(material, table, hit, ray->direction);
+    size_t count = list_lobes(&view, lobes);
+    ps_vec3 frame[3];
+    shading_frame(hit, frame);
+    ps_vec3 to_eye = to_frame(frame, view.out), to_light = to_frame(frame, in);
+    to_eye.z = fmaxf(to_eye.z, SMALLEST_COSINE);
+    ps_rgb sum = {0, 0, 0};
+    if (!(to_light.z > 0.0f && ps_dot(in, hit->geometric_normal) > 0.0f))
+        return sum;
+    for (size_t i = 0; i < count; i++) {
+        const struct component *component = lobes[i].component;
+        float roughness = roughness_at(component, hit);
+        if (lobes[i].diffuse || component->kind == COMPONENT_DIELECTRIC || component->constant ||
+            is_smooth(roughness))
+            continue;
+        ps_rgb f0 = color_at(&component->specular, hit);
+        ps_rgb reflected = ps_rgb_multiply(microfacet_reflect(roughness, f0, to_eye, to_light),
+                                           microfacet_compensation(table, f0, roughness, to_eye.z));
+        float own = lobes[i].probability * microfacet_pdf(roughness, to_eye, to_light);
+        float share = light_pdf > 0.0f ? power_heuristic(light_pdf, own) : 1.0f;
+        sum = ps_rgb_add(sum, ps_rgb_scale(reflected, component->share * share));
+    }
+    return sum;
+}

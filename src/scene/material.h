@@ -1,0 +1,87 @@
+/* material.h: how surfaces reflect, transmit and emit.
+ *
+ * A material is a sum of components, each with a share; a component has up to two lobes:
+ *
+ *     diffuse     Lambert
+ *     reflector   a mirror, or GGX microfacets (metal)
+ *     glossy      such a reflector as a coat over Lambert
+ *     dielectric  the smooth surface of glass or water: mirrors and refracts
+ *
+ * What a coat reflects, its base does not get: the base's albedo is what users state times 1 - E(o),
+ * with E(o) the coat's albedo towards the eye. (A symmetric model would also darken by the direction
+ * of incidence. Then reflected light would no longer be albedo / pi * irradiance, which splatting
+ * rests on; this one never gives an eye more light than there is.)
+ *
+ * A path that meets a surface follows one lobe, chosen by albedo.
+ */
+#ifndef SCENE_MATERIAL_H
+#define SCENE_MATERIAL_H
+
+#include "base/error.h"
+#include "scene/microfacet.h"
+#include "scene/pigment.h"
+
+enum component_kind {
+    COMPONENT_DIFFUSE,
+    COMPONENT_REFLECTOR,
+    COMPONENT_GLOSSY,
+    COMPONENT_DIELECTRIC
+};
+
+struct component {
+    enum component_kind kind;
+    float share;
+    struct pigment diffuse; /* diffuse, glossy: reflectance */
+    struct pigment
+        specular; /* reflector, glossy: reflectance at normal incidence; dielectric: tint of
+                                 what passes */
+    struct pigment roughness; /* reflector, glossy */
+    bool constant;            /* reflector: as much at every angle */
+    float ior;                /* dielectric */
+    ps_rgb absorption;        /* dielectric: per scene unit */
+};
+
+#define MATERIAL_MOST_COMPONENTS 8
+
+struct material {
+    struct component components[MATERIAL_MOST_COMPONENTS];
+    uint32_t component_count;
+    bool specular; /* has other components than COMPONENT_DIFFUSE */
+    bool emissive;
+    bool emission_both; /* else from the front only */
+    bool has_opacity;
+    bool has_bump;
+    struct pigment emission;          /* radiance */
+    struct pigment opacity;           /* below 1/2 there is no surface */
+    struct pigment bump;              /* height, scene units */
+    const struct texture *normal_map; /* NULL: none */
+};
+
+/* Builds material `index`; mixes are resolved. Textures are borrowed. PS_ERROR_INVALID where a mix has
+ * too many components. */
+ps_result material_create(const struct scene_description *description, size_t index,
+                          const struct texture *textures, struct material *material,
+                          struct error *error);
+
+/* The black surface of a lamp. */
+void material_create_lamp(ps_rgb radiance, bool both_sides, struct material *material);
+
+/* Diffuse reflectance of the surface towards the ray's origin. */
+ps_rgb material_albedo(const struct material *material, const struct microfacet_table *table,
+                       const ps_hit *hit, ps_vec3 ray_direction);
+
+/* Radiance that the surface emits along the ray, towards its origin. */
+ps_rgb material_emission(const struct material *material, const ps_hit *hit);
+
+/* See ps_host.scatter. */
+ps_scatter material_scatter(const struct material *material, const struct microfacet_table *table,
+                            ps_direction direction, const ps_ray *ray, const ps_hit *hit,
+                            const float sample[4]);
+
+/* Radiance towards the ray's origin by its rough reflectors for irradiance 1 across the beam that
+ * comes from unit direction `in`: f * cosine, weighed against material_scatter's sampling for a light
+ * whose own sampling has density `light_pdf` (0: scattering could not find it; power heuristic). */
+ps_rgb material_gloss(const struct material *material, const struct microfacet_table *table,
+                      const ps_ray *ray, const ps_hit *hit, ps_vec3 in, float light_pdf);
+
+#endif

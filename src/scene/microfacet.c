@@ -1,0 +1,139 @@
+#include "scene/microfacet.h"
+
+#include "scene/fresnel.h"
+
+#define QUADRATURE 24 /* points in each of two dimensions */
+
+static float square(float x)
+{
+    return x * x;
+}
+
+static float alpha_of(float roughness)
+{
+    return square(fmaxf(roughness, MICROFACET_SMOOTHEST));
+}
+
+/* Smith's Lambda. */
+static float shadowing(float alpha, ps_vec3 w)
+{
+    float cosine2 = square(w.z);
+    float tangent2 = (1.0f - cosine2) / fmaxf(cosine2, 1e-12f);
+    return 0.5f * (sqrtf(1.0f + square(alpha) * fmaxf(tangent2, 0.0f)) - 1.0f);
+}
+
+static float distribution(float alpha, ps_vec3 half)
+{
+    float denominator = square(half.z) * (square(alpha) - 1.0f) + 1.0f;
+    return square(alpha) / (PS_PI * square(denominator));
+}
+
+static ps_vec3 half_way(ps_vec3 out, ps_vec3 in)
+{
+    return ps_normalize(ps_add(out, in));
+}
+
+/* Heitz 2018, listing 1: a point of the disc that the facets seen from `out` project to. */
+ps_vec3 microfacet_sample(float roughness, ps_vec3 out, float u1, float u2)
+{
+    float alpha = alpha_of(roughness);
+    ps_vec3 stretched = ps_normalize((ps_vec3){alpha * out.x, alpha * out.y, out.z});
+    float radius = sqrtf(u1), phi = 2.0f * PS_PI * u2;
+    float s = 0.5f * (1.0f + stretched.z);
+    ps_vec3 side = {-stretched.y, stretched.x, 0.0f};
+    float length = ps_length(side);
+    ps_vec3 u = length > 1e-6f ? ps_scale(side, 1.0f / length) : (ps_vec3){1, 0, 0};
+    ps_vec3 v = ps_cross(stretched, u);
+    float x = radius * cosf(phi);
+    float y = (1.0f - s) * sqrtf(fmaxf(0.0f, 1.0f - x * x)) + s * radius * sinf(phi);
+    float z = sqrtf(fmaxf(0.0f, 1.0f - x * x - y * y));
+    ps_vec3 facet = ps_add_scaled(ps_add_scaled(ps_scale(u, x), y, v), z, stretched);
+    facet = ps_normalize((ps_vec3){alpha * facet.x, alpha * facet.y, fmaxf(facet.z, 1e-6f)});
+    return ps_normalize(ps_add_scaled(ps_scale(out, -1.0f), 2.0f * ps_dot(out, facet), facet));
+}
+
+float microfacet_pdf(float roughness, ps_vec3 out, ps_vec3 in)
+{
+    if (!(out.z > 0.0f && in.z > 0.0f))
+        return 0.0f;
+    float alpha = alpha_of(roughness);
+    return distribution(alpha, half_way(out, in)) / (4.0f * out.z * (1.0f + shadowing(alpha, out)));
+}
+
+ps_rgb microfacet_weight(float roughness, ps_rgb f0, ps_vec3 out, ps_vec3 in)
+{
+    if (!(out.z > 0.0f && in.z > 0.0f))
+        return (ps_rgb){0, 0, 0};
+    float alpha = alpha_of(roughness);
+    float seen = 1.0f + shadowing(alpha, out);
+    ps_rgb fresnel = fresnel_schlick(f0, ps_dot(in, half_way(out, in)));
+    return ps_rgb_scale(fresnel, seen / (seen + shadowing(alpha, in)));
+}
+
+ps_rgb microfacet_reflect(float roughness, ps_rgb f0, ps_vec3 out, ps_vec3 in)
+{
+    return ps_rgb_scale(microfacet_weight(roughness, f0, out, in),
+                        microfacet_pdf(roughness, out, in));
+}
+
+/* Means over directions of incidence of the shares that F0 and its complement weigh. The first number
+ * is 1 - (1 - t)^2, which puts more points to the steepest facets, whose light is lost. */
+static void integrate(float roughness, float cosine, float *scale, float *bias)
+{
+    ps_vec3 out = {sqrtf(fmaxf(0.0f, 1.0f - square(cosine))), 0.0f, cosine};
+    *scale = *bias = 0.0f;
+    for (int i = 0; i < QUADRATURE * QUADRATURE; i++) {
+        float rest = 1.0f - ((float)(i % QUADRATURE) + 0.5f) / QUADRATURE;
+        float u2 = ((float)(i / QUADRATURE) + 0.5f) / QUADRATURE;
+        float density = 2.0f * rest / (QUADRATURE * QUADRATURE);
+        ps_vec3 in = microfacet_sample(roughness, out, 1.0f - square(rest), u2);
+        float share = density * microfacet_weight(roughness, (ps_rgb){1, 1, 1}, out, in).r;
+        float rise = share > 0.0f ? fresnel_rise(ps_dot(in, half_way(out, in))) : 0.0f;
+        *scale += share * (1.0f - rise);
+        *bias += share * rise;
+    }
+}
+
+/* Rows and columns are where this many steps of equal length divide 0..1. */
+static float grid_value(int i)
+{
+    return (float)i / (MICROFACET_TABLE_SIZE - 1);
+}
+
+void microfacet_tabulate(struct microfacet_table *table)
+{
+    for (int row = 0; row < MICROFACET_TABLE_SIZE; row++)
+        for (int column = 0; column < MICROFACET_TABLE_SIZE; column++)
+            integrate(grid_value(row), fmaxf(grid_value(column), 1e-3f), &table->scale[row][column],
+                      &table->bias[row][column]);
+}
+
+static float look_up(const float table[MICROFACET_TABLE_SIZE][MICROFACET_TABLE_SIZE],
+                     float roughness, float cosine)
+{
+    const float last = MICROFACET_TABLE_SIZE - 1;
+    float y = fminf(fmaxf(roughness, 0.0f), 1.0f) * last;
+    float x = fminf(fmaxf(cosine, 0.0f), 1.0f) * last;
+    int row = (int)fminf(y, last - 1.0f), column = (int)fminf(x, last - 1.0f);
+    float fy = y - (float)row, fx = x - (float)column;
+    const float *low = table[row], *high = table[row + 1];
+    return (1.0f - fy) * ((1.0f - fx) * low[column] + fx * low[column + 1]) +
+           fy * ((1.0f - fx) * high[column] + fx * high[column + 1]);
+}
+
+ps_rgb microfacet_compensation(const struct microfacet_table *table, ps_rgb f0, float roughness,
+                               float eye)
+{
+    float single = look_up(table->scale, roughness, eye) + look_up(table->bias, roughness, eye);
+    float lost = (1.0f - single) / fmaxf(single, 1e-3f);
+    return (ps_rgb){1.0f + f0.r * lost, 1.0f + f0.g * lost, 1.0f + f0.b * lost};
+}
+
+ps_rgb microfacet_albedo(const struct microfacet_table *table, ps_rgb f0, float roughness,
+                         float out)
+{
+    float scale = look_up(table->scale, roughness, out);
+    float bias = look_up(table->bias, roughness, out);
+    ps_rgb single = {f0.r * scale + bias, f0.g * scale + bias, f0.b * scale + bias};
+    return ps_rgb_multiply(single, microfacet_compensation(table, f0, roughness, out));
+}

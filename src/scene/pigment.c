@@ -1,0 +1,186 @@
+#include "scene/pigment.h"
+
+#include "scene/fraction.h"
+#include "scene/noise.h"
+#include <psplat/math.h>
+
+/* Independent noises of one point. */
+enum { SEED_PATTERN = 0x1000, SEED_TURBULENCE = 0x2000 };
+
+/* --- from the description -------------------------------------------------------------------- */
+
+static struct affine inverse_of(const struct affine *placement)
+{
+    struct affine inverse;
+    if (affine_invert(placement, &inverse))
+        return inverse;
+    return (struct affine){.x = {0, 0, 0}};
+}
+
+static ps_vec3 unit_or_zero(ps_vec3 axis)
+{
+    float length = ps_length(axis);
+    bool usable = length > 0.0f && isfinite(length);
+    return usable ? ps_scale(axis, 1.0f / length) : (ps_vec3){0, 0, 0};
+}
+
+static int32_t usable_octaves(int64_t octaves)
+{
+    if (octaves < 1)
+        return 1;
+    return octaves < NOISE_OCTAVES_LIMIT ? (int32_t)octaves : NOISE_OCTAVES_LIMIT;
+}
+
+struct pigment pigment_create(const struct pigment_description *description,
+                              const struct texture *textures)
+{
+    struct pigment pigment = {
+        .kind = description->kind,
+        .colors = {description->colors[0], description->colors[1]},
+        .channel = description->channel,
+        .scale = {(float)description->scale_u, (float)description->scale_v},
+        .offset = {(float)description->offset_u, (float)description->offset_v},
+        .to_pattern = inverse_of(&description->placement),
+        .axis = unit_or_zero(description->axis),
+        .octaves = usable_octaves(description->octaves),
+        .turbulence = (float)description->turbulence,
+    };
+    if (pigment.kind == PIGMENT_IMAGE)
+        pigment.texture = &textures[description->texture];
+    return pigment;
+}
+
+/* --- images ---------------------------------------------------------------------------------- */
+
+static ps_rgb select_channel(const float rgba[4], int32_t channel)
+{
+    if (channel == CHANNEL_RGB)
+        return (ps_rgb){rgba[0], rgba[1], rgba[2]};
+    float value = rgba[channel - CHANNEL_R];
+    return (ps_rgb){value, value, value};
+}
+
+static ps_rgb image_color(const struct pigment *pigment, float u, float v)
+{
+    float rgba[4];
+    texture_sample(pigment->texture, pigment->scale[0] * u + pigment->offset[0],
+                   pigment->scale[1] * v + pigment->offset[1], rgba);
+    return ps_rgb_multiply(pigment->colors[0], select_channel(rgba, pigment->channel));
+}
+
+/* --- patterns -------------------------------------------------------------------------------- */
+
+static float checker_share(ps_vec3 p)
+{
+    uint32_t cubes = (uint32_t)whole_of(p.x + PATTERN_OFFSET) +
+                     (uint32_t)whole_of(p.y + PATTERN_OFFSET) +
+                     (uint32_t)whole_of(p.z + PATTERN_OFFSET);
+    return (float)(cubes & 1);
+}
+
+static float gradient_share(ps_vec3 p, ps_vec3 axis)
+{
+    float share = fraction_of(ps_dot(p, axis) + PATTERN_OFFSET) - PATTERN_OFFSET;
+    return share > 0.0f ? share : 0.0f;
+}
+
+static float noise_share(ps_vec3 p, int32_t octaves)
+{
+    float share = 0.5f + 0.5f * noise_fractal(p, octaves, SEED_PATTERN);
+    return fminf(fmaxf(share, 0.0f), 1.0f);
+}
+
+static ps_vec3 displace(ps_vec3 p, float turbulence)
+{
+    if (turbulence == 0.0f)
+        return p;
+    return ps_add_scaled(p, turbulence, noise_vector(p, TURBULENCE_OCTAVES, SEED_TURBULENCE));
+}
+
+/* How much of colors[1] there is at a point of the pattern's space. */
+static float pattern_share(const struct pigment *pigment, ps_vec3 p)
+{
+    switch (pigment->kind) {
+    case PIGMENT_CHECKER:
+        return checker_share(p);
+    case PIGMENT_GRADIENT:
+        return gradient_share(displace(p, pigment->turbulence), pigment->axis);
+    case PIGMENT_NOISE:
+        return noise_share(displace(p, pigment->turbulence), pigment->octaves);
+    case PIGMENT_COLOR:
+    case PIGMENT_IMAGE:
+        break;
+    }
+    return 0.0f;
+}
+
+ps_rgb pigment_vary(const struct pigment *pigment, ps_vec3 point, const float uv[2])
+{
+    if (pigment->kind == PIGMENT_IMAGE)
+        return image_color(pigment, uv[0], uv[1]);
+    float share = pattern_share(pigment, affine_point(&pigment->to_pattern, point));
+    return ps_rgb_add(ps_rgb_scale(pigment->colors[0], 1.0f - share),
+                      ps_rgb_scale(pigment->colors[1], share));
+}
+
+/* --- slopes ---------------------------------------------------------------------------------- */
+
+#define STEP 0.01f
+
+/* Half the way between the points of a difference. Far from the origin floats lie so far apart that
+ * a shorter way would measure their rounding. */
+static float difference_step(const struct pigment *pigment, ps_vec3 p)
+{
+    float step = STEP;
+    if (pigment->kind == PIGMENT_NOISE)
+        step = fmaxf(ldexpf(STEP, 1 - pigment->octaves), 0.1f * STEP);
+    float size = fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
+    return fmaxf(step, 1e-5f * size);
+}
+
+static ps_vec3 pattern_gradient(const struct pigment *pigment, ps_vec3 p)
+{
+    float step = difference_step(pigment, p);
+    const ps_vec3 ways[3] = {{step, 0, 0}, {0, step, 0}, {0, 0, step}};
+    float slopes[3];
+    for (int i = 0; i < 3; i++)
+        slopes[i] = (pattern_share(pigment, ps_add(p, ways[i])) -
+                     pattern_share(pigment, ps_subtract(p, ways[i]))) /
+                    (2.0f * step);
+    return (ps_vec3){slopes[0], slopes[1], slopes[2]};
+}
+
+/* The chain rule: a gradient goes back through the transpose of the map to the pattern. */
+ps_vec3 pigment_gradient(const struct pigment *pigment, ps_vec3 point)
+{
+    if (pigment->kind == PIGMENT_COLOR || pigment->kind == PIGMENT_IMAGE)
+        return (ps_vec3){0, 0, 0};
+    const struct affine *map = &pigment->to_pattern;
+    ps_vec3 slope = pattern_gradient(pigment, affine_point(map, point));
+    ps_vec3 gradient = {ps_dot(map->x, slope), ps_dot(map->y, slope), ps_dot(map->z, slope)};
+    return ps_scale(gradient, pigment_mean(pigment->colors[1]) - pigment_mean(pigment->colors[0]));
+}
+
+/* Along u (axis 0) or v; by what the coordinates differ after rounding. */
+static float image_slope(const struct pigment *pigment, const float uv[2], int axis)
+{
+    uint32_t size = axis == 0 ? pigment->texture->width : pigment->texture->height;
+    if (pigment->scale[axis] == 0.0f)
+        return 0.0f;
+    float step = 0.5f / ((float)size * fabsf(pigment->scale[axis]));
+    float before[2] = {uv[0], uv[1]}, after[2] = {uv[0], uv[1]};
+    before[axis] -= step;
+    after[axis] += step;
+    float way = after[axis] - before[axis];
+    if (!(way > 0.0f) || isinf(way))
+        return 0.0f;
+    return (pigment_mean(image_color(pigment, after[0], after[1])) -
+            pigment_mean(image_color(pigment, before[0], before[1]))) /
+           way;
+}
+
+void pigment_uv_gradient(const struct pigment *pigment, const float uv[2], float gradient[2])
+{
+    for (int axis = 0; axis < 2; axis++)
+        gradient[axis] = pigment->kind == PIGMENT_IMAGE ? image_slope(pigment, uv, axis) : 0.0f;
+}

@@ -1,0 +1,276 @@
+/* scene_geometry.c: the shapes of a scene: the world's, the lamps', the groups'; and instances.
+ *
+ * Planes without an extent are as large as the rest of the scene asks for, so they are made last.
+ */
+#include "scene/scene_parts.h"
+
+#include <psplat/math.h>
+#include <stdlib.h>
+
+/* A box that grows around points. */
+struct bounds {
+    ps_vec3 low, high;
+};
+
+#define NO_BOUNDS                                                                                  \
+    {                                                                                              \
+        {INFINITY, INFINITY, INFINITY},                                                            \
+        {                                                                                          \
+            -INFINITY, -INFINITY, -INFINITY                                                        \
+        }                                                                                          \
+    }
+
+static void bounds_add_point(struct bounds *bounds, ps_vec3 p)
+{
+    bounds->low =
+        (ps_vec3){fminf(bounds->low.x, p.x), fminf(bounds->low.y, p.y), fminf(bounds->low.z, p.z)};
+    bounds->high = (ps_vec3){fmaxf(bounds->high.x, p.x), fmaxf(bounds->high.y, p.y),
+                             fmaxf(bounds->high.z, p.z)};
+}
+
+/* The corners of a placed box. */
+static void bounds_add_box(struct bounds *bounds, const struct bounds *box,
+                           const struct affine *placement)
+{
+    for (unsigned i = 0; i < 8; i++) {
+        ps_vec3 corner = {i & 1 ? box->high.x : box->low.x, i & 2 ? box->high.y : box->low.y,
+                          i & 4 ? box->high.z : box->low.z};
+        bounds_add_point(bounds, affine_point(placement, corner));
+    }
+}
+
+static struct bounds bounds_of_shapes(const struct scene *scene, size_t first, size_t count)
+{
+    struct bounds bounds = NO_BOUNDS;
+    for (size_t i = first; i < first + count; i++)
+        shape_extend_bounds(&scene->shapes[i], &bounds.low, &bounds.high);
+    return bounds;
+}
+
+static void measure(struct scene *scene)
+{
+    struct bounds bounds = bounds_of_shapes(scene, 0, scene->world_shape_count);
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        const struct instance *instance = &scene->instances[i];
+        const struct group *group = instance->group;
+        struct bounds box = bounds_of_shapes(scene, group->first_shape, group->shape_count);
+        if (group->shape_count > 0)
+            bounds_add_box(&bounds, &box, &instance->placement);
+    }
+    scene->radius = 0.0f;
+    scene->center = (ps_vec3){0, 0, 0};
+    if (!(bounds.low.x <= bounds.high.x))
+        return;
+    scene->center = ps_scale(ps_add(bounds.low, bounds.high), 0.5f);
+    scene->radius = 0.5f * ps_length(ps_subtract(bounds.high, bounds.low));
+}
+
+/* --- shapes -------------------------------------------------------------------------------------- */
+
+/* Brightness of a texture, in rows from the top. */
+static float *sample_heights(struct assembly *assembly, size_t texture,
+                             struct height_samples *heights)
+{
+    const struct texture *from = &assembly->scene->textures[texture];
+    size_t count = (size_t)from->width * from->height;
+    float *samples = assembly_allocate(assembly, count, sizeof *samples);
+    for (size_t i = 0; samples && i < count; i++) {
+        float rgba[4];
+        size_t x = i % from->width, y = i / from->width;
+        texture_sample(from, ((float)x + 0.5f) / (float)from->width,
+                       1.0f - ((float)y + 0.5f) / (float)from->height, rgba);
+        samples[i] = (rgba[0] + rgba[1] + rgba[2]) / 3.0f;
+    }
+    *heights = (struct height_samples){from->width, from->height, samples};
+    return samples;
+}
+
+/* Makes the shape of number `slot`. */
+static ps_result add_shape(struct assembly *assembly, const struct object_description *object,
+                           struct shape_surroundings *surroundings, size_t slot)
+{
+    struct scene *scene = assembly->scene;
+    struct height_samples heights;
+    float *samples = NULL;
+    assembly->where = object->origin;
+    surroundings->meshes = assembly->description->meshes;
+    surroundings->heights = NULL;
+    if (object->kind == OBJECT_HEIGHT_FIELD) {
+        samples = sample_heights(assembly, object->texture, &heights);
+        if (!samples)
+            return PS_ERROR_MEMORY;
+        surroundings->heights = &heights;
+    }
+    ps_result result = shape_create(object, surroundings, &scene->shapes[slot], assembly->error);
+    free(samples);
+    if (result == PS_OK)
+        scene->dropped_triangles += scene->shapes[slot].dropped;
+    return result;
+}
+
+/* A plane that takes its size from the rest of the scene. */
+static bool is_endless(const struct object_description *object)
+{
+    return object->kind == OBJECT_PLANE && !(object->extent > 0);
+}
+
+/* The objects of the world that are shapes, numbered in their order: endless planes or the others. */
+static ps_result add_world(struct assembly *assembly, bool endless)
+{
+    const struct scene_description *description = assembly->description;
+    const struct scene *scene = assembly->scene;
+    struct shape_surroundings surroundings = {.center = scene->center, .radius = scene->radius};
+    size_t slot = 0;
+    for (size_t i = 0; i < description->object_count; i++) {
+        const struct object_description *object = &description->objects[i];
+        if (object->kind == OBJECT_INSTANCE)
+            continue;
+        ps_result result = is_endless(object) == endless
+                               ? add_shape(assembly, object, &surroundings, slot)
+                               : PS_OK;
+        if (result != PS_OK)
+            return result;
+        slot++;
+    }
+    return PS_OK;
+}
+
+static float lamp_area(const struct shape *shape)
+{
+    double twice = 0;
+    if (shape->kind == SHAPE_SPHERE)
+        return 4.0f * PS_PI * shape->radius * shape->radius;
+    for (size_t i = 0; i < shape->triangle_count; i++) {
+        const uint32_t *corner = shape->triangles[i];
+        ps_vec3 a = ps_subtract(shape->vertices[corner[1]], shape->vertices[corner[0]]);
+        ps_vec3 b = ps_subtract(shape->vertices[corner[2]], shape->vertices[corner[0]]);
+        twice += (double)ps_length(ps_cross(a, b));
+    }
+    return (float)(0.5 * twice);
+}
+
+static ps_result add_lamp(struct assembly *assembly, const struct light_description *light,
+                          size_t material, size_t slot)
+{
+    struct scene *scene = assembly->scene;
+    struct shape_surroundings surroundings = {.radius = 0};
+    struct object_description object;
+    assembly->where = light->origin;
+    if (!lamp_describe(light, &object))
+        return error_memory(assembly->error, 1 << 12, "a lamp");
+    object.material = material;
+    ps_result result = add_shape(assembly, &object, &surroundings, slot);
+    object_description_release(&object);
+    if (result != PS_OK)
+        return result;
+    float area = lamp_area(&scene->shapes[slot]);
+    material_create_lamp(light_surface_radiance(light, (double)area), light->both_sides,
+                         &scene->materials[material]);
+    return PS_OK;
+}
+
+/* Lamps come after the objects, as their materials come after the others. */
+static ps_result add_lamps(struct assembly *assembly)
+{
+    const struct scene_description *description = assembly->description;
+    size_t material = description->material_count;
+    size_t lamps = assembly->scene->material_count - material;
+    size_t slot = assembly->scene->world_shape_count - lamps;
+    for (size_t i = 0; i < description->light_count; i++) {
+        if (!light_is_lamp(&description->lights[i]))
+            continue;
+        ps_result result = add_lamp(assembly, &description->lights[i], material++, slot++);
+        if (result != PS_OK)
+            return result;
+    }
+    return PS_OK;
+}
+
+/* --- groups and instances ------------------------------------------------------------------- */
+
+static ps_result add_groups(struct assembly *assembly)
+{
+    const struct scene_description *description = assembly->description;
+    struct scene *scene = assembly->scene;
+    struct shape_surroundings surroundings = {.radius = 0};
+    size_t slot = scene->world_shape_count;
+    for (size_t i = 0; i < description->group_count; i++) {
+        const struct group_description *group = &description->groups[i];
+        scene->groups[i] = (struct group){slot, group->object_count};
+        for (size_t k = 0; k < group->object_count; k++) {
+            ps_result result = add_shape(assembly, &group->objects[k], &surroundings, slot++);
+            if (result != PS_OK)
+                return result;
+        }
+    }
+    scene->group_count = description->group_count;
+    return PS_OK;
+}
+
+static void add_instances(struct assembly *assembly)
+{
+    const struct scene_description *description = assembly->description;
+    struct scene *scene = assembly->scene;
+    for (size_t i = 0; i < description->object_count; i++) {
+        const struct object_description *object = &description->objects[i];
+        if (object->kind != OBJECT_INSTANCE)
+            continue;
+        scene->instances[scene->instance_count++] = (struct instance){
+            .group = &scene->groups[object->group],
+            .placement = object->placement,
+            .front = affine_determinant(&object->placement) < 0.0f ? -1.0f : 1.0f,
+            .material = object->material == NO_INDEX ? NO_MATERIAL : (uint32_t)object->material,
+            .hidden = object->hidden,
+        };
+    }
+}
+
+/* Objects are numbered: the world's shapes, then each instance's. */
+static void number_objects(struct scene *scene)
+{
+    scene->object_count = (uint32_t)scene->world_shape_count;
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        scene->instances[i].first_object = scene->object_count;
+        scene->object_count += (uint32_t)scene->instances[i].group->shape_count;
+    }
+}
+
+/* Room for all shapes, zeroed: such a shape can be released. */
+static ps_result reserve(struct assembly *assembly)
+{
+    const struct scene_description *description = assembly->description;
+    struct scene *scene = assembly->scene;
+    scene->world_shape_count = scene->material_count - description->material_count;
+    for (size_t i = 0; i < description->object_count; i++)
+        scene->world_shape_count += description->objects[i].kind != OBJECT_INSTANCE;
+    size_t shapes = scene->world_shape_count;
+    for (size_t i = 0; i < description->group_count; i++)
+        shapes += description->groups[i].object_count;
+    scene->shapes = assembly_allocate(assembly, shapes, sizeof *scene->shapes);
+    scene->groups = assembly_allocate(assembly, description->group_count, sizeof *scene->groups);
+    scene->instances =
+        assembly_allocate(assembly, description->object_count, sizeof *scene->instances);
+    if (!scene->shapes || !scene->groups || !scene->instances)
+        return PS_ERROR_MEMORY;
+    scene->shape_count = shapes;
+    return PS_OK;
+}
+
+ps_result assembly_add_geometry(struct assembly *assembly)
+{
+    ps_result result = reserve(assembly);
+    if (result == PS_OK)
+        result = add_groups(assembly);
+    if (result == PS_OK)
+        result = add_world(assembly, false);
+    if (result == PS_OK)
+        result = add_lamps(assembly);
+    if (result != PS_OK)
+        return result;
+    add_instances(assembly);
+    number_objects(assembly->scene);
+    measure(assembly->scene);
+    result = add_world(assembly, true);
+    measure(assembly->scene);
+    return result;
+}

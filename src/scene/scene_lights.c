@@ -1,0 +1,264 @@
+/* scene_lights.c: the lights of a scene: those described, and what shines by its material. */
+#include "scene/scene_parts.h"
+
+#include <psplat/math.h>
+#include <stdlib.h>
+
+#define DISC_SEGMENTS 64
+
+bool light_is_lamp(const struct light_description *light)
+{
+    return light->kind == LIGHT_RECTANGLE || light->kind == LIGHT_DISC ||
+           light->kind == LIGHT_SPHERE;
+}
+
+bool lamp_describe(const struct light_description *light, struct object_description *object)
+{
+    *object = (struct object_description){
+        .kind = light->kind == LIGHT_SPHERE ? OBJECT_SPHERE : OBJECT_TRIANGLES,
+        .placement = AFFINE_IDENTITY,
+        .center = light->location,
+        .radius = light->radius,
+        .hidden = !light->visible,
+        .origin = light->origin,
+    };
+    if (light->kind == LIGHT_SPHERE)
+        return true;
+    bool disc = light->kind == LIGHT_DISC;
+    object->vertex_count = disc ? DISC_SEGMENTS + 1 : 4;
+    object->triangle_count = disc ? DISC_SEGMENTS : 2;
+    object->vertices = malloc(object->vertex_count * sizeof *object->vertices);
+    object->triangles = malloc(object->triangle_count * sizeof *object->triangles);
+    if (!object->vertices || !object->triangles) {
+        object_description_release(object);
+        return false;
+    }
+    if (disc)
+        light_disc_triangles(light, DISC_SEGMENTS, object->vertices, object->triangles);
+    else
+        light_rectangle_triangles(light, object->vertices, object->triangles);
+    return true;
+}
+
+/* Keeps an array until the scene is released; NULL stays NULL. */
+static void *keep(struct assembly *assembly, void *array)
+{
+    struct scene *scene = assembly->scene;
+    void **owned = realloc(scene->owned, (scene->owned_count + 1) * sizeof *owned);
+    if (owned)
+        scene->owned = owned;
+    if (!array || !owned) {
+        free(array);
+        return NULL;
+    }
+    scene->owned[scene->owned_count++] = array;
+    return array;
+}
+
+/* --- what shines from afar ------------------------------------------------------------------- */
+
+/* The texture as a picture of all directions. */
+static bool make_sky_picture(struct assembly *assembly, const struct texture *from,
+                             struct sky_picture *picture)
+{
+    size_t count = (size_t)from->width * from->height;
+    float(*rgb)[3] = keep(assembly, assembly_allocate(assembly, count, sizeof *rgb));
+    if (!rgb)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        float rgba[4];
+        size_t x = i % from->width, y = i / from->width;
+        texture_sample(from, ((float)x + 0.5f) / (float)from->width,
+                       1.0f - ((float)y + 0.5f) / (float)from->height, rgba);
+        for (int k = 0; k < 3; k++)
+            rgb[i][k] = rgba[k];
+    }
+    *picture = (struct sky_picture){from->width, from->height, (const float(*)[3])rgb};
+    return true;
+}
+
+static ps_result add_described(struct assembly *assembly, const struct light_description *light)
+{
+    struct scene *scene = assembly->scene;
+    struct light_bounds bounds = {scene->center, scene->radius};
+    struct sky_picture picture;
+    bool pictured = light->kind == LIGHT_SKY && light->texture != NO_INDEX;
+    assembly->where = light->origin;
+    if (pictured && !make_sky_picture(assembly, &scene->textures[light->texture], &picture))
+        return PS_ERROR_MEMORY;
+    ps_result result = light_create(light, &bounds, pictured ? &picture : NULL,
+                                    &scene->lights[scene->light_count], assembly->error);
+    if (result != PS_OK)
+        return result;
+    scene->light_count++;
+    scene->has_sky = scene->has_sky || light->kind == LIGHT_SKY || light->kind == LIGHT_SUN;
+    scene->sky_is_hidden = scene->sky_is_hidden || (light->kind == LIGHT_SKY && !light->visible);
+    return PS_OK;
+}
+
+/* --- what shines by its material ---------------------------------------------------------------- */
+
+static ps_rgb emission_at(const void *material, ps_vec3 position, const float uv[2])
+{
+    return pigment_color(&((const struct material *)material)->emission, position, uv);
+}
+
+/* Puts a placed copy of the shape's mesh in the light's; a mirrored one is wound the other way. */
+static bool place_mesh(struct assembly *assembly, const struct shape *shape,
+                       const struct instance *instance, struct light_mesh *mesh)
+{
+    ps_vec3 *vertices =
+        keep(assembly, assembly_allocate(assembly, shape->vertex_count, sizeof *vertices));
+    uint32_t(*triangles)[3] =
+        keep(assembly, assembly_allocate(assembly, shape->triangle_count, sizeof *triangles));
+    if (!vertices || !triangles)
+        return false;
+    for (size_t i = 0; i < shape->vertex_count; i++)
+        vertices[i] = affine_point(&instance->placement, shape->vertices[i]);
+    bool mirrored = instance->front < 0.0f;
+    for (size_t i = 0; i < shape->triangle_count; i++) {
+        triangles[i][0] = shape->triangles[i][0];
+        triangles[i][1] = shape->triangles[i][mirrored ? 2 : 1];
+        triangles[i][2] = shape->triangles[i][mirrored ? 1 : 2];
+    }
+    mesh->vertices = vertices;
+    mesh->triangles = (const uint32_t(*)[3])triangles;
+    return true;
+}
+
+/* A mesh in world space: the shape's own, or a placed copy. */
+static ps_result add_mesh(struct assembly *assembly, const struct shape *shape,
+                          const struct instance *instance, const struct material *material)
+{
+    struct scene *scene = assembly->scene;
+    struct light_mesh mesh = {
+        .vertices = shape->vertices,
+        .triangles = (const uint32_t(*)[3])shape->triangles,
+        .uv = (const float(*)[2])shape->uv,
+        .triangle_count = shape->triangle_count,
+    };
+    bool patterned = !pigment_is_constant(&material->emission);
+    if (patterned) {
+        mesh.pattern = emission_at;
+        mesh.pattern_user = material;
+    }
+    if (instance && !place_mesh(assembly, shape, instance, &mesh))
+        return PS_ERROR_MEMORY;
+    static const float corner[2] = {0, 0};
+    ps_rgb radiance = patterned ? (ps_rgb){1, 1, 1}
+                                : pigment_color(&material->emission, (ps_vec3){0, 0, 0}, corner);
+    return light_create_mesh(&mesh, radiance, material->emission_both,
+                             &scene->lights[scene->light_count], assembly->error);
+}
+
+/* Whether the placement keeps spheres. */
+static bool is_even(const struct affine *placement)
+{
+    float x = ps_length(placement->x), y = ps_length(placement->y), z = ps_length(placement->z);
+    return fabsf(x - y) <= 1e-4f * x && fabsf(x - z) <= 1e-4f * x;
+}
+
+static ps_result add_sphere(struct assembly *assembly, const struct shape *shape,
+                            const struct instance *instance, const struct material *material)
+{
+    struct scene *scene = assembly->scene;
+    static const float middle[2] = {0.5f, 0.5f};
+    ps_vec3 center = shape->center;
+    float radius = shape->radius;
+    if (!pigment_is_constant(&material->emission))
+        return error_set(assembly->error, PS_ERROR_INVALID,
+                         "a sphere can only shine in one colour; use another shape");
+    if (instance && !is_even(&instance->placement))
+        return error_set(assembly->error, PS_ERROR_INVALID,
+                         "a sphere that shines is scaled unevenly by the instance it stands in");
+    if (instance) {
+        center = affine_point(&instance->placement, center);
+        radius *= ps_length(instance->placement.x);
+    }
+    scene->lights[scene->light_count] =
+        light_create_sphere(center, radius, pigment_color(&material->emission, center, middle),
+                            material->emission_both);
+    return PS_OK;
+}
+
+static ps_result add_object(struct assembly *assembly, uint32_t object, const struct shape *shape,
+                            const struct instance *instance)
+{
+    struct scene *scene = assembly->scene;
+    bool other = instance && instance->material != NO_MATERIAL;
+    const struct material *material =
+        &scene->materials[other ? instance->material : shape->material];
+    scene->object_lights[object] = NO_LIGHT;
+    if (!material->emissive)
+        return PS_OK;
+    ps_result result = shape->kind == SHAPE_MESH ? add_mesh(assembly, shape, instance, material)
+                                                 : add_sphere(assembly, shape, instance, material);
+    if (result == PS_OK)
+        scene->object_lights[object] = (uint32_t)scene->light_count++;
+    return result;
+}
+
+static ps_result add_emissive(struct assembly *assembly)
+{
+    struct scene *scene = assembly->scene;
+    ps_result result = PS_OK;
+    for (uint32_t i = 0; i < scene->world_shape_count && result == PS_OK; i++)
+        result = add_object(assembly, i, &scene->shapes[i], NULL);
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        const struct instance *instance = &scene->instances[i];
+        for (uint32_t k = 0; k < instance->group->shape_count && result == PS_OK; k++)
+            result = add_object(assembly, instance->first_object + k,
+                                &scene->shapes[instance->group->first_shape + k], instance);
+    }
+    return result;
+}
+
+/* --- choosing --------------------------------------------------------------------------------- */
+
+/* Lights share the light paths by power; a scene whose lights are all dark shares them evenly. */
+static void share_paths(struct scene *scene)
+{
+    float total = 0.0f;
+    for (size_t i = 0; i < scene->light_count; i++) {
+        ps_rgb power = light_power(&scene->lights[i]);
+        total += power.r + power.g + power.b;
+        scene->light_cdf[i] = total;
+        scene->has_sized_lights = scene->has_sized_lights || !light_is_delta(&scene->lights[i]);
+    }
+    for (size_t i = 0; i < scene->light_count; i++)
+        scene->light_cdf[i] =
+            total > 0.0f ? scene->light_cdf[i] / total : (float)(i + 1) / (float)scene->light_count;
+}
+
+ps_result assembly_add_lights(struct assembly *assembly)
+{
+    const struct scene_description *description = assembly->description;
+    struct scene *scene = assembly->scene;
+    size_t most = description->light_count + scene->object_count;
+    scene->lights = assembly_allocate(assembly, most, sizeof *scene->lights);
+    scene->light_cdf = assembly_allocate(assembly, most, sizeof *scene->light_cdf);
+    scene->object_lights =
+        assembly_allocate(assembly, scene->object_count, sizeof *scene->object_lights);
+    if (!scene->lights || !scene->light_cdf || !scene->object_lights)
+        return PS_ERROR_MEMORY;
+    ps_result result = PS_OK;
+    for (size_t i = 0; i < description->light_count && result == PS_OK; i++)
+        if (!light_is_lamp(&description->lights[i]))
+            result = add_described(assembly, &description->lights[i]);
+    if (result == PS_OK)
+        result = add_emissive(assembly);
+    share_paths(scene);
+    return result;
+}
+
+size_t scene_choose_light(const struct scene *scene, float *u, float *probability)
+{
+    size_t i = 0;
+    while (i + 1 < scene->light_count && *u >= scene->light_cdf[i])
+        i++;
+    float before = i ? scene->light_cdf[i - 1] : 0.0f;
+    *probability = scene->light_cdf[i] - before;
+    if (*probability > 0.0f)
+        *u = fminf(fmaxf((*u - before) / *probability, 0.0f), 0x1.fffffep-1f);
+    return i;
+}

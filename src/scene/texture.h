@@ -1,0 +1,46 @@
+/* texture.h: a picture in memory that can be looked up at any (u, v).
+ *
+ * (0, 0) is the lower left corner of the picture and (1, 1) the upper right one; v goes upwards,
+ * while files store their top row first. Texel (i, j), counted from the lower left, has its centre
+ * at ((i + 1/2) / width, (j + 1/2) / height). Samples stay in the precision of the file and are
+ * decoded through a table when they are looked up, before they are interpolated: averages of sRGB
+ * codes are not averages of light. No mip maps: passes look at other points of a pixel each, and
+ * their mean filters what is smaller than it.
+ */
+#ifndef SCENE_TEXTURE_H
+#define SCENE_TEXTURE_H
+
+#include "base/error.h"
+#include "image/raster.h"
+#include "scene/description.h"
+
+/* Owns texels and tables. Constant once loaded: any number of threads may sample it. */
+struct texture {
+    uint32_t width, height;
+    int32_t wrap;               /* enum texture_wrap */
+    bool nearest;               /* rather than bilinear */
+    struct raster raster;       /* the texels, top row first */
+    float *color_of, *alpha_of; /* values of codes; NULL for floats; may be the same table */
+};
+
+/* Loads what raster_read can read. The encoding "auto" takes the colours of PNG and JPEG for sRGB
+ * (IEC 61966-2-1) and those of OpenEXR for linear; pictures that hold no colours, such as normal
+ * maps, want ENCODING_LINEAR. Alpha is linear, and colours are not divided by it: those of OpenEXR
+ * are premultiplied. Messages start with the description's path; codes are raster_read's. `texture`
+ * is written only on success, and what it held is not released. */
+ps_result texture_load(const struct texture_description *description, struct texture *texture,
+                       struct error *error);
+void texture_release(struct texture *texture);
+
+/* The linear colour and alpha at (u, v), any numbers; grey is three times the same, alpha 1 where
+ * the picture has none. NaN counts as 0, and so does what is too large to have a fraction where the
+ * picture repeats or is mirrored. */
+void texture_sample(const struct texture *texture, float u, float v, float rgba[4]);
+
+/* The colour of one texel: column from the left, row from the bottom; both must exist. */
+void texture_texel(const struct texture *texture, uint32_t column, uint32_t row, float rgba[4]);
+
+/* Of memory, tables included. */
+size_t texture_bytes(const struct texture *texture);
+
+#endif

@@ -1,0 +1,27 @@
+/* surface.h: from the ray tracer's numbers to the surface that was met. */
+#ifndef TRACE_SURFACE_H
+#define TRACE_SURFACE_H
+
+#include "scene/scene.h"
+
+#define NO_INSTANCE UINT32_MAX
+
+/* What the ray tracer says about a hit. */
+struct intersection {
+    uint32_t instance; /* NO_INSTANCE: a shape of the world */
+    uint32_t shape;    /* of the world, or within the instance's group */
+    uint32_t triangle;
+    float u, v; /* barycentric, of the second and third corner */
+    ps_vec3
+        normal; /* by the triangle's winding, or outward; any length, in the shape's own space */
+    float distance;
+};
+
+ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray,
+                       const struct intersection *intersection);
+
+/* Whether the surface is there at all, for materials with cut-outs. */
+bool surface_is_opaque(const struct shape *shape, const struct material *material,
+                       uint32_t triangle, float u, float v);
+
+#endif

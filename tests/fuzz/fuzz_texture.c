@@ -1,0 +1,60 @@
+/* fuzz_texture.c: feeds arbitrary bytes to the readers of pictures, and looks at what comes out
+ * (libFuzzer).
+ *
+ *     clang -fsanitize=fuzzer,address,undefined ... && ./fuzz_texture tests/fuzz/corpus_texture
+ *
+ * Beyond crashes and leaks it checks the readers' promises: a failure says why, after the path; a
+ * success has a size within the limits and finite colours everywhere.
+ */
+#include "scene/texture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void require(bool condition)
+{
+    if (!condition)
+        abort();
+}
+
+static void check_texture(const struct texture *texture)
+{
+    require(texture->width >= 1 && texture->width <= RASTER_SIDE_LIMIT);
+    require(texture->height >= 1 && texture->height <= RASTER_SIDE_LIMIT);
+    for (int i = 0; i <= 64; i++) {
+        float rgba[4];
+        texture_sample(texture, (float)(i % 8) / 7.0f, (float)i / 64.0f, rgba);
+        for (int k = 0; k < 4; k++)
+            require(isfinite(rgba[k]));
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    /* A copy of the size itself, since the description's bytes are not const. */
+    unsigned char *bytes = malloc(size + 1);
+    if (!bytes)
+        return 0;
+    memcpy(bytes, data, size);
+    struct texture_description description = {
+        .path = "fuzz",
+        .bytes = bytes,
+        .byte_count = size,
+        .wrap = (int32_t)(size % 3),
+        .encoding = (int32_t)(size / 3 % 3),
+        .nearest = size % 2 == 0,
+    };
+    struct texture texture = {0};
+    struct error error = {{0}};
+    ps_result result = texture_load(&description, &texture, &error);
+    if (result == PS_OK)
+        check_texture(&texture);
+    else
+        require(strncmp(error.text, "fuzz: ", 6) == 0);
+    texture_release(&texture);
+    free(bytes);
+    return 0;
+}

@@ -1,0 +1,25 @@
+/* one_strategy.h: a strategy alone, without a render: for tests that call its functions on input made
+ * by hand. */
+#ifndef TESTS_SUPPORT_ONE_STRATEGY_H
+#define TESTS_SUPPORT_ONE_STRATEGY_H
+
+#include "plugin/strategy.h"
+
+#define BARE_HOST_RADIUS 100.0f
+
+/* A host that has memory, loops on `threads` threads, and the bounds of a scene with its centre in
+ * the origin and radius BARE_HOST_RADIUS; nothing else. */
+struct bare_host {
+    ps_host host;
+    uint32_t threads;
+    int live_allocations;
+};
+
+/* `bare` must stay where it is while it is used. */
+void bare_host_create(struct bare_host *bare, uint32_t threads);
+
+/* The strategy that a text such as "filter=cone:k=2" asks for, not started. A failure fails the
+ * test. Release it with strategy_release. */
+struct strategy strategy_of(const char *text);
+
+#endif

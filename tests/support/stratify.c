@@ -1,0 +1,145 @@
+#include "support/stratify.h"
+
+#include "base/sample.h"
+#include "pipeline/settings.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static struct stage *stage_on(const ps_host *host)
+{
+    return host->core;
+}
+
+static void *take(const ps_host *host, size_t bytes, const char *what)
+{
+    struct stage *stage = stage_on(host);
+    if (stage->out_of_memory)
+        return NULL;
+    stage->allocations++;
+    statistics_add_bytes(&stage->statistics, what, (double)bytes);
+    return aligned_alloc(64, (bytes + 63) / 64 * 64);
+}
+
+static void give_back(const ps_host *host, void *memory)
+{
+    stage_on(host)->allocations -= memory != NULL;
+    free(memory);
+}
+
+static void draw(const ps_host *host, uint32_t stream, uint32_t set, const uint64_t *indices,
+                 size_t n, float (*samples)[4])
+{
+    for (size_t i = 0; i < n; i++)
+        sample_point(sample_key(stage_on(host)->seed, stream, set), indices[i], samples[i]);
+}
+
+static void bounds(const ps_host *host, ps_vec3 *center, float *radius)
+{
+    *center = (ps_vec3){0, 0, 0};
+    *radius = stage_on(host)->radius;
+}
+
+static void look(const ps_host *host, ps_vec3 *position, ps_vec3 *direction)
+{
+    *position = stage_on(host)->camera;
+    *direction = (ps_vec3){0, 0, 1};
+}
+
+static void add_up(const ps_host *host, const char *counter, double amount)
+{
+    statistics_count(&stage_on(host)->statistics, counter, amount);
+}
+
+struct stage stage_of(float radius)
+{
+    struct stage stage = {.radius = radius, .seed = 1};
+    statistics_init(&stage.statistics);
+    return stage;
+}
+
+void stage_release(struct stage *stage)
+{
+    statistics_destroy(&stage->statistics);
+}
+
+ps_source stratify_source(ps_vec3 position, float power, uint64_t path)
+{
+    return (ps_source){.position = position,
+                       .normal = {0, 1, 0},
+                       .direction = {0, 1, 0},
+                       .power = {power, power, power},
+                       .bounce = 1,
+                       .merged = 1,
+                       .path = path};
+}
+
+static ps_host host_of(struct stage *stage)
+{
+    return (ps_host){
+        .size = sizeof(ps_host),
+        .abi_minor = PS_ABI_MINOR,
+        .core = stage,
+        .allocate = take,
+        .release = give_back,
+        .samples = draw,
+        .scene_bounds = bounds,
+        .count = add_up,
+        .camera = look,
+    };
+}
+
+static void create(struct loader *loader, const char *text, struct strategy *strategy)
+{
+    struct strategy_choice choice;
+    struct error error;
+    assert_int_equal(settings_parse_choice(text, &choice, &error), PS_OK);
+    if (strategy_create(loader, PS_STRATIFICATION, choice.name, strategy, &error) != PS_OK)
+        fail_msg("%s", error.text);
+    struct param_table table = strategy_params(strategy->descriptor);
+    for (size_t i = 0; i < choice.parameter_count; i++) {
+        const ps_param *row = param_find(&table, choice.parameters[i].key);
+        assert_non_null(row);
+        if (param_set(row, strategy->state, choice.parameters[i].value, &error) != PS_OK)
+            fail_msg("%s: %s", text, error.text);
+    }
+    strategy_choice_release(&choice);
+}
+
+size_t stratify(struct stage *stage, const char *choice, ps_source *sources, size_t n)
+{
+    struct loader *loader;
+    struct strategy strategy;
+    struct error error;
+    ps_host host = host_of(stage);
+    ps_pass pass = {.size = sizeof pass, .number = stage->pass, .seed = stage->seed};
+    statistics_destroy(&stage->statistics);
+    statistics_init(&stage->statistics);
+    assert_int_equal(loader_create(&loader, &error), PS_OK);
+    create(loader, choice, &strategy);
+    if (strategy_start(&strategy, &host, &error) != PS_OK)
+        fail_msg("%s: %s", choice, error.text);
+    const ps_stratification_vtable *vtable = strategy.descriptor->vtable;
+    stage->result = vtable->combine(strategy.state, &host, &pass, sources, &n);
+    assert_int_equal(stage->allocations, 0);
+    strategy_release(&strategy);
+    loader_destroy(loader);
+    return n;
+}
+
+bool stratification_refuses(struct stage *stage, const char *choice)
+{
+    struct loader *loader;
+    struct strategy strategy;
+    struct error error;
+    ps_host host = host_of(stage);
+    assert_int_equal(loader_create(&loader, &error), PS_OK);
+    create(loader, choice, &strategy);
+    bool refused = strategy_start(&strategy, &host, &error) != PS_OK;
+    strategy_release(&strategy);
+    loader_destroy(loader);
+    return refused;
+}

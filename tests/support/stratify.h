@@ -1,0 +1,35 @@
+/* stratify.h: runs a stratification on sources that a test made, with a host of the test's own. */
+#ifndef TESTS_SUPPORT_STRATIFY_H
+#define TESTS_SUPPORT_STRATIFY_H
+
+#include "pipeline/statistics.h"
+#include <psplat/plugin.h>
+#include <stdbool.h>
+
+/* What the host tells: a scene in a sphere around the origin, a camera that looks along +z. */
+struct stage {
+    float radius;
+    ps_vec3 camera;
+    uint64_t seed;
+    uint32_t pass;
+    bool out_of_memory;           /* allocations fail */
+    struct statistics statistics; /* of the last run */
+    ps_result result;             /* of the last run */
+    size_t allocations;           /* that were not released */
+};
+
+/* A stage of that radius; destroy its statistics after use. */
+struct stage stage_of(float radius);
+void stage_release(struct stage *stage);
+
+/* A white source that shines up from a floor. */
+ps_source stratify_source(ps_vec3 position, float power, uint64_t path);
+
+/* Combines n sources in place by a choice such as "grid:cell=1"; how many are left. A plugin that
+ * refuses its parameters fails the test. Everything it allocated must be released. */
+size_t stratify(struct stage *stage, const char *choice, ps_source *sources, size_t n);
+
+/* Whether the plugin refuses its parameters in init. */
+bool stratification_refuses(struct stage *stage, const char *choice);
+
+#endif

@@ -1,0 +1,330 @@
+/* test_bilateral.c: the denoiser `bilateral` on G-buffers made by hand. */
+#include "support/one_strategy.h"
+#include "support/random.h"
+
+#include <math.h>
+#include <psplat/math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define WIDTH 150 /* two whole blocks of the loop, and a part */
+#define HEIGHT 24
+#define PIXELS (WIDTH * HEIGHT)
+#define ROUNDING 2e-5f /* of a mean of equal numbers, relative */
+
+struct picture {
+    float light[3][PIXELS], albedo[3][PIXELS], normal[3][PIXELS], position[3][PIXELS];
+    float depth[PIXELS];
+};
+
+static void set_vector(float (*planes)[PIXELS], int pixel, ps_vec3 v)
+{
+    planes[0][pixel] = v.x;
+    planes[1][pixel] = v.y;
+    planes[2][pixel] = v.z;
+}
+
+static ps_vec3 vector_at(const float (*planes)[PIXELS], int pixel)
+{
+    return (ps_vec3){planes[0][pixel], planes[1][pixel], planes[2][pixel]};
+}
+
+/* A level floor of albedo 1 and radiance 1, pixels 0.1 apart. */
+static struct picture *level_floor(void)
+{
+    struct picture *picture = calloc(1, sizeof *picture);
+    assert_non_null(picture);
+    for (int i = 0; i < PIXELS; i++) {
+        int x = i % WIDTH, y = i / WIDTH;
+        set_vector(picture->light, i, (ps_vec3){1, 1, 1});
+        set_vector(picture->albedo, i, (ps_vec3){1, 1, 1});
+        set_vector(picture->normal, i, (ps_vec3){0, 0, 1});
+        set_vector(picture->position, i, (ps_vec3){0.1f * (float)x, 0.1f * (float)y, 0});
+        picture->depth[i] = 5;
+    }
+    return picture;
+}
+
+/* A wavy surface of many colours under noise, with pixels that see nothing. */
+static struct picture *wild_picture(uint64_t seed)
+{
+    struct random random = {seed};
+    struct picture *picture = level_floor();
+    for (int i = 0; i < PIXELS; i++) {
+        float x = picture->position[0][i], y = picture->position[1][i];
+        ps_vec3 normal = {-0.8f * cosf(2 * x), 0.6f * sinf(3 * y), 1};
+        picture->position[2][i] = 0.4f * sinf(2 * x) + 0.2f * cosf(3 * y);
+        /* Means of several passes are shorter than 1. */
+        float length = random_between(&random, 0.7f, 1.0f);
+        set_vector(picture->normal, i, ps_scale(ps_normalize(normal), length));
+        for (int c = 0; c < 3; c++) {
+            picture->albedo[c][i] = random_unit(&random) < 0.1f ? 0 : random_unit(&random);
+            picture->light[c][i] = picture->albedo[c][i] * random_between(&random, 0.5f, 3.0f);
+        }
+        if (random_unit(&random) < 0.05f) {
+            picture->depth[i] = INFINITY;
+            set_vector(picture->normal, i, (ps_vec3){0, 0, 0});
+            set_vector(picture->position, i, (ps_vec3){0, 0, 0});
+            set_vector(picture->light, i, (ps_vec3){0, 0, 0});
+        }
+    }
+    return picture;
+}
+
+static void denoise(struct picture *picture, const char *choice, uint32_t threads)
+{
+    struct bare_host bare;
+    struct error error;
+    const ps_image_view view = {
+        .size = sizeof view,
+        .width = WIDTH,
+        .height = HEIGHT,
+        .r = picture->light[0],
+        .g = picture->light[1],
+        .b = picture->light[2],
+        .albedo_r = picture->albedo[0],
+        .albedo_g = picture->albedo[1],
+        .albedo_b = picture->albedo[2],
+        .normal_x = picture->normal[0],
+        .normal_y = picture->normal[1],
+        .normal_z = picture->normal[2],
+        .position_x = picture->position[0],
+        .position_y = picture->position[1],
+        .position_z = picture->position[2],
+        .depth = picture->depth,
+    };
+    bare_host_create(&bare, threads);
+    struct strategy strategy = strategy_of(choice);
+    const ps_denoiser_vtable *vtable = strategy.descriptor->vtable;
+    assert_int_equal(strategy_start(&strategy, &bare.host, &error), PS_OK);
+    assert_int_equal(vtable->filter(strategy.state, &bare.host, &view), PS_OK);
+    assert_int_equal(bare.live_allocations, 0);
+    strategy_release(&strategy);
+}
+
+/* --- against the formula, pixel by pixel in double precision --- */
+
+static double biweight(double s)
+{
+    return s < 1 ? (1 - s) * (1 - s) : 0;
+}
+
+struct expectation {
+    int reach;
+    double sigma, normal_degrees, distance;
+};
+
+static double expected_weight(const struct picture *picture, const struct expectation *e, int p,
+                              int q)
+{
+    ps_vec3 np = ps_normalize(vector_at(picture->normal, p));
+    ps_vec3 nq = ps_normalize(vector_at(picture->normal, q));
+    ps_vec3 d = ps_subtract(vector_at(picture->position, q), vector_at(picture->position, p));
+    double over = ps_dot(d, np), under = ps_dot(d, nq);
+    int dx = q % WIDTH - p % WIDTH, dy = q / WIDTH - p / WIDTH;
+    double bend = (1 - ps_dot(np, nq)) / (1 - cos(e->normal_degrees * 3.14159265358979 / 180));
+    return exp(-0.5 * (dx * dx + dy * dy) / (e->sigma * e->sigma)) * biweight(bend) *
+           biweight((over * over + under * under) / (e->distance * e->distance));
+}
+
+static double expected_light(const struct picture *picture, const struct expectation *e, int p,
+                             int channel)
+{
+    double sum = 0, total = 0;
+    const float *albedo = picture->albedo[channel];
+    if (isinf(picture->depth[p]) || albedo[p] < 1e-3f)
+        return picture->light[channel][p];
+    for (int y = p / WIDTH - e->reach; y <= p / WIDTH + e->reach; y++)
+        for (int x = p % WIDTH - e->reach; x <= p % WIDTH + e->reach; x++) {
+            int q = y * WIDTH + x;
+            bool inside = x >= 0 && x < WIDTH && y >= 0 && y < HEIGHT;
+            if (!inside || isinf(picture->depth[q]) || albedo[q] < 1e-3f)
+                continue;
+            double weight = expected_weight(picture, e, p, q);
+            sum += weight * picture->light[channel][q] / albedo[q];
+            total += weight;
+        }
+    return albedo[p] * sum / total;
+}
+
+static void expect_formula(const char *choice, struct expectation expectation)
+{
+    struct picture *before = wild_picture(7), *after = wild_picture(7);
+    double worst = 0;
+    denoise(after, choice, 2);
+    for (int p = 0; p < PIXELS; p++)
+        for (int c = 0; c < 3; c++) {
+            double expected = expected_light(before, &expectation, p, c);
+            worst = fmax(worst, fabs(after->light[c][p] - expected) / fmax(expected, 1e-3));
+        }
+    print_message("%s: off by %.1e at most\n", choice, worst);
+    assert_true(worst < 1e-4);
+    free(before);
+    free(after);
+}
+
+static void test_formula(void **state)
+{
+    (void)state;
+    expect_formula("denoiser=bilateral:size=7,sigma=1.5,normal=40,distance=0.3",
+                   (struct expectation){3, 1.5, 40, 0.3});
+    expect_formula("denoiser=bilateral:size=3,sigma=100,normal=90,distance=1e6",
+                   (struct expectation){1, 100, 90, 1e6});
+    /* Automatic: 0.3 (reach - 1) + 0.8, and 1 % of the radius, 100. */
+    expect_formula("denoiser=bilateral", (struct expectation){4, 1.7, 30, 1});
+    expect_formula("denoiser=bilateral:size=33,distance=2", (struct expectation){16, 5.3, 30, 2});
+}
+
+/* --- what it is for --- */
+
+static void test_constant_light_stays(void **state)
+{
+    (void)state;
+    struct picture *before = wild_picture(3), *after = wild_picture(3);
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < PIXELS; i++)
+            before->light[c][i] = after->light[c][i] = 2.5f * before->albedo[c][i];
+    denoise(after, "denoiser=bilateral:size=15,normal=80,distance=10", 2);
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < PIXELS; i++)
+            assert_true(fabsf(after->light[c][i] - before->light[c][i]) <=
+                        ROUNDING * before->light[c][i]);
+    free(before);
+    free(after);
+}
+
+/* The right half of the floor shines a hundred times brighter. Whether light crosses. */
+static bool crosses(struct picture *picture, const char *choice)
+{
+    float off = 0;
+    for (int i = 0; i < PIXELS; i++)
+        if (i % WIDTH >= WIDTH / 2)
+            picture->light[1][i] = 100;
+    denoise(picture, choice, 1);
+    for (int i = 0; i < PIXELS; i++) {
+        float expected = i % WIDTH >= WIDTH / 2 ? 100.0f : 1.0f;
+        off = fmaxf(off, fabsf(picture->light[1][i] / expected - 1));
+    }
+    free(picture);
+    return off > ROUNDING;
+}
+
+/* The right half is tilted, or raised. */
+static struct picture *bent(float degrees, float step)
+{
+    struct picture *picture = level_floor();
+    float angle = degrees * PS_PI / 180;
+    for (int i = 0; i < PIXELS; i++)
+        if (i % WIDTH >= WIDTH / 2) {
+            set_vector(picture->normal, i, (ps_vec3){sinf(angle), 0, cosf(angle)});
+            picture->position[2][i] = step;
+        }
+    return picture;
+}
+
+static void test_edges_stop_the_blur(void **state)
+{
+    (void)state;
+    assert_true(crosses(bent(0, 0), "denoiser=bilateral"));
+    assert_false(crosses(bent(90, 0), "denoiser=bilateral"));
+    assert_false(crosses(bent(90, 0), "denoiser=bilateral:size=33,normal=90,distance=1000"));
+    assert_false(crosses(bent(20, 0), "denoiser=bilateral:normal=19,distance=1000"));
+    assert_true(crosses(bent(20, 0), "denoiser=bilateral:normal=21,distance=1000"));
+    assert_false(crosses(bent(0, 0.3f), "denoiser=bilateral:distance=0.3"));
+    assert_true(crosses(bent(0, 0.3f), "denoiser=bilateral:distance=0.5"));
+}
+
+struct moments {
+    double mean, deviation;
+};
+
+static struct moments noise_after(const char *choice)
+{
+    struct random random = {11};
+    struct picture *picture = level_floor();
+    struct moments moments = {0, 0};
+    for (int i = 0; i < PIXELS; i++)
+        picture->light[2][i] = random_between(&random, 0.0f, 2.0f);
+    denoise(picture, choice, 1);
+    for (int i = 0; i < PIXELS; i++) {
+        moments.mean += picture->light[2][i] / PIXELS;
+        moments.deviation += pow(picture->light[2][i] - 1, 2) / PIXELS;
+    }
+    moments.deviation = sqrt(moments.deviation);
+    print_message("%s: mean %.4f, deviation %.4f\n", choice, moments.mean, moments.deviation);
+    free(picture);
+    return moments;
+}
+
+/* The mean may move by what the border's pixels count more or less: half a per cent here. */
+static void test_noise_falls_and_the_mean_stays(void **state)
+{
+    (void)state;
+    double mean = noise_after("denoiser=none").mean, before = 0.5774; /* 1 / sqrt(3) */
+    static const char *const choices[] = {"denoiser=bilateral:size=3", "denoiser=bilateral:size=5",
+                                          "denoiser=bilateral:size=9",
+                                          "denoiser=bilateral:size=33"};
+    for (int i = 0; i < 4; i++) {
+        struct moments after = noise_after(choices[i]);
+        assert_true(after.deviation < 0.75 * before);
+        assert_true(fabs(after.mean - mean) < 0.005);
+        before = after.deviation;
+    }
+}
+
+/* A channel that the surface does not reflect keeps what it has, and gives none of it. */
+static void test_black_channels_take_no_part(void **state)
+{
+    (void)state;
+    struct picture *picture = level_floor();
+    int black = 10 * WIDTH + 70;
+    picture->albedo[1][black] = 0;
+    picture->light[1][black] = 1000;
+    denoise(picture, "denoiser=bilateral:size=9", 1);
+    for (int i = 0; i < PIXELS; i++)
+        assert_true(i == black ? picture->light[1][i] == 1000.0f
+                               : fabsf(picture->light[1][i] - 1) <= ROUNDING);
+    free(picture);
+}
+
+static void test_threads_do_not_matter(void **state)
+{
+    (void)state;
+    struct picture *one = wild_picture(5), *three = wild_picture(5);
+    denoise(one, "denoiser=bilateral:size=11", 1);
+    denoise(three, "denoiser=bilateral:size=11", 3);
+    assert_memory_equal(one, three, sizeof *one);
+    free(one);
+    free(three);
+}
+
+static void test_even_sizes_are_refused(void **state)
+{
+    (void)state;
+    struct bare_host bare;
+    struct error error;
+    bare_host_create(&bare, 1);
+    struct strategy strategy = strategy_of("denoiser=bilateral:size=8");
+    assert_int_equal(strategy_start(&strategy, &bare.host, &error), PS_ERROR_INVALID);
+    assert_string_equal(error.text, "denoiser bilateral: size must be odd, got 8");
+    strategy_release(&strategy);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_formula),
+        cmocka_unit_test(test_constant_light_stays),
+        cmocka_unit_test(test_edges_stop_the_blur),
+        cmocka_unit_test(test_noise_falls_and_the_mean_stays),
+        cmocka_unit_test(test_black_channels_take_no_part),
+        cmocka_unit_test(test_threads_do_not_matter),
+        cmocka_unit_test(test_even_sizes_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

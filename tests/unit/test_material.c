@@ -1,0 +1,416 @@
+/* test_material.c: how surfaces scatter: energy, directions, densities, choice among lobes. */
+#include "scene/material.h"
+#include "support/chi_squared.h"
+#include "support/random.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define SAMPLES 40000
+
+static struct microfacet_table *table;
+
+static int make_table(void **state)
+{
+    (void)state;
+    table = malloc(sizeof *table);
+    microfacet_tabulate(table);
+    return 0;
+}
+
+static int free_table(void **state)
+{
+    (void)state;
+    free(table);
+    return 0;
+}
+
+static struct pigment_description grey(float value)
+{
+    return (struct pigment_description){
+        .kind = PIGMENT_COLOR, .colors = {{value, value, value}}, .placement = AFFINE_IDENTITY};
+}
+
+static struct material_description plain(enum material_kind kind, float color)
+{
+    return (struct material_description){
+        .kind = kind,
+        .color = grey(color),
+        .specular = grey(0.1f),
+        .roughness = grey(0.4f),
+        .ior = 1.5,
+        .emission = grey(0),
+        .opacity = grey(1),
+        .bump = grey(0),
+        .normal_map = NO_INDEX,
+    };
+}
+
+static struct material made(const struct material_description *materials, size_t count,
+                            size_t index)
+{
+    struct scene_description description = {.materials = (struct material_description *)materials,
+                                            .material_count = count};
+    struct material material;
+    struct error error;
+    assert_int_equal(material_create(&description, index, NULL, &material, &error), PS_OK);
+    return material;
+}
+
+static struct material made_one(struct material_description description)
+{
+    return made(&description, 1, 0);
+}
+
+/* A ray that meets a level surface at the origin, from above, by the cosine to its normal. */
+struct meeting {
+    ps_ray ray;
+    ps_hit hit;
+};
+
+static struct meeting meet(float cosine, uint32_t flags)
+{
+    float sine = sqrtf(1 - cosine * cosine);
+    ps_vec3 up = {0, 1, 0};
+    return (struct meeting){
+        .ray = {{-sine, cosine, 0}, 0, {sine, -cosine, 0}, INFINITY},
+        .hit = {.distance = 1, .normal = up, .geometric_normal = up, .flags = flags},
+    };
+}
+
+static ps_scatter scatter(const struct material *material, const struct meeting *meeting,
+                          ps_direction direction, struct random *random)
+{
+    float numbers[4];
+    for (int k = 0; k < 4; k++)
+        numbers[k] = random_unit(random);
+    return material_scatter(material, table, direction, &meeting->ray, &meeting->hit, numbers);
+}
+
+static double mean_weight(const struct material *material, float cosine, ps_direction direction)
+{
+    struct meeting meeting = meet(cosine, 0);
+    struct random random = {11};
+    double sum = 0;
+    for (int i = 0; i < SAMPLES; i++)
+        sum += (double)scatter(material, &meeting, direction, &random).weight.g;
+    return sum / SAMPLES;
+}
+
+static void expect_albedo(const struct material *material, float cosine, double expected)
+{
+    double albedo = mean_weight(material, cosine, PS_FROM_CAMERA);
+    if (!(fabs(albedo - expected) < 0.01))
+        fail_msg("cosine %g: %g, expected %g", (double)cosine, albedo, expected);
+}
+
+/* --- energy ---------------------------------------------------------------------------------- */
+
+static void test_simple_albedos(void **state)
+{
+    (void)state;
+    struct material diffuse = made_one(plain(MATERIAL_DIFFUSE, 0.6f));
+    struct material mirror = made_one(plain(MATERIAL_MIRROR, 0.8f));
+    struct material_description smooth = plain(MATERIAL_METAL, 0.5f);
+    smooth.roughness = grey(0);
+    struct material metal = made_one(smooth);
+    for (float cosine = 0.1f; cosine <= 1.0f; cosine += 0.3f) {
+        expect_albedo(&diffuse, cosine, 0.6);
+        expect_albedo(&mirror, cosine, 0.8);
+        expect_albedo(&metal, cosine, 0.5 + 0.5 * pow(1 - (double)cosine, 5));
+    }
+}
+
+static void test_white_surfaces_keep_all_light(void **state)
+{
+    (void)state;
+    struct material metal = made_one(plain(MATERIAL_METAL, 1));
+    struct material glossy = made_one(plain(MATERIAL_GLOSSY, 1));
+    struct material_description smooth = plain(MATERIAL_GLOSSY, 1);
+    smooth.roughness = grey(0);
+    struct material varnish = made_one(smooth);
+    for (float cosine = 0.05f; cosine <= 1.0f; cosine += 0.19f) {
+        expect_albedo(&metal, cosine, 1);
+        expect_albedo(&glossy, cosine, 1);
+        expect_albedo(&varnish, cosine, 1);
+    }
+}
+
+static void test_coat_takes_from_its_base(void **state)
+{
+    (void)state;
+    struct material glossy = made_one(plain(MATERIAL_GLOSSY, 0.5f));
+    for (float cosine = 0.1f; cosine <= 1.0f; cosine += 0.3f) {
+        double coat = (double)microfacet_albedo(table, (ps_rgb){0.1f, 0.1f, 0.1f}, 0.4f, cosine).g;
+        expect_albedo(&glossy, cosine, coat + 0.5 * (1 - coat));
+        struct meeting meeting = meet(cosine, 0);
+        ps_rgb albedo = material_albedo(&glossy, table, &meeting.hit, meeting.ray.direction);
+        assert_true(fabs((double)albedo.g - 0.5 * (1 - coat)) < 1e-5);
+    }
+}
+
+static void test_mix_is_the_sum_of_shares(void **state)
+{
+    (void)state;
+    size_t components[2] = {0, 1};
+    double weights[2] = {0.25, 0.5};
+    struct material_description materials[3] = {
+        plain(MATERIAL_DIFFUSE, 0.8f), plain(MATERIAL_MIRROR, 0.9f), plain(MATERIAL_MIX, 0)};
+    materials[2].components = components;
+    materials[2].weights = weights;
+    materials[2].component_count = 2;
+    struct material mix = made(materials, 3, 2);
+    expect_albedo(&mix, 0.5f, 0.25 * 0.8 + 0.5 * 0.9);
+    struct meeting meeting = meet(0.5f, 0);
+    assert_true(fabsf(material_albedo(&mix, table, &meeting.hit, meeting.ray.direction).g - 0.2f) <
+                1e-6f);
+}
+
+/* --- glass -------------------------------------------------------------------------------------- */
+
+static double share_that_passes(const struct material *glass, const struct meeting *meeting,
+                                double expected_sine, double expected_weight)
+{
+    struct random random = {23};
+    int passed = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        ps_scatter on = scatter(glass, meeting, PS_FROM_CAMERA, &random);
+        assert_int_equal(on.lobe, PS_SPECULAR);
+        assert_true(on.pdf == 0);
+        assert_true(fabsf(ps_length(on.direction) - 1) < 1e-5f);
+        if (on.direction.y > 0) {
+            assert_true(fabsf(on.weight.g - 1) < 1e-6f);
+            assert_true(on.normal.y > 0);
+            continue;
+        }
+        passed++;
+        assert_true(on.normal.y < 0);
+        assert_true(fabs((double)on.direction.x - expected_sine) < 1e-4);
+        assert_true(fabs((double)on.weight.g - expected_weight) < 1e-4);
+    }
+    return (double)passed / SAMPLES;
+}
+
+/* Fresnel's equations at 60 degrees to the normal of glass, worked out by hand. */
+static void test_glass_refracts(void **state)
+{
+    (void)state;
+    struct material glass = made_one(plain(MATERIAL_DIELECTRIC, 1));
+    struct meeting outside = meet(0.5f, 0);
+    double sine = sqrt(0.75) / 1.5, cosine = sqrt(1 - sine * sine);
+    double s = (0.5 - 1.5 * cosine) / (0.5 + 1.5 * cosine);
+    double p = (1.5 * 0.5 - cosine) / (1.5 * 0.5 + cosine);
+    double passed = share_that_passes(&glass, &outside, sine, 1 / 2.25);
+    assert_true(fabs(passed - (1 - 0.5 * (s * s + p * p))) < 0.01);
+}
+
+static void test_glass_reflects_totally_inside(void **state)
+{
+    (void)state;
+    struct material glass = made_one(plain(MATERIAL_DIELECTRIC, 1));
+    struct meeting steep = meet(0.9f, PS_HIT_BACK), flat = meet(0.6f, PS_HIT_BACK);
+    double sine = 1.5 * sqrt(1 - 0.81);
+    assert_true(share_that_passes(&glass, &steep, sine, 2.25) > 0.9);
+    assert_true(share_that_passes(&glass, &flat, 0, 0) == 0); /* sine 0.8 > 1 / 1.5 */
+}
+
+static void test_power_is_not_squeezed(void **state)
+{
+    (void)state;
+    struct material glass = made_one(plain(MATERIAL_DIELECTRIC, 1));
+    assert_true(fabs(mean_weight(&glass, 0.7f, PS_FROM_LIGHT) - 1) < 1e-5);
+}
+
+static void test_glass_absorbs_by_distance(void **state)
+{
+    (void)state;
+    struct material_description description = plain(MATERIAL_DIELECTRIC, 1);
+    description.absorption = (ps_rgb){0, 0.5f, 2};
+    struct material glass = made_one(description);
+    struct meeting inside = meet(0.6f, PS_HIT_BACK);
+    struct random random = {1};
+    inside.hit.distance = 3;
+    ps_scatter on = scatter(&glass, &inside, PS_FROM_CAMERA, &random);
+    assert_true(fabsf(on.weight.r - 1) < 1e-6f);
+    assert_true(fabsf(on.weight.g - expf(-1.5f)) < 1e-6f);
+    assert_true(fabsf(on.weight.b - expf(-6)) < 1e-6f);
+}
+
+/* --- directions --------------------------------------------------------------------------------- */
+
+static void test_mirror_direction(void **state)
+{
+    (void)state;
+    struct material mirror = made_one(plain(MATERIAL_MIRROR, 1));
+    struct meeting meeting = meet(0.6f, 0);
+    struct random random = {1};
+    ps_scatter on = scatter(&mirror, &meeting, PS_FROM_CAMERA, &random);
+    assert_true(fabsf(on.direction.x - 0.8f) < 1e-6f && fabsf(on.direction.y - 0.6f) < 1e-6f);
+}
+
+#define RINGS 12
+#define SECTORS 12
+
+/* The lobes of a coated surface together: observed against pdf, which holds their choice. */
+static void test_directions_follow_the_densities(void **state)
+{
+    (void)state;
+    struct material glossy = made_one(plain(MATERIAL_GLOSSY, 0.3f));
+    struct meeting meeting = meet(0.7f, 0);
+    double observed[RINGS] = {0}, expected[RINGS] = {0};
+    struct random random = {29};
+    int diffuse = 0;
+    double probability = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        ps_scatter on = scatter(&glossy, &meeting, PS_FROM_CAMERA, &random);
+        if (on.lobe != PS_DIFFUSE)
+            continue;
+        diffuse++;
+        probability = (double)on.probability;
+        double cosine2 = (double)on.direction.y * (double)on.direction.y;
+        observed[(int)fmin(cosine2 * RINGS, RINGS - 1)]++;
+        assert_true(fabs((double)on.pdf - probability * (double)on.direction.y / (double)PS_PI) <
+                    1e-5);
+    }
+    for (int i = 0; i < RINGS; i++)
+        expected[i] = (double)diffuse / RINGS; /* cosine-distributed: even in cosine squared */
+    assert_true(chi_squared_probability(observed, expected, RINGS) > 1e-4);
+    assert_true(fabs((double)diffuse / SAMPLES - probability) < 0.015);
+}
+
+/* Where smoothed normals are tilted, light paths carry Veach's factor, and nothing passes through. */
+static void test_tilted_normals(void **state)
+{
+    (void)state;
+    struct material diffuse = made_one(plain(MATERIAL_DIFFUSE, 1));
+    struct meeting meeting = meet(0.5f, 0);
+    meeting.hit.normal = (ps_vec3){0.6f, 0.8f, 0};
+    struct random random = {31};
+    int through = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        ps_scatter on = scatter(&diffuse, &meeting, PS_FROM_LIGHT, &random);
+        if (on.direction.y <= 0) {
+            through++;
+            assert_true(on.weight.g == 0);
+            continue;
+        }
+        ps_vec3 back = ps_scale(meeting.ray.direction, -1);
+        float expected = fmaxf(ps_dot(back, meeting.hit.normal), 0) / back.y * on.direction.y /
+                         fmaxf(ps_dot(on.direction, meeting.hit.normal), 1e-4f);
+        assert_true(fabsf(on.weight.g - expected) <= 1e-3f * (1 + expected));
+    }
+    assert_true(through > 0);
+}
+
+/* --- gloss by the lights' own sampling ----------------------------------------------------------- */
+
+/* Without a competing density the sum over all directions is the coat's albedo. */
+static void test_gloss_sums_to_the_coat(void **state)
+{
+    (void)state;
+    struct material glossy = made_one(plain(MATERIAL_GLOSSY, 0.3f));
+    struct meeting meeting = meet(0.7f, 0);
+    struct random random = {37};
+    double sum = 0;
+    for (int i = 0; i < 10 * SAMPLES; i++) {
+        float height = random_unit(&random), phi = 2 * PS_PI * random_unit(&random);
+        float radius = sqrtf(1 - height * height);
+        ps_vec3 in = {radius * cosf(phi), height, radius * sinf(phi)};
+        sum += (double)material_gloss(&glossy, table, &meeting.ray, &meeting.hit, in, 0).g;
+    }
+    double albedo = sum / (10 * SAMPLES) * 2 * (double)PS_PI;
+    double coat = (double)microfacet_albedo(table, (ps_rgb){0.1f, 0.1f, 0.1f}, 0.4f, 0.7f).g;
+    assert_true(fabs(albedo - coat) < 0.02 * coat);
+}
+
+/* The two ways of finding a light together count it once. */
+static void test_shares_of_the_two_samplings_sum_to_one(void **state)
+{
+    (void)state;
+    struct material_description description = plain(MATERIAL_METAL, 0.5f);
+    struct material metal = made_one(description);
+    struct meeting meeting = meet(0.7f, 0);
+    struct random random = {41};
+    for (int i = 0; i < 100; i++) {
+        ps_scatter on = scatter(&metal, &meeting, PS_FROM_CAMERA, &random);
+        if (!(on.weight.g > 0))
+            continue;
+        float light = 0.7f;
+        float whole = material_gloss(&metal, table, &meeting.ray, &meeting.hit, on.direction, 0).g;
+        float part =
+            material_gloss(&metal, table, &meeting.ray, &meeting.hit, on.direction, light).g;
+        float ratio = on.pdf / light, scattering = ratio * ratio / (1 + ratio * ratio);
+        assert_true(fabsf(part / whole + scattering - 1) < 1e-3f);
+    }
+}
+
+/* --- what else a material says ------------------------------------------------------------------ */
+
+static void test_emission_has_a_front(void **state)
+{
+    (void)state;
+    struct material_description description = plain(MATERIAL_DIFFUSE, 0);
+    description.emission = grey(7);
+    struct material lamp = made_one(description);
+    struct meeting front = meet(0.5f, 0), back = meet(0.5f, PS_HIT_BACK);
+    assert_true(material_emission(&lamp, &front.hit).g == 7);
+    assert_true(material_emission(&lamp, &back.hit).g == 0);
+    lamp.emission_both = true;
+    assert_true(material_emission(&lamp, &back.hit).g == 7);
+    assert_false(made_one(plain(MATERIAL_DIFFUSE, 1)).emissive);
+}
+
+static void test_black_absorbs(void **state)
+{
+    (void)state;
+    struct material black = made_one(plain(MATERIAL_DIFFUSE, 0));
+    struct meeting meeting = meet(0.5f, 0);
+    struct random random = {1};
+    assert_true(scatter(&black, &meeting, PS_FROM_LIGHT, &random).weight.g == 0);
+}
+
+static void test_too_many_components(void **state)
+{
+    (void)state;
+    enum { COUNT = MATERIAL_MOST_COMPONENTS + 1 };
+    size_t components[COUNT];
+    double weights[COUNT];
+    struct material_description materials[2] = {plain(MATERIAL_DIFFUSE, 1), plain(MATERIAL_MIX, 0)};
+    for (size_t i = 0; i < COUNT; i++) {
+        components[i] = 0;
+        weights[i] = 0.05;
+    }
+    materials[1].components = components;
+    materials[1].weights = weights;
+    materials[1].component_count = COUNT;
+    struct scene_description description = {.materials = materials, .material_count = 2};
+    struct material material;
+    struct error error;
+    assert_int_equal(material_create(&description, 1, NULL, &material, &error), PS_ERROR_INVALID);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_simple_albedos),
+        cmocka_unit_test(test_white_surfaces_keep_all_light),
+        cmocka_unit_test(test_coat_takes_from_its_base),
+        cmocka_unit_test(test_mix_is_the_sum_of_shares),
+        cmocka_unit_test(test_glass_refracts),
+        cmocka_unit_test(test_glass_reflects_totally_inside),
+        cmocka_unit_test(test_power_is_not_squeezed),
+        cmocka_unit_test(test_glass_absorbs_by_distance),
+        cmocka_unit_test(test_mirror_direction),
+        cmocka_unit_test(test_directions_follow_the_densities),
+        cmocka_unit_test(test_tilted_normals),
+        cmocka_unit_test(test_gloss_sums_to_the_coat),
+        cmocka_unit_test(test_shares_of_the_two_samplings_sum_to_one),
+        cmocka_unit_test(test_emission_has_a_front),
+        cmocka_unit_test(test_black_absorbs),
+        cmocka_unit_test(test_too_many_components),
+    };
+    return cmocka_run_group_tests(tests, make_table, free_table);
+}

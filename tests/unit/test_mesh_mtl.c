@@ -1,0 +1,310 @@
+/* test_mesh_mtl.c: what MTL's statements become. */
+#include "mesh_fixture.h"
+
+static const char triangle[] = "mtllib m.mtl\n"
+                               "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                               "vt 0 0\nvt 1 0\nvt 0 0.75\n"
+                               "usemtl m\nf 1/1 2/2 3/3\n";
+
+static struct imported import_mtl_of(const struct mesh_request *request, const char *mtl)
+{
+    char text[2048];
+    snprintf(text, sizeof text, "newmtl m\n%s\n", mtl);
+    const struct mesh_memory_file files[] = {text_file("d/m.obj", triangle),
+                                             text_file("d/m.mtl", text), text_file("d/a.png", "a"),
+                                             text_file("d/sub/b c.png", "b")};
+    struct imported imported = import_files(request, files, 4);
+    expect_success(&imported);
+    return imported;
+}
+
+static struct imported import_mtl(const char *mtl)
+{
+    struct mesh_request request = request_all("d/m.obj");
+    return import_mtl_of(&request, mtl);
+}
+
+static void kd_is_diffuse(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl("  Kd 0.1 0.2 0.3\n\tKs 0.5 0.5 0.5\nNs 10\nillum 1");
+    const struct material_description *m = material_named(&imported, "m");
+    assert_int_equal(m->kind, MATERIAL_DIFFUSE);
+    expect_color(m->color.colors[0], 0.1, 0.2, 0.3);
+    expect_color(m->opacity.colors[0], 1, 1, 1);
+    expect_color(m->emission.colors[0], 0, 0, 0);
+    assert_int_equal(imported.fragment.objects[0].material, 0);
+    assert_true(m->normal_map == NO_INDEX);
+    release_imported(&imported);
+}
+
+static void ke_is_radiance(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl("Kd 0.78 0.78 0.78\nKe 17 12 4\nillum 2");
+    const struct material_description *m = material_named(&imported, "m");
+    assert_int_equal(m->kind, MATERIAL_DIFFUSE);
+    expect_color(m->emission.colors[0], 17, 12, 4);
+    assert_false(m->emission_both);
+    release_imported(&imported);
+}
+
+static void ks_with_illum_2_is_a_coat(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl("Kd 0.5 0.4 0.3\nKs 0.9 0.8 0.7\nNs 40\nillum 2");
+    const struct material_description *m = material_named(&imported, "m");
+    assert_int_equal(m->kind, MATERIAL_GLOSSY);
+    expect_color(m->color.colors[0], 0.5, 0.4, 0.3);
+    expect_color(m->specular.colors[0], 0.9, 0.8, 0.7);
+    expect_near(pow(m->roughness.colors[0].r, 2), sqrt(2.0 / 42), 1e-6); /* GGX alpha */
+    release_imported(&imported);
+    struct mesh_request request = request_all("d/m.obj");
+    request.diffuse_only = true;
+    imported = import_mtl_of(&request, "Kd 0.5 0.4 0.3\nKs 0.9 0.8 0.7\nNs 40\nillum 2");
+    assert_int_equal(material_named(&imported, "m")->kind, MATERIAL_DIFFUSE);
+    release_imported(&imported);
+}
+
+static void almost_black_kd_under_a_mirror_is_black(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl("Kd 0.01 0.01 0.01\nKs 0.95 0.9 0.85\nNs 1000\nillum 5");
+    const struct material_description *m = material_named(&imported, "m");
+    assert_int_equal(imported.fragment.material_count, 1);
+    assert_int_equal(m->kind, MATERIAL_MIRROR);
+    expect_color(m->color.colors[0], 0.95, 0.9, 0.85);
+    release_imported(&imported);
+}
+
+/* What the parts reflect, by their weights, is Ks and Kd again. */
+static void mirror_over_kd_is_a_mix(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl("Kd 0.1 0.3 0.2\nKs 0.5 0.25 0.5\nillum 3");
+    const struct material_description *m = material_named(&imported, "m");
+    assert_int_equal(m->kind, MATERIAL_MIX);
+    assert_int_equal(m->component_count, 2);
+    const struct material_description *mirror = &imported.fragment.materials[m->components[0]];
+    const struct material_description *diffuse = &imported.fragment.materials[m->components[1]];
+    assert_int_equal(mirror->kind, MATERIAL_MIRROR);
+    assert_int_equal(diffuse->kind, MATERIAL_DIFFUSE);
+    assert_string_equal(mirror->name, "m:mirror");
+    assert_true(imported.fragment.objects[0].material == (size_t)(m - imported.fragment.materials));
+    expect_color(ps_rgb_scale(mirror->color.colors[0], (float)m->weights[0]), 0.5, 0.25, 0.5);
+    expect_color(ps_rgb_scale(diffuse->color.colors[0], (float)m->weights[1]), 0.1, 0.3, 0.2);
+    release_imported(&imported);
+    imported = import_mtl("Kd 0.9 0.9 0.9\nKs 0.9 0.9 0.9\nillum 3"); /* more than there is */
+    m = material_named(&imported, "m");
+    expect_near(m->weights[0], 0.5, 1e-6);
+    expect_near(m->weights[1], 0.5, 1e-6);
+    release_imported(&imported);
+}
+
+static void refracting_illum_is_glass(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl(
+        "Kd 0.01 0.01 0.01\nKs 0.3 0.3 0.3\nTf 0.25 0.49 1\nNs 200\nNi 2.5\nd 0\nillum 7");
+    const struct material_description *m = material_named(&imported, "m");
+    assert_int_equal(m->kind, MATERIAL_DIELECTRIC);
+    expect_near(m->ior, 2.5, 1e-6);
+    expect_color(m->color.colors[0], 0.5, 0.7, 1); /* twice makes Tf */
+    expect_color(m->opacity.colors[0], 1, 1, 1);   /* glass is there */
+    release_imported(&imported);
+    /* Exporters write these beside opaque paint. */
+    imported = import_mtl("Kd 0.5 0.5 0.5\nTf 1 1 1\nNi 1.5\nd 1\nillum 2");
+    assert_int_equal(material_named(&imported, "m")->kind, MATERIAL_DIFFUSE);
+    release_imported(&imported);
+    imported = import_mtl("Kd 0.5 0.5 0.5\nTf 0.81 0.81 0.81\nNi 1.5\n"); /* no illum */
+    assert_int_equal(material_named(&imported, "m")->kind, MATERIAL_DIELECTRIC);
+    release_imported(&imported);
+}
+
+static void d_and_tr_are_opacity(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl("Kd 0.5 0.5 0.5\nd 0.3\nillum 1");
+    expect_near(material_named(&imported, "m")->opacity.colors[0].r, 0.3, 1e-6);
+    release_imported(&imported);
+    imported = import_mtl("Kd 0.5 0.5 0.5\nTr 0.3\nillum 1");
+    expect_near(material_named(&imported, "m")->opacity.colors[0].r, 0.7, 1e-6);
+    release_imported(&imported);
+}
+
+static void maps_are_textures(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl(
+        "Kd 0.5 0.6 0.7\nKe 0 0 0\nmap_Kd -clamp on a.png\nmap_Ke a.png\nmap_d sub\\b c.png\n"
+        "map_bump -bm 0.2 a.png\nnorm sub/b c.png\nillum 1");
+    const struct material_description *m = material_named(&imported, "m");
+    const struct texture_description *textures = imported.fragment.textures;
+    assert_int_equal(m->color.kind, PIGMENT_IMAGE);
+    expect_color(m->color.colors[0], 0.5, 0.6, 0.7);
+    assert_string_equal(textures[m->color.texture].path, "d/a.png");
+    assert_int_equal(textures[m->color.texture].wrap, WRAP_CLAMP);
+    assert_int_equal(textures[m->color.texture].encoding, ENCODING_AUTO);
+    expect_color(m->emission.colors[0], 1, 1, 1); /* a picture beside black */
+    assert_int_equal(textures[m->emission.texture].wrap, WRAP_REPEAT);
+    assert_string_equal(textures[m->opacity.texture].path, "d/sub/b c.png");
+    assert_int_equal(m->opacity.channel, CHANNEL_RGB);
+    assert_int_equal(textures[m->opacity.texture].encoding, ENCODING_LINEAR);
+    expect_near(m->bump.colors[0].r, 0.2, 1e-6);
+    assert_int_equal(m->normal_map, m->opacity.texture); /* one file, read one way: one texture */
+    assert_int_equal(imported.fragment.texture_count, 4);
+    assert_int_equal(imported.report.missing_textures, 0);
+    release_imported(&imported);
+}
+
+static void picture_of_colour_and_opacity_gives_its_alpha(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl("Kd 1 1 1\nmap_Kd a.png\nmap_d a.png\nillum 1");
+    assert_int_equal(material_named(&imported, "m")->opacity.channel, CHANNEL_A);
+    release_imported(&imported);
+}
+
+static void bump_grows_with_the_unit(void **state)
+{
+    (void)state;
+    struct mesh_request request = request_all("d/m.obj");
+    request.unit = 10;
+    struct imported imported = import_mtl_of(&request, "Kd 1 1 1\nbump a.png\nillum 1");
+    expect_near(material_named(&imported, "m")->bump.colors[0].r, 10, 1e-5);
+    release_imported(&imported);
+}
+
+static void missing_texture_is_reported(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl("Kd 0.5 0.6 0.7\nmap_Kd nowhere.png\nillum 1");
+    const struct material_description *m = material_named(&imported, "m");
+    assert_int_equal(m->color.kind, PIGMENT_COLOR);
+    expect_color(m->color.colors[0], 0.5, 0.6, 0.7);
+    assert_int_equal(imported.report.missing_textures, 1);
+    assert_non_null(strstr(imported.report.notes, "nowhere.png is missing"));
+    release_imported(&imported);
+    /* A path of another machine: the picture lies beside the mesh. */
+    imported = import_mtl("Kd 0.5 0.6 0.7\nmap_Kd C:\\models\\old\\a.png\nillum 1");
+    assert_int_equal(imported.report.missing_textures, 0);
+    assert_string_equal(imported.fragment.textures[0].path, "d/a.png");
+    release_imported(&imported);
+    imported = import_mtl("Kd 0.5 0.6 0.7\nmap_Kd ../../../etc/passwd\nillum 1");
+    assert_int_equal(imported.report.missing_textures, 1);
+    release_imported(&imported);
+}
+
+static void absent_material_is_none(void **state)
+{
+    (void)state;
+    struct mesh_request request = request_all("m.obj");
+    const struct mesh_memory_file files[] = {
+        text_file("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl there\nf 1 2 3\n"
+                           "usemtl lamp\nf 1 2 3\n"),
+        text_file("m.mtl", "newmtl there\nKd 1 0 0\n")};
+    struct imported imported = import_files(&request, files, 2);
+    expect_success(&imported);
+    assert_int_equal(imported.fragment.material_count, 1);
+    assert_int_equal(imported.fragment.object_count, 2);
+    assert_int_equal(imported.fragment.objects[0].material, 0);
+    assert_true(imported.fragment.objects[1].material == NO_INDEX);
+    assert_non_null(strstr(imported.report.notes, "lamp"));
+    release_imported(&imported);
+    imported = import_files(&request, files, 1); /* without its library */
+    expect_success(&imported);
+    assert_int_equal(imported.fragment.material_count, 0);
+    assert_non_null(strstr(imported.report.notes, "no library"));
+    release_imported(&imported);
+}
+
+/* assimp alone crashes here. */
+static void statements_before_the_first_material_are_harmless(void **state)
+{
+    (void)state;
+    struct mesh_request request = request_all("m.obj");
+    const struct mesh_memory_file files[] = {
+        text_file("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"),
+        text_file("m.mtl", "map_Kd a.png\naniso 1\n  bump b.png\nnewmtl m\nKd 1 0 0\n")};
+    struct imported imported = import_files(&request, files, 2);
+    expect_success(&imported);
+    expect_color(material_named(&imported, "m")->color.colors[0], 1, 0, 0);
+    release_imported(&imported);
+}
+
+static struct imported import_shared(const char *name, bool *there)
+{
+    static char path[4096];
+    const char *shared = getenv("PSPLAT_SHARED");
+    snprintf(path, sizeof path, "%s/scenes/%s", shared ? shared : "/nowhere", name);
+    FILE *stream = fopen(path, "rb");
+    *there = stream != NULL;
+    if (!stream) {
+        print_message("skipped: there is no %s\n", path);
+        return (struct imported){.result = PS_ERROR_IO};
+    }
+    fclose(stream);
+    struct mesh_request request = request_all(path);
+    struct imported imported = import_disk(&request);
+    expect_success(&imported);
+    return imported;
+}
+
+static void cornell_boxes_come_out_right(void **state)
+{
+    (void)state;
+    bool there;
+    struct imported imported = import_shared("cornell-mcguire/CornellBox-Mirror.obj", &there);
+    if (!there)
+        skip();
+    assert_int_equal(material_named(&imported, "tallBox")->kind, MATERIAL_MIRROR);
+    expect_color(material_named(&imported, "light")->emission.colors[0], 17, 12, 4);
+    assert_true(front_of(&imported, 7, 0).y < -0.9f); /* the lamp shines down */
+    release_imported(&imported);
+    imported = import_shared("cornell-mcguire/CornellBox-Sphere.obj", &there);
+    assert_int_equal(material_named(&imported, "leftSphere")->kind, MATERIAL_MIRROR);
+    assert_int_equal(material_named(&imported, "rightSphere")->kind, MATERIAL_DIELECTRIC);
+    expect_near(material_named(&imported, "rightSphere")->ior, 2.5, 1e-6);
+    release_imported(&imported);
+    imported = import_shared("cornell-mcguire/CornellBox-Glossy.obj", &there);
+    assert_int_equal(material_named(&imported, "shortBox")->kind, MATERIAL_GLOSSY);
+    assert_int_equal(material_named(&imported, "floor")->kind, MATERIAL_DIFFUSE);
+    release_imported(&imported);
+}
+
+static void conference_room_is_whole(void **state)
+{
+    (void)state;
+    bool there;
+    struct imported imported = import_shared("conference/conference.obj", &there);
+    if (!there)
+        skip();
+    size_t triangles = 0;
+    for (size_t i = 0; i < imported.fragment.object_count; i++)
+        triangles += mesh_of(&imported, i)->triangle_count;
+    assert_int_equal(triangles + imported.report.dropped_triangles, 331179);
+    assert_int_equal(imported.fragment.material_count, 35);
+    release_imported(&imported);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(kd_is_diffuse),
+        cmocka_unit_test(ke_is_radiance),
+        cmocka_unit_test(ks_with_illum_2_is_a_coat),
+        cmocka_unit_test(almost_black_kd_under_a_mirror_is_black),
+        cmocka_unit_test(mirror_over_kd_is_a_mix),
+        cmocka_unit_test(refracting_illum_is_glass),
+        cmocka_unit_test(d_and_tr_are_opacity),
+        cmocka_unit_test(maps_are_textures),
+        cmocka_unit_test(picture_of_colour_and_opacity_gives_its_alpha),
+        cmocka_unit_test(bump_grows_with_the_unit),
+        cmocka_unit_test(missing_texture_is_reported),
+        cmocka_unit_test(absent_material_is_none),
+        cmocka_unit_test(statements_before_the_first_material_are_harmless),
+        cmocka_unit_test(cornell_boxes_come_out_right),
+        cmocka_unit_test(conference_room_is_whole),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,239 @@
+/* test_stratification.c: what every stratification keeps: power, order, the sources themselves; and
+ * memory. For which sources merge see test_strata.c, for which stay test_representative.c. */
+#include "support/random.h"
+#include "support/stratify.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define RADIUS 10.0f
+
+/* Coarse and fine, all of the parameters that decide what merges. */
+static const char *const choices[] = {
+    "none",
+    "grid",
+    "grid:resolution=1",
+    "grid:cell=0.7,centre=camera",
+    "grid:resolution=3,bucket=7",
+    "grid:resolution=4,per_cell=3,representative=dominant",
+    "grid:resolution=32,threshold=40,levels=4,representative=nearest_mean",
+    "grid:resolution=32,threshold=40,levels=20,normal_angle=180",
+    "cascade",
+    "cascade:cell=0.1,resolution=8,beyond=keep",
+    "cascade:cell=0.1,resolution=8,beyond=merge,representative=dominant",
+    "cascade:levels=15,growth=1.1,resolution=16,normal_angle=20",
+    "octree",
+    "octree:capacity=1,depth=20",
+    "octree:capacity=100,depth=3,representative=nearest_mean",
+    "octree:depth=0,representative=dominant,normal_angle=180",
+};
+#define CHOICES (sizeof choices / sizeof choices[0])
+
+/* Sources anywhere in the ball, in any colour; path i has power of its own. */
+static ps_source *random_sources(size_t n)
+{
+    struct random random = {42};
+    ps_source *sources = calloc(n + 1, sizeof *sources);
+    assert_non_null(sources);
+    for (size_t i = 0; i < n; i++)
+        sources[i] = (ps_source){
+            .position = ps_scale(random_direction(&random), RADIUS * random_unit(&random)),
+            .normal = random_direction(&random),
+            .direction = random_direction(&random),
+            .power = {random_unit(&random), random_unit(&random), 10 * random_unit(&random)},
+            .bounce = 1 + (uint32_t)(i % 3),
+            .merged = 1,
+            .path = i,
+        };
+    return sources;
+}
+
+struct total {
+    double r, g, b, merged;
+};
+
+static struct total total_of(const ps_source *sources, size_t n)
+{
+    struct total total = {0};
+    for (size_t i = 0; i < n; i++) {
+        total.r += sources[i].power.r;
+        total.g += sources[i].power.g;
+        total.b += sources[i].power.b;
+        total.merged += sources[i].merged;
+    }
+    return total;
+}
+
+/* The sums agree, as far as floats add up (NaN does not). */
+static void expect_same_total(const char *choice, struct total a, struct total b)
+{
+    bool same = fabs(a.r - b.r) <= 1e-6 * a.r && fabs(a.g - b.g) <= 1e-6 * a.g &&
+                fabs(a.b - b.b) <= 1e-6 * a.b && a.merged == b.merged;
+    if (!same)
+        fail_msg("%s: %.9g %.9g %.9g of %g became %.9g %.9g %.9g of %g", choice, a.r, a.g, a.b,
+                 a.merged, b.r, b.g, b.b, b.merged);
+}
+
+/* Every source left is one of those given but for power and merged, and they are in path order. */
+static void expect_members(const ps_source *given, const ps_source *left, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        ps_source expected = given[left[i].path];
+        expected.power = left[i].power;
+        expected.merged = left[i].merged;
+        assert_memory_equal(&expected, &left[i], sizeof expected);
+        assert_true(i == 0 || left[i - 1].path < left[i].path);
+    }
+}
+
+static void test_power_and_order_stay(void **state)
+{
+    (void)state;
+    enum { N = 3000 };
+    struct stage stage = stage_of(RADIUS);
+    stage.camera = (ps_vec3){3, 1, -8};
+    ps_source *given = random_sources(N), *sources = random_sources(N);
+    for (size_t c = 0; c < CHOICES; c++) {
+        memcpy(sources, given, N * sizeof *given);
+        size_t left = stratify(&stage, choices[c], sources, N);
+        assert_int_equal(stage.result, PS_OK);
+        assert_true(left > 0 && left <= N && (left < N || c == 0 || strstr(choices[c], "=1,")));
+        expect_same_total(choices[c], total_of(given, N), total_of(sources, left));
+        expect_members(given, sources, left);
+        if (c > 0)
+            assert_true(statistics_counter(&stage.statistics, "sources merged") ==
+                        (double)(N - left));
+    }
+    free(given);
+    free(sources);
+    stage_release(&stage);
+}
+
+static void test_none_and_one(void **state)
+{
+    (void)state;
+    struct stage stage = stage_of(RADIUS);
+    ps_source *given = random_sources(1);
+    for (size_t c = 0; c < CHOICES; c++) {
+        ps_source source = given[0];
+        assert_int_equal(stratify(&stage, choices[c], &source, 0), 0);
+        assert_int_equal(stage.result, PS_OK);
+        assert_int_equal(stratify(&stage, choices[c], &source, 1), 1);
+        assert_int_equal(stage.result, PS_OK);
+        assert_memory_equal(&source, given, sizeof source);
+    }
+    free(given);
+    stage_release(&stage);
+}
+
+/* Cells smaller than the distance between sources change nothing, to the last bit. */
+static void test_converges_to_none(void **state)
+{
+    (void)state;
+    enum { N = 1000 };
+    static const char *const fine[] = {"grid:resolution=1000000", "grid:cell=1e-4,centre=camera",
+                                       "cascade:cell=1e-4,resolution=1000000,levels=2",
+                                       "octree:capacity=1,depth=20"};
+    struct stage stage = stage_of(RADIUS);
+    ps_source *given = random_sources(N), *sources = random_sources(N);
+    for (size_t c = 0; c < sizeof fine / sizeof fine[0]; c++) {
+        assert_int_equal(stratify(&stage, fine[c], sources, N), N);
+        assert_memory_equal(sources, given, N * sizeof *given);
+    }
+    free(given);
+    free(sources);
+    stage_release(&stage);
+}
+
+/* Positions that are no numbers, and a scene without extent, do no harm. */
+static void test_hostile_input(void **state)
+{
+    (void)state;
+    enum { N = 200 };
+    for (int flat = 0; flat < 2; flat++) {
+        struct stage stage = stage_of(flat ? 0 : RADIUS);
+        for (size_t c = 0; c < CHOICES; c++) {
+            ps_source *sources = random_sources(N);
+            sources[1].position.x = NAN;
+            sources[2].position.y = INFINITY;
+            sources[3].position = (ps_vec3){-INFINITY, 1e38f, -1e38f};
+            sources[4].power = (ps_rgb){0, 0, 0};
+            struct total before = total_of(sources, N);
+            size_t left = stratify(&stage, choices[c], sources, N);
+            expect_same_total(choices[c], before, total_of(sources, left));
+            free(sources);
+        }
+        stage_release(&stage);
+    }
+}
+
+static void test_out_of_memory(void **state)
+{
+    (void)state;
+    struct stage stage = stage_of(RADIUS);
+    stage.out_of_memory = true;
+    ps_source *given = random_sources(10), *sources = random_sources(10);
+    static const char *const names[] = {"grid", "cascade", "octree"};
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(stratify(&stage, names[i], sources, 10), 10);
+        assert_int_equal(stage.result, PS_ERROR_MEMORY);
+        assert_memory_equal(sources, given, 10 * sizeof *given);
+    }
+    free(given);
+    free(sources);
+    stage_release(&stage);
+}
+
+/* A hundredth of the 576 MB of an array of 256^3 cells is for 25,000 sources and their strata. */
+static void test_memory_goes_by_sources(void **state)
+{
+    (void)state;
+    enum { N = 25000 };
+    static const char *const many[] = {"grid:resolution=1", "grid:resolution=256",
+                                       "grid:resolution=1000000", "cascade", "octree:depth=20"};
+    struct stage stage = stage_of(RADIUS);
+    for (int i = 0; i < 5; i++) {
+        ps_source *sources = random_sources(N);
+        stratify(&stage, many[i], sources, N);
+        double bytes = statistics_bytes(&stage.statistics, "strata");
+        print_message("%s: %.0f bytes\n", many[i], bytes);
+        assert_true(bytes > 0 && bytes <= 40.0 * N + 64);
+        assert_true(bytes + (double)(N * sizeof *sources) < 5.76e6);
+        free(sources);
+    }
+    stage_release(&stage);
+}
+
+/* The choice follows from seed and pass: repeated with them, another with others. */
+static void test_choices_repeat(void **state)
+{
+    (void)state;
+    enum { N = 2000 };
+    struct stage stage = stage_of(RADIUS);
+    ps_source *first = random_sources(N);
+    size_t left = stratify(&stage, "grid:resolution=8", first, N);
+    for (int i = 0; i < 3; i++) {
+        ps_source *again = random_sources(N);
+        stage.pass = i == 1;
+        stage.seed = i == 2 ? 2 : 1;
+        assert_int_equal(stratify(&stage, "grid:resolution=8", again, N), left);
+        assert_int_equal(memcmp(first, again, left * sizeof *first) == 0, i == 0);
+        free(again);
+    }
+    free(first);
+    stage_release(&stage);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_power_and_order_stay), cmocka_unit_test(test_none_and_one),
+        cmocka_unit_test(test_converges_to_none),    cmocka_unit_test(test_hostile_input),
+        cmocka_unit_test(test_out_of_memory),        cmocka_unit_test(test_memory_goes_by_sources),
+        cmocka_unit_test(test_choices_repeat),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
