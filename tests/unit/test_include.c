@@ -47,6 +47,61 @@ static void test_sections_go_together(void **state)
     scene_description_release(&d);
 }
 
+/* Files that a scene names lie beside who wrote their names. */
+static void test_paths_follow_their_files(void **state)
+{
+    (void)state;
+    static const struct memory_file files[] = {
+        {"lib/wood.psd", "psd: 1\nparameters: {grain: {type: string, default: grain.png}}\n"
+                         "define: {bark: bark.png, oak: {diffuse: {image: {file: =bark}}}}\n"
+                         "materials: {elm: {diffuse: {image: {file: elm.png}}},\n"
+                         "  ash: {diffuse: {image: {file: =grain}}},\n"
+                         "  box: {diffuse: {image: {file: /box.png}}}}\n"},
+        {NULL, NULL}};
+    static const char scene[] =
+        "psd: 1\ninclude: lib/wood.psd\n" CAMERA LIGHTS
+        "materials: {oak: =oak, fir: {diffuse: {image: {file: fir.png}}}}\n";
+    struct reading reading = {.files = files};
+    struct scene_description d = expect_good(scene, &reading);
+    assert_int_equal(d.texture_count, 5);
+    assert_string_equal(d.textures[0].path, "lib/elm.png");
+    assert_string_equal(d.textures[1].path, "lib/grain.png");
+    assert_string_equal(d.textures[2].path, "/box.png");
+    assert_string_equal(d.textures[3].path, "lib/bark.png");
+    assert_string_equal(d.textures[4].path, "fir.png");
+    scene_description_release(&d);
+    reading.parameters[0] = "grain=mine/ash.png";
+    reading.sets[0] = "materials.box.diffuse.image.file=new.png";
+    d = expect_good(scene, &reading);
+    assert_string_equal(d.textures[1].path, "mine/ash.png");
+    assert_string_equal(d.textures[2].path, "new.png");
+    scene_description_release(&d);
+}
+
+static void test_groups_and_cameras_go_together(void **state)
+{
+    (void)state;
+    static const struct memory_file files[] = {
+        {"a.psd", "psd: 1\ngroups: {ball: [{sphere: {center: [0, 0, 0], radius: 1, "
+                  "material: white}}]}\ncameras: {top: {location: [0, 9, 0], look_at: [0, 0, 0], "
+                  "up: [1, 0, 0]}}\n"},
+        {NULL, NULL}};
+    const struct reading reading = {.files = files};
+    struct scene_description d = expect_good(
+        HEAD "include: a.psd\ngroups: {two: [{for: i, from: 0, to: 1, do: {instance: {of: ball, "
+             "translate: [=i, 0, 0]}}}]}\ncameras: {side: {location: [9, 0, 0], look_at: [0, 0, "
+             "0]}}\nobjects: [{for: g, in: [ball, two], do: {instance: {of: =g}}}]\n",
+        &reading);
+    assert_int_equal(d.group_count, 2);
+    assert_int_equal(d.camera_count, 3);
+    assert_string_equal(d.cameras[1].name, "top");
+    assert_int_equal(d.object_count, 2);
+    scene_description_release(&d);
+    expect_bad(HEAD "include: a.psd\ngroups: {ball: []}\ncameras: {top: {}}\n", &reading,
+               "t:6:10: error: duplicate name 'ball' in groups; the first is in a.psd, line 2\n"
+               "t:7:11: error: duplicate name 'top' in cameras; the first is in a.psd, line 3\n");
+}
+
 static void test_a_file_is_read_once(void **state)
 {
     (void)state;
@@ -272,6 +327,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sections_go_together),
+        cmocka_unit_test(test_paths_follow_their_files),
+        cmocka_unit_test(test_groups_and_cameras_go_together),
         cmocka_unit_test(test_a_file_is_read_once),
         cmocka_unit_test(test_messages_name_their_files),
         cmocka_unit_test(test_anchors_end_with_their_file),
