@@ -126,6 +126,7 @@ static void test_messages_name_their_files(void **state)
         {"lib/a.psd", "psd: 1\n\ninclude:\n - b.psd\n"},
         {"lib/b.psd", "psd: 1\nmaterials:\n  white: {diffuse: 0.5}\n  red: {diffus: 1}\n"
                       "define: {n: =1/0, k: 2}\nparameters: {height: {default: 1}}\n"},
+        {"lib/c.psd", "psd: 1\n"},
         {"plain.psd", "materials: {}"},
         {"two.psd", "psd: 2\nwhat: ever"},
         {"list.psd", "- psd: 1"},
@@ -162,6 +163,7 @@ static void test_messages_name_their_files(void **state)
          "list_of_materials.psd:2:12: error: expected a map for materials, got a list\n"
          "list_of_materials.psd:3:10: error: expected a list for objects, got a map\n"
          "list_of_materials.psd:4:8: error: expected a map for image, got text\n"},
+        {"psd: 1\ninclude: lib/c.psd\n" LIGHTS, "t:1:1: error: missing key 'camera' in scene\n"},
         {HEAD "include: [gone.psd, lib/gone.psd]\nimage: {width: x}",
          "t:5:11: error: can't include 'gone.psd': not there\n"
          "t:5:21: error: can't include 'lib/gone.psd': not there\n"},
