@@ -11,6 +11,11 @@
 /* Height over longest edge below which a triangle has no area: float coordinates give no normal. */
 #define FLATNESS 1e-10
 
+/* Where the square of a normal's length leaves the range of floats, in which it is computed later:
+ * edges below about 1e-9 and above 1e9. */
+#define LEAST_SQUARE 1e-36
+#define LARGEST_SQUARE 1e37
+
 /* In place of a mesh's index: known to have no good triangle. */
 #define EMPTY (NO_INDEX - 1)
 
@@ -34,8 +39,9 @@ static bool has_area(ps_vec3 a, ps_vec3 b, ps_vec3 c)
     double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
     double uu = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
     double vv = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    double nn = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
     double edge = uu > vv ? uu : vv;
-    return sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) > FLATNESS * edge;
+    return sqrt(nn) > FLATNESS * edge && nn > LEAST_SQUARE && nn < LARGEST_SQUARE;
 }
 
 static bool is_good_triangle(const struct aiMesh *mesh, const struct aiFace *face)
