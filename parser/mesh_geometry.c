@@ -11,6 +11,7 @@
 #define LEAST_SQUARE 1e-36
 #define LARGEST_SQUARE 1e37
 
+/* Neither where a number is not finite: no comparison with NaN holds, nor infinity < a limit. */
 static bool has_area(ps_vec3 a, ps_vec3 b, ps_vec3 c)
 {
     double u[3] = {(double)b.x - a.x, (double)b.y - a.y, (double)b.z - a.z};
@@ -26,11 +27,8 @@ static bool has_area(ps_vec3 a, ps_vec3 b, ps_vec3 c)
 static bool is_good_triangle(const struct aiMesh *mesh, const struct aiFace *face)
 {
     ps_vec3 p[3];
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         p[i] = mesh_vector(mesh->mVertices[face->mIndices[i]]);
-        if (!mesh_is_finite(p[i]))
-            return false;
-    }
     return has_area(p[0], p[1], p[2]);
 }
 
