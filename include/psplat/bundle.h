@@ -37,14 +37,20 @@ static inline float ps_texel_centre(const ps_splat *splat, uint32_t side, uint32
     return (2.0f * ((float)i + 0.5f) / (float)side - 1.0f) * splat->half_width;
 }
 
-/* Gives full beams whose depth is automatic no end: each of their rays goes on to what it meets.
- * For visibilities that know where that is. */
+/* Opens full beams, for visibilities that follow their rays: they get no end where depth is
+ * automatic, and one-sided maps. One-sided, since a ray that went on past a point before it met
+ * anything must have passed it: where surfaces end within a texel (edges seen against what lies
+ * farther away, walls that the beam sticks through, Hoet 2014, section 3.3), a two-sided test would
+ * shadow them falsely, half a texel wide. The start plane keeps what lies behind the source dark. */
 static inline void ps_open_full_beams(const ps_box_settings *settings, ps_splat *splats, size_t n)
 {
-    if (settings->step_back_rule != 1 || settings->depth > 0)
+    if (settings->step_back_rule != 1)
         return;
-    for (size_t i = 0; i < n; i++)
-        splats[i].far_depth = INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        splats[i].two_sided = 0;
+        if (!(settings->depth > 0))
+            splats[i].far_depth = INFINITY;
+    }
 }
 
 /* Depth tolerance of splats with maps of `side` texels. A pixel is compared with the texel that it
