@@ -173,5 +173,5 @@ bool surface_is_opaque(const struct scene *scene, const struct intersection *at)
         return true;
     ps_hit hit;
     locate_texture(shape, shape->kind == SHAPE_SPHERE ? unit(at->normal) : at->normal, at, &hit);
-    return pigment_number(&material->opacity, hit.texture_point, hit.uv) >= 0.5f;
+    return material_is_opaque(material, hit.texture_point, hit.uv);
 }
