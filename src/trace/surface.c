@@ -41,11 +41,10 @@ static ps_vec3 interpolate(const ps_vec3 *values, const uint32_t corner[3], floa
     return ps_add_scaled(p, v, values[corner[2]]);
 }
 
-/* Texture coordinates; the barycentric ones where the mesh has none. */
+/* Texture coordinates; 0 where the mesh has none. */
 static void mesh_uv(const struct shape *shape, uint32_t triangle, float u, float v, float uv[2])
 {
-    uv[0] = u;
-    uv[1] = v;
+    uv[0] = uv[1] = 0.0f;
     const uint32_t *corner = shape->triangles[triangle];
     for (int k = 0; k < 2 && shape->uv; k++)
         uv[k] = (1.0f - u - v) * shape->uv[corner[0]][k] + u * shape->uv[corner[1]][k] +
