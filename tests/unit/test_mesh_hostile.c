@@ -126,12 +126,12 @@ static void bad_triangles_are_dropped_and_counted(void **state)
 {
     (void)state;
     struct imported imported = import_text(
-        "m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv inf 1 1\nv 2 0 0\nv 3e38 0 0\n"
-                 "f 1 2 3\nf 1 2 4\nf 1 3 5\nf 1 2 6\nf 1 1 2\nf 3 2 1\n");
+        "m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv inf 1 1\nv 2 0 0\nv 0.5 1e-12 0\n"
+                 "f 1 2 3\nf 1 2 4\nf 1 3 5\nf 1 2 6\nf 1 1 2\nf 1 2 7\nf 3 2 1\n");
     expect_success(&imported);
     assert_int_equal(mesh_of(&imported, 0)->triangle_count, 2);
     assert_int_equal(mesh_of(&imported, 0)->vertex_count, 6);
-    assert_int_equal(imported.report.dropped_triangles, 4);
+    assert_int_equal(imported.report.dropped_triangles, 5);
     for (size_t i = 0; i < mesh_of(&imported, 0)->vertex_count; i++)
         assert_true(isfinite(mesh_of(&imported, 0)->vertices[i].x));
     release_imported(&imported);
