@@ -2,6 +2,7 @@
 #ifndef CLI_COMMAND_H
 #define CLI_COMMAND_H
 
+#include "image/rectangle.h"
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -54,5 +55,8 @@ void print_error(const char *message);
  */
 bool parse_whole_number(const char *option, const char *text, double minimum, double maximum,
                         double *value);
+
+/* "X,Y,W,H" in whole pixels; false, and an error that names the option, otherwise. */
+bool parse_rectangle(const char *option, const char *text, struct rectangle *rectangle);
 
 #endif
