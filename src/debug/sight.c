@@ -14,6 +14,6 @@ bool sight_of(const struct render *render, ps_vec3 position, ps_vec3 away, float
     ps_ray ray = camera_ray(&scene->camera, *x, *y, pinhole);
     ray.tfar = ps_dot(ps_subtract(point, ray.origin), ray.direction);
     uint8_t blocked;
-    trace_occluded(render->trace, RAYS_CAMERA, &ray, 1, &blocked);
+    trace_occluded(render->trace, &ray, 1, &blocked);
     return !blocked;
 }
