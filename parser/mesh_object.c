@@ -12,10 +12,10 @@
 
 struct builder {
     struct mesh_job *job;
-    ps_vec3 **smooth;   /* of mesh_smooth_normals */
-    size_t *meshes;     /* of the fragment, for each of assimp's; NO_INDEX: not yet; EMPTY */
-    size_t *dropped;    /* triangles of each of assimp's meshes */
-    uint32_t *scratch;  /* room for a number for each vertex of any mesh */
+    ps_vec3 **smooth;  /* of mesh_smooth_normals */
+    size_t *meshes;    /* of the fragment, for each of assimp's; NO_INDEX: not yet; EMPTY */
+    size_t *dropped;   /* triangles of each of assimp's meshes */
+    uint32_t *scratch; /* room for a number for each vertex of any mesh */
 };
 
 static const struct aiMesh *source_mesh(const struct builder *builder, size_t index)
