@@ -31,6 +31,9 @@ void host_create(struct render *render);
 /* Adds the splatter's counters to the statistics. */
 void host_report_splatter(struct render *render);
 
+/* Of a picture with all layers. */
+size_t picture_bytes(size_t width, size_t height);
+
 /* Film to image: normalization, ambient fallback, denoiser, combination. Uses up the film. */
 ps_result resolve_image(struct render *render, struct image *image, struct error *error);
 
