@@ -196,7 +196,11 @@ static ps_result create_splatter(struct render *render)
     struct splatter_visibility chosen = {visibility->descriptor->vtable, visibility->state,
                                          render->scene->surface_offset};
     struct kernel_profile profile;
-    ps_result result = tabulate_filter(render, &profile);
+    ps_result result = PS_OK;
+    if (render->counts_splats)
+        kernel_profile_count(&profile);
+    else
+        result = tabulate_filter(render, &profile);
     if (result == PS_OK)
         result = splatter_create(&render->splatter, &render->gbuffer, &render->host, chosen,
                                  &profile, render->kernel.accumulate, render->settings->threads,

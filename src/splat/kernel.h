@@ -25,6 +25,7 @@
 struct kernel_profile {
     float weights[KERNEL_PROFILE_SIZE]; /* entry i stands for [i, i + 1) / KERNEL_PROFILE_SIZE */
     float scale;                        /* 1 / integral of the weights over the unit disc */
+    bool counting;                      /* K is 1 all over the disc, whatever its size */
 };
 
 /* A splat with all that can be worked out once for all pixels. */
@@ -62,6 +63,10 @@ bool kernel_choose(const char *name, struct kernel_variant *variant);
 /* Tabulates a radial weight given at the KERNEL_PROFILE_SIZE midpoints and normalizes it. False
  * when it is negative or NaN somewhere or zero all over. */
 int kernel_profile_normalize(struct kernel_profile *profile);
+
+/* For diagnostics: every splat adds 1 to the weight of each pixel that it lights, so weights are
+ * counts, exact up to 2^24. */
+void kernel_profile_count(struct kernel_profile *profile);
 
 /* Squared radius of entry i. */
 float kernel_profile_radius2(size_t i);
