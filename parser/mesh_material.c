@@ -89,7 +89,7 @@ static ps_result fill_mix(struct mesh_job *job, const struct mesh_share shares[2
 ps_result mesh_material_add_mix(struct mesh_job *job, const struct mesh_share shares[2],
                                 const char *name, size_t *index)
 {
-    size_t parts[2];
+    size_t parts[2] = {0, 0};
     ps_result result = PS_OK;
     for (int i = 0; result == PS_OK && i < 2; i++) {
         struct material_description part = *shares[i].material;

@@ -32,7 +32,7 @@ struct command {
 };
 
 extern const struct command command_render, command_check, command_plugins, command_info,
-    command_compare, command_diff, command_view, command_debug;
+    command_compare, command_diff, command_view, command_schema, command_debug;
 
 /* All commands; the first is what runs when none is named. */
 extern const struct command *const commands[];

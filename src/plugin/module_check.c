@@ -40,7 +40,7 @@ static size_t member_size(uint32_t type)
 }
 
 /* Every table of functions is two 32-bit numbers and then pointers, all of which must be there but
- * a visibility's depth maps: a visibility of resolution 0 has none. */
+ * a visibility's depth maps and its test of points: it may have either, or neither. */
 static bool check_functions(const ps_descriptor *descriptor, struct error *error)
 {
     static const size_t first = 2 * sizeof(uint32_t);

@@ -103,6 +103,11 @@ void material_create_lamp(ps_rgb radiance, bool both_sides, struct material *mat
     };
 }
 
+bool material_is_opaque(const struct material *material, ps_vec3 texture_point, const float uv[2])
+{
+    return !material->has_opacity || pigment_number(&material->opacity, texture_point, uv) >= 0.5f;
+}
+
 /* --- lobes --------------------------------------------------------------------------------------- */
 
 /* A surface point seen from a direction: what is needed of it more than once. */

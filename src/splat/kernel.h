@@ -4,7 +4,8 @@
  *
  *     u = d.U / R, v = d.V / R, t = d.W         position in the box
  *     k = profile(u^2 + v^2) * scale / R^2      the kernel K, 1/m^2, integrates to 1 over its disc
- *     lit where u^2 + v^2 < 1, near <= t <= far, n.W < 0, and t is within the bias of the map
+ *     lit where u^2 + v^2 < 1, near <= t <= far, n.W < 0, t lies past the plane that the bundle
+ *     starts on, and not past the map by more than the bias
  *     irradiance += power * k * max(0, -n.W), weight += k
  *
  * The cosine is there because K lies in the plane across the beam. No branches: masks, one gather
@@ -33,8 +34,10 @@ struct kernel_splat {
     ps_vec3 u, v; /* axes divided by the half-width */
     ps_vec3 w;
     float near_depth, far_depth;
+    float start_depth, start_u,
+        start_v; /* depth of the start plane: start_depth + start_u * u + start_v * v */
     float bias_constant, bias_slope;
-    float front; /* added to the bias in front of the map: 0, or infinite for one-sided maps */
+    float front; /* added to the bias in front of the map: 0 for two-sided maps, or infinite */
     float kernel_scale;
     ps_rgb power;
     const float *depths; /* resolution^2 */

@@ -5,7 +5,14 @@ run 0 check "$cornell"
 expect_empty out
 expect_empty err
 for scene in "$PSPLAT_SOURCE"/scenes/*.psd; do
-    run 0 check "$scene"
+    run 0 check --parameters "$scene"
+    # A scene that needs what is not here, such as a mesh, says so.
+    if grep -q '; required$' out; then
+        run 2 check "$scene"
+        expect_text err "has no default; give it with --param"
+    else
+        run 0 check "$scene"
+    fi
 done
 
 cat >bad.psd <<'END'

@@ -19,4 +19,8 @@ struct estimate estimate_channel(const char *text, const char *const choices[], 
  */
 void expect_estimate(const char *what, struct estimate estimate, double expected, double bias);
 
+/* The same where what is expected is an estimate itself. */
+void expect_agreement(const char *what, struct estimate estimate, struct estimate truth,
+                      double bias);
+
 #endif

@@ -114,6 +114,9 @@ static void test_wrong_placements(void **state)
          "8:103: error: matrix in sphere: expected a number, got 'x'\n"
          "9:69: error: sphere has both scale and matrix; give one of them\n"
          "10:68: error: the transform is singular: it has no inverse\n"},
+        /* the last row is the sum of the others, but not in floats */
+        {OBJECTS SPHERE "matrix: [0.1, 0.2, 0.7, 0, 0.3, 0.1, 0.9, 0, 0.4, 0.3, 1.6, 0]}\n",
+         "6:69: error: the matrix is singular: it has no inverse\n"},
         {OBJECTS SPHERE "look_at: {from: [0, 0, 0], to: [0, 0, 0]}}\n" SPHERE
                         "look_at: {from: [0, 0, 0], to: [0, 1, 0]}}\n" SPHERE
                         "look_at: {form: 5}}\n",
