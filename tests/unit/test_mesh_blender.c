@@ -140,7 +140,7 @@ static void mirrored_object_keeps_its_front(void **state)
         ps_vec3 middle = middle_of(&imported, object);
         for (size_t i = 0; i < mesh->triangle_count; i++) {
             ps_vec3 outwards = ps_subtract(corner(&imported, object, i, 0), middle);
-            assert_true(turn * ps_dot(front_of(&imported, object, i), outwards) > 0);
+            assert_true(ps_dot(front_of(&imported, object, i), outwards) > 0);
         }
         assert_non_null(mesh->normals);
         for (size_t i = 0; i < mesh->vertex_count; i++) {
