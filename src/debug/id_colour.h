@@ -8,4 +8,7 @@
  * chance, look alike. */
 struct colour id_colour(uint64_t id);
 
+/* For few numbers in a row, of which a legend can tell: hues that are far apart. */
+struct colour series_colour(unsigned number);
+
 #endif

@@ -41,10 +41,11 @@ double legend_step(double top, size_t most)
     return 10.0 * decade;
 }
 
-struct colour legend_colour(double value, double top)
+struct colour legend_colour(const struct legend_scale *scale, double value)
 {
     uint8_t rgb[3];
-    heatmap_colour(value / top, rgb);
+    double share = fmin(fmax(value / scale->top, 0.0), 1.0);
+    heatmap_colour(scale->darkest + (1.0 - scale->darkest) * share, rgb);
     return (struct colour){rgb[0], rgb[1], rgb[2]};
 }
 
@@ -75,32 +76,33 @@ static void draw_number(struct canvas *canvas, double value, size_t x, size_t y,
                 scale, ink, text);
 }
 
-void legend_draw_scale(struct canvas *canvas, size_t y, const char *title, double top)
+void legend_draw_scale(struct canvas *canvas, size_t y, const char *title,
+                       const struct legend_scale *scale)
 {
-    size_t scale = start(canvas, y, title), left = MARGIN * scale;
+    size_t text = start(canvas, y, title), left = MARGIN * text;
     size_t width = canvas->width > 3 * left ? canvas->width - 2 * left : canvas->width;
     for (size_t i = 0; i < width; i++)
         canvas_fill(canvas,
-                    (struct rectangle){left + i, y + RAMP_TOP * scale, 1, RAMP_HEIGHT * scale},
-                    legend_colour(((double)i + 0.5) / (double)width, 1.0));
-    size_t room = width / (8 * FONT_ADVANCE * scale);
-    double step = legend_step(top, room > 1 ? room : 1);
-    for (int i = 0; (double)i * step <= top * (1.0 + 1e-9); i++) {
-        double share = (double)i * step / top;
+                    (struct rectangle){left + i, y + RAMP_TOP * text, 1, RAMP_HEIGHT * text},
+                    legend_colour(scale, scale->top * ((double)i + 0.5) / (double)width));
+    size_t room = width / (8 * FONT_ADVANCE * text);
+    double step = legend_step(scale->top, room > 1 ? room : 1);
+    for (int i = 0; (double)i * step <= scale->top * (1.0 + 1e-9); i++) {
+        double share = (double)i * step / scale->top;
         size_t across = (size_t)(share * (double)(width - 1) + 0.5);
-        draw_number(canvas, (double)i * step, left + across, y, scale);
+        draw_number(canvas, (double)i * step, left + across, y, text);
     }
 }
 
-void legend_draw_ids(struct canvas *canvas, size_t y, const char *title, unsigned ids)
+void legend_draw_series(struct canvas *canvas, size_t y, const char *title, unsigned most)
 {
     size_t scale = start(canvas, y, title), side = RAMP_HEIGHT * scale;
-    for (unsigned id = 1; id <= ids; id++) {
-        size_t x = MARGIN * scale + (id - 1) * 4 * side;
+    for (unsigned number = 1; number <= most; number++) {
+        size_t x = MARGIN * scale + (number - 1) * 4 * side;
         char text[16];
         canvas_fill(canvas, (struct rectangle){x, y + RAMP_TOP * scale, 3 * side, side},
-                    id_colour(id));
-        snprintf(text, sizeof text, "%u", id);
+                    series_colour(number));
+        snprintf(text, sizeof text, "%u", number);
         canvas_text(canvas, (long)x, (long)(y + NUMBERS_TOP * scale), scale, ink, text);
     }
 }

@@ -11,15 +11,21 @@ double legend_top(double largest);
  * that at most `most` fit in, and at least a third of these. */
 double legend_step(double top, size_t most);
 
-/* The colour of a value on the scale from 0 to `top`, by heatmap_colour. */
-struct colour legend_colour(double value, double top);
+/* From 0 to `top` by heatmap_colour, of which it leaves out the first `darkest` (0..1), where dots
+ * could not be told from what they are drawn on. */
+struct legend_scale {
+    double top, darkest;
+};
+
+struct colour legend_colour(const struct legend_scale *scale, double value);
 
 /* Height of the strip in a picture of that width. */
 size_t legend_height(size_t picture_width);
 
-/* Draw a strip from row `y` down: a title, and the scale from 0 to `top`, or what the numbers 1 to
- * `ids` look like by id_colour. */
-void legend_draw_scale(struct canvas *canvas, size_t y, const char *title, double top);
-void legend_draw_ids(struct canvas *canvas, size_t y, const char *title, unsigned ids);
+/* Draw a strip from row `y` down: a title, and the scale, or what the numbers 1 to `most` look
+ * like by series_colour. */
+void legend_draw_scale(struct canvas *canvas, size_t y, const char *title,
+                       const struct legend_scale *scale);
+void legend_draw_series(struct canvas *canvas, size_t y, const char *title, unsigned most);
 
 #endif

@@ -85,15 +85,15 @@ static void draw_texels(const float *depths, uint32_t resolution, float half_wid
         }
     float range = fmaxf(farthest - nearest, half_width);
     struct canvas texels = {resolution, resolution, rgb};
+    float half = 0.5f * (float)resolution;
     for (uint32_t i = 0; i < resolution * resolution; i++) {
-        float half = 0.5f * (float)resolution;
-        float u = ((float)(i % resolution) + 0.5f) / half - 1.0f;
-        float v = ((float)(i / resolution) + 0.5f) / half - 1.0f;
+        uint32_t column = i % resolution, line = i / resolution;
+        float u = ((float)column + 0.5f) / half - 1.0f;
+        float v = ((float)line + 0.5f) / half - 1.0f;
         float share = 1.0f - 0.85f * (depths[i] - nearest) / range;
-        uint8_t grey = depths[i] < INFINITY ? (uint8_t)(255.0f * share + 0.5f) : 0;
+        uint8_t grey = depths[i] < INFINITY ? (uint8_t)(255.0f * share) : 0;
         struct colour colour = depths[i] < INFINITY ? (struct colour){grey, grey, grey} : nothing;
-        canvas_set(&texels, (long)(i % resolution), (long)(i / resolution),
-                   u * u + v * v < 1.0f ? colour : dim(colour));
+        canvas_set(&texels, (long)column, (long)line, u * u + v * v < 1.0f ? colour : dim(colour));
     }
 }
 

@@ -50,13 +50,13 @@ static void add_up(void *user, size_t x, size_t y, float count)
 
 struct painting {
     struct canvas *canvas;
-    double top;
+    struct legend_scale scale;
 };
 
 static void paint(void *user, size_t x, size_t y, float count)
 {
     const struct painting *painting = user;
-    canvas_set(painting->canvas, (long)x, (long)y, legend_colour((double)count, painting->top));
+    canvas_set(painting->canvas, (long)x, (long)y, legend_colour(&painting->scale, (double)count));
 }
 
 static ps_result draw(struct render *render, const struct debug_options *options, int part,
@@ -72,12 +72,14 @@ static ps_result draw(struct render *render, const struct debug_options *options
         return result;
     visit(&render->gbuffer, add_up, &counts);
     double mean = counts.pixels > 0 ? counts.sum / (double)counts.pixels : 0.0;
-    struct painting painting = {canvas,
-                                options->top > 0.0 ? options->top : legend_top(counts.largest)};
+    struct painting painting = {
+        .canvas = canvas,
+        .scale.top = options->top > 0.0 ? options->top : legend_top(counts.largest),
+    };
     char title[128];
     visit(&render->gbuffer, paint, &painting);
     snprintf(title, sizeof title, "splats a pixel: mean %.1f, most %.0f", mean, counts.largest);
-    legend_draw_scale(canvas, height, title, painting.top);
+    legend_draw_scale(canvas, height, title, &painting.scale);
     return PS_OK;
 }
 

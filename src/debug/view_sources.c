@@ -13,6 +13,7 @@
 
 #define MOST_DOTS 20000
 #define MOST_BOUNCES 9u /* with a colour of their own; later ones share it */
+#define DARKEST 0.3     /* see legend_scale */
 
 struct dot {
     float x, y, power;
@@ -64,15 +65,37 @@ static struct extent largest_of(const struct selection *dots)
     return largest;
 }
 
-static void draw_dots(const struct selection *dots, bool by_bounce, double top,
-                      struct canvas *canvas)
+static void draw_dots(const struct selection *dots, bool by_bounce,
+                      const struct legend_scale *scale, struct canvas *canvas)
 {
     float radius = fmaxf(0.75f, (float)canvas->width / 800.0f);
     for (size_t i = 0; i < dots->count; i++) {
         const struct dot *dot = selection_item(dots, i);
         canvas_disc(canvas, dot->x, dot->y, radius,
-                    by_bounce ? id_colour(bounce_of(dot)) : legend_colour(dot->power, top));
+                    by_bounce ? series_colour(bounce_of(dot))
+                              : legend_colour(scale, (double)dot->power));
     }
+}
+
+static void draw_picture(const struct render *render, const struct debug_options *options,
+                         const struct selection *dots, uint64_t sources, struct canvas *canvas)
+{
+    struct extent largest = largest_of(dots);
+    struct legend_scale scale = {
+        .top = options->top > 0.0 ? options->top : legend_top((double)largest.power),
+        .darkest = DARKEST,
+    };
+    size_t bottom = render->film.height;
+    char title[128];
+    snprintf(title, sizeof title, "%s  %zu dots: %llu of %llu sources seen",
+             options->by_bounce ? "bounce" : "power (W)", dots->count,
+             (unsigned long long)dots->offered, (unsigned long long)sources);
+    backdrop_draw(render, options->exposure, canvas);
+    draw_dots(dots, options->by_bounce, &scale, canvas);
+    if (options->by_bounce)
+        legend_draw_series(canvas, bottom, title, largest.bounce);
+    else
+        legend_draw_scale(canvas, bottom, title, &scale);
 }
 
 static ps_result draw(struct render *render, const struct debug_options *options, int part,
@@ -89,20 +112,8 @@ static ps_result draw(struct render *render, const struct debug_options *options
     result = collect(render, &dots, &sources, error);
     if (result == PS_OK)
         result = canvas_create(canvas, width, height + legend_height(width), error);
-    if (result == PS_OK) {
-        struct extent largest = largest_of(&dots);
-        double top = options->top > 0.0 ? options->top : legend_top((double)largest.power);
-        char title[128];
-        backdrop_draw(render, options->exposure, canvas);
-        draw_dots(&dots, options->by_bounce, top, canvas);
-        snprintf(title, sizeof title, "%s  %zu dots: %llu of %llu sources seen",
-                 options->by_bounce ? "bounce" : "power (W)", dots.count,
-                 (unsigned long long)dots.offered, (unsigned long long)sources);
-        if (options->by_bounce)
-            legend_draw_ids(canvas, height, title, largest.bounce);
-        else
-            legend_draw_scale(canvas, height, title, top);
-    }
+    if (result == PS_OK)
+        draw_picture(render, options, &dots, sources, canvas);
     selection_release(&dots);
     return result;
 }
