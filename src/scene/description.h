@@ -119,6 +119,13 @@ struct material_description {
     struct origin origin;
 };
 
+/* Whether only the name is known of a material: a mix of nothing, which stands for what a mesh file
+ * names and does not define. No scene holds one. */
+static inline bool material_is_absent(const struct material_description *material)
+{
+    return material->kind == MATERIAL_MIX && material->component_count == 0;
+}
+
 /* --- lights ----------------------------------------------------------------------------------- */
 
 enum light_kind {
