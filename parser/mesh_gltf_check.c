@@ -11,10 +11,9 @@ static ps_result complain(struct error *error, const char *what)
 }
 
 static const char *const known_extensions[] = {
-    "KHR_lights_punctual",        "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_volume",       "KHR_texture_transform",
+    "KHR_lights_punctual",  "KHR_materials_emissive_strength",
+    "KHR_materials_ior",    "KHR_materials_transmission",
+    "KHR_materials_volume", "KHR_texture_transform",
 };
 
 static bool is_known_extension(const struct json *name)

@@ -1,8 +1,7 @@
 /* mesh_object.c: each of assimp's meshes once, and an object for each node that has it.
  *
- * A placement that mirrors turns a triangle's winding, and with it the front side, inside out: such
- * objects get a twin of the mesh, with winding and normals reversed, so that the front stays in front
- * (glTF 2, 3.7.4 "negative determinant").
+ * Where a placement mirrors, shapes keep the front in front (src/scene/shape.h), as glTF 2 wants it
+ * (3.7.4, "negative determinant").
  */
 #include "parser/mesh_job.h"
 #include <stdlib.h>
@@ -13,10 +12,10 @@
 
 struct builder {
     struct mesh_job *job;
-    ps_vec3 **smooth;   /* of mesh_smooth_normals */
-    size_t (*twins)[2]; /* for each of assimp's meshes, plain and mirrored; NO_INDEX, EMPTY */
-    size_t *dropped;    /* triangles of each of assimp's meshes */
-    uint32_t *scratch;  /* room for a number for each vertex of any mesh */
+    ps_vec3 **smooth;  /* of mesh_smooth_normals */
+    size_t *meshes;    /* of the fragment, for each of assimp's; NO_INDEX: not yet; EMPTY */
+    size_t *dropped;   /* triangles of each of assimp's meshes */
+    uint32_t *scratch; /* room for a number for each vertex of any mesh */
 };
 
 static const struct aiMesh *source_mesh(const struct builder *builder, size_t index)
@@ -29,22 +28,11 @@ static const ps_vec3 *smooth_of(const struct builder *builder, size_t index)
     return builder->smooth ? builder->smooth[index] : NULL;
 }
 
-static void turn_inside_out(struct mesh_description *mesh)
-{
-    for (size_t i = 0; i < mesh->triangle_count; i++) {
-        uint32_t second = mesh->triangles[i][1];
-        mesh->triangles[i][1] = mesh->triangles[i][2];
-        mesh->triangles[i][2] = second;
-    }
-    for (size_t i = 0; mesh->normals && i < mesh->vertex_count; i++)
-        mesh->normals[i] = ps_scale(mesh->normals[i], -1.0f);
-}
-
 /* The mesh in the fragment, made when it is first wanted; or EMPTY. */
-static ps_result want_mesh(struct builder *builder, size_t index, bool mirrored, size_t *mesh)
+static ps_result want_mesh(struct builder *builder, size_t index, size_t *mesh)
 {
     struct scene_description *fragment = builder->job->fragment;
-    *mesh = builder->twins[index][mirrored];
+    *mesh = builder->meshes[index];
     if (*mesh != NO_INDEX)
         return PS_OK;
     struct mesh_description *made = &fragment->meshes[fragment->mesh_count++];
@@ -52,14 +40,12 @@ static ps_result want_mesh(struct builder *builder, size_t index, bool mirrored,
                                          builder->scratch};
     ps_result result = mesh_fill(builder->job, &source, made, &builder->dropped[index]);
     if (result == PS_OK && made->triangle_count > 0) {
-        if (mirrored)
-            turn_inside_out(made);
-        *mesh = builder->twins[index][mirrored] = fragment->mesh_count - 1;
+        *mesh = builder->meshes[index] = fragment->mesh_count - 1;
     } else if (result == PS_OK) {
         free(made->triangles);
         *made = (struct mesh_description){0};
         fragment->mesh_count--;
-        *mesh = builder->twins[index][mirrored] = EMPTY;
+        *mesh = builder->meshes[index] = EMPTY;
     }
     return result;
 }
@@ -100,7 +86,7 @@ static ps_result place_mesh(struct builder *builder, size_t index, const struct 
         builder->job->report->dropped_triangles += count_triangles(source);
         return PS_OK;
     }
-    ps_result result = want_mesh(builder, index, determinant < 0, &mesh);
+    ps_result result = want_mesh(builder, index, &mesh);
     if (result == PS_OK && mesh != EMPTY)
         add_object(builder, source, mesh, placement);
     return result;
@@ -142,16 +128,16 @@ static ps_result prepare(struct builder *builder)
 {
     struct scene_description *fragment = builder->job->fragment;
     size_t meshes = builder->job->scene->mNumMeshes, pairs = count_pairs(builder->job);
-    fragment->meshes = calloc(2 * meshes + 1, sizeof *fragment->meshes);
+    fragment->meshes = calloc(meshes + 1, sizeof *fragment->meshes);
     fragment->objects = calloc(pairs + 1, sizeof *fragment->objects);
-    builder->twins = malloc((meshes + 1) * sizeof *builder->twins);
+    builder->meshes = malloc((meshes + 1) * sizeof *builder->meshes);
     builder->dropped = calloc(meshes + 1, sizeof *builder->dropped);
     builder->scratch = malloc((largest_mesh(builder->job) + 1) * sizeof(uint32_t));
-    if (!fragment->meshes || !fragment->objects || !builder->twins || !builder->dropped ||
+    if (!fragment->meshes || !fragment->objects || !builder->meshes || !builder->dropped ||
         !builder->scratch)
         return mesh_out_of_memory(builder->job, pairs * sizeof *fragment->objects);
     for (size_t i = 0; i < meshes; i++)
-        builder->twins[i][0] = builder->twins[i][1] = NO_INDEX;
+        builder->meshes[i] = NO_INDEX;
     return mesh_smooth_normals(builder->job, &builder->smooth);
 }
 
@@ -165,7 +151,7 @@ ps_result mesh_read_objects(struct mesh_job *job)
         result = error_set(job->error, PS_ERROR_INVALID, "%s: the file has no triangles",
                            job->request->path);
     mesh_smooth_release(job, builder.smooth);
-    free(builder.twins);
+    free(builder.meshes);
     free(builder.dropped);
     free(builder.scratch);
     return result;

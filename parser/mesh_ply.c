@@ -109,7 +109,8 @@ static bool is_format(const struct words *words)
 static ps_result check_line(const struct mesh_file *file, struct header *header,
                             const struct words *words, struct error *error)
 {
-    static const char *const notes[] = {"comment", "obj_info", NULL};
+    /* Old Blenders left out the word "comment". */
+    static const char *const notes[] = {"comment", "obj_info", "Created", NULL};
     const struct text_line *first = &words->word[0];
     bool is_first = !header->has_format;
     header->has_format = true;

@@ -171,7 +171,7 @@ static int draw_job(struct job *job, struct scene_input *input, struct render_se
     struct scene scene;
     struct error error;
     job->request.options.exposure = input->description.image.exposure;
-    ps_result result = scene_input_build(input, &scene, &error);
+    ps_result result = scene_input_build_to_render(input, &scene, &error);
     if (result == PS_OK) {
         result = draw_and_write(job, &scene, settings, &error);
         scene_release(&scene);

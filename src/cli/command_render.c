@@ -187,7 +187,7 @@ static int render_job(struct job *job, struct scene_input *input, struct render_
     statistics_init(&statistics);
     double start = clock_seconds();
     statistics_add_seconds(&statistics, "load", start - job->progress.start);
-    ps_result result = scene_input_build(input, &scene, &error);
+    ps_result result = scene_input_build_to_render(input, &scene, &error);
     if (result == PS_OK) {
         result = render_and_write(job, description, &scene, settings, &statistics, &error);
         scene_release(&scene);

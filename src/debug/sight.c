@@ -13,7 +13,7 @@ bool sight_of(const struct render *render, ps_vec3 position, ps_vec3 away, float
         return false;
     ps_ray ray = camera_ray(&scene->camera, *x, *y, pinhole);
     ray.tfar = ps_dot(ps_subtract(point, ray.origin), ray.direction);
-    ps_hit hit;
-    trace_intersect(render->trace, RAYS_CAMERA, &ray, 1, &hit); /* which knows hidden objects */
-    return !(hit.distance < INFINITY);
+    uint8_t blocked;
+    trace_occluded(render->trace, &ray, 1, &blocked);
+    return !blocked;
 }

@@ -46,6 +46,9 @@ ps_result render_inspect(const struct scene *scene, struct render_settings *sett
                          const struct render_callbacks *callbacks, struct statistics *statistics,
                          render_inspector inspect, void *user, struct error *error);
 
+/* Of a picture with all layers. */
+size_t picture_bytes(size_t width, size_t height);
+
 /* Film to image: normalization, ambient fallback, denoiser, combination. Uses up the film. */
 ps_result resolve_image(struct render *render, struct image *image, struct error *error);
 

@@ -186,7 +186,7 @@ enum object_kind {
 
 struct object_description {
     enum object_kind kind;
-    size_t material; /* an instance's: instead of those of its objects, or NO_INDEX */
+    size_t material;         /* an instance's: instead of those of its objects, or NO_INDEX */
     struct affine placement; /* from the object's space to that of the file, or group */
     ps_vec3 *vertices;       /* quad: 4 in order around; box: 2 opposite corners; triangles: any */
     size_t vertex_count;

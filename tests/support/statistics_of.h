@@ -9,6 +9,9 @@ struct estimate {
     double standard_error; /* of the mean */
 };
 
+/* Of what independent runs gave, at least two. */
+struct estimate estimate_of(const double *values, int count);
+
 /* Mean over the picture of a channel, over `seeds` renders of a text that holds "%d" where the seed
  * goes. */
 struct estimate estimate_channel(const char *text, const char *const choices[], const char *channel,

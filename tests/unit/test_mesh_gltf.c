@@ -197,6 +197,16 @@ static void alpha_mode_decides_on_opacity(void **state)
     release_imported(&imported);
 }
 
+static void known_extensions_may_be_required(void **state)
+{
+    (void)state;
+    struct imported imported = import_material(
+        "", ",\"extensionsRequired\":[\"KHR_lights_punctual\",\"KHR_materials_ior\","
+            "\"KHR_materials_emissive_strength\",\"KHR_materials_transmission\","
+            "\"KHR_materials_volume\",\"KHR_texture_transform\"]");
+    release_imported(&imported);
+}
+
 static void transmission_is_glass(void **state)
 {
     (void)state;
@@ -393,6 +403,7 @@ int main(void)
         cmocka_unit_test(textures_have_their_channels_and_encodings),
         cmocka_unit_test(texture_transform_is_kept),
         cmocka_unit_test(alpha_mode_decides_on_opacity),
+        cmocka_unit_test(known_extensions_may_be_required),
         cmocka_unit_test(transmission_is_glass),
         cmocka_unit_test(emission_shines_from_both_sides_of_a_double_sided_material),
         cmocka_unit_test(no_material_is_none),

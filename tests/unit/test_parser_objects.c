@@ -158,7 +158,7 @@ static void test_wrong_shapes(void **state)
          "8:67: error: the hole is as large as the disc\n"
          "9:40: error: extent in plane: expected auto | number > 0, got 'far'\n"
          "10:21: error: the length of normal is 0\n"
-         "11:51: error: segments in torus: expected integer 3..65536, got '2.5'\n"
+         "11:51: error: segments in torus: expected integer 3..8192, got '2.5'\n"
          "12:38: error: minor_radius must be smaller than radius\n"
          "13:5: error: missing key 'file' in height_field\n"
          "13:45: error: smooth in height_field: expected yes | no, got '5'\n"},
