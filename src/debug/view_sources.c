@@ -65,10 +65,19 @@ static struct extent largest_of(const struct selection *dots)
     return largest;
 }
 
+/* In pixels: the fewer dots, the larger, so that they cover a tenth of the picture, but no more than a
+ * point should be. */
+static float radius_of(size_t dots, const struct canvas *canvas)
+{
+    float area = 0.1f * (float)(canvas->width * canvas->height) / (float)(dots > 0 ? dots : 1);
+    float wanted = sqrtf(area / PS_PI), across = (float)canvas->width;
+    return fmaxf(fminf(wanted, across / 160.0f), fmaxf(0.75f, across / 800.0f));
+}
+
 static void draw_dots(const struct selection *dots, bool by_bounce,
                       const struct legend_scale *scale, struct canvas *canvas)
 {
-    float radius = fmaxf(0.75f, (float)canvas->width / 800.0f);
+    float radius = radius_of(dots->count, canvas);
     for (size_t i = 0; i < dots->count; i++) {
         const struct dot *dot = selection_item(dots, i);
         canvas_disc(canvas, dot->x, dot->y, radius,

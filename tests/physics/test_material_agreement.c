@@ -51,8 +51,8 @@ static const struct method truth = {
 
 static const struct method methods[] = {
     {"splat",
-     {"estimator=splat", "injection=photon:count=20000,bounces=0",
-      "visibility=shadowmap:size=0.05", NULL},
+     {"estimator=splat", "injection=photon:count=20000,bounces=0", "visibility=shadowmap:size=0.05",
+      NULL},
      0.02},
     {"photonmap",
      {"estimator=photonmap:neighbours=40", "injection=photon:count=20000,bounces=0", NULL},
