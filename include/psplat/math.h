@@ -48,6 +48,12 @@ static inline ps_vec3 ps_normalize(ps_vec3 a)
     return ps_scale(a, 1.0f / ps_length(a));
 }
 
+/* Whether two vectors are the very same. */
+static inline int ps_same(ps_vec3 a, ps_vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
 static inline ps_rgb ps_rgb_add(ps_rgb a, ps_rgb b)
 {
     return (ps_rgb){a.r + b.r, a.g + b.g, a.b + b.b};

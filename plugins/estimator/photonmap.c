@@ -114,7 +114,7 @@ static void map_add(struct map *map, ps_vec3 position, ps_vec3 normal, ps_vec3 d
  * for the smoothed or bent normal. */
 static float shading_factor(const ps_ray *ray, const ps_hit *hit)
 {
-    if (memcmp(&hit->normal, &hit->geometric_normal, sizeof hit->normal) == 0)
+    if (ps_same(hit->normal, hit->geometric_normal))
         return 1.0f;
     float cosine = -ps_dot(ray->direction, hit->geometric_normal);
     return fmaxf(0.0f, -ps_dot(ray->direction, hit->normal)) / fmaxf(cosine, 1e-4f);

@@ -1,6 +1,7 @@
 #include "pipeline/direct.h"
 
 #include "base/sample.h"
+#include "scene/heuristic.h"
 #include <psplat/host.h>
 #include <psplat/tile.h>
 
@@ -130,16 +131,6 @@ void direct_radiance(const struct scene *scene, const struct trace *trace, const
     }
 }
 
-/* The share of a direction found by scattering with density `pdf`, where the light's own sampling
- * has `light_pdf` (power heuristic). */
-static float scattering_share(float pdf, float light_pdf)
-{
-    if (!(pdf > 0.0f))
-        return 1.0f;
-    float ratio = light_pdf / pdf;
-    return 1.0f / (1.0f + ratio * ratio);
-}
-
 static ps_rgb sky_radiance(const struct scene *scene, const ps_ray *ray, float pdf)
 {
     ps_rgb sum = {0, 0, 0};
@@ -151,7 +142,7 @@ static ps_rgb sky_radiance(const struct scene *scene, const ps_ray *ray, float p
         float light_density =
             pdf > 0.0f ? light_pdf(light, ray->origin, ray->direction, INFINITY, (ps_vec3){0, 0, 0})
                        : 0.0f;
-        sum = ps_rgb_add(sum, ps_rgb_scale(radiance, scattering_share(pdf, light_density)));
+        sum = ps_rgb_add(sum, ps_rgb_scale(radiance, power_heuristic(pdf, light_density)));
     }
     return sum;
 }
@@ -169,7 +160,7 @@ static ps_rgb surface_radiance(const struct scene *scene, const ps_ray *ray, con
     ps_vec3 front = ps_scale(hit->geometric_normal, back ? -1.0f : 1.0f);
     float light_density =
         light_pdf(&scene->lights[light], ray->origin, ray->direction, hit->distance, front);
-    return ps_rgb_scale(radiance, scattering_share(pdf, light_density));
+    return ps_rgb_scale(radiance, power_heuristic(pdf, light_density));
 }
 
 void emitted_radiance(const struct scene *scene, const ps_ray *rays, const ps_hit *hits,

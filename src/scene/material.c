@@ -1,7 +1,7 @@
 #include "scene/material.h"
 
 #include "scene/fresnel.h"
-#include <string.h>
+#include "scene/heuristic.h"
 
 /* Grazing directions, where cosines divide. */
 #define SMALLEST_COSINE 1e-4f
@@ -363,7 +363,7 @@ static ps_scatter follow_lobe(const struct lobe *lobe, const struct view *view,
 static float shading_correction(const struct view *view, ps_vec3 w)
 {
     ps_vec3 shading = view->hit->normal, true_normal = view->hit->geometric_normal;
-    if (memcmp(&shading, &true_normal, sizeof shading) == 0)
+    if (ps_same(shading, true_normal))
         return 1.0f;
     float in = ps_dot(view->out, shading) / fmaxf(ps_dot(view->out, true_normal), SMALLEST_COSINE);
     float away = fabsf(ps_dot(w, true_normal)) / fmaxf(fabsf(ps_dot(w, shading)), SMALLEST_COSINE);
@@ -396,15 +396,6 @@ ps_scatter material_scatter(const struct material *material, const struct microf
     return scattered;
 }
 
-/* Veach and Guibas 1995: the share of a sampling with density `own` beside one with `other`. */
-static float power_heuristic(float own, float other)
-{
-    if (!(other > 0.0f))
-        return 1.0f;
-    float ratio = other / own;
-    return 1.0f / (1.0f + ratio * ratio);
-}
-
 ps_rgb material_gloss(const struct material *material, const struct microfacet_table *table,
                       const ps_ray *ray, const ps_hit *hit, ps_vec3 in, float light_pdf)
 {
@@ -429,7 +420,7 @@ ps_rgb material_gloss(const struct material *material, const struct microfacet_t
         ps_rgb reflected = ps_rgb_multiply(microfacet_reflect(roughness, f0, to_eye, to_light),
                                            microfacet_compensation(table, f0, roughness, to_eye.z));
         float own = lobes[i].probability * microfacet_pdf(roughness, to_eye, to_light);
-        float share = light_pdf > 0.0f ? power_heuristic(light_pdf, own) : 1.0f;
+        float share = power_heuristic(light_pdf, own);
         sum = ps_rgb_add(sum, ps_rgb_scale(reflected, component->share * share));
     }
     return sum;
