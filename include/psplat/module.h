@@ -60,8 +60,9 @@ typedef struct ps_descriptor {
 
     /* Checks what no table can, and prepares what follows from the parameters. Main thread, once,
      * before any other callback and before the first pass: the host's tiles, sources, splats and
-     * progress are not there yet. The state is const afterwards. On failure returns non-zero and
-     * writes why into message (at most message_size bytes with the terminator). May be NULL. */
+     * progress are not there yet. The state is const afterwards, except to an injection's prepare.
+     * On failure returns non-zero and writes why into message (at most message_size bytes with the
+     * terminator). May be NULL. */
     int32_t (*init)(void *state, const ps_host *host, char *message, size_t message_size);
 
     /* Frees what init took. Main thread, once, only after a successful init. May be NULL. */
