@@ -7,7 +7,7 @@
 
 /* A formula may be read again in every turn of a loop: so many characters in all for each value
  * that a scene may have. */
-#define MOST_FORMULA_CHARACTERS 64
+#define MOST_FORMULA_CHARACTERS 16
 
 /* So many errors end it: most are one error in many turns. */
 #define MOST_EXPANSION_ERRORS 100

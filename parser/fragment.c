@@ -36,12 +36,26 @@ static void move_pigment(struct joint *joint, struct pigment_description *pigmen
         pigment->texture = move_texture(joint, pigment->texture);
 }
 
-/* Mesh files have no mixes. */
+static size_t move_material(struct joint *joint, size_t index);
+
+/* The parts of a mix come before it; they are no mixes themselves. */
+static bool move_components(struct joint *joint, struct material_description *mix)
+{
+    for (size_t i = 0; i < mix->component_count; i++) {
+        mix->components[i] = move_material(joint, mix->components[i]);
+        if (mix->components[i] == NO_INDEX)
+            return false;
+    }
+    return true;
+}
+
 static size_t move_material(struct joint *joint, size_t index)
 {
     struct scene_description *content = joint->fragment->content;
     if (joint->materials[index] != NO_INDEX)
         return joint->materials[index];
+    if (!move_components(joint, &content->materials[index]))
+        return NO_INDEX;
     struct scene_description *description = joint->reader->description;
     struct material_description *materials = reader_extend(
         joint->reader, description->materials, description->material_count, 1, sizeof *materials);
@@ -65,7 +79,8 @@ static size_t choose_material(struct joint *joint, size_t index)
     const struct fragment *fragment = joint->fragment;
     if (index != NO_INDEX && fragment->replacements[index] != NO_INDEX)
         return fragment->replacements[index];
-    if (fragment->otherwise != NO_INDEX || index == NO_INDEX || !fragment->keep_materials)
+    if (fragment->otherwise != NO_INDEX || index == NO_INDEX || !fragment->keep_materials ||
+        material_is_absent(&fragment->content->materials[index]))
         return fragment->otherwise;
     return move_material(joint, index);
 }

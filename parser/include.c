@@ -30,8 +30,10 @@ struct inclusion {
     struct merge merge;
     struct source sources[MOST_FILES];
     size_t source_count;
-    size_t bytes_left;
+    size_t include_count;
+    size_t bytes_left;  /* to be read, of files that turn out to be known too */
     bool failed;        /* reported; a file is missing, and messages about the others mislead */
+    bool ended;         /* there were too many */
     bool out_of_memory; /* not reported */
 };
 
@@ -143,19 +145,26 @@ static void report_cycle(struct inclusion *inclusion, const struct source *by,
     fail(inclusion, at, "'%s' includes itself: %s%s", twin->name, chain, twin->name);
 }
 
+/* Whether the file was read before; if it is being read, that is an error. */
+static bool is_known(struct inclusion *inclusion, const struct source *source,
+                     const struct node *at)
+{
+    const struct source *twin = find_same(inclusion, source);
+    if (twin && twin->open)
+        report_cycle(inclusion, source->by, twin, at);
+    return twin != NULL;
+}
+
 /* Takes a file that was read, unless it was before. */
 static void take_once(struct inclusion *inclusion, const struct source *source,
                       const struct file_text *text, const struct node *at)
 {
-    const struct source *twin = find_same(inclusion, source);
-    if (twin && twin->open) {
-        report_cycle(inclusion, source->by, twin, at);
-        return;
-    }
-    if (twin)
+    inclusion->bytes_left -= text->length;
+    if (is_known(inclusion, source, at))
         return;
     if (inclusion->source_count == MOST_FILES) {
         fail(inclusion, at, "more than %d files in one scene", MOST_FILES);
+        inclusion->ended = true;
         return;
     }
     struct source *kept = &inclusion->sources[inclusion->source_count++];
@@ -165,7 +174,6 @@ static void take_once(struct inclusion *inclusion, const struct source *source,
         return;
     struct origin from = reader_origin(inclusion->reader, at);
     diagnostics_set_includer(inclusion->reader->sink, kept->name, &from);
-    inclusion->bytes_left -= text->length;
     take_file(inclusion, kept, text->bytes, text->length);
 }
 
@@ -175,6 +183,9 @@ static void include_path(struct inclusion *inclusion, const struct source *by,
     struct file_text text = {0};
     struct error error;
     const struct psd_files *files = inclusion->files;
+    const struct source by_name = {.name = path, .by = by};
+    if (is_known(inclusion, &by_name, at))
+        return;
     ps_result result = files->read(files->user, path, inclusion->bytes_left, &text, &error);
     struct source source = {path, by, by->depth + 1, false, text.device, text.serial};
     if (result == PS_ERROR_MEMORY)
@@ -193,6 +204,9 @@ static void include_one(struct inclusion *inclusion, const struct source *by, co
              node_kind_name(at));
     } else if (node_is_formula(at)) {
         fail(inclusion, at, "include in scene: the path of a file can't be a formula");
+    } else if (++inclusion->include_count > MOST_INCLUDES) {
+        fail(inclusion, at, "more than %d files are included", MOST_INCLUDES);
+        inclusion->ended = true;
     } else if (by->depth == DEEPEST_INCLUDE) {
         fail(inclusion, at, "files are included more than %d deep", DEEPEST_INCLUDE);
     } else {
@@ -205,7 +219,7 @@ static void include_one(struct inclusion *inclusion, const struct source *by, co
 
 static bool may_go_on(const struct inclusion *inclusion)
 {
-    return !inclusion->out_of_memory && !inclusion->reader->out_of_memory &&
+    return !inclusion->ended && !inclusion->out_of_memory && !inclusion->reader->out_of_memory &&
            !diagnostics_is_full(inclusion->reader->sink);
 }
 

@@ -8,6 +8,7 @@
 
 /* Bounds on what a scene may include. */
 #define MOST_FILES 256
+#define MOST_INCLUDES 4096 /* how often they may be named */
 #define DEEPEST_INCLUDE 16
 
 /* The main file's text, which was read already; `reader->file` is its name. */

@@ -126,17 +126,19 @@ static ps_result read_value(struct scanner *scanner, struct json *value);
 static ps_result read_item(struct scanner *scanner, bool has_key, struct json **item)
 {
     ps_result result = PS_OK;
+    *item = NULL;
     if (++scanner->values > JSON_VALUES)
         return complain(scanner, "too many values");
-    *item = arena_allocate(scanner->arena, sizeof **item);
-    if (!*item)
-        return error_memory(scanner->error, sizeof **item, "a JSON value");
+    struct json *made = arena_allocate(scanner->arena, sizeof *made);
+    if (!made)
+        return error_memory(scanner->error, sizeof *made, "a JSON value");
     if (has_key)
-        result = read_string(scanner, &(*item)->key);
+        result = read_string(scanner, &made->key);
     if (result == PS_OK && has_key && !accept(scanner, ':'))
         result = complain(scanner, "expected ':'");
     if (result == PS_OK)
-        result = read_value(scanner, *item);
+        result = read_value(scanner, made);
+    *item = made;
     return result;
 }
 
@@ -163,10 +165,12 @@ static ps_result read_items(struct scanner *scanner, struct json *value, bool is
     scanner->at++;
     bool more = !accept(scanner, close);
     while (result == PS_OK && more) {
-        result = read_item(scanner, is_object, link);
-        if (result != PS_OK)
+        struct json *item;
+        result = read_item(scanner, is_object, &item);
+        if (result != PS_OK || !item)
             return result;
-        link = &(*link)->next;
+        *link = item;
+        link = &item->next;
         value->count++;
         more = accept(scanner, ',');
         if (!more && !accept(scanner, close))

@@ -135,8 +135,8 @@ bool list_colors(struct reader *reader, struct subject subject, const struct sch
 static bool add_word(const struct reader *reader, struct subject subject,
                      const struct schema_row *row, const struct node *node, int32_t *words)
 {
-    char scratch[VALUE_NUMBER_TEXT], expected[128];
-    const char *text = value_text(reader, subject, node, "a word", scratch);
+    char expected[128];
+    const char *text = value_text(reader, subject, node, "a word");
     if (!text)
         return false;
     struct suggestion suggestion = suggestion_start(text);

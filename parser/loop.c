@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-/* An end that is missed by so little of a step was meant: 0 to 1 by 0.1 are 11 turns. */
+/* An end that is missed by so little of a step was meant: 0 to 0.3 by 0.1 are 4 turns. */
 #define SLACK 1e-6
 
 bool loop_is(const struct node *node)

@@ -127,6 +127,17 @@ static ps_result check_lists(struct mesh_job *job)
     return PS_OK;
 }
 
+/* assimp leaves out glTF's triangles of vertices that are not there. */
+static void count_left_out(struct mesh_job *job)
+{
+    size_t triangles = 0;
+    for (unsigned i = 0; i < job->scene->mNumMeshes; i++)
+        for (unsigned j = 0; j < job->scene->mMeshes[i]->mNumFaces; j++)
+            triangles += job->scene->mMeshes[i]->mFaces[j].mNumIndices == 3;
+    if (job->gltf.triangle_count > triangles)
+        job->report->dropped_triangles += job->gltf.triangle_count - triangles;
+}
+
 ps_result mesh_check_scene(struct mesh_job *job)
 {
     bool has_polygons;
@@ -138,5 +149,7 @@ ps_result mesh_check_scene(struct mesh_job *job)
         if (result == PS_OK)
             result = check_meshes(job, &has_polygons);
     }
+    if (result == PS_OK)
+        count_left_out(job);
     return result == PS_OK ? check_nodes(job) : result;
 }

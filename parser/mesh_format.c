@@ -9,9 +9,8 @@ static const struct {
     const char *extension;
     enum mesh_format format;
 } table[] = {
-    {"obj", FORMAT_OBJ},   {"gltf", FORMAT_GLTF}, {"glb", FORMAT_GLB},
-    {"ply", FORMAT_PLY},   {"stl", FORMAT_STL},   {"off", FORMAT_OTHER},
-    {"dae", FORMAT_OTHER}, {"fbx", FORMAT_OTHER}, {"3ds", FORMAT_OTHER},
+    {"obj", FORMAT_OBJ}, {"gltf", FORMAT_GLTF},   {"glb", FORMAT_GLB}, {"ply", FORMAT_PLY},
+    {"stl", FORMAT_STL}, {"dae", FORMAT_COLLADA}, {"fbx", FORMAT_FBX}, {"3ds", FORMAT_3DS},
 };
 
 #define TABLE_LENGTH (sizeof table / sizeof table[0])

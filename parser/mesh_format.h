@@ -8,7 +8,16 @@
 
 #include "base/error.h"
 
-enum mesh_format { FORMAT_OBJ, FORMAT_GLTF, FORMAT_GLB, FORMAT_PLY, FORMAT_STL, FORMAT_OTHER };
+enum mesh_format {
+    FORMAT_OBJ,
+    FORMAT_GLTF,
+    FORMAT_GLB,
+    FORMAT_PLY,
+    FORMAT_STL,
+    FORMAT_COLLADA,
+    FORMAT_FBX,
+    FORMAT_3DS
+};
 
 /* From the extension; PS_ERROR_INVALID, with all that are allowed, for any other. */
 ps_result mesh_format_of(const char *path, enum mesh_format *format, struct error *error);

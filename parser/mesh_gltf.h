@@ -24,7 +24,8 @@ struct gltf {
     size_t node_count;
     const struct json **materials; /* in the order in which assimp meets them */
     size_t material_count;
-    bool single_root; /* else assimp puts a node above all */
+    bool single_root;      /* else assimp puts a node above all */
+    size_t triangle_count; /* of all meshes, each once */
 };
 
 /* Checks the file and changes its text. PS_ERROR_INVALID or _MEMORY with a message; released in any
@@ -34,7 +35,8 @@ void gltf_release(struct gltf *gltf);
 
 /* Steps of gltf_open, on the tree. */
 ps_result gltf_check_document(const struct gltf *gltf, struct error *error);
-ps_result gltf_check_mesh(const struct gltf *gltf, size_t index, struct error *error);
+/* Also counts its triangles. */
+ps_result gltf_check_mesh(struct gltf *gltf, size_t index, struct error *error);
 void gltf_hide_rest(struct gltf *gltf);
 
 #endif

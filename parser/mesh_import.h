@@ -32,9 +32,10 @@ struct mesh_report {
 };
 
 /* Reads the file into a fragment: meshes, objects (OBJECT_MESH), materials (each with its name in
- * the file), textures, cameras, lights, whose indices refer to the fragment's own arrays. Objects of
- * a material that the file lacks, or that was not asked for, have material NO_INDEX. The fragment is
- * released with scene_description_release. PS_ERROR_IO, _INVALID or _MEMORY with a message. */
+ * the file), textures, cameras, lights, whose indices refer to the fragment's own arrays. Of a material
+ * that the file names and lacks only the name is there (material_is_absent); objects without any, or
+ * whose materials were not asked for, have material NO_INDEX. The fragment is released with
+ * scene_description_release. PS_ERROR_IO, _INVALID or _MEMORY with a message. */
 ps_result mesh_import(const struct mesh_request *request, struct scene_description *fragment,
                       struct mesh_report *report, struct error *error);
 

@@ -53,6 +53,16 @@ ps_result mesh_check_scene(struct mesh_job *job);
 /* mesh_object.c: meshes and objects. */
 ps_result mesh_read_objects(struct mesh_job *job);
 
+/* mesh_geometry.c: fills a zeroed mesh with the triangles of one of assimp's that have an area and
+ * whose corners are finite, and counts the others. */
+struct mesh_geometry {
+    const struct aiMesh *mesh;
+    const ps_vec3 *smooth; /* normals in place of the mesh's, or NULL */
+    uint32_t *scratch;     /* as many as the mesh has vertices */
+};
+ps_result mesh_fill(struct mesh_job *job, const struct mesh_geometry *geometry,
+                    struct mesh_description *mesh, size_t *dropped);
+
 /* mesh_smooth.c: normals by the smoothing groups of an OBJ file, one array for each of assimp's
  * meshes, NULL where the mesh has its own or is flat; NULL as a whole where there are none. */
 ps_result mesh_smooth_normals(struct mesh_job *job, ps_vec3 ***normals);

@@ -89,7 +89,7 @@ static ps_result fill_mix(struct mesh_job *job, const struct mesh_share shares[2
 ps_result mesh_material_add_mix(struct mesh_job *job, const struct mesh_share shares[2],
                                 const char *name, size_t *index)
 {
-    size_t parts[2];
+    size_t parts[2] = {0, 0};
     ps_result result = PS_OK;
     for (int i = 0; result == PS_OK && i < 2; i++) {
         struct material_description part = *shares[i].material;
@@ -150,13 +150,23 @@ static bool is_physically_based(const struct mesh_job *job, const struct aiMater
            mesh_material_number(source, "$mat.metallicFactor", -1) >= 0;
 }
 
+/* Its name alone, by which the scene may put another in its place. */
+static ps_result add_absent(struct mesh_job *job, const char *name, size_t *index)
+{
+    struct material_description absent = {.kind = MATERIAL_MIX, .normal_map = NO_INDEX};
+    return mesh_material_add(job, &absent, name, NULL, index);
+}
+
 static ps_result read_material(struct mesh_job *job, unsigned index)
 {
     const struct aiMaterial *source = job->scene->mMaterials[index];
     struct aiString name;
     bool has_name = read_name(job, index, &name);
     if (!is_of_the_file(job, index, name.data, has_name))
-        return PS_OK;
+        return job->format == FORMAT_OBJ && has_name &&
+                       strcmp(name.data, AI_DEFAULT_MATERIAL_NAME) != 0
+                   ? add_absent(job, name.data, &job->materials[index])
+                   : PS_OK;
     if (is_physically_based(job, source))
         return mesh_material_read_gltf(job, source,
                                        job->gltf.root ? job->gltf.materials[index] : NULL,

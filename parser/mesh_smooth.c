@@ -79,22 +79,28 @@ static void read_group(struct smoothing *s, const struct text_line *words)
     s->any |= s->group != 0;
 }
 
+/* Lines and points have corners too; a statement may go on in the next line. */
+static bool cannot_be_followed(const struct text_line *line)
+{
+    struct text_line words;
+    return (line->start < line->end && line->end[-1] == '\\') ||
+           text_line_starts(line, "l", &words) || text_line_starts(line, "p", &words);
+}
+
 static void read_text(struct smoothing *s)
 {
     const struct mesh_file *file = s->job->main_file;
     const char *at = file->bytes, *end = file->bytes + file->length;
     struct text_line line, words;
     while (!s->out_of_memory && !s->overflow && text_next_line(&at, end, &line)) {
-        if (line.start < line.end && line.end[-1] == '\\')
-            s->overflow = true; /* a statement that goes on: not followed here */
+        if (cannot_be_followed(&line))
+            s->overflow = true;
         else if (text_line_starts(&line, "v", &words))
             s->vertex_count++;
         else if (text_line_starts(&line, "f", &words))
             read_face(s, &words);
         else if (text_line_starts(&line, "s", &words))
             read_group(s, &words);
-        else if (text_line_starts(&line, "l", &words) || text_line_starts(&line, "p", &words))
-            s->overflow = true;
     }
 }
 
@@ -114,7 +120,7 @@ static bool has_groups(const struct mesh_job *job)
 
 static bool has_same_place(const struct aiVector3D *a, const struct aiVector3D *b)
 {
-    return memcmp(a, b, sizeof *a) == 0;
+    return a->x == b->x && a->y == b->y && a->z == b->z;
 }
 
 static size_t count_vertices(const struct aiScene *scene)
@@ -133,9 +139,9 @@ static ps_result check_order(const struct smoothing *s, bool *agrees)
     if (!places)
         return mesh_out_of_memory(s->job, s->vertex_count * sizeof(void *));
     size_t corner = 0;
-    *agrees = !s->overflow && count_vertices(scene) == s->corner_count;
+    *agrees = !s->overflow && s->corners && count_vertices(scene) == s->corner_count;
     for (unsigned i = 0; *agrees && i < scene->mNumMeshes; i++)
-        for (unsigned j = 0; *agrees && j < scene->mMeshes[i]->mNumVertices; j++) {
+        for (unsigned j = 0; *agrees && s->corners && j < scene->mMeshes[i]->mNumVertices; j++) {
             const struct aiVector3D *place = &scene->mMeshes[i]->mVertices[j];
             const struct aiVector3D **known = &places[s->corners[corner++].vertex];
             *agrees = !*known || has_same_place(*known, place);
@@ -157,6 +163,8 @@ static int compare_corners(const void *a, const void *b)
 /* Numbers the pairs of vertex and group. */
 static ps_result number_sums(struct smoothing *s, size_t *count)
 {
+    if (!s->corners)
+        return PS_OK;
     struct corner **order = malloc((s->corner_count + 1) * sizeof(struct corner *));
     if (!order)
         return mesh_out_of_memory(s->job, s->corner_count * sizeof(struct corner *));
@@ -185,7 +193,7 @@ static ps_vec3 area_vector(const struct aiMesh *mesh, const struct aiFace *face)
 static void add_areas(const struct smoothing *s, ps_vec3 *sums)
 {
     size_t first = 0;
-    for (unsigned i = 0; i < s->job->scene->mNumMeshes; i++) {
+    for (unsigned i = 0; s->corners && i < s->job->scene->mNumMeshes; i++) {
         const struct aiMesh *mesh = s->job->scene->mMeshes[i];
         for (unsigned j = 0; j < mesh->mNumFaces; j++) {
             const struct aiFace *face = &mesh->mFaces[j];
@@ -206,7 +214,7 @@ static ps_vec3 *normals_of_mesh(const struct smoothing *s, size_t first, size_t 
                                 const ps_vec3 *sums)
 {
     ps_vec3 *normals = calloc(count + 1, sizeof *normals);
-    for (size_t i = 0; normals && i < count; i++) {
+    for (size_t i = 0; normals && s->corners && i < count; i++) {
         const struct corner *corner = &s->corners[first + i];
         float length = ps_length(sums[corner->sum]);
         if (corner->group != 0 && length > 0 && isfinite(length))
@@ -217,7 +225,7 @@ static ps_vec3 *normals_of_mesh(const struct smoothing *s, size_t first, size_t 
 
 static bool has_group(const struct smoothing *s, size_t first, size_t count)
 {
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; s->corners && i < count; i++)
         if (s->corners[first + i].group != 0)
             return true;
     return false;

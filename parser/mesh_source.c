@@ -4,6 +4,7 @@
  * at before is the one that is read. aiImportFileFromMemory could not find an MTL or .bin file.
  */
 #include "parser/mesh_job.h"
+#include "parser/mesh_nesting.h"
 #include "parser/mesh_text.h"
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
@@ -153,11 +154,19 @@ static ps_result check_before_assimp(struct mesh_job *job)
 {
     if (job->main_file->length == 0)
         return error_set(job->error, PS_ERROR_INVALID, "%s: the file is empty", job->request->path);
-    if (job->format == FORMAT_GLTF || job->format == FORMAT_GLB)
+    switch (job->format) {
+    case FORMAT_GLTF:
+    case FORMAT_GLB:
         return gltf_open(&job->gltf, job->main_file, job->format == FORMAT_GLB, job->error);
-    if (job->format == FORMAT_PLY)
+    case FORMAT_PLY:
         return ply_check_header(job->main_file, job->error);
-    return PS_OK;
+    case FORMAT_COLLADA:
+        return dae_check(job->main_file, job->error);
+    case FORMAT_FBX:
+        return fbx_check(job->main_file, job->error);
+    default:
+        return PS_OK;
+    }
 }
 
 ps_result mesh_source_open(struct mesh_job *job)

@@ -23,8 +23,9 @@ void mtl_blank_preamble(struct mesh_file *file);
 /* Whether an MTL text defines the material. */
 bool mtl_has_material(const struct mesh_file *file, const char *name);
 
-/* assimp takes a PLY header at its word: here its counts must be possible in a file of this length,
- * and no element may come twice. */
+/* assimp takes a PLY header at its word, and waits for ever where its end is missing: here every line
+ * of it must be one of the format's, its counts possible in a file of this length, and no element may
+ * come twice. */
 ps_result ply_check_header(const struct mesh_file *file, struct error *error);
 
 #endif

@@ -121,6 +121,14 @@ static bool is_same(const struct texture_description *a, const struct texture_de
            a->nearest == b->nearest;
 }
 
+static void release_texture(struct texture_description *texture)
+{
+    free(texture->path);
+    free(texture->bytes);
+    texture->path = NULL;
+    texture->bytes = NULL;
+}
+
 /* Takes over what `texture` owns. */
 static ps_result add_texture(struct mesh_job *job, struct texture_description *texture,
                              size_t *index)
@@ -129,14 +137,12 @@ static ps_result add_texture(struct mesh_job *job, struct texture_description *t
     size_t bytes = (fragment->texture_count + 1) * sizeof *fragment->textures;
     for (*index = 0; *index < fragment->texture_count; ++*index)
         if (is_same(&fragment->textures[*index], texture)) {
-            free(texture->path);
-            free(texture->bytes);
+            release_texture(texture);
             return PS_OK;
         }
     struct texture_description *textures = realloc(fragment->textures, bytes);
     if (!textures) {
-        free(texture->path);
-        free(texture->bytes);
+        release_texture(texture);
         return mesh_out_of_memory(job, bytes);
     }
     fragment->textures = textures;
@@ -153,8 +159,7 @@ static ps_result copy_embedded(struct mesh_job *job, const struct aiTexture *emb
     texture->byte_count = embedded->mWidth;
     texture->bytes = malloc(texture->byte_count);
     if (!texture->path || !texture->bytes) {
-        free(texture->path);
-        free(texture->bytes);
+        release_texture(texture);
         return mesh_out_of_memory(job, texture->byte_count);
     }
     memcpy(texture->bytes, embedded->pcData, texture->byte_count);
@@ -202,8 +207,9 @@ ps_result mesh_texture_find(struct mesh_job *job, const struct aiMaterial *sourc
     ps_result result = locate(job, name.data, &texture);
     if (texture.bytes && use.encoding == ENCODING_AUTO)
         texture.encoding = ENCODING_SRGB; /* its path has no extension to go by */
-    if (result == PS_OK && texture.path)
-        result = add_texture(job, &texture, index);
+    if (result != PS_OK || !texture.path)
+        return result;
+    result = add_texture(job, &texture, index);
     if (result == PS_OK && read_integer(source, _AI_MATKEY_UVWSRC_BASE, use.type, 0) > 0)
         mesh_note(job, "texture %.200s is laid by the first set of coordinates, not its own",
                   name.data);

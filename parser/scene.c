@@ -60,7 +60,8 @@ static bool has_light(const struct scene_description *description)
     return description->light_count > 0;
 }
 
-/* A file without lights is legal, and its picture black. */
+/* A file without lights is legal, and its picture black. Where there are errors, a light may be what
+ * was wrong. */
 static void warn_dark(const struct reader *reader, const struct node *root)
 {
     const struct item *lights = node_find(root, "lights");
@@ -68,7 +69,7 @@ static void warn_dark(const struct reader *reader, const struct node *root)
     struct origin origin = reader_origin(reader, at);
     bool empty = !lights || node_is_null(lights->value) ||
                  (lights->value->kind == NODE_LIST && lights->value->count == 0);
-    if (empty && !has_light(reader->description))
+    if (empty && diagnostics_error_count(reader->sink) == 0 && !has_light(reader->description))
         diagnostics_report(reader->sink, SEVERITY_WARNING, &origin, at->mark.width,
                            "the scene has no lights");
 }

@@ -26,7 +26,7 @@
     ROW(SCHEMA_VALUE, name_, OBJECT(member), PS_PARAM_NUMBER, "scene units", help_, __VA_ARGS__)
 #define SEGMENTS_ROW                                                                               \
     ROW(SCHEMA_VALUE, "segments", OBJECT(segments), PS_PARAM_INT, "",                              \
-        "flat pieces that it is made of, around", .param.minimum = 3, .param.maximum = 65536,      \
+        "flat pieces that it is made of, around", .param.minimum = 3, .param.maximum = 8192,       \
         DEFAULT("64"))
 #define OPEN_ROW BOOL("open", KEYS(open), "no", "whether its ends are left out")
 #define CORNERS_ROW(count_, help_)                                                                 \

@@ -141,6 +141,8 @@ static enum arithmetic_found find_number(void *user, const char *name, int compo
 static void suggest(void *user, struct suggestion *suggestion)
 {
     const struct scope *scope = user;
+    if (diagnostics_is_full(scope->reader->sink))
+        return;
     for (const struct binding *binding = scope->first; binding; binding = binding->next)
         suggestion_consider(suggestion, binding->name);
 }

@@ -11,8 +11,7 @@
 static size_t append_item(struct reader *reader, struct subject subject, const struct node *node,
                           char *text, size_t length)
 {
-    char scratch[VALUE_NUMBER_TEXT];
-    const char *item = value_text(reader, subject, node, "a number or a word", scratch);
+    const char *item = value_text(reader, subject, node, "a number or a word");
     if (!item)
         return 0;
     size_t separator = length > 1 ? 2 : 0, bytes = strlen(item);
@@ -47,11 +46,9 @@ static char *join_list(struct reader *reader, struct subject subject, const stru
 
 static char *copy_value(struct reader *reader, struct subject subject, const struct node *node)
 {
-    char scratch[VALUE_NUMBER_TEXT];
     if (node->kind == NODE_LIST)
         return join_list(reader, subject, node);
-    const char *text =
-        value_text(reader, subject, node, "a number, a word or a list of them", scratch);
+    const char *text = value_text(reader, subject, node, "a number, a word or a list of them");
     return text ? reader_copy(reader, text) : NULL;
 }
 

@@ -1,11 +1,9 @@
 /* value.c: turns nodes into the text that param_set reads, so that a value is checked by one
- * parser wherever it is written; only arithmetic and lists are the scene file's own.
+ * parser wherever it is written; only lists are the scene file's own.
  */
 #include "parser/value.h"
 
 #include "base/text.h"
-#include "parser/arithmetic.h"
-#include "parser/word.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,33 +12,9 @@
 #define TRIPLE_TEXT (3 * LONGEST_NUMBER + 8)
 #define DOMAIN_TEXT 256
 
-/* Points into the scalar where that is possible: it is as long as it looks, on one line. */
-static const char *evaluate(const struct reader *reader, struct subject subject,
-                            const struct node *node, char scratch[VALUE_NUMBER_TEXT])
-{
-    struct error error;
-    size_t position;
-    double value;
-    if (arithmetic_evaluate(node->text + 1, NULL, &value, &position, &error) == PS_OK) {
-        word_write_number(value, scratch);
-        return scratch;
-    }
-    struct node at = *node;
-    size_t quote = node->plain ? 0 : 1, offset = position + 1 + quote;
-    if (strlen(node->text) + 2 * quote == (size_t)node->mark.width &&
-        offset < (size_t)node->mark.width) {
-        at.mark.column += (int)offset;
-        at.mark.width = 1;
-    }
-    reader_error(reader, &at, "%s in %s: %s", subject.key, subject.section, error.text);
-    return NULL;
-}
-
 const char *value_text(const struct reader *reader, struct subject subject, const struct node *node,
-                       const char *expected, char scratch[VALUE_NUMBER_TEXT])
+                       const char *expected)
 {
-    if (node->kind == NODE_SCALAR && node->text[0] == '=')
-        return evaluate(reader, subject, node, scratch);
     if (node->kind == NODE_SCALAR && !node_is_null(node))
         return node->text;
     reader_error(reader, node, "%s in %s: expected %s, got %s", subject.key, subject.section,
@@ -63,19 +37,18 @@ static bool store(struct reader *reader, struct subject subject, const ps_param 
 static bool set_scalar(struct reader *reader, struct subject subject, const ps_param *row,
                        const struct node *node, void *state)
 {
-    char scratch[VALUE_NUMBER_TEXT], domain[DOMAIN_TEXT] = "";
+    char domain[DOMAIN_TEXT] = "";
     if (node->kind != NODE_SCALAR || node_is_null(node))
         param_describe_domain(row, domain, sizeof domain);
-    const char *text = value_text(reader, subject, node, domain, scratch);
+    const char *text = value_text(reader, subject, node, domain);
     return text && store(reader, subject, row, node, text, state);
 }
 
 /* The text of a number, or NULL, reported. */
 static const char *number_text(const struct reader *reader, struct subject subject,
-                               const struct node *node, char scratch[VALUE_NUMBER_TEXT],
-                               double *number)
+                               const struct node *node, double *number)
 {
-    const char *text = value_text(reader, subject, node, "a number", scratch);
+    const char *text = value_text(reader, subject, node, "a number");
     if (!text || text_to_number(text, number))
         return text;
     reader_error(reader, node, "%s in %s: expected a number, got '%.80s'", subject.key,
@@ -86,17 +59,15 @@ static const char *number_text(const struct reader *reader, struct subject subje
 bool value_number(const struct reader *reader, struct subject subject, const struct node *node,
                   double *number)
 {
-    char scratch[VALUE_NUMBER_TEXT];
-    return number_text(reader, subject, node, scratch, number) != NULL;
+    return number_text(reader, subject, node, number) != NULL;
 }
 
 /* Numbers are checked one by one, so that an error points at the one that is wrong. */
 static bool append_number(const struct reader *reader, struct subject subject,
                           const struct node *node, char text[TRIPLE_TEXT])
 {
-    char scratch[VALUE_NUMBER_TEXT];
     double number;
-    const char *item = number_text(reader, subject, node, scratch, &number);
+    const char *item = number_text(reader, subject, node, &number);
     if (!item)
         return false;
     size_t used = strlen(text);
@@ -127,9 +98,8 @@ static bool set_uniform(struct reader *reader, struct subject subject, const ps_
 {
     ps_param uniform = *row;
     uniform.type = PS_PARAM_COLOR;
-    char scratch[VALUE_NUMBER_TEXT];
     double number;
-    const char *text = value_text(reader, subject, node, "[x, y, z] or one number", scratch);
+    const char *text = value_text(reader, subject, node, "[x, y, z] or one number");
     if (!text)
         return false;
     if (!text_to_number(text, &number)) {

@@ -5,18 +5,14 @@
 #include "parser/reader.h"
 #include "parser/schema.h"
 
-/* Room for a number as text. */
-#define VALUE_NUMBER_TEXT 40
-
 /* Which key of which section a value is for, in messages. */
 struct subject {
     const char *key, *section;
 };
 
-/* A scalar's text; of arithmetic (`=2*pi`) the result, written to `scratch`. NULL, reported, where
- * it is no scalar, or the arithmetic is wrong. `expected` says what would have been right. */
+/* A scalar's text; NULL, reported, where it is none. `expected` says what would have been right. */
 const char *value_text(const struct reader *reader, struct subject subject, const struct node *node,
-                       const char *expected, char scratch[VALUE_NUMBER_TEXT]);
+                       const char *expected);
 
 /* Checks the value against the row and stores it in the state; false where it was reported. */
 bool value_set(struct reader *reader, struct subject subject, const struct schema_row *row,

@@ -3,6 +3,7 @@
 #define PSPLAT_PLUGIN_H
 
 #include <psplat/alias.h>
+#include <psplat/bundle.h>
 #include <psplat/cell.h>
 #include <psplat/host.h>
 #include <psplat/math.h>

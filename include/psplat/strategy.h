@@ -51,8 +51,7 @@ typedef struct ps_stratification_vtable {
 typedef struct ps_visibility_vtable {
     uint32_t size;
     uint32_t reserved;
-    /* Texels along the side of a depth map, 1..64; 0: everything inside a box is lit. [main thread]
-     */
+    /* Texels along the side of a depth map, 1..64; 0: no maps. [main thread] */
     uint32_t (*resolution)(const void *state);
     /* Boxes of sources whose first hits are known; usually host->place_boxes. [worker] */
     void (*place)(const void *state, const ps_host *host, const ps_source *sources,
@@ -62,6 +61,12 @@ typedef struct ps_visibility_vtable {
      * where resolution is 0. [worker] */
     void (*depth_maps)(const void *state, const ps_host *host, const ps_splat *splats, size_t n,
                        float *depths);
+    /* For a visibility of resolution 0: whether the bundle lights each of n points inside of the
+     * splat's box that face the light; lit[i] becomes 1 or 0. The points were moved off their
+     * surfaces like origins of rays that leave them, so nothing at the point itself is in the way.
+     * NULL where depth maps decide, or everything inside a box is lit. [worker] */
+    void (*visible)(const void *state, const ps_host *host, const ps_splat *splat,
+                    const ps_vec3 *points, size_t n, uint8_t *lit);
 } ps_visibility_vtable;
 
 typedef struct ps_filter_vtable {

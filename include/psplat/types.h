@@ -109,7 +109,8 @@ typedef struct ps_splat {
     float half_width;               /* > 0; a splat with half_width 0 lights nothing */
     ps_vec3 axis_u, axis_v, axis_w; /* orthonormal; axis_w is the direction of the light */
     float near_depth, far_depth; /* relative to the centre; near <= 0 <= far until cut to a map */
-    float start_depth;           /* depth at which rays of the bundle start, at the centre, ... */
+    float start_depth;           /* depth at which rays of the bundle start (what lies before stays
+                                    dark), at the centre, ... */
     float start_slope_u,
         start_slope_v;   /* ... and its change along u and v (a tilted start plane) */
     float bias_constant; /* depth tolerance: constant + slope * tan(theta), */

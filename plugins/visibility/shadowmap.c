@@ -4,21 +4,13 @@
  * Back faces count: a map that starts inside of something must see its far side, or light leaks
  * through.
  *
- * A pixel is compared with the texel it falls into, so its depth may differ by the slope of its
- * surface times its distance to the texel's centre. The bias grants just that: 1.5 texels *
- * tan(theta), theta between the light and the pixel's normal. A constant bias either shadows slopes
- * (acne, and energy lost) or leaks at contacts; it stays selectable, for comparison with the
- * thesis.
+ * For the depth tolerance see ps_set_bias.
  */
 #include <psplat/plugin.h>
 
 PS_BOX_CHOICES
 
 #define BLOCK 4 /* texels along the side of a packet */
-#define SLOPE_TEXELS 1.5f
-#define FLAT_TEXELS 0.1f /* tolerance where the light arrives at a right angle */
-
-enum { STEP_BACK_FULL = 1 };
 
 static const char *const bias_choices[] = {"slope", NULL};
 
@@ -39,25 +31,15 @@ static void place(const void *opaque, const ps_host *host, const ps_source *sour
     const struct state *state = opaque;
     ps_box_settings settings = PS_BOX_SETTINGS(state);
     host->place_boxes(host, &settings, sources, hits, n, splats);
-    int open_ended = state->step_back.choice == STEP_BACK_FULL && state->depth.choice >= 0;
-    for (size_t i = 0; i < n; i++) {
-        float texel = 2.0f * splats[i].half_width / (float)state->resolution;
-        int by_slope = state->bias.choice >= 0;
-        splats[i].bias_constant =
-            by_slope ? FLAT_TEXELS * texel : (float)fmin(state->bias.number, 1e9);
-        splats[i].bias_slope = by_slope ? SLOPE_TEXELS * texel : 0.0f;
-        if (open_ended)
-            splats[i].far_depth = INFINITY;
-    }
+    ps_open_full_beams(&settings, splats, n);
+    ps_set_bias(state->bias, (uint32_t)state->resolution, splats, n);
 }
 
 /* One ray of the map: where it starts, as a depth, and its origin. */
 static float load_ray(const ps_splat *splat, float u, float v, ps_packet *packet, int lane)
 {
-    float start = splat->start_depth + u * splat->start_slope_u + v * splat->start_slope_v;
-    ps_vec3 origin = ps_add_scaled(splat->centre, u, splat->axis_u);
-    origin = ps_add_scaled(origin, v, splat->axis_v);
-    origin = ps_add_scaled(origin, start, splat->axis_w);
+    float start = ps_bundle_start(splat, u, v);
+    ps_vec3 origin = ps_bundle_point(splat, u, v, start);
     packet->origin_x[lane] = origin.x;
     packet->origin_y[lane] = origin.y;
     packet->origin_z[lane] = origin.z;
@@ -80,13 +62,12 @@ static void trace_block(const ps_host *host, const ps_splat *splat, int side, in
 {
     _Alignas(64) ps_packet packet;
     float start[BLOCK * BLOCK], reach[BLOCK * BLOCK];
-    float texel = 2.0f * splat->half_width / (float)side;
     for (int lane = 0; lane < BLOCK * BLOCK; lane++) {
         int column = least(left + lane % BLOCK, side - 1),
             row = least(top + lane / BLOCK, side - 1);
-        float u = ((float)column + 0.5f) * texel - splat->half_width;
-        float v = ((float)row + 0.5f) * texel - splat->half_width;
-        start[lane] = load_ray(splat, u, v, &packet, lane);
+        start[lane] =
+            load_ray(splat, ps_texel_centre(splat, (uint32_t)side, (uint32_t)column),
+                     ps_texel_centre(splat, (uint32_t)side, (uint32_t)row), &packet, lane);
         reach[lane] = packet.tfar[lane];
     }
     host->intersect_packets(host, &packet, 1);

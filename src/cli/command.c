@@ -7,7 +7,7 @@
 
 const struct command *const commands[] = {&command_render, &command_check,   &command_plugins,
                                           &command_info,   &command_compare, &command_diff,
-                                          &command_view};
+                                          &command_view,   &command_schema,  &command_debug};
 const size_t command_count = sizeof commands / sizeof commands[0];
 
 void print_error(const char *message)
@@ -105,4 +105,26 @@ bool parse_whole_number(const char *option, const char *text, double minimum, do
     fprintf(stderr, "psplat: error: --%s: expected a whole number %.0f..%.0f, got '%s'\n", option,
             minimum, maximum, text);
     return false;
+}
+
+bool parse_rectangle(const char *option, const char *text, struct rectangle *rectangle)
+{
+    size_t *const fields[4] = {&rectangle->x, &rectangle->y, &rectangle->width, &rectangle->height};
+    char word[32];
+    size_t i = 0;
+    for (const char *next = text; i < 4; i++) {
+        size_t length = strcspn(next, ",");
+        double number;
+        snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word),
+                 next);
+        if (next[length] != (i < 3 ? ',' : '\0') || !text_to_number(word, &number) ||
+            number != floor(number) || number < 0.0 || number > 1e9)
+            break;
+        *fields[i] = (size_t)number;
+        next += length + 1;
+    }
+    if (i < 4)
+        fprintf(stderr, "psplat: error: --%s: expected X,Y,W,H in whole pixels, got '%s'\n", option,
+                text);
+    return i == 4;
 }

@@ -2,6 +2,7 @@
 #ifndef CLI_COMMAND_H
 #define CLI_COMMAND_H
 
+#include "image/rectangle.h"
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -31,7 +32,7 @@ struct command {
 };
 
 extern const struct command command_render, command_check, command_plugins, command_info,
-    command_compare, command_diff, command_view;
+    command_compare, command_diff, command_view, command_schema, command_debug;
 
 /* All commands; the first is what runs when none is named. */
 extern const struct command *const commands[];
@@ -54,5 +55,8 @@ void print_error(const char *message);
  */
 bool parse_whole_number(const char *option, const char *text, double minimum, double maximum,
                         double *value);
+
+/* "X,Y,W,H" in whole pixels; false, and an error that names the option, otherwise. */
+bool parse_rectangle(const char *option, const char *text, struct rectangle *rectangle);
 
 #endif

@@ -16,6 +16,20 @@ static bool is_called(const struct argument *argument, const char *name)
     return argument->option && strcmp(argument->option->name, name) == 0;
 }
 
+/* Pictures are read, and shapes and lights made: what is wrong with those shows only then. */
+static bool builds(struct scene_input *input)
+{
+    struct scene scene;
+    struct error error;
+    if (scene_input_build(input, &scene, &error) == PS_OK) {
+        scene_release(&scene);
+        return true;
+    }
+    if (error.text[0])
+        print_error(error.text);
+    return false;
+}
+
 static bool check_scene(const struct argument *arguments, size_t count,
                         const struct scene_options *scene_options, const char *path)
 {
@@ -27,8 +41,10 @@ static bool check_scene(const struct argument *arguments, size_t count,
             good = scene_input_override(&input, arguments[i].value);
     if (good) {
         good = scene_input_resolve(&input, 1, 1, &settings);
-        if (good)
+        if (good) {
             settings_release(&settings);
+            good = builds(&input);
+        }
     }
     scene_input_release(&input);
     return good;

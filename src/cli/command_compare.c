@@ -32,30 +32,6 @@ struct request {
     size_t limit_count;
 };
 
-static bool parse_crop(const char *text, struct request *request)
-{
-    size_t *const fields[4] = {&request->crop.x, &request->crop.y, &request->crop.width,
-                               &request->crop.height};
-    char word[32];
-    size_t i = 0;
-    for (const char *next = text; i < 4; i++) {
-        size_t length = strcspn(next, ",");
-        double number;
-        snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word),
-                 next);
-        if (next[length] != (i < 3 ? ',' : '\0') || !text_to_number(word, &number) ||
-            number != floor(number) || number < 0.0 || number > 1e9)
-            break;
-        *fields[i] = (size_t)number;
-        next += length + 1;
-    }
-    request->cropped = true;
-    if (i < 4)
-        fprintf(stderr, "psplat: error: --crop: expected X,Y,W,H in whole pixels, got '%s'\n",
-                text);
-    return i == 4;
-}
-
 static bool parse_option(const struct argument *argument, struct request *request)
 {
     struct error error;
@@ -66,7 +42,8 @@ static bool parse_option(const struct argument *argument, struct request *reques
         request->layer = argument->value;
         break;
     case OPTION_CROP:
-        return parse_crop(argument->value, request);
+        request->cropped = true;
+        return parse_rectangle(argument->option->name, argument->value, &request->crop);
     case OPTION_METRIC:
         result = metric_find(argument->value, strlen(argument->value), &metric, &error);
         if (result == PS_OK)

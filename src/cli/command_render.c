@@ -1,12 +1,9 @@
 /* command_render.c: psplat render: a scene becomes a picture. */
 #include "base/clock.h"
-#include "base/parallel.h"
-#include "base/text.h"
 #include "cli/command.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "cli/scene_input.h"
-#include "pipeline/render.h"
+#include "cli/render_options.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -14,32 +11,21 @@
 #include <string.h>
 
 #define MOST_OUTPUTS 16
-#define DEFAULT_BATCH 4096
 
 static const struct option options[] = {
     {'o', "output", "FILE", "write FILE (.exr or .png); may be given several times"},
-    {'p', "plugin", "KIND=NAME[:KEY=VALUE,...]", "use another strategy, or other parameters"},
-    SCENE_OPTIONS,
-    {0, "size", "WxH", "width and height of the picture in pixels"},
+    RENDER_OPTIONS,
     {0, "passes", "N", "number of passes; more smooth edges and lessen noise"},
-    {0, "seed", "N", "seed of the random numbers"},
-    {'t', "threads", "N", "threads; the picture does not depend on them"},
-    {0, "isa", "NAME", "instruction set: baseline, avx2 or avx512; default: the best there is"},
-    {0, "batch", "N", "splats held in memory at a time; nor on these"},
-    {0, "exposure", "STOPS", "brightness of the PNG: a factor of 2^STOPS"},
     {0, "stats", "FILE.json", "write what each stage took in time and memory"},
-    {'q', "quiet", NULL, "print nothing but errors"},
 };
 
 struct job {
-    const char *scene_path;
+    struct render_options options;
     const char *outputs[MOST_OUTPUTS];
     size_t output_count;
     char *default_outputs[2]; /* owned */
-    const char *stats_path, *size, *exposure, *isa;
-    struct scene_options scene;
-    double passes, seed, threads, batch; /* negative: not given */
-    bool quiet;
+    const char *stats_path;
+    double passes; /* negative: not given */
     struct progress progress;
 };
 
@@ -67,21 +53,6 @@ static bool was_interrupted(void *user)
     return interrupted != 0;
 }
 
-static void show_progress(void *user, const char *stage, double fraction)
-{
-    struct job *job = user;
-    progress_update(&job->progress, stage, fraction);
-}
-
-static void show_message(void *user, ps_log_level level, const char *message)
-{
-    const struct job *job = user;
-    if (level == PS_LOG_WARNING)
-        fprintf(stderr, "psplat: warning: %s\n", message);
-    else if (level == PS_LOG_INFO && !job->quiet)
-        fprintf(stderr, "psplat: %s\n", message);
-}
-
 static bool take_output(struct job *job, const char *path)
 {
     if (!output_is_writable_format(path)) {
@@ -101,25 +72,11 @@ static bool take_option(struct job *job, const struct argument *argument)
     const char *name = argument->option->name, *value = argument->value;
     if (strcmp(name, "output") == 0)
         return take_output(job, value);
-    if (strcmp(name, "quiet") == 0)
-        job->quiet = true;
-    else if (strcmp(name, "stats") == 0)
+    if (strcmp(name, "stats") == 0)
         job->stats_path = value;
-    else if (strcmp(name, "isa") == 0)
-        job->isa = value;
-    else if (strcmp(name, "size") == 0)
-        job->size = value;
-    else if (strcmp(name, "exposure") == 0)
-        job->exposure = value;
     else if (strcmp(name, "passes") == 0)
         return parse_whole_number(name, value, 1, 1e6, &job->passes);
-    else if (strcmp(name, "seed") == 0)
-        return parse_whole_number(name, value, 0, 9007199254740992.0, &job->seed);
-    else if (strcmp(name, "threads") == 0)
-        return parse_whole_number(name, value, 1, 1024, &job->threads);
-    else if (strcmp(name, "batch") == 0)
-        return parse_whole_number(name, value, 1, 4096, &job->batch);
-    return true; /* --plugin waits for the scene, which takes the others as it is read */
+    return true;
 }
 
 static bool take_arguments(struct job *job, const struct argument *arguments, size_t count)
@@ -128,62 +85,17 @@ static bool take_arguments(struct job *job, const struct argument *arguments, si
         if (arguments[i].option) {
             if (!take_option(job, &arguments[i]))
                 return false;
-        } else if (job->scene_path) {
+        } else if (job->options.scene_path) {
             fprintf(stderr, "psplat: error: one scene at a time: '%s' after '%s'\n",
-                    arguments[i].value, job->scene_path);
+                    arguments[i].value, job->options.scene_path);
             return false;
         } else {
-            job->scene_path = arguments[i].value;
+            job->options.scene_path = arguments[i].value;
         }
     }
-    if (!job->scene_path)
+    if (!job->options.scene_path)
         print_error("which scene? Try 'psplat --help'.");
-    return job->scene_path != NULL;
-}
-
-static bool override_size(const char *text, struct image_description *image)
-{
-    char width[32];
-    size_t length = strcspn(text, "x");
-    double w, h;
-    snprintf(width, sizeof width, "%.*s", (int)(length < 31 ? length : 31), text);
-    if (!text[length] || !text_to_number(width, &w) || !text_to_number(text + length + 1, &h) ||
-        w < 1 || h < 1 || w > 65536 || h > 65536 || w != (double)(int64_t)w ||
-        h != (double)(int64_t)h) {
-        fprintf(stderr, "psplat: error: --size: expected WxH, each 1..65536, got '%s'\n", text);
-        return false;
-    }
-    image->width = (int64_t)w;
-    image->height = (int64_t)h;
-    return true;
-}
-
-static bool override_exposure(const char *text, double *exposure)
-{
-    double stops;
-    if (!text_to_number(text, &stops) || stops < -20 || stops > 20) {
-        fprintf(stderr, "psplat: error: --exposure: expected a number -20..20, got '%s'\n", text);
-        return false;
-    }
-    *exposure = stops;
-    return true;
-}
-
-/* Lays the command line over the scene. */
-static bool override(const struct job *job, const struct argument *arguments, size_t count,
-                     struct scene_input *input)
-{
-    struct scene_description *description = &input->description;
-    for (size_t i = 0; i < count; i++)
-        if (arguments[i].option && strcmp(arguments[i].option->name, "plugin") == 0 &&
-            !scene_input_override(input, arguments[i].value))
-            return false;
-    if (job->passes > 0)
-        description->render.passes = (int64_t)job->passes;
-    if (job->seed >= 0)
-        description->render.seed = (int64_t)job->seed;
-    return (!job->size || override_size(job->size, &description->image)) &&
-           (!job->exposure || override_exposure(job->exposure, &description->image.exposure));
+    return job->options.scene_path != NULL;
 }
 
 /* Without --output: the scene's name with both suffixes. */
@@ -193,7 +105,7 @@ static bool choose_outputs(struct job *job)
     if (job->output_count > 0)
         return true;
     for (int i = 0; i < 2; i++) {
-        job->default_outputs[i] = output_default_path(job->scene_path, suffixes[i]);
+        job->default_outputs[i] = output_default_path(job->options.scene_path, suffixes[i]);
         if (!job->default_outputs[i]) {
             print_error("out of memory");
             return false;
@@ -226,7 +138,7 @@ static ps_result write_files(struct job *job, const struct image *image, double 
     for (size_t i = 0; i < job->output_count; i++) {
         struct error reason;
         ps_result result = output_write(image, job->outputs[i], exposure, &reason);
-        if (result == PS_OK && !job->quiet)
+        if (result == PS_OK && !job->options.quiet)
             fprintf(stderr, "psplat: wrote %s\n", job->outputs[i]);
         if (result != PS_OK && first == PS_OK) {
             first = result;
@@ -244,7 +156,8 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
                                   const struct scene *scene, struct render_settings *settings,
                                   struct statistics *statistics, struct error *error)
 {
-    struct render_callbacks callbacks = {job, show_progress, show_message, was_interrupted};
+    struct render_callbacks callbacks = progress_callbacks(&job->progress);
+    callbacks.cancelled = was_interrupted;
     struct image image = {0};
     catch_signals();
     ps_result result = render_run(scene, settings, &callbacks, statistics, &image, error);
@@ -254,7 +167,7 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     /* An interrupted render is repeated by asking for the passes that were done. */
     double passes = statistics_counter(statistics, "passes");
     settings->passes = (uint32_t)passes;
-    ps_result written = output_describe(&image, description->path, &job->scene, settings,
+    ps_result written = output_describe(&image, description->path, &job->options.scene, settings,
                                         description->image.exposure, error);
     if (written == PS_OK)
         written = write_files(job, &image, description->image.exposure, statistics, error);
@@ -274,7 +187,7 @@ static int render_job(struct job *job, struct scene_input *input, struct render_
     statistics_init(&statistics);
     double start = clock_seconds();
     statistics_add_seconds(&statistics, "load", start - job->progress.start);
-    ps_result result = scene_input_build(input, &scene, &error);
+    ps_result result = scene_input_build_to_render(input, &scene, &error);
     if (result == PS_OK) {
         result = render_and_write(job, description, &scene, settings, &statistics, &error);
         scene_release(&scene);
@@ -287,17 +200,14 @@ static int render_job(struct job *job, struct scene_input *input, struct render_
     return result == PS_ERROR_INVALID ? STATUS_USAGE : STATUS_FAILED;
 }
 
-static int load_and_render(struct job *job, const struct argument *arguments, size_t count)
+static int load_and_render(struct job *job)
 {
     struct scene_input input;
     struct render_settings settings;
-    uint32_t threads = job->threads > 0 ? (uint32_t)job->threads : parallel_processor_count();
-    size_t batch = job->batch > 0 ? (size_t)job->batch : DEFAULT_BATCH;
     int status = STATUS_USAGE;
-    if (scene_input_read(&input, job->scene_path, &job->scene) &&
-        override(job, arguments, count, &input) &&
-        scene_input_resolve(&input, threads, batch, &settings)) {
-        settings.isa = job->isa;
+    if (render_options_load(&job->options, &input, &settings)) {
+        if (job->passes > 0)
+            settings.passes = (uint32_t)job->passes;
         status = render_job(job, &input, &settings);
         settings_release(&settings);
     }
@@ -307,16 +217,16 @@ static int load_and_render(struct job *job, const struct argument *arguments, si
 
 static int run(const struct argument *arguments, size_t count)
 {
-    struct job job = {.passes = -1, .seed = -1, .threads = -1, .batch = -1};
+    struct job job = {.passes = -1};
     int status = STATUS_USAGE;
-    if (take_arguments(&job, arguments, count) &&
-        scene_options_take(&job.scene, arguments, count)) {
+    if (render_options_take(&job.options, arguments, count) &&
+        take_arguments(&job, arguments, count)) {
         status = STATUS_FAILED;
-        progress_start(&job.progress, job.quiet);
+        progress_start(&job.progress, job.options.quiet);
         if (choose_outputs(&job) && check_outputs(&job))
-            status = load_and_render(&job, arguments, count);
+            status = load_and_render(&job);
     }
-    scene_options_release(&job.scene);
+    render_options_release(&job.options);
     free(job.default_outputs[0]);
     free(job.default_outputs[1]);
     return status;

@@ -2,11 +2,14 @@
  *
  * Colours are tone mapped. Normals (layer N) and single channels are no light: they go to bytes in
  * proportion, without the sRGB curve, -1..1 and 0..the largest finite value to 0..255. Samples that
- * are not finite are black.
+ * are not finite are black. Parts are cut out, and magnified, after that: pixels stay what they are in
+ * the whole picture, so parts of one picture compare.
  */
 #include "base/text.h"
 #include "cli/command.h"
 #include "compare/layer.h"
+#include "image/magnify.h"
+#include "image/raster.h"
 #include "image/tonemap.h"
 
 #include <math.h>
@@ -16,19 +19,24 @@
 
 #define NORMAL_LAYER "N"
 
-enum { OPTION_OUTPUT, OPTION_LAYER, OPTION_EXPOSURE, OPTION_CURVE };
+enum { OPTION_OUTPUT, OPTION_LAYER, OPTION_EXPOSURE, OPTION_CURVE, OPTION_CROP, OPTION_ZOOM };
 
 static const struct option options[] = {
     [OPTION_OUTPUT] = {'o', "output", "FILE.png", "default: the picture's name with .png"},
     [OPTION_LAYER] = {'l', "layer", "NAME", "NAME.R, NAME.G, NAME.B, or the channel NAME"},
     [OPTION_EXPOSURE] = {0, "exposure", "STOPS", "brightness: a factor of 2^STOPS (not for N)"},
     [OPTION_CURVE] = {0, "curve", "clip|filmic", "what becomes of highlights; default: filmic"},
+    [OPTION_CROP] = {0, "crop", "X,Y,W,H", "this part only; 0,0 is the upper left corner"},
+    [OPTION_ZOOM] = {0, "zoom", "N", "make each pixel a square of NxN"},
 };
 
 struct request {
     const char *picture, *output, *layer;
     double stops;
     enum tone_curve curve;
+    bool cropped;
+    struct rectangle crop;
+    double zoom;
 };
 
 static bool parse_curve(const char *text, enum tone_curve *curve)
@@ -51,6 +59,11 @@ static bool parse_option(const struct argument *argument, struct request *reques
         return true;
     case OPTION_CURVE:
         return parse_curve(argument->value, &request->curve);
+    case OPTION_CROP:
+        request->cropped = true;
+        return parse_rectangle("crop", argument->value, &request->crop);
+    case OPTION_ZOOM:
+        return parse_whole_number("zoom", argument->value, 1, 64, &request->zoom);
     default:
         if (text_to_number(argument->value, &request->stops))
             return true;
@@ -138,31 +151,74 @@ static void map_layer(const struct request *request, const struct layer *layer, 
     }
 }
 
-static ps_result view(const struct request *request, const char *output, struct image *image,
-                      struct error *error)
+/* The whole picture, or the part that was asked for; false, printed, where that is not in it. */
+static bool find_part(const struct request *request, const struct image *image,
+                      struct rectangle *part)
 {
-    struct layer layer;
-    ps_result result = image_read_exr(request->picture, image, error);
-    if (result == PS_OK)
-        result = layer_find(image, request->picture, request->layer, &layer, error);
-    if (result != PS_OK)
-        return result;
-    size_t pixels = image->width * image->height;
-    uint8_t *rgb = malloc(3 * pixels);
-    if (!rgb)
-        return error_memory(error, 3 * pixels, "the PNG");
-    map_layer(request, &layer, pixels, rgb);
-    result = image_write_png(output, image->width, image->height, rgb, image->attributes,
-                             image->attribute_count, error);
+    *part =
+        request->cropped ? request->crop : (struct rectangle){0, 0, image->width, image->height};
+    if (!rectangle_fits(*part, image->width, image->height)) {
+        fprintf(stderr,
+                "psplat: error: --crop: %zu,%zu,%zu,%zu is empty or reaches beyond the picture's "
+                "%zux%zu\n",
+                part->x, part->y, part->width, part->height, image->width, image->height);
+        return false;
+    }
+    size_t limit = RASTER_SIDE_LIMIT / (size_t)request->zoom;
+    if (request->zoom > 1.0 && (part->width > limit || part->height > limit)) {
+        fprintf(stderr, "psplat: error: --zoom: more than %d pixels a side; give --crop\n",
+                RASTER_SIDE_LIMIT);
+        return false;
+    }
+    return true;
+}
+
+static ps_result write_part(const struct request *request, struct rectangle part,
+                            const struct layer *layer, const struct image *image,
+                            const char *output, struct error *error)
+{
+    size_t zoom = (size_t)request->zoom, pixels = image->width * image->height;
+    size_t width = part.width * zoom, height = part.height * zoom;
+    uint8_t *rgb = malloc(3 * pixels), *magnified = malloc(3 * width * height);
+    ps_result result = PS_OK;
+    if (rgb && magnified) {
+        map_layer(request, layer, pixels, rgb);
+        magnify(rgb, image->width, part, zoom, magnified);
+        result = image_write_png(output, width, height, magnified, image->attributes,
+                                 image->attribute_count, error);
+    } else {
+        result = error_memory(error, 3 * (pixels + width * height), "the PNG");
+    }
     free(rgb);
+    free(magnified);
     return result;
+}
+
+static int view(const struct request *request, const char *output)
+{
+    struct image image = {0};
+    struct layer layer;
+    struct rectangle part;
+    struct error error;
+    int status = STATUS_OK;
+    ps_result result = image_read_exr(request->picture, &image, &error);
+    if (result == PS_OK)
+        result = layer_find(&image, request->picture, request->layer, &layer, &error);
+    if (result == PS_OK && !find_part(request, &image, &part))
+        status = STATUS_USAGE;
+    if (result == PS_OK && status == STATUS_OK)
+        result = write_part(request, part, &layer, &image, output, &error);
+    if (result != PS_OK) {
+        print_error(error.text);
+        status = STATUS_FAILED;
+    }
+    image_release(&image);
+    return status;
 }
 
 static int run(const struct argument *arguments, size_t count)
 {
-    struct request request = {.curve = TONE_FILMIC};
-    struct image image = {0};
-    struct error error;
+    struct request request = {.curve = TONE_FILMIC, .zoom = 1};
     if (!parse_arguments(arguments, count, &request))
         return STATUS_USAGE;
     char *output = request.output ? strdup(request.output) : default_output(request.picture);
@@ -170,12 +226,9 @@ static int run(const struct argument *arguments, size_t count)
         print_error("out of memory");
         return STATUS_FAILED;
     }
-    ps_result result = view(&request, output, &image, &error);
-    if (result != PS_OK)
-        print_error(error.text);
-    image_release(&image);
+    int status = view(&request, output);
     free(output);
-    return result == PS_OK ? STATUS_OK : STATUS_FAILED;
+    return status;
 }
 
 const struct command command_view = {

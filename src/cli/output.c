@@ -144,10 +144,8 @@ static ps_result set_command(struct image *image, const char *scene_path,
     return result;
 }
 
-ps_result output_describe(struct image *image, const char *scene_path,
-                          const struct scene_options *options,
-                          const struct render_settings *settings, double exposure,
-                          struct error *error)
+ps_result output_describe_settings(struct image *image, const char *scene_path,
+                                   const struct render_settings *settings, struct error *error)
 {
     char seed[32], passes[32], indirect[32], ambient[64];
     snprintf(seed, sizeof seed, "%" PRIu64, settings->seed);
@@ -170,6 +168,15 @@ ps_result output_describe(struct image *image, const char *scene_path,
         strategy_format(&settings->strategies[kind], value, sizeof value);
         result = image_set_attribute(image, name, value, error);
     }
+    return result;
+}
+
+ps_result output_describe(struct image *image, const char *scene_path,
+                          const struct scene_options *options,
+                          const struct render_settings *settings, double exposure,
+                          struct error *error)
+{
+    ps_result result = output_describe_settings(image, scene_path, settings, error);
     if (result != PS_OK || settings->passes == 0)
         return result; /* what was interrupted in its first pass can't be repeated */
     return set_command(image, scene_path, options, settings, exposure, error);

@@ -24,6 +24,10 @@ ps_result output_describe(struct image *image, const char *scene_path,
                           const struct render_settings *settings, double exposure,
                           struct error *error);
 
+/* The same, without the command: what was drawn with these settings is no rendered picture. */
+ps_result output_describe_settings(struct image *image, const char *scene_path,
+                                   const struct render_settings *settings, struct error *error);
+
 /* Whether the folder of a file that is to be written is there and can be written to; the message
  * says what is wrong. */
 bool output_check(const char *path, struct error *error);

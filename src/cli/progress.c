@@ -71,6 +71,26 @@ void progress_update(struct progress *progress, const char *stage, double fracti
         print_line(progress, stage, fraction);
 }
 
+static void show_progress(void *user, const char *stage, double fraction)
+{
+    progress_update(user, stage, fraction);
+}
+
+static void show_message(void *user, ps_log_level level, const char *message)
+{
+    const struct progress *progress = user;
+    if (level == PS_LOG_WARNING)
+        fprintf(stderr, "psplat: warning: %s\n", message);
+    else if (level == PS_LOG_INFO && !progress->quiet)
+        fprintf(stderr, "psplat: %s\n", message);
+}
+
+struct render_callbacks progress_callbacks(struct progress *progress)
+{
+    return (struct render_callbacks){
+        .user = progress, .progress = show_progress, .log = show_message};
+}
+
 void progress_clear(struct progress *progress)
 {
     if (progress->terminal && !progress->quiet)

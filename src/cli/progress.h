@@ -3,6 +3,7 @@
 #ifndef CLI_PROGRESS_H
 #define CLI_PROGRESS_H
 
+#include "pipeline/render.h"
 #include <stdbool.h>
 
 struct progress {
@@ -15,6 +16,9 @@ struct progress {
 
 void progress_start(struct progress *progress, bool quiet);
 void progress_update(struct progress *progress, const char *stage, double fraction);
+
+/* What a render tells, shown; warnings too. Nothing interrupts it. `progress` must outlive them. */
+struct render_callbacks progress_callbacks(struct progress *progress);
 
 /* Removes the bar, so that other lines can be printed. */
 void progress_clear(struct progress *progress);

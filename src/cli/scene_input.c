@@ -1,6 +1,7 @@
 #include "cli/scene_input.h"
 
 #include "cli/command.h"
+#include "pipeline/render.h"
 #include "plugin/kind.h"
 #include <stdio.h>
 #include <string.h>
@@ -59,20 +60,41 @@ bool scene_input_resolve(struct scene_input *input, uint32_t threads, size_t bat
 {
     ps_result result = settings_resolve(input->loader, &input->description.render, threads, batch,
                                         report, input->sink, settings);
-    diagnostics_print(input->sink, stderr);
+    if (result != PS_OK)
+        diagnostics_print(input->sink, stderr);
     return result == PS_OK;
+}
+
+static void warn_of_dropped(struct diagnostics *sink, const struct origin *first, size_t count)
+{
+    if (count == 1)
+        diagnostics_report(sink, SEVERITY_WARNING, first, 0, "a triangle without area is left out");
+    else if (count > 1)
+        diagnostics_report(sink, SEVERITY_WARNING, first, 0,
+                           "%zu triangles without area are left out; the first of them are here",
+                           count);
 }
 
 ps_result scene_input_build(struct scene_input *input, struct scene *scene, struct error *error)
 {
     struct origin where = {0};
     ps_result result = scene_create(&input->description, scene, &where, error);
-    if (result == PS_OK || where.line == 0)
-        return result;
-    diagnostics_report(input->sink, SEVERITY_ERROR, &where, 0, "%s", error->text);
+    if (result == PS_OK) {
+        warn_of_dropped(input->sink, &where, scene->dropped_triangles);
+    } else if (where.line > 0) {
+        diagnostics_report(input->sink, SEVERITY_ERROR, &where, 0, "%s", error->text);
+        error->text[0] = '\0';
+    }
     diagnostics_print(input->sink, stderr);
-    error->text[0] = '\0';
     return result;
+}
+
+ps_result scene_input_build_to_render(struct scene_input *input, struct scene *scene,
+                                      struct error *error)
+{
+    const struct image_description *image = &input->description.image;
+    ps_result result = render_check_memory((size_t)image->width, (size_t)image->height, error);
+    return result == PS_OK ? scene_input_build(input, scene, error) : result;
 }
 
 void scene_input_release(struct scene_input *input)

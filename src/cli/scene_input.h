@@ -21,13 +21,17 @@ bool scene_input_read(struct scene_input *input, const char *path,
 /* Lays "KIND=NAME[:KEY=VALUE,...]" over the scene's settings. Prints what is wrong with it. */
 bool scene_input_override(struct scene_input *input, const char *text);
 
-/* Checks and loads the strategies; prints problems with their places in the file, and the scene's
- * warnings. */
+/* Checks and loads the strategies; prints problems with their places in the file. */
 bool scene_input_resolve(struct scene_input *input, uint32_t threads, size_t batch,
                          struct render_settings *settings);
 
-/* Makes the scene. An error that has a place in a file is printed, and its text is empty then. */
+/* Makes the scene, and prints the warnings of all steps. An error that has a place in a file is printed
+ * too, and its text is empty then. */
 ps_result scene_input_build(struct scene_input *input, struct scene *scene, struct error *error);
+
+/* The same for a scene that is to be rendered, whose picture must fit into the machine's memory. */
+ps_result scene_input_build_to_render(struct scene_input *input, struct scene *scene,
+                                      struct error *error);
 
 void scene_input_release(struct scene_input *input);
 

@@ -57,8 +57,7 @@ static void crop_plane(float *plane, size_t width, struct rectangle crop)
 
 ps_result picture_pair_crop(struct picture_pair *pair, struct rectangle crop, struct error *error)
 {
-    if (crop.width == 0 || crop.height == 0 || crop.x >= pair->width || crop.y >= pair->height ||
-        crop.width > pair->width - crop.x || crop.height > pair->height - crop.y)
+    if (!rectangle_fits(crop, pair->width, pair->height))
         return error_set(
             error, PS_ERROR_INVALID,
             "the crop %zu,%zu,%zu,%zu is empty or reaches beyond the pictures' %zux%zu", crop.x,

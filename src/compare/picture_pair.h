@@ -3,10 +3,7 @@
 #define COMPARE_PICTURE_PAIR_H
 
 #include "compare/layer.h"
-
-struct rectangle {
-    size_t x, y, width, height; /* pixels; the corner is the upper left */
-};
+#include "image/rectangle.h"
 
 /* Zero-initialise before reading; release whatever came of it. */
 struct picture_pair {

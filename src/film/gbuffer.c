@@ -7,17 +7,22 @@
 /* Outside of any scene, yet its square is finite. */
 #define NOWHERE 1e18f
 
-ps_result gbuffer_create(size_t width, size_t height, struct gbuffer *gbuffer, struct error *error)
+struct gbuffer gbuffer_layout(size_t width, size_t height)
 {
     uint32_t across = (uint32_t)((width + PS_TILE_SIZE - 1) / PS_TILE_SIZE);
     uint32_t down = (uint32_t)((height + PS_TILE_SIZE - 1) / PS_TILE_SIZE);
-    *gbuffer = (struct gbuffer){
+    return (struct gbuffer){
         .width = width,
         .height = height,
         .tiles_across = across,
         .tiles_down = down,
         .tile_count = across * down,
     };
+}
+
+ps_result gbuffer_create(size_t width, size_t height, struct gbuffer *gbuffer, struct error *error)
+{
+    *gbuffer = gbuffer_layout(width, height);
     gbuffer->tiles = aligned_alloc(64, gbuffer->tile_count * sizeof(ps_tile));
     gbuffer->direct = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(ps_rgb));
     gbuffer->emitted = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(ps_rgb));

@@ -18,6 +18,9 @@ struct gbuffer {
     ps_rgb *emitted; /* radiance collected on the way there, of the same size, owned */
 };
 
+/* Tiles of a picture of that size, and no memory for them. */
+struct gbuffer gbuffer_layout(size_t width, size_t height);
+
 ps_result gbuffer_create(size_t width, size_t height, struct gbuffer *gbuffer, struct error *error);
 void gbuffer_release(struct gbuffer *gbuffer);
 

@@ -65,8 +65,8 @@ static ps_rgb connect(const struct receivers *to, size_t i, size_t light, ps_ray
     return ps_rgb_multiply(sample.weight, response(to, i, sample.direction, sample.pdf));
 }
 
-static void add_light(const struct receivers *to, const struct trace *trace, enum ray_kind kind,
-                      size_t light, ps_rgb *sums)
+static void add_light(const struct receivers *to, const struct trace *trace, size_t light,
+                      ps_rgb *sums)
 {
     ps_ray rays[CHUNK];
     ps_rgb unshadowed[CHUNK];
@@ -78,17 +78,18 @@ static void add_light(const struct receivers *to, const struct trace *trace, enu
         targets[count] = i;
         count += ps_rgb_maximum(unshadowed[count]) > 0.0f;
     }
-    trace_occluded(trace, kind, rays, count, blocked);
+    if (count == 0)
+        return;
+    trace_occluded(trace, rays, count, blocked);
     for (size_t i = 0; i < count; i++)
         if (!blocked[i])
             sums[targets[i]] = ps_rgb_add(sums[targets[i]], unshadowed[i]);
 }
 
-static void add_lights(const struct receivers *to, const struct trace *trace, enum ray_kind kind,
-                       ps_rgb *sums)
+static void add_lights(const struct receivers *to, const struct trace *trace, ps_rgb *sums)
 {
     for (size_t light = 0; light < to->scene->light_count; light++)
-        add_light(to, trace, kind, light, sums);
+        add_light(to, trace, light, sums);
 }
 
 /* Draws `n` points' numbers, where some light needs them; else NULL. */
@@ -125,7 +126,7 @@ void direct_radiance(const struct scene *scene, const struct trace *trace, const
             .hits = hits + first,
             .numbers = draw(scene, numbers, first, count, room),
         };
-        add_lights(&to, trace, RAYS_INCOHERENT, radiance + first);
+        add_lights(&to, trace, radiance + first);
     }
 }
 
@@ -201,7 +202,7 @@ void direct_light_tile(const struct scene *scene, const struct trace *trace,
             indices[i] =
                 ps_sample_block(index, points.lanes[i]) + (uint64_t)pass * samples + sample;
         to.numbers = draw(scene, &numbers, 0, points.count, room);
-        add_lights(&to, trace, RAYS_COHERENT, irradiance);
+        add_lights(&to, trace, irradiance);
     }
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         direct[lane] = (ps_rgb){0, 0, 0};

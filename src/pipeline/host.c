@@ -193,9 +193,14 @@ static ps_result tabulate_filter(struct render *render, struct kernel_profile *p
 static ps_result create_splatter(struct render *render)
 {
     const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
-    struct splatter_visibility chosen = {visibility->descriptor->vtable, visibility->state};
+    struct splatter_visibility chosen = {visibility->descriptor->vtable, visibility->state,
+                                         render->scene->surface_offset};
     struct kernel_profile profile;
-    ps_result result = tabulate_filter(render, &profile);
+    ps_result result = PS_OK;
+    if (render->counts_splats)
+        kernel_profile_count(&profile);
+    else
+        result = tabulate_filter(render, &profile);
     if (result == PS_OK)
         result = splatter_create(&render->splatter, &render->gbuffer, &render->host, chosen,
                                  &profile, render->kernel.accumulate, render->settings->threads,
@@ -279,6 +284,7 @@ void host_report_splatter(struct render *render)
     statistics_add_seconds(statistics, "splat", splatter->kernel_seconds);
     statistics_count(statistics, "splats", (double)splatter->splats);
     statistics_count(statistics, "map rays", (double)splatter->map_rays);
+    statistics_count(statistics, "visibility rays", (double)splatter->exact_tests);
     statistics_count(statistics, "pixel-splat tests", (double)splatter->tests);
     statistics_count(statistics, "pixel-splat tests with weight", (double)splatter->useful_tests);
 }

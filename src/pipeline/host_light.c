@@ -15,7 +15,7 @@ static void host_intersect(const ps_host *host, const ps_ray *rays, size_t n, ps
 
 static void host_occluded(const ps_host *host, const ps_ray *rays, size_t n, uint8_t *blocked)
 {
-    trace_occluded(render_of(host)->trace, RAYS_INCOHERENT, rays, n, blocked);
+    trace_occluded(render_of(host)->trace, rays, n, blocked);
 }
 
 static void host_intersect_packets(const ps_host *host, ps_packet *packets, size_t n)

@@ -124,7 +124,7 @@ static void over_tiles(struct tile_work *work, const char *stage, parallel_body 
     statistics_add_seconds(render->statistics, stage, clock_seconds() - start);
 }
 
-static ps_result estimate(struct render *render, struct error *error)
+ps_result render_estimate(struct render *render, struct error *error)
 {
     const struct strategy *estimator = &render->settings->strategies[PS_ESTIMATOR];
     const ps_estimator_vtable *vtable = estimator->descriptor->vtable;
@@ -143,7 +143,8 @@ static ps_result estimate(struct render *render, struct error *error)
                      render->error.text[0] ? ": " : "", render->error.text);
 }
 
-static ps_result run_pass(struct render *render, uint32_t number, struct error *error)
+/* Fills the G-buffer and its direct light. */
+static struct tile_work begin_pass(struct render *render, uint32_t number)
 {
     render->pass = (ps_pass){
         .size = sizeof(ps_pass),
@@ -166,13 +167,24 @@ static ps_result run_pass(struct render *render, uint32_t number, struct error *
     set_jitter(render, &work.view);
     over_tiles(&work, "gbuffer", trace_tile);
     over_tiles(&work, "direct", light_tile);
-    ps_result result = estimate(render, error);
+    return work;
+}
+
+static void end_pass(struct tile_work *work)
+{
+    over_tiles(work, "film", add_tile);
+    film_count_pass(&work->render->film);
+}
+
+static ps_result run_pass(struct render *render, uint32_t number, struct error *error)
+{
+    struct tile_work work = begin_pass(render, number);
+    ps_result result = render_estimate(render, error);
     if (result == PS_CANCELLED && number == 0)
         gbuffer_clear_indirect(&render->gbuffer);
     else if (result != PS_OK)
         return result;
-    over_tiles(&work, "film", add_tile);
-    film_count_pass(&render->film);
+    end_pass(&work);
     return result;
 }
 
@@ -206,6 +218,29 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
         result = resolved == PS_OK ? result : resolved;
     }
     host_report_splatter(&render);
+    destroy(&render);
+    return result;
+}
+
+ps_result render_inspect(const struct scene *scene, struct render_settings *settings,
+                         const struct render_callbacks *callbacks, struct statistics *statistics,
+                         render_inspector inspect, void *user, struct error *error)
+{
+    struct render render = {
+        .scene = scene,
+        .settings = settings,
+        .callbacks = callbacks,
+        .statistics = statistics,
+    };
+    settings->passes = 1;
+    host_create(&render);
+    ps_result result = create(&render, error);
+    if (result == PS_OK) {
+        struct tile_work work = begin_pass(&render, 0);
+        end_pass(&work);
+        film_average(&render.film);
+        result = inspect(user, &render, error);
+    }
     destroy(&render);
     return result;
 }

@@ -24,6 +24,13 @@ struct render_callbacks {
     bool (*cancelled)(void *user); /* any thread */
 };
 
+/* Bytes that grow with the picture: G-buffer, film and the picture, which has all layers. */
+double render_bytes(size_t width, size_t height);
+
+/* PS_ERROR_MEMORY where a picture of that size takes more than this machine's physical memory.
+ * Allocates nothing. */
+ps_result render_check_memory(size_t width, size_t height, struct error *error);
+
 /* Renders into `image` (the layers of psplat(1)); the caller releases it. Starts the strategies of
  * `settings`, which may be used for one render only. When cancelled, the passes that were complete
  * make the picture and the result is PS_CANCELLED; without any, the picture holds the direct light.

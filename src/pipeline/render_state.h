@@ -20,6 +20,8 @@ struct render {
     struct kernel_variant kernel;
     struct splatter splatter; /* made when an estimator first splats */
     bool has_splatter;
+    bool
+        counts_splats; /* in place of the filter: tiles' weights count the splats that light them */
     ps_pass pass;
     ps_host host;
     struct error error; /* why a host function failed in this pass */
@@ -30,6 +32,22 @@ void host_create(struct render *render);
 
 /* Adds the splatter's counters to the statistics. */
 void host_report_splatter(struct render *render);
+
+/* Lets the estimator add the indirect light of the pass under way to the tiles. */
+ps_result render_estimate(struct render *render, struct error *error);
+
+/* Looks at a render whose first pass has all but its indirect light: the G-buffer and direct light,
+ * in the tiles and, averaged, in the film. May use the host's services as an estimator does. */
+typedef ps_result (*render_inspector)(void *user, struct render *render, struct error *error);
+
+/* Starts a render of one pass, lets the inspector look, and ends it; there is no picture. Starts the
+ * strategies of `settings`, which may be used once. */
+ps_result render_inspect(const struct scene *scene, struct render_settings *settings,
+                         const struct render_callbacks *callbacks, struct statistics *statistics,
+                         render_inspector inspect, void *user, struct error *error);
+
+/* Of a picture with all layers. */
+size_t picture_bytes(size_t width, size_t height);
 
 /* Film to image: normalization, ambient fallback, denoiser, combination. Uses up the film. */
 ps_result resolve_image(struct render *render, struct image *image, struct error *error);

@@ -19,6 +19,12 @@ struct rgb_planes {
     float *r, *g, *b;
 };
 
+size_t picture_bytes(size_t width, size_t height)
+{
+    size_t rgb_layers = 2; /* the picture and its indirect light */
+    return (3 * rgb_layers + sizeof layers / sizeof layers[0]) * width * height * sizeof(float);
+}
+
 static ps_result add_rgb(struct image *image, const char *const names[3], struct rgb_planes *planes,
                          struct error *error)
 {

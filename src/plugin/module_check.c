@@ -40,7 +40,8 @@ static size_t member_size(uint32_t type)
 }
 
 /* Every table of functions is two 32-bit numbers and then pointers, all of which must be there but
- * a visibility's depth maps, as a visibility of resolution 0 has none, and an injection's prepare. */
+ * a visibility's depth maps and its test of points (it may have either, or neither), and an
+ * injection's prepare. */
 static bool check_functions(const ps_descriptor *descriptor, struct error *error)
 {
     static const size_t first = 2 * sizeof(uint32_t);

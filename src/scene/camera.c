@@ -66,3 +66,17 @@ ps_ray camera_ray(const struct camera *camera, float x, float y, const float len
     }
     return camera->aperture > 0.0f ? bend(camera, ray, lens) : ray;
 }
+
+bool camera_project(const struct camera *camera, ps_vec3 point, float *x, float *y)
+{
+    ps_vec3 away = ps_subtract(point, camera->location);
+    float depth = ps_dot(away, camera->forward);
+    if (!(depth > 0.0f))
+        return false;
+    if (!camera->orthographic)
+        away = ps_scale(away, 1.0f / depth);
+    ps_vec3 inside = ps_subtract(away, camera->corner);
+    *x = ps_dot(inside, camera->across) / ps_dot(camera->across, camera->across);
+    *y = ps_dot(inside, camera->down) / ps_dot(camera->down, camera->down);
+    return true;
+}

@@ -119,6 +119,13 @@ struct material_description {
     struct origin origin;
 };
 
+/* Whether only the name is known of a material: a mix of nothing, which stands for what a mesh file
+ * names and does not define. No scene holds one. */
+static inline bool material_is_absent(const struct material_description *material)
+{
+    return material->kind == MATERIAL_MIX && material->component_count == 0;
+}
+
 /* --- lights ----------------------------------------------------------------------------------- */
 
 enum light_kind {
@@ -186,7 +193,7 @@ enum object_kind {
 
 struct object_description {
     enum object_kind kind;
-    size_t material; /* an instance's: instead of those of its objects, or NO_INDEX */
+    size_t material;         /* an instance's: instead of those of its objects, or NO_INDEX */
     struct affine placement; /* from the object's space to that of the file, or group */
     ps_vec3 *vertices;       /* quad: 4 in order around; box: 2 opposite corners; triangles: any */
     size_t vertex_count;

@@ -6,7 +6,7 @@
 /* Grazing directions, where cosines divide. */
 #define SMALLEST_COSINE 1e-4f
 
-#define MOST_LOBES (2 * MATERIAL_MOST_COMPONENTS)
+#define MOST_LOBES (1 + MATERIAL_MOST_COMPONENTS)
 
 /* --- construction ------------------------------------------------------------------------------ */
 
@@ -103,6 +103,11 @@ void material_create_lamp(ps_rgb radiance, bool both_sides, struct material *mat
     };
 }
 
+bool material_is_opaque(const struct material *material, ps_vec3 texture_point, const float uv[2])
+{
+    return !material->has_opacity || pigment_number(&material->opacity, texture_point, uv) >= 0.5f;
+}
+
 /* --- lobes --------------------------------------------------------------------------------------- */
 
 /* A surface point seen from a direction: what is needed of it more than once. */
@@ -167,14 +172,21 @@ static ps_rgb diffuse_albedo(const struct component *component, const struct vie
     return ps_rgb_multiply(albedo, complement(reflector_albedo(component, view, cosine)));
 }
 
+/* The diffuse albedo of all components towards `cosine`. */
+static ps_rgb all_diffuse_albedo(const struct view *view, float cosine)
+{
+    const struct material *material = view->material;
+    ps_rgb sum = {0, 0, 0};
+    for (uint32_t i = 0; i < material->component_count; i++)
+        sum = ps_rgb_add(sum, diffuse_albedo(&material->components[i], view, cosine));
+    return sum;
+}
+
 ps_rgb material_albedo(const struct material *material, const struct microfacet_table *table,
                        const ps_hit *hit, ps_vec3 ray_direction)
 {
     struct view view = view_of(material, table, hit, ray_direction);
-    ps_rgb sum = {0, 0, 0};
-    for (uint32_t i = 0; i < material->component_count; i++)
-        sum = ps_rgb_add(sum, diffuse_albedo(&material->components[i], &view, view.cosine));
-    return sum;
+    return all_diffuse_albedo(&view, view.cosine);
 }
 
 ps_rgb material_emission(const struct material *material, const ps_hit *hit)
@@ -184,38 +196,36 @@ ps_rgb material_emission(const struct material *material, const ps_hit *hit)
     return color_at(&material->emission, hit);
 }
 
-/* A way in which light may go on: the diffuse or the other lobe of a component. */
+/* A way in which light may go on: the other lobe of a component, or the diffuse one of all, which is
+ * a single one so that what ends there may count the whole albedo. */
 struct lobe {
-    const struct component *component;
-    bool diffuse;
+    const struct component *component; /* NULL: diffuse */
     float probability;
 };
 
 static size_t add_lobe(struct lobe *lobes, size_t count, const struct component *component,
-                       bool diffuse, float albedo)
+                       float albedo)
 {
     if (!(albedo > 0.0f))
         return count;
-    lobes[count] = (struct lobe){component, diffuse, albedo};
+    lobes[count] = (struct lobe){component, albedo};
     return count + 1;
 }
 
 /* The surface's lobes with their probabilities, by albedo. */
 static size_t list_lobes(const struct view *view, struct lobe lobes[MOST_LOBES])
 {
-    size_t count = 0;
     float sum = 0.0f;
+    size_t count = add_lobe(lobes, 0, NULL, ps_rgb_maximum(all_diffuse_albedo(view, view->cosine)));
     for (uint32_t i = 0; i < view->material->component_count; i++) {
         const struct component *component = &view->material->components[i];
-        float diffuse = ps_rgb_maximum(diffuse_albedo(component, view, view->cosine));
         float other = 0.0f;
         if (component->kind == COMPONENT_DIELECTRIC)
             other = component->share;
         else if (component->kind != COMPONENT_DIFFUSE)
             other =
                 component->share * ps_rgb_maximum(reflector_albedo(component, view, view->cosine));
-        count = add_lobe(lobes, count, component, true, diffuse);
-        count = add_lobe(lobes, count, component, false, other);
+        count = add_lobe(lobes, count, component, other);
     }
     for (size_t i = 0; i < count; i++)
         sum += lobes[i].probability;
@@ -288,16 +298,15 @@ static ps_scatter reflect_roughly(const struct lobe *lobe, const struct view *vi
     };
 }
 
-static ps_scatter scatter_diffusely(const struct lobe *lobe, const struct view *view,
-                                    ps_direction direction, const float sample[4])
+static ps_scatter scatter_diffusely(const struct view *view, ps_direction direction,
+                                    const float sample[4])
 {
     ps_vec3 n = view->hit->normal;
     ps_vec3 w = ps_cosine_direction(n, sample[0], sample[1]);
     float cosine = ps_dot(w, n);
     return (ps_scatter){
         .direction = w,
-        .weight = diffuse_albedo(lobe->component, view,
-                                 direction == PS_FROM_CAMERA ? view->cosine : cosine),
+        .weight = all_diffuse_albedo(view, direction == PS_FROM_CAMERA ? view->cosine : cosine),
         .pdf = cosine / PS_PI,
         .lobe = PS_DIFFUSE,
     };
@@ -341,8 +350,8 @@ static ps_scatter follow_lobe(const struct lobe *lobe, const struct view *view,
                               ps_direction direction, const float sample[4], float number)
 {
     const struct component *component = lobe->component;
-    if (lobe->diffuse)
-        return scatter_diffusely(lobe, view, direction, sample);
+    if (!component)
+        return scatter_diffusely(view, direction, sample);
     if (component->kind == COMPONENT_DIELECTRIC)
         return pass_surface(lobe, view, direction, number);
     if (component->constant || is_smooth(roughness_at(component, view->hit)))
@@ -411,9 +420,10 @@ ps_rgb material_gloss(const struct material *material, const struct microfacet_t
         return sum;
     for (size_t i = 0; i < count; i++) {
         const struct component *component = lobes[i].component;
+        if (!component || component->kind == COMPONENT_DIELECTRIC || component->constant)
+            continue;
         float roughness = roughness_at(component, hit);
-        if (lobes[i].diffuse || component->kind == COMPONENT_DIELECTRIC || component->constant ||
-            is_smooth(roughness))
+        if (is_smooth(roughness))
             continue;
         ps_rgb f0 = color_at(&component->specular, hit);
         ps_rgb reflected = ps_rgb_multiply(microfacet_reflect(roughness, f0, to_eye, to_light),

@@ -66,6 +66,9 @@ ps_result material_create(const struct scene_description *description, size_t in
 /* The black surface of a lamp. */
 void material_create_lamp(ps_rgb radiance, bool both_sides, struct material *material);
 
+/* Whether there is a surface where textures are looked up by this point and these u and v. */
+bool material_is_opaque(const struct material *material, ps_vec3 texture_point, const float uv[2]);
+
 /* Diffuse reflectance of the surface towards the ray's origin. */
 ps_rgb material_albedo(const struct material *material, const struct microfacet_table *table,
                        const ps_hit *hit, ps_vec3 ray_direction);

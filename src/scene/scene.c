@@ -35,9 +35,10 @@ static ps_result assemble(struct assembly *assembly)
     ps_result result = assembly_add_materials(assembly);
     if (result == PS_OK)
         result = assembly_add_geometry(assembly);
-    assembly->where = (struct origin){0};
-    if (result == PS_OK)
+    if (result == PS_OK) {
+        assembly->where = (struct origin){0};
         result = check_size(scene, assembly->error);
+    }
     float largest = scene->radius + ps_length(scene->center);
     scene->surface_offset = OFFSET_ULPS * 0x1p-23f * largest;
     if (result == PS_OK)
@@ -58,7 +59,7 @@ ps_result scene_create(const struct scene_description *description, struct scene
     struct assembly assembly = {.description = description, .scene = scene, .error = error};
     ps_result result = assemble(&assembly);
     if (where)
-        *where = assembly.where;
+        *where = result == PS_OK ? assembly.dropped_at : assembly.where;
     if (result != PS_OK)
         scene_release(scene);
     return result;

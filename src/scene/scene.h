@@ -65,6 +65,7 @@ struct scene {
 };
 
 /* PS_OK, or a message, and in `where` (may be NULL) what it is about; release it with scene_release.
+ * Where triangles were dropped, `where` is the first object that lost some. A line of 0 is no place.
  * Reads texture files. */
 ps_result scene_create(const struct scene_description *description, struct scene *scene,
                        struct origin *where, struct error *error);

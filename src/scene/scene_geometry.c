@@ -103,9 +103,12 @@ static ps_result add_shape(struct assembly *assembly, const struct object_descri
     }
     ps_result result = shape_create(object, surroundings, &scene->shapes[slot], assembly->error);
     free(samples);
-    if (result == PS_OK)
-        scene->dropped_triangles += scene->shapes[slot].dropped;
-    return result;
+    if (result != PS_OK)
+        return result;
+    if (scene->dropped_triangles == 0 && scene->shapes[slot].dropped > 0)
+        assembly->dropped_at = object->origin;
+    scene->dropped_triangles += scene->shapes[slot].dropped;
+    return PS_OK;
 }
 
 /* A plane that takes its size from the rest of the scene. */

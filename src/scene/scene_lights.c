@@ -98,9 +98,34 @@ static ps_result add_described(struct assembly *assembly, const struct light_des
 
 /* --- what shines by its material ---------------------------------------------------------------- */
 
-static ps_rgb emission_at(const void *material, ps_vec3 position, const float uv[2])
+/* Emission that varies over a mesh, looked up where its surface is. */
+struct emission_pattern {
+    const struct material *material;
+    struct affine to_shape; /* from world space */
+};
+
+static ps_rgb emission_at(const void *user, ps_vec3 position, const float uv[2])
 {
-    return pigment_color(&((const struct material *)material)->emission, position, uv);
+    const struct emission_pattern *pattern = user;
+    ps_vec3 point = affine_point(&pattern->to_shape, position);
+    return material_is_opaque(pattern->material, point, uv)
+               ? pigment_color(&pattern->material->emission, point, uv)
+               : (ps_rgb){0, 0, 0};
+}
+
+static bool make_pattern(struct assembly *assembly, const struct material *material,
+                         const struct instance *instance, struct light_mesh *mesh)
+{
+    struct emission_pattern *pattern =
+        keep(assembly, assembly_allocate(assembly, 1, sizeof *pattern));
+    if (!pattern)
+        return false;
+    *pattern = (struct emission_pattern){material, AFFINE_IDENTITY};
+    if (instance)
+        affine_invert(&instance->placement, &pattern->to_shape);
+    mesh->pattern = emission_at;
+    mesh->pattern_user = pattern;
+    return true;
 }
 
 /* Puts a placed copy of the shape's mesh in the light's; a mirrored one is wound the other way. */
@@ -137,11 +162,9 @@ static ps_result add_mesh(struct assembly *assembly, const struct shape *shape,
         .uv = (const float(*)[2])shape->uv,
         .triangle_count = shape->triangle_count,
     };
-    bool patterned = !pigment_is_constant(&material->emission);
-    if (patterned) {
-        mesh.pattern = emission_at;
-        mesh.pattern_user = material;
-    }
+    bool patterned = !pigment_is_constant(&material->emission) || material->has_opacity;
+    if (patterned && !make_pattern(assembly, material, instance, &mesh))
+        return PS_ERROR_MEMORY;
     if (instance && !place_mesh(assembly, shape, instance, &mesh))
         return PS_ERROR_MEMORY;
     static const float corner[2] = {0, 0};
@@ -168,6 +191,9 @@ static ps_result add_sphere(struct assembly *assembly, const struct shape *shape
     if (!pigment_is_constant(&material->emission))
         return error_set(assembly->error, PS_ERROR_INVALID,
                          "a sphere can only shine in one colour; use another shape");
+    if (material->has_opacity)
+        return error_set(assembly->error, PS_ERROR_INVALID,
+                         "a sphere that shines can't have holes; use another shape");
     if (instance && !is_even(&instance->placement))
         return error_set(assembly->error, PS_ERROR_INVALID,
                          "a sphere that shines is scaled unevenly by the instance it stands in");

@@ -8,7 +8,8 @@
 struct assembly {
     const struct scene_description *description;
     struct scene *scene;
-    struct origin where; /* what the step is at, for errors */
+    struct origin where;      /* what the step is at, for errors */
+    struct origin dropped_at; /* the first object that lost triangles */
     struct error *error;
 };
 

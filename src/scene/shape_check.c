@@ -18,12 +18,7 @@ static const char *kind_name(enum object_kind kind)
 ps_result shape_invalid(const struct object_description *object, struct error *error,
                         const char *message)
 {
-    const struct origin *origin = &object->origin;
-    const char *name = kind_name(object->kind);
-    if (origin->line <= 0 || !origin->file)
-        return error_set(error, PS_ERROR_INVALID, "%s: %s", name, message);
-    return error_set(error, PS_ERROR_INVALID, "%s:%d:%d: %s: %s", origin->file, origin->line,
-                     origin->column, name, message);
+    return error_set(error, PS_ERROR_INVALID, "%s: %s", kind_name(object->kind), message);
 }
 
 /* A length above 0 that single precision can hold. */

@@ -49,6 +49,7 @@ int kernel_profile_normalize(struct kernel_profile *profile)
 {
     /* The integral over the unit disc is pi times the mean over r^2 in [0, 1). */
     double sum = 0;
+    profile->counting = false;
     for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++) {
         if (!(profile->weights[i] >= 0.0f && profile->weights[i] < INFINITY))
             return 0;
@@ -56,6 +57,14 @@ int kernel_profile_normalize(struct kernel_profile *profile)
     }
     profile->scale = sum > 0 ? (float)(KERNEL_PROFILE_SIZE / (3.14159265358979323846 * sum)) : 0;
     return sum > 0;
+}
+
+void kernel_profile_count(struct kernel_profile *profile)
+{
+    for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++)
+        profile->weights[i] = 1.0f;
+    profile->scale = 1.0f;
+    profile->counting = true;
 }
 
 struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_profile *profile,
@@ -69,10 +78,13 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
         .w = splat->axis_w,
         .near_depth = splat->near_depth,
         .far_depth = splat->far_depth,
+        .start_depth = splat->start_depth,
+        .start_u = splat->start_slope_u * splat->half_width,
+        .start_v = splat->start_slope_v * splat->half_width,
         .bias_constant = splat->bias_constant,
         .bias_slope = splat->bias_slope,
         .front = splat->two_sided ? 0.0f : INFINITY,
-        .kernel_scale = profile->scale * inverse * inverse,
+        .kernel_scale = profile->counting ? 1.0f : profile->scale * inverse * inverse,
         .power = splat->power,
         .depths = depths,
     };

@@ -4,7 +4,8 @@
  *
  *     u = d.U / R, v = d.V / R, t = d.W         position in the box
  *     k = profile(u^2 + v^2) * scale / R^2      the kernel K, 1/m^2, integrates to 1 over its disc
- *     lit where u^2 + v^2 < 1, near <= t <= far, n.W < 0, and t is within the bias of the map
+ *     lit where u^2 + v^2 < 1, near <= t <= far, n.W < 0, t lies past the plane that the bundle
+ *     starts on, and not past the map by more than the bias
  *     irradiance += power * k * max(0, -n.W), weight += k
  *
  * The cosine is there because K lies in the plane across the beam. No branches: masks, one gather
@@ -24,6 +25,7 @@
 struct kernel_profile {
     float weights[KERNEL_PROFILE_SIZE]; /* entry i stands for [i, i + 1) / KERNEL_PROFILE_SIZE */
     float scale;                        /* 1 / integral of the weights over the unit disc */
+    bool counting;                      /* K is 1 all over the disc, whatever its size */
 };
 
 /* A splat with all that can be worked out once for all pixels. */
@@ -32,8 +34,10 @@ struct kernel_splat {
     ps_vec3 u, v; /* axes divided by the half-width */
     ps_vec3 w;
     float near_depth, far_depth;
+    float start_depth, start_u,
+        start_v; /* depth of the start plane: start_depth + start_u * u + start_v * v */
     float bias_constant, bias_slope;
-    float front; /* added to the bias in front of the map: 0, or infinite for one-sided maps */
+    float front; /* added to the bias in front of the map: 0 for two-sided maps, or infinite */
     float kernel_scale;
     ps_rgb power;
     const float *depths; /* resolution^2 */
@@ -59,6 +63,10 @@ bool kernel_choose(const char *name, struct kernel_variant *variant);
 /* Tabulates a radial weight given at the KERNEL_PROFILE_SIZE midpoints and normalizes it. False
  * when it is negative or NaN somewhere or zero all over. */
 int kernel_profile_normalize(struct kernel_profile *profile);
+
+/* For diagnostics: every splat adds 1 to the weight of each pixel that it lights, so weights are
+ * counts, exact up to 2^24. */
+void kernel_profile_count(struct kernel_profile *profile);
 
 /* Squared radius of entry i. */
 float kernel_profile_radius2(size_t i);

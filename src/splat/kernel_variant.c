@@ -48,8 +48,9 @@ static inline int locate(const ps_tile *tile, int first, const struct kernel_spl
         float cosine =
             -(tile->normal_x[first + i] * splat->w.x + tile->normal_y[first + i] * splat->w.y +
               tile->normal_z[first + i] * splat->w.z);
-        int inside =
-            (r2 < 1.0f) & (cosine > 0.0f) & (t >= splat->near_depth) & (t <= splat->far_depth);
+        float start = splat->start_depth + u * splat->start_u + v * splat->start_v;
+        int inside = (r2 < 1.0f) & (cosine > 0.0f) & (t >= splat->near_depth) &
+                     (t <= splat->far_depth) & (t >= start);
         row->u[i] = u;
         row->v[i] = v;
         row->t[i] = t;

@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "splat/box.h"
+#include "splat/exact.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -80,8 +81,13 @@ struct batch {
     struct splatter *splatter;
     ps_splat *splats;
     size_t n;
-    uint64_t *useful; /* per tile */
+    struct exact_count *counts; /* per tile; `asked` only where the visibility judges points */
 };
+
+static bool judges_points(const struct splatter *splatter)
+{
+    return splatter->visibility.vtable->visible && splatter->resolution == 0;
+}
 
 /* Fills the maps of up to MAP_CHUNK splats, cuts the splats to them, and prepares the kernel's
  * input. */
@@ -110,16 +116,34 @@ static void map_chunk(void *user, uint64_t index, uint32_t worker)
     }
 }
 
+static struct exact_count splat_exactly(const struct batch *batch, ps_tile *tile,
+                                        const uint32_t *indices, size_t n)
+{
+    const struct splatter *splatter = batch->splatter;
+    struct exact_test test = {splatter->visibility.vtable, splatter->visibility.state,
+                              splatter->host, splatter->visibility.surface_offset};
+    return exact_accumulate(tile, &test, batch->splats, splatter->prepared, indices, n,
+                            &splatter->profile);
+}
+
 static void splat_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct batch *batch = user;
-    struct splatter *splatter = batch->splatter;
+    const struct splatter *splatter = batch->splatter;
     const struct bins *bins = &splatter->bins;
-    size_t first = bins->offsets[index], n = bins->offsets[index + 1] - first;
-    batch->useful[index] += splatter->accumulate(
-        &splatter->gbuffer->tiles[index], splatter->prepared, bins->indices + first, n,
-        splatter->resolution ? splatter->resolution : 1, &splatter->profile);
+    const uint32_t *indices = bins->indices + bins->offsets[index];
+    size_t n = bins->offsets[index + 1] - bins->offsets[index];
+    ps_tile *tile = &splatter->gbuffer->tiles[index];
+    struct exact_count count = {0, 0};
+    if (judges_points(splatter))
+        count = splat_exactly(batch, tile, indices, n);
+    else
+        count.lit = splatter->accumulate(tile, splatter->prepared, indices, n,
+                                         splatter->resolution ? splatter->resolution : 1,
+                                         &splatter->profile);
+    batch->counts[index].asked += count.asked;
+    batch->counts[index].lit += count.lit;
 }
 
 static ps_result add_batch(const struct batch *batch, struct error *error)
@@ -148,17 +172,19 @@ static ps_result add_batch(const struct batch *batch, struct error *error)
 ps_result splatter_add(struct splatter *splatter, ps_splat *splats, size_t n, struct error *error)
 {
     size_t tiles = splatter->gbuffer->tile_count;
-    uint64_t *useful = calloc(tiles, sizeof *useful);
-    if (!useful)
-        return error_memory(error, tiles * sizeof *useful, "statistics");
+    struct exact_count *counts = calloc(tiles, sizeof *counts);
+    if (!counts)
+        return error_memory(error, tiles * sizeof *counts, "statistics");
     ps_result result = PS_OK;
     for (size_t first = 0; first < n && result == PS_OK; first += splatter->batch) {
         size_t count = n - first < splatter->batch ? n - first : splatter->batch;
-        struct batch batch = {splatter, splats + first, count, useful};
+        struct batch batch = {splatter, splats + first, count, counts};
         result = add_batch(&batch, error);
     }
-    for (size_t i = 0; i < tiles; i++)
-        splatter->useful_tests += useful[i];
-    free(useful);
+    for (size_t i = 0; i < tiles; i++) {
+        splatter->useful_tests += counts[i].lit;
+        splatter->exact_tests += counts[i].asked;
+    }
+    free(counts);
     return result;
 }

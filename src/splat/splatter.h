@@ -1,4 +1,5 @@
-/* splatter.h: adds the light of a batch of splats to the tiles: maps, bins, kernel.
+/* splatter.h: adds the light of a batch of splats to the tiles: maps, bins, kernel; or, where the
+ * visibility judges points by themselves, bins and the loop of exact.h.
  *
  * Memory is bounded: splats go through in batches whose depth maps fit a fixed budget. The result
  * does not depend on the batches nor on the threads: every pixel adds its splats in their order.
@@ -14,6 +15,7 @@
 struct splatter_visibility {
     const ps_visibility_vtable *vtable;
     const void *state;
+    float surface_offset; /* see ps_pass */
 };
 
 struct splatter {
@@ -22,7 +24,7 @@ struct splatter {
     struct splatter_visibility visibility;
     struct kernel_profile profile;
     kernel_function accumulate;
-    uint32_t resolution; /* of depth maps; 0: everything inside a box is lit */
+    uint32_t resolution; /* of depth maps; 0: none */
     uint32_t threads;
     size_t batch; /* splats at a time */
     struct pyramid pyramid;
@@ -31,7 +33,7 @@ struct splatter {
     struct kernel_splat *prepared; /* batch */
     /* Statistics, summed over all calls. */
     double map_seconds, bin_seconds, kernel_seconds;
-    uint64_t tests, useful_tests, map_rays, splats;
+    uint64_t tests, useful_tests, map_rays, exact_tests, splats;
 };
 
 /* `batch`: at most so many splats at a time; the budget for depth maps may ask for fewer. */

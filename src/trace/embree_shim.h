@@ -53,9 +53,26 @@ static inline void shim_occluded16(const int *valid, RTCScene scene, struct RTCR
 
 /* Members of lane `lane` of a filter's N hits, for which Embree has accessors in C++ alone: arrays of N
  * in the order of struct RTCHit16. */
+static inline float shim_hit_normal(const struct RTCHitN *hits, unsigned n, unsigned lane,
+                                    unsigned axis)
+{
+    return ((const float *)(const void *)hits)[axis * n + lane];
+}
+
+/* RTC_INVALID_GEOMETRY_ID outside of instances. */
+static inline unsigned shim_hit_instance(const struct RTCHitN *hits, unsigned n, unsigned lane)
+{
+    return ((const unsigned *)(const void *)hits)[7 * n + lane];
+}
+
 static inline unsigned shim_hit_triangle(const struct RTCHitN *hits, unsigned n, unsigned lane)
 {
     return ((const unsigned *)(const void *)hits)[5 * n + lane];
+}
+
+static inline unsigned shim_hit_geometry(const struct RTCHitN *hits, unsigned n, unsigned lane)
+{
+    return ((const unsigned *)(const void *)hits)[6 * n + lane];
 }
 
 static inline float shim_hit_u(const struct RTCHitN *hits, unsigned n, unsigned lane)

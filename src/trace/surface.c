@@ -41,11 +41,10 @@ static ps_vec3 interpolate(const ps_vec3 *values, const uint32_t corner[3], floa
     return ps_add_scaled(p, v, values[corner[2]]);
 }
 
-/* Texture coordinates; the barycentric ones where the mesh has none. */
+/* Texture coordinates; 0 where the mesh has none. */
 static void mesh_uv(const struct shape *shape, uint32_t triangle, float u, float v, float uv[2])
 {
-    uv[0] = u;
-    uv[1] = v;
+    uv[0] = uv[1] = 0.0f;
     const uint32_t *corner = shape->triangles[triangle];
     for (int k = 0; k < 2 && shape->uv; k++)
         uv[k] = (1.0f - u - v) * shape->uv[corner[0]][k] + u * shape->uv[corner[1]][k] +
@@ -82,28 +81,33 @@ static ps_vec3 sphere_outward(const struct placed *placed, const ps_ray *ray,
     return ps_normalize(ps_subtract(p, placed->shape->center));
 }
 
+/* Fills in where textures are looked up; `outward` is the normal of a sphere. */
+static void locate_texture(const struct shape *shape, ps_vec3 outward,
+                           const struct intersection *at, ps_hit *hit)
+{
+    if (shape->kind == SHAPE_SPHERE) {
+        hit->texture_point = ps_add_scaled(shape->center, shape->radius, outward);
+        shape_sphere_uv(shape, outward, hit->uv);
+        return;
+    }
+    hit->texture_point = interpolate(shape->vertices, shape->triangles[at->triangle], at->u, at->v);
+    mesh_uv(shape, at->triangle, at->u, at->v, hit->uv);
+}
+
 /* Fills in position and texture coordinates, and gives the front's smoothed normal in the shape's
  * space. */
 static ps_vec3 locate(const struct placed *placed, const ps_ray *ray, const struct intersection *at,
                       ps_hit *hit)
 {
     const struct shape *shape = placed->shape;
-    ps_vec3 normal = unit(at->normal);
-    if (shape->kind == SHAPE_SPHERE) {
-        ps_vec3 outward = sphere_outward(placed, ray, at);
-        hit->texture_point = ps_add_scaled(shape->center, shape->radius, outward);
-        shape_sphere_uv(shape, outward, hit->uv);
-    } else {
-        const uint32_t *corner = shape->triangles[at->triangle];
-        hit->texture_point = interpolate(shape->vertices, corner, at->u, at->v);
-        mesh_uv(shape, at->triangle, at->u, at->v, hit->uv);
-        if (shape->normals)
-            normal = unit(interpolate(shape->normals, corner, at->u, at->v));
-    }
+    bool sphere = shape->kind == SHAPE_SPHERE;
+    locate_texture(shape, sphere ? sphere_outward(placed, ray, at) : at->normal, at, hit);
     hit->position = placed->instance
                         ? affine_point(&placed->instance->placement, hit->texture_point)
                         : hit->texture_point;
-    return normal;
+    if (shape->normals)
+        return unit(interpolate(shape->normals, shape->triangles[at->triangle], at->u, at->v));
+    return unit(at->normal);
 }
 
 /* By the material's normal map and bumps, in the shape's space. */
@@ -159,11 +163,14 @@ ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray, const struc
     return hit;
 }
 
-bool surface_is_opaque(const struct shape *shape, const struct material *material,
-                       uint32_t triangle, float u, float v)
+bool surface_is_opaque(const struct scene *scene, const struct intersection *at)
 {
-    float uv[2];
-    mesh_uv(shape, triangle, u, v, uv);
-    ps_vec3 point = interpolate(shape->vertices, shape->triangles[triangle], u, v);
-    return pigment_number(&material->opacity, point, uv) >= 0.5f;
+    struct placed placed = find(scene, at);
+    const struct shape *shape = placed.shape;
+    const struct material *material = &scene->materials[placed.material];
+    if (!material->has_opacity)
+        return true;
+    ps_hit hit;
+    locate_texture(shape, shape->kind == SHAPE_SPHERE ? unit(at->normal) : at->normal, at, &hit);
+    return material_is_opaque(material, hit.texture_point, hit.uv);
 }

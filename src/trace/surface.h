@@ -20,8 +20,7 @@ struct intersection {
 ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray,
                        const struct intersection *intersection);
 
-/* Whether the surface is there at all, for materials with cut-outs. */
-bool surface_is_opaque(const struct shape *shape, const struct material *material,
-                       uint32_t triangle, float u, float v);
+/* Whether the surface is there at all, for materials with cut-outs; the distance does not matter. */
+bool surface_is_opaque(const struct scene *scene, const struct intersection *intersection);
 
 #endif

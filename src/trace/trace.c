@@ -5,6 +5,9 @@
  * edges, which the fast mode lets slip through. The structure is built by one thread: a parallel
  * build may order leaves differently for another number of threads, and then rays that tie choose
  * other triangles.
+ *
+ * Shadow rays are never announced as coherent: Embree 3.13's frustum traversal of occlusion queries
+ * runs for ever in scenes with instances.
  */
 #include "trace/trace.h"
 
@@ -25,18 +28,11 @@ _Static_assert(offsetof(struct RTCRayHit16, hit) == offsetof(ps_packet, tail), "
 #define MASK_CAMERA 1u
 #define MASK_LIGHT 2u
 
-/* What a filter for cut-outs needs to know of its geometry. */
-struct cutout {
-    const struct shape *shape;
-    const struct material *material;
-};
-
 struct trace {
     const struct scene *scene;
     RTCDevice device;
     RTCScene embree;
-    RTCScene *groups;       /* group_count entries */
-    struct cutout *cutouts; /* shape_count entries */
+    RTCScene *groups; /* group_count entries */
     atomic_llong bytes;
 };
 
@@ -80,28 +76,54 @@ static RTCGeometry create_geometry(struct trace *trace, const struct shape *shap
     return mesh;
 }
 
+/* A hit as Embree tells it: instances are numbered after the world's shapes. */
+static struct intersection intersection_of(const struct scene *scene, uint32_t instance,
+                                           uint32_t geometry, uint32_t triangle)
+{
+    bool in_world = instance == RTC_INVALID_GEOMETRY_ID;
+    return (struct intersection){
+        .instance = in_world ? NO_INSTANCE : instance - (uint32_t)scene->world_shape_count,
+        .shape = geometry,
+        .triangle = triangle,
+    };
+}
+
 /* Lets rays through where there is no surface. */
 static void filter_cutouts(const struct RTCFilterFunctionNArguments *arguments)
 {
-    const struct cutout *cutout = arguments->geometryUserPtr;
-    for (unsigned i = 0; i < arguments->N; i++)
-        if (arguments->valid[i] == -1 &&
-            !surface_is_opaque(cutout->shape, cutout->material,
-                               shim_hit_triangle(arguments->hit, arguments->N, i),
-                               shim_hit_u(arguments->hit, arguments->N, i),
-                               shim_hit_v(arguments->hit, arguments->N, i)))
+    const struct scene *scene = ((const struct trace *)arguments->geometryUserPtr)->scene;
+    const struct RTCHitN *hits = arguments->hit;
+    unsigned n = arguments->N;
+    for (unsigned i = 0; i < n; i++) {
+        if (arguments->valid[i] != -1)
+            continue;
+        struct intersection at =
+            intersection_of(scene, shim_hit_instance(hits, n, i), shim_hit_geometry(hits, n, i),
+                            shim_hit_triangle(hits, n, i));
+        at.u = shim_hit_u(hits, n, i);
+        at.v = shim_hit_v(hits, n, i);
+        at.normal = (ps_vec3){shim_hit_normal(hits, n, i, 0), shim_hit_normal(hits, n, i, 1),
+                              shim_hit_normal(hits, n, i, 2)};
+        if (!surface_is_opaque(scene, &at))
             arguments->valid[i] = 0;
+    }
 }
 
-/* An instance's material may have cut-outs where its group's has none: they are the group's. */
-static void set_cutouts(struct trace *trace, size_t index, RTCGeometry geometry)
+/* Whether instances give their groups materials with cut-outs, for each group; freed by the caller. */
+static bool *find_cutouts(const struct scene *scene)
 {
-    const struct shape *shape = &trace->scene->shapes[index];
-    const struct material *material = &trace->scene->materials[shape->material];
-    if (!material->has_opacity || shape->kind != SHAPE_MESH)
-        return;
-    trace->cutouts[index] = (struct cutout){shape, material};
-    rtcSetGeometryUserData(geometry, &trace->cutouts[index]);
+    bool *cutouts = calloc(scene->group_count + 1, sizeof *cutouts);
+    for (size_t i = 0; cutouts && i < scene->instance_count; i++) {
+        const struct instance *instance = &scene->instances[i];
+        if (instance->material != NO_MATERIAL && scene->materials[instance->material].has_opacity)
+            cutouts[instance->group - scene->groups] = true;
+    }
+    return cutouts;
+}
+
+static void set_cutouts(struct trace *trace, RTCGeometry geometry)
+{
+    rtcSetGeometryUserData(geometry, trace);
     rtcSetGeometryIntersectFilterFunction(geometry, filter_cutouts);
     rtcSetGeometryOccludedFilterFunction(geometry, filter_cutouts);
 }
@@ -111,13 +133,16 @@ static unsigned mask_of(bool hidden)
     return hidden ? MASK_LIGHT : MASK_CAMERA | MASK_LIGHT;
 }
 
-/* Attaches a run of shapes to a scene, numbered from 0. */
-static void attach_shapes(struct trace *trace, RTCScene embree, size_t first, size_t count)
+/* Attaches a run of shapes to a scene, numbered from 0. `cutouts`: some of their materials, other than
+ * their own, have holes. */
+static void attach_shapes(struct trace *trace, RTCScene embree, size_t first, size_t count,
+                          bool cutouts)
 {
     for (size_t i = 0; i < count; i++) {
         const struct shape *shape = &trace->scene->shapes[first + i];
         RTCGeometry geometry = create_geometry(trace, shape);
-        set_cutouts(trace, first + i, geometry);
+        if (cutouts || trace->scene->materials[shape->material].has_opacity)
+            set_cutouts(trace, geometry);
         rtcSetGeometryMask(geometry, mask_of(shape->hidden));
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(embree, geometry, (unsigned)i);
@@ -132,12 +157,12 @@ static RTCScene new_scene(struct trace *trace)
     return embree;
 }
 
-static void build_groups(struct trace *trace)
+static void build_groups(struct trace *trace, const bool *cutouts)
 {
     for (size_t i = 0; i < trace->scene->group_count; i++) {
         const struct group *group = &trace->scene->groups[i];
         trace->groups[i] = new_scene(trace);
-        attach_shapes(trace, trace->groups[i], group->first_shape, group->shape_count);
+        attach_shapes(trace, trace->groups[i], group->first_shape, group->shape_count, cutouts[i]);
         rtcCommitScene(trace->groups[i]);
     }
 }
@@ -164,11 +189,14 @@ static ps_result build(struct trace *trace, struct error *error)
 {
     const struct scene *scene = trace->scene;
     trace->groups = calloc(scene->group_count + 1, sizeof *trace->groups);
-    trace->cutouts = calloc(scene->shape_count + 1, sizeof *trace->cutouts);
-    if (!trace->groups || !trace->cutouts)
-        return error_memory(error, scene->shape_count * sizeof *trace->cutouts, "the ray tracer");
-    build_groups(trace);
-    attach_shapes(trace, trace->embree, 0, scene->world_shape_count);
+    bool *cutouts = find_cutouts(scene);
+    if (!trace->groups || !cutouts) {
+        free(cutouts);
+        return error_memory(error, scene->group_count * sizeof *trace->groups, "the ray tracer");
+    }
+    build_groups(trace, cutouts);
+    free(cutouts);
+    attach_shapes(trace, trace->embree, 0, scene->world_shape_count, false);
     attach_instances(trace);
     rtcCommitScene(trace->embree);
     if (rtcGetDeviceError(trace->device) != RTC_ERROR_NONE)
@@ -215,7 +243,6 @@ void trace_destroy(struct trace *trace)
             rtcReleaseScene(trace->groups[i]);
     rtcReleaseDevice(trace->device);
     free(trace->groups);
-    free(trace->cutouts);
     free(trace);
 }
 
@@ -258,16 +285,12 @@ static ps_hit resolve(const struct trace *trace, const ps_ray *ray, const struct
     uint32_t geometry = hits->hit.geomID[lane], instance = hits->hit.instID[0][lane];
     if (geometry == RTC_INVALID_GEOMETRY_ID)
         return (ps_hit){.distance = INFINITY, .object = PS_NO_OBJECT};
-    bool in_world = instance == RTC_INVALID_GEOMETRY_ID;
-    struct intersection at = {
-        .instance = in_world ? NO_INSTANCE : instance - (uint32_t)trace->scene->world_shape_count,
-        .shape = geometry,
-        .triangle = hits->hit.primID[lane],
-        .u = hits->hit.u[lane],
-        .v = hits->hit.v[lane],
-        .normal = {hits->hit.Ng_x[lane], hits->hit.Ng_y[lane], hits->hit.Ng_z[lane]},
-        .distance = hits->ray.tfar[lane],
-    };
+    struct intersection at =
+        intersection_of(trace->scene, instance, geometry, hits->hit.primID[lane]);
+    at.u = hits->hit.u[lane];
+    at.v = hits->hit.v[lane];
+    at.normal = (ps_vec3){hits->hit.Ng_x[lane], hits->hit.Ng_y[lane], hits->hit.Ng_z[lane]};
+    at.distance = hits->ray.tfar[lane];
     return surface_resolve(trace->scene, ray, &at);
 }
 
@@ -287,8 +310,7 @@ void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray
     }
 }
 
-void trace_occluded(const struct trace *trace, enum ray_kind kind, const ps_ray *rays, size_t n,
-                    uint8_t *blocked)
+void trace_occluded(const struct trace *trace, const ps_ray *rays, size_t n, uint8_t *blocked)
 {
     _Alignas(64) ps_packet packet;
     _Alignas(64) int valid[PACKET];
@@ -296,7 +318,7 @@ void trace_occluded(const struct trace *trace, enum ray_kind kind, const ps_ray 
         size_t lanes = n - first < PACKET ? n - first : PACKET;
         load_rays(&packet, valid, rays + first, lanes, MASK_LIGHT);
         struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)&packet;
-        shim_occluded16(valid, trace->embree, &embree->ray, kind != RAYS_INCOHERENT);
+        shim_occluded16(valid, trace->embree, &embree->ray, 0);
         for (size_t lane = 0; lane < lanes; lane++)
             blocked[first + lane] = packet.tfar[lane] < 0.0f; /* -inf: something was met */
     }

@@ -5,7 +5,14 @@ run 0 check "$cornell"
 expect_empty out
 expect_empty err
 for scene in "$PSPLAT_SOURCE"/scenes/*.psd; do
-    run 0 check "$scene"
+    run 0 check --parameters "$scene"
+    # A scene that needs what is not here, such as a mesh, says so.
+    if grep -q '; required$' out; then
+        run 2 check "$scene"
+        expect_text err "has no default; give it with --param"
+    else
+        run 0 check "$scene"
+    fi
 done
 
 cat >bad.psd <<'END'
@@ -43,10 +50,58 @@ last="a scene on standard input"
 check_status $? 2
 expect_text err "<stdin>:9:7: error:"
 
-# A warning is no error.
+# A warning is no error, and stands once.
 printf 'psd: 1\ncamera: {location: [0, 0, 5], look_at: [0, 0, 0]}\n' >dark.psd
 run 0 check dark.psd
 expect_text err "warning: the scene has no lights"
+[ "$(grep -c warning err)" -eq 1 ] || fail "a warning stands twice"
+run 0 -q --size 8x8 -o dark.exr dark.psd
+[ "$(grep -c warning err)" -eq 1 ] || fail "a warning of render stands twice"
+
+# What shows only when the scene is made: pictures that can't be read, objects that have no shape.
+# Both `check` and `render` say where.
+
+# scene_of MATERIAL OBJECT: into built.psd
+scene_of() {
+    cat >built.psd <<END
+psd: 1
+camera: {location: [0, 1, 5], look_at: [0, 0, 0]}
+lights:
+  - point: {location: [0, 4, 0], intensity: 10}
+materials:
+  a: {$1}
+objects:
+  - $2
+END
+}
+# refuses STATUS TEXT: `check` with 2, `render` with STATUS, and no picture.
+refuses() {
+    run 2 check built.psd
+    expect_text err "$2"
+    run "$1" -q -o built.exr built.psd
+    expect_text err "$2"
+    [ ! -e built.exr ] || fail "a scene that can't be made gave a picture"
+}
+ball='sphere: {center: [0, 0, 0], radius: 1, material: a}'
+scene_of 'diffuse: {image: {file: nowhere.png}}' "$ball"
+refuses 1 "built.psd:6:31: error: nowhere.png: cannot open: No such file"
+head -c 60 "$PSPLAT_SOURCE/tests/data/rgb8.png" >short.png
+scene_of 'diffuse: {image: {file: short.png}}' "$ball"
+refuses 1 "built.psd:6:31: error: short.png: it ends too early"
+scene_of 'diffuse: 0.5, normal_map: {file: nowhere.jpg}' "$ball"
+refuses 1 "error: nowhere.jpg: cannot open"
+scene_of 'diffuse: 0.5' 'box: {corners: [[0, 0, 0], [1, 0, 1]], material: a}'
+refuses 2 "built.psd:8:5: error: box: its corners agree in a coordinate"
+scene_of 'diffuse: 0.5' 'height_field: {file: nowhere.exr, material: a}'
+refuses 1 "built.psd:8:26: error: nowhere.exr: cannot open"
+
+# Triangles without area are left out, which is worth a warning.
+scene_of 'diffuse: 0.5' \
+    'triangles: {vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [2, 0, 0]], triangles: [[0, 1, 2], [0, 1, 3]], material: a}'
+run 0 check built.psd
+expect_text err "built.psd:8:5: warning: a triangle without area is left out"
+run 0 -q --size 8x8 -o built.exr built.psd
+expect_text err "built.psd:8:5: warning: a triangle without area is left out"
 
 # Plugins and their parameters are checked too, with their places in the scene.
 cat >plugins.psd <<'END'

@@ -114,6 +114,32 @@ expect 2 'expected one picture' view
 expect 1 'missing.exr' view missing.exr
 expect 1 "no layer 'Q'" view a.exr --layer Q
 
+# Parts, and large pixels.
+# expect_size WxH FILE.png: as its header says.
+expect_size() {
+    found=$(od -An -tu1 -j16 -N8 "$2" |
+        awk '{ print $1 * 16777216 + $2 * 65536 + $3 * 256 + $4 "x" $5 * 16777216 + $6 * 65536 + $7 * 256 + $8 }')
+    if [ "$found" != "$1" ]; then
+        echo "FAILED: $2 is $found, wanted $1"
+        failures=$((failures + 1))
+    fi
+}
+expect 0 '' view a.exr -o whole.png --crop 0,0,40,30 --zoom 1
+cmp -s whole.png a.png || { echo "FAILED: all of the picture is another"; failures=$((failures + 1)); }
+expect 0 '' view a.exr -o part.png --crop 20,10,6,4
+expect_size 6x4 part.png
+expect 0 '' view a.exr -o large.png --crop 20,10,6,4 --zoom 8
+expect_size 48x32 large.png
+expect 0 '' view a.exr -o zoomed.png --layer Z --zoom 3
+expect_size 120x90 zoomed.png
+rm -f none.png
+expect 2 'expected X,Y,W,H' view a.exr -o none.png --crop 1,2,3
+expect 2 'reaches beyond' view a.exr -o none.png --crop 30,0,11,5
+expect 2 'empty' view a.exr -o none.png --crop 0,0,0,5
+expect 2 '--zoom: expected a whole number 1..64' view a.exr -o none.png --zoom 65
+expect 2 '--zoom: expected a whole number 1..64' view a.exr -o none.png --zoom 0.5
+[ ! -e none.png ] || { echo "FAILED: a picture in spite of errors"; failures=$((failures + 1)); }
+
 # Against pictures by Mitsuba: one bounce less is darker.
 if [ -r "$reference/A_full.exr" ]; then
     expect 0 '^bias 0\.[0-9]* 0\.[0-9]* 0\.[0-9]*$' \

@@ -31,6 +31,13 @@ expect_match err '^bad\.psd:4:[0-9]+: error: intensity in point: '
 expect_text err "2 errors"
 [ ! -e bad.exr ] && [ ! -e bad.png ] || fail "a bad scene gave a picture"
 
+# A picture that the machine's memory can't hold is refused before any is asked for.
+for how in "--size 65536x65536" "--set image={width:\ 65536,height:\ 65536}"; do
+    eval "run 1 $how -o large.exr '$cornell'"
+    expect_match err '^psplat: error: a picture of 65536x65536 pixels takes [0-9.]+ GiB of memory'
+    [ ! -e large.exr ] || fail "a picture that is too large was written"
+done
+
 # --- output ---
 
 # writes_nothing PATH TEXT: the picture can't be written there, and nothing is left in the folder `new`.

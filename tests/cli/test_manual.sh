@@ -83,7 +83,9 @@ cmp -s example.c "$PSPLAT_SOURCE/tests/plugins/cosine.c" ||
 # --- statistics, layers and attributes ---
 
 : >statistics
-for choice in injection=rsm:resolution=8 injection=voxel:resolution=8 stratification=cascade estimator=splat estimator=photonmap estimator=vpl:lights=8 estimator=ssao denoiser=gaussian; do
+for choice in injection=rsm:resolution=8 injection=voxel:resolution=8 stratification=cascade \
+    estimator=splat estimator=photonmap estimator=vpl:lights=8 estimator=ssao denoiser=gaussian \
+    visibility=imperfect:points=1000; do
     case $choice in
     injection=*) injection= ;;
     *) injection="-p injection=photon:count=200" ;;

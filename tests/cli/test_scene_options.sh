@@ -83,6 +83,27 @@ expect_text err "psplat: error: --camera: the scene has no camera 'camrea'; did 
 run 2 check --camera top scenes/table.psd --param legs=1
 expect_text err "psplat: error: --camera: the scene has no camera 'top'; it has camera"
 
+cat >views.psd <<'END'
+psd: 1
+camera: {location: [0, 1, 5], look_at: [0, 0, 0]}
+cameras: {top: {location: [0, 5, 1], look_at: [0, 0, 0]}, side: {location: [5, 1, 0], look_at: [0, 0, 0]}}
+image: {width: 16, height: 9}
+materials: {white: {diffuse: 0.8}}
+lights: [{point: {location: [0, 4, 3], intensity: 10}}]
+objects: [{sphere: {center: [0, 0, 0], radius: 1, material: white}}]
+render: {injection: {photon: {count: 10}}}
+END
+run 0 -q -o front.exr views.psd
+run 0 -q -o same.exr --camera camera views.psd
+run 0 -q -o side.exr --camera side views.psd
+expect_same_pixels front.exr same.exr
+expect_different front.exr side.exr
+sed -e '/^camera:/d' -e 's/^cameras: {top: {[^}]*}, side: /camera: /' -e 's/0, 0]}}$/0, 0]}/' views.psd >side.psd
+run 0 -q -o alone.exr side.psd
+expect_same_pixels side.exr alone.exr
+run 2 --camera back -o no.exr views.psd
+expect_text err "psplat: error: --camera: the scene has no camera 'back'; it has camera, top, side"
+
 # Files are found from where they are named, wherever psplat runs.
 printf 'psd: 1\nmaterials: {white: {diffus: 0.8}}\n' >scenes/lib/paint.psd
 cd elsewhere || exit 1

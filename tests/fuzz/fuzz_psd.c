@@ -2,12 +2,20 @@
  *
  *     clang -fsanitize=fuzzer,address,undefined ... && ./fuzz_psd tests/fuzz/corpus_psd
  *
+ * The parser reads no files here. Lines of "%%%%%%" cut an input into pieces: the first is the scene,
+ * the next what it finds in every file that it includes, and any further ones what --set is given;
+ * --param is given the scene's own parameters n and s.
  * Beyond crashes and leaks it checks the parser's promise: a failure has an error in the sink, a
  * success has none and holds what a scene needs.
  */
 #include "parser/psd.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+#define SEPARATOR "%%%%%%\n"
+#define MOST_PIECES 6
+#define MOST_VALUES 100000 /* a larger scene teaches nothing, and takes its time */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -79,13 +87,74 @@ static void discard_printed(const struct diagnostics *sink)
     }
 }
 
+struct piece {
+    const char *text;
+    size_t length;
+};
+
+/* Cuts the input at its separators; the last piece has all that is left. */
+static size_t cut(const char *text, size_t size, struct piece pieces[MOST_PIECES])
+{
+    size_t count = 0, length = sizeof SEPARATOR - 1;
+    const char *end = text + size, *next;
+    while (count + 1 < MOST_PIECES &&
+           (next = memmem(text, (size_t)(end - text), SEPARATOR, length))) {
+        pieces[count++] = (struct piece){text, (size_t)(next - text)};
+        text = next + length;
+    }
+    pieces[count++] = (struct piece){text, (size_t)(end - text)};
+    return count;
+}
+
+static ps_result read_piece(void *user, const char *path, size_t most, struct file_text *text,
+                            struct error *error)
+{
+    const struct piece *piece = user;
+    if (!piece || piece->length > most || strstr(path, "gone"))
+        return error_set(error, PS_ERROR_IO, "not there");
+    text->bytes = malloc(piece->length + 1);
+    if (!text->bytes)
+        return error_memory(error, piece->length, "a file");
+    memcpy(text->bytes, piece->text, piece->length);
+    text->length = piece->length;
+    return PS_OK;
+}
+
+/* Copies the pieces from `first` on; returns how many. */
+static size_t copy_texts(const struct piece *pieces, size_t first, size_t count,
+                         char *texts[MOST_PIECES])
+{
+    size_t copied = 0;
+    for (size_t i = first; i < count; i++) {
+        texts[copied] = strndup(pieces[i].text, pieces[i].length);
+        if (texts[copied])
+            copied++;
+    }
+    return copied;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
+    static const char *const parameters[] = {"n=2", "s=white"};
     struct diagnostics *sink = diagnostics_create();
     if (!sink)
         return 0;
+    struct piece pieces[MOST_PIECES];
+    char *sets[MOST_PIECES];
+    size_t count = cut((const char *)data, size, pieces);
+    size_t set_count = copy_texts(pieces, 2, count, sets);
+    const struct psd_files files = {count > 1 ? &pieces[1] : NULL, read_piece};
+    const struct psd_options options = {.parameters = parameters,
+                                        .parameter_count = count > 1 ? 2 : 0,
+                                        .sets = (const char *const *)sets,
+                                        .set_count = set_count,
+                                        .files = &files,
+                                        .most_values = MOST_VALUES};
     struct scene_description description;
-    ps_result result = psd_read_text("fuzz.psd", (const char *)data, size, sink, &description);
+    ps_result result = psd_read_text_with("fuzz.psd", pieces[0].text, pieces[0].length, &options,
+                                          sink, &description);
+    for (size_t i = 0; i < set_count; i++)
+        free(sets[i]);
     require((result == PS_OK) == (diagnostics_error_count(sink) == 0));
     if (result == PS_OK)
         check_description(&description);

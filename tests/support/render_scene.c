@@ -43,34 +43,43 @@ struct rendering render_text(const char *text, uint32_t threads, const char *con
     return render_text_in_batches(text, threads, 4096, choices);
 }
 
+void prepare_text(const char *text, uint32_t threads, size_t batch, const char *const choices[],
+                  struct prepared *prepared)
+{
+    struct error error;
+    read_text(text, &prepared->description);
+    for (size_t i = 0; choices && choices[i]; i++)
+        lay_over(&prepared->description.render, choices[i]);
+    assert_int_equal(loader_create(&prepared->loader, &error), PS_OK);
+    assert_int_equal(settings_resolve(prepared->loader, &prepared->description.render, threads,
+                                      batch, report, NULL, &prepared->settings),
+                     PS_OK);
+    assert_int_equal(scene_create(&prepared->description, &prepared->scene, NULL, &error), PS_OK);
+}
+
+void prepared_release(struct prepared *prepared)
+{
+    scene_release(&prepared->scene);
+    settings_release(&prepared->settings);
+    loader_destroy(prepared->loader);
+    scene_description_release(&prepared->description);
+}
+
 struct rendering render_text_in_batches(const char *text, uint32_t threads, size_t batch,
                                         const char *const choices[])
 {
-    struct scene_description description;
-    struct scene scene;
-    struct loader *loader;
-    struct render_settings settings;
+    struct prepared prepared;
     struct rendering rendering = {.image = {0}};
     struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
     struct error error;
-    read_text(text, &description);
-    for (size_t i = 0; choices && choices[i]; i++)
-        lay_over(&description.render, choices[i]);
-    assert_int_equal(loader_create(&loader, &error), PS_OK);
-    assert_int_equal(
-        settings_resolve(loader, &description.render, threads, batch, report, NULL, &settings),
-        PS_OK);
-    assert_int_equal(scene_create(&description, &scene, NULL, &error), PS_OK);
+    prepare_text(text, threads, batch, choices, &prepared);
     statistics_init(&rendering.statistics);
-    ps_result result =
-        render_run(&scene, &settings, &callbacks, &rendering.statistics, &rendering.image, &error);
+    ps_result result = render_run(&prepared.scene, &prepared.settings, &callbacks,
+                                  &rendering.statistics, &rendering.image, &error);
     if (result != PS_OK)
         print_error("%s\n", error.text);
     assert_int_equal(result, PS_OK);
-    scene_release(&scene);
-    settings_release(&settings);
-    loader_destroy(loader);
-    scene_description_release(&description);
+    prepared_release(&prepared);
     return rendering;
 }
 

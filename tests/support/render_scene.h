@@ -17,6 +17,18 @@ struct rendering render_text_in_batches(const char *text, uint32_t threads, size
                                         const char *const choices[]);
 void rendering_release(struct rendering *rendering);
 
+/* All that a render needs, for one render; as render_text has it. */
+struct prepared {
+    struct scene_description description;
+    struct scene scene;
+    struct loader *loader;
+    struct render_settings settings;
+};
+
+void prepare_text(const char *text, uint32_t threads, size_t batch, const char *const choices[],
+                  struct prepared *prepared);
+void prepared_release(struct prepared *prepared);
+
 /* A scene of the text, with no rendering; the caller releases it with scene_release. */
 struct scene scene_of_text(const char *text);
 

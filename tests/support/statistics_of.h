@@ -9,6 +9,9 @@ struct estimate {
     double standard_error; /* of the mean */
 };
 
+/* Of what independent runs gave, at least two. */
+struct estimate estimate_of(const double *values, int count);
+
 /* Mean over the picture of a channel, over `seeds` renders of a text that holds "%d" where the seed
  * goes. */
 struct estimate estimate_channel(const char *text, const char *const choices[], const char *channel,
@@ -18,5 +21,9 @@ struct estimate estimate_channel(const char *text, const char *const choices[], 
  * standard errors, and the standard error itself is small enough for that to mean something (5 %).
  */
 void expect_estimate(const char *what, struct estimate estimate, double expected, double bias);
+
+/* The same where what is expected is an estimate itself. */
+void expect_agreement(const char *what, struct estimate estimate, struct estimate truth,
+                      double bias);
 
 #endif

@@ -145,8 +145,10 @@ static inline ps_vec3 corner(const struct imported *imported, size_t object, siz
 static inline ps_vec3 front_of(const struct imported *imported, size_t object, size_t triangle)
 {
     ps_vec3 a = corner(imported, object, triangle, 0);
-    return ps_normalize(ps_cross(ps_subtract(corner(imported, object, triangle, 1), a),
-                                 ps_subtract(corner(imported, object, triangle, 2), a)));
+    ps_vec3 wound = ps_cross(ps_subtract(corner(imported, object, triangle, 1), a),
+                             ps_subtract(corner(imported, object, triangle, 2), a));
+    double side = affine_determinant(&imported->fragment.objects[object].placement);
+    return ps_normalize(ps_scale(wound, side < 0 ? -1.0f : 1.0f));
 }
 
 #endif

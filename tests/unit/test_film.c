@@ -241,8 +241,7 @@ int main(void)
         FILM_TEST(test_lanes_are_pixels),      FILM_TEST(test_new_film_is_empty),
         FILM_TEST(test_passes_add_up),         FILM_TEST(test_average),
         FILM_TEST(test_partly_covered_pixels), FILM_TEST(test_uncovered_pixels),
-        FILM_TEST(test_emission_is_added),
-        FILM_TEST(test_clear_indirect),
+        FILM_TEST(test_emission_is_added),     FILM_TEST(test_clear_indirect),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

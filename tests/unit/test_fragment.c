@@ -135,6 +135,44 @@ static void test_own_materials(void **state)
     end(&place);
 }
 
+/* The parts of a mix come along, before it, and its indices follow them; a material of which only the
+ * name is known is none. */
+static void test_mixes_and_absent_materials(void **state)
+{
+    (void)state;
+    static const struct node at = {.mark = {1, 1, 1}};
+    const size_t replacements[] = {NO_INDEX, NO_INDEX, NO_INDEX};
+    struct place place;
+    start(&place);
+    struct scene_description content = file_content();
+    struct material_description *mix = &content.materials[2];
+    mix->kind = MATERIAL_MIX;
+    mix->component_count = 2;
+    mix->components = items(2, sizeof *mix->components);
+    mix->weights = items(2, sizeof *mix->weights);
+    mix->components[0] = 1;
+    mix->components[1] = 0;
+    content.materials[0].kind = MATERIAL_METAL;
+    const struct fragment fragment = {&content, replacements, NO_INDEX, true};
+    fragment_append(&place.reader, &at, &fragment, &place.context);
+    const struct scene_description *d = &place.description;
+    const struct material_description *moved = &d->materials[place.list.items[1].material];
+    assert_string_equal(moved->name, "gold");
+    assert_string_equal(d->materials[moved->components[0]].name, "unused");
+    assert_string_equal(d->materials[moved->components[1]].name, "wood");
+    assert_true(moved->components[0] < place.list.items[1].material);
+    scene_description_release(&content);
+    end(&place);
+    start(&place);
+    content = file_content();
+    content.materials[0].kind = MATERIAL_MIX; /* of nothing */
+    const struct fragment lacking = {&content, replacements, NO_INDEX, true};
+    assert_false(fragment_append(&place.reader, &at, &lacking, &place.context));
+    assert_int_equal(place.list.count, 1);
+    scene_description_release(&content);
+    end(&place);
+}
+
 static void test_replacements(void **state)
 {
     (void)state;
@@ -182,6 +220,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_own_materials),
+        cmocka_unit_test(test_mixes_and_absent_materials),
         cmocka_unit_test(test_replacements),
         cmocka_unit_test(test_cameras_have_names_of_their_own),
     };

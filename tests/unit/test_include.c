@@ -47,6 +47,61 @@ static void test_sections_go_together(void **state)
     scene_description_release(&d);
 }
 
+/* Files that a scene names lie beside who wrote their names. */
+static void test_paths_follow_their_files(void **state)
+{
+    (void)state;
+    static const struct memory_file files[] = {
+        {"lib/wood.psd", "psd: 1\nparameters: {grain: {type: string, default: grain.png}}\n"
+                         "define: {bark: bark.png, oak: {diffuse: {image: {file: =bark}}}}\n"
+                         "materials: {elm: {diffuse: {image: {file: elm.png}}},\n"
+                         "  ash: {diffuse: {image: {file: =grain}}},\n"
+                         "  box: {diffuse: {image: {file: /box.png}}}}\n"},
+        {NULL, NULL}};
+    static const char scene[] =
+        "psd: 1\ninclude: lib/wood.psd\n" CAMERA LIGHTS
+        "materials: {oak: =oak, fir: {diffuse: {image: {file: fir.png}}}}\n";
+    struct reading reading = {.files = files};
+    struct scene_description d = expect_good(scene, &reading);
+    assert_int_equal(d.texture_count, 5);
+    assert_string_equal(d.textures[0].path, "lib/elm.png");
+    assert_string_equal(d.textures[1].path, "lib/grain.png");
+    assert_string_equal(d.textures[2].path, "/box.png");
+    assert_string_equal(d.textures[3].path, "lib/bark.png");
+    assert_string_equal(d.textures[4].path, "fir.png");
+    scene_description_release(&d);
+    reading.parameters[0] = "grain=mine/ash.png";
+    reading.sets[0] = "materials.box.diffuse.image.file=new.png";
+    d = expect_good(scene, &reading);
+    assert_string_equal(d.textures[1].path, "mine/ash.png");
+    assert_string_equal(d.textures[2].path, "new.png");
+    scene_description_release(&d);
+}
+
+static void test_groups_and_cameras_go_together(void **state)
+{
+    (void)state;
+    static const struct memory_file files[] = {
+        {"a.psd", "psd: 1\ngroups: {ball: [{sphere: {center: [0, 0, 0], radius: 1, "
+                  "material: white}}]}\ncameras: {top: {location: [0, 9, 0], look_at: [0, 0, 0], "
+                  "up: [1, 0, 0]}}\n"},
+        {NULL, NULL}};
+    const struct reading reading = {.files = files};
+    struct scene_description d = expect_good(
+        HEAD "include: a.psd\ngroups: {two: [{for: i, from: 0, to: 1, do: {instance: {of: ball, "
+             "translate: [=i, 0, 0]}}}]}\ncameras: {side: {location: [9, 0, 0], look_at: [0, 0, "
+             "0]}}\nobjects: [{for: g, in: [ball, two], do: {instance: {of: =g}}}]\n",
+        &reading);
+    assert_int_equal(d.group_count, 2);
+    assert_int_equal(d.camera_count, 3);
+    assert_string_equal(d.cameras[1].name, "top");
+    assert_int_equal(d.object_count, 2);
+    scene_description_release(&d);
+    expect_bad(HEAD "include: a.psd\ngroups: {ball: []}\ncameras: {top: {}}\n", &reading,
+               "t:6:10: error: duplicate name 'ball' in groups; the first is in a.psd, line 2\n"
+               "t:7:11: error: duplicate name 'top' in cameras; the first is in a.psd, line 3\n");
+}
+
 static void test_a_file_is_read_once(void **state)
 {
     (void)state;
@@ -71,6 +126,7 @@ static void test_messages_name_their_files(void **state)
         {"lib/a.psd", "psd: 1\n\ninclude:\n - b.psd\n"},
         {"lib/b.psd", "psd: 1\nmaterials:\n  white: {diffuse: 0.5}\n  red: {diffus: 1}\n"
                       "define: {n: =1/0, k: 2}\nparameters: {height: {default: 1}}\n"},
+        {"lib/c.psd", "psd: 1\n"},
         {"plain.psd", "materials: {}"},
         {"two.psd", "psd: 2\nwhat: ever"},
         {"list.psd", "- psd: 1"},
@@ -107,6 +163,7 @@ static void test_messages_name_their_files(void **state)
          "list_of_materials.psd:2:12: error: expected a map for materials, got a list\n"
          "list_of_materials.psd:3:10: error: expected a list for objects, got a map\n"
          "list_of_materials.psd:4:8: error: expected a map for image, got text\n"},
+        {"psd: 1\ninclude: lib/c.psd\n" LIGHTS, "t:1:1: error: missing key 'camera' in scene\n"},
         {HEAD "include: [gone.psd, lib/gone.psd]\nimage: {width: x}",
          "t:5:11: error: can't include 'gone.psd': not there\n"
          "t:5:21: error: can't include 'lib/gone.psd': not there\n"},
@@ -177,23 +234,33 @@ static ps_result read_empty(void *user, const char *path, size_t most, struct fi
     return PS_OK;
 }
 
-static void test_too_many_files(void **state)
+static void expect_end(size_t count, const char *format, size_t *read, const char *message)
 {
-    (void)state;
-    char text[8192] = HEAD "include:\n", messages[LONGEST_OUTPUT];
-    size_t read = 0;
-    for (int i = 0; i < 300; i++)
-        sprintf(text + strlen(text), "- f%d\n", i);
-    const struct psd_files files = {&read, read_empty};
+    static char text[100000], messages[LONGEST_OUTPUT];
+    char *at = text + sprintf(text, HEAD "include:\n");
+    for (size_t i = 0; i < count; i++)
+        at += sprintf(at, format, i);
+    const struct psd_files files = {read, read_empty};
     const struct psd_options options = {.files = &files};
     struct scene_description d;
     struct diagnostics *sink = diagnostics_create();
+    *read = 0;
     assert_int_equal(psd_read_text_with("t", text, strlen(text), &options, sink, &d),
                      PS_ERROR_INVALID);
     print_all(sink, messages);
-    assert_non_null(strstr(messages, "t:261:3: error: more than 256 files in one scene\n"));
-    assert_true(read < 300); /* further ones are not even read, once that is clear */
+    assert_non_null(strstr(messages, message));
+    assert_int_equal(diagnostics_error_count(sink), 1);
     diagnostics_destroy(sink);
+}
+
+static void test_too_many_files(void **state)
+{
+    (void)state;
+    size_t read;
+    expect_end(300, "- f%zu\n", &read, "t:261:3: error: more than 256 files in one scene\n");
+    assert_int_equal(read, 256);
+    expect_end(5000, "- f\n", &read, "t:4102:3: error: more than 4096 files are included\n");
+    assert_int_equal(read, 1); /* a name that is known needs no reading */
 }
 
 /* --- the file system --------------------------------------------------------------------------- */
@@ -262,6 +329,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sections_go_together),
+        cmocka_unit_test(test_paths_follow_their_files),
+        cmocka_unit_test(test_groups_and_cameras_go_together),
         cmocka_unit_test(test_a_file_is_read_once),
         cmocka_unit_test(test_messages_name_their_files),
         cmocka_unit_test(test_anchors_end_with_their_file),

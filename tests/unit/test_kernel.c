@@ -68,6 +68,9 @@ static ps_splat random_splat(struct random *random)
         .axis_w = ps_normalize(random_direction(random)),
         .near_depth = random_between(random, -1.0f, 0.0f),
         .far_depth = random_between(random, 0.1f, 1.0f),
+        .start_depth = random_between(random, -0.8f, 0.0f),
+        .start_slope_u = random_between(random, -1.0f, 1.0f),
+        .start_slope_v = random_between(random, -1.0f, 1.0f),
         .bias_constant = random_between(random, 0.0f, 0.1f),
         .bias_slope = random_between(random, 0.0f, 0.1f),
         .two_sided = random_unit(random) < 0.5f,
@@ -134,6 +137,9 @@ static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel,
     inside = below(0, cosine, 1e-6, &borderline) && inside;
     inside = below(splat->near_depth, t, 1e-5, &borderline) && inside;
     inside = below(t, splat->far_depth, 1e-5, &borderline) && inside;
+    double start = splat->start_depth +
+                   splat->half_width * (u * splat->start_slope_u + v * splat->start_slope_v);
+    inside = below(start, t, 1e-5, &borderline) && inside;
     if (!inside) {
         sums->borderline |= borderline;
         return;
@@ -234,7 +240,7 @@ static void test_pixels_without_surface_get_nothing(void **state)
         struct bench *bench = make_bench(8, 5);
         for (uint32_t s = 0; s < SPLATS; s++) {
             bench->splats[s].far_depth = INFINITY;
-            bench->splats[s].near_depth = -INFINITY;
+            bench->splats[s].near_depth = bench->splats[s].start_depth = -INFINITY;
             bench->splats[s].half_width = s % 2 ? 1e-6f : 1e6f;
         }
         assert_true(run(variants[v].accumulate, bench, &tile) > 0);

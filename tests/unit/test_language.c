@@ -128,17 +128,17 @@ static void test_loops(void **state)
     /* Ends that rounding misses; an index that hides a definition; lists of other things. */
     d = expect_objects(
         HEAD "define: {i: 5, names: [white, white]}\nobjects:\n"
-             "  - {for: i, from: 0, to: 1, step: 0.1, do: " SPHERE(
+             "  - {for: i, from: 0, to: 0.3, step: 0.1, do: " SPHERE(
                  "[=i, 0, 0]",
                  "1") "}\n"
                       "  - triangles: {material: white, triangles: [[0, 1, =i-3]],\n"
                       "      vertices: [{for: k, from: 1, to: 3, do: [[=k, =k^2, =k^3]]}]}\n"
                       "  - {for: m, in: =names, do: {sphere: {center: [0,0,0], radius: 1, "
                       "material: =m}}}\n",
-        14);
-    assert_vector(d.objects[10].center, 1, 0, 0);
-    assert_int_equal(d.objects[11].triangles[0][2], 2);
-    assert_vector(d.objects[11].vertices[2], 3, 9, 27);
+        7);
+    assert_vector(d.objects[3].center, 0.3, 0, 0);
+    assert_int_equal(d.objects[4].triangles[0][2], 2);
+    assert_vector(d.objects[4].vertices[2], 3, 9, 27);
     scene_description_release(&d);
 }
 
@@ -172,6 +172,9 @@ static void test_bad_loops(void **state)
         /* The same in every turn, and said once. */
         {HEAD "objects: [{for: i, from: -3, to: 3, do: " SPHERE("[0, 0, 0]", "=1/(i+3)") "}]",
          "t:5:80: error: division by zero\n"},
+        {HEAD "objects: [{for: i, from: 1, to: 1e5, do: [=1/0]}]\nimage: {width: x}",
+         "t:5:45: error: division by zero\n"
+         "t:6:16: error: width in image: expected integer 1..65536, got 'x'\n"},
         {HEAD "objects: [{for: i, from: 1, to: 1e18, do: []}]",
          "t:5:33: error: this loop has 1e+18 turns; a scene has at most 4000000 values\n"},
         {HEAD "objects: {for: i, from: 0, to: 1, do: []}",

@@ -169,6 +169,31 @@ static void test_mix_is_the_sum_of_shares(void **state)
                 1e-6f);
 }
 
+/* Paths of the camera end at a diffuse lobe and count all diffuse light of the surface there, divided by
+ * the lobe's probability: on average once, whatever the components. */
+static void test_diffuse_parts_count_once(void **state)
+{
+    (void)state;
+    size_t components[3] = {0, 1, 2};
+    double weights[3] = {0.4, 0.3, 0.3};
+    struct material_description materials[4] = {
+        plain(MATERIAL_DIFFUSE, 0.8f), plain(MATERIAL_GLOSSY, 0.5f), plain(MATERIAL_METAL, 0.9f),
+        plain(MATERIAL_MIX, 0)};
+    materials[3].components = components;
+    materials[3].weights = weights;
+    materials[3].component_count = 3;
+    struct material mix = made(materials, 4, 3);
+    struct meeting meeting = meet(0.5f, 0);
+    struct random random = {3};
+    double ends = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        ps_scatter on = scatter(&mix, &meeting, PS_FROM_CAMERA, &random);
+        if (on.lobe == PS_DIFFUSE)
+            ends += 1.0 / (double)on.probability;
+    }
+    assert_true(fabs(ends / SAMPLES - 1.0) < 0.02);
+}
+
 /* --- glass -------------------------------------------------------------------------------------- */
 
 static double share_that_passes(const struct material *glass, const struct meeting *meeting,
@@ -399,6 +424,7 @@ int main(void)
         cmocka_unit_test(test_white_surfaces_keep_all_light),
         cmocka_unit_test(test_coat_takes_from_its_base),
         cmocka_unit_test(test_mix_is_the_sum_of_shares),
+        cmocka_unit_test(test_diffuse_parts_count_once),
         cmocka_unit_test(test_glass_refracts),
         cmocka_unit_test(test_glass_reflects_totally_inside),
         cmocka_unit_test(test_power_is_not_squeezed),

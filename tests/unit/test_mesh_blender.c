@@ -126,7 +126,8 @@ static ps_vec3 middle_of(const struct imported *imported, size_t object)
     return ps_scale(sum, 1.0f / (float)mesh->vertex_count);
 }
 
-/* Plain (2) and mirrored (3) tetrahedra: all triangles and normals look outwards in the scene. */
+/* Plain (2) and mirrored (3) tetrahedra share a mesh: all its triangles and normals look outwards, once
+ * the scene has turned those of the placement that mirrors. */
 static void mirrored_object_keeps_its_front(void **state)
 {
     (void)state;
@@ -135,6 +136,7 @@ static void mirrored_object_keeps_its_front(void **state)
     for (size_t object = 2; object <= 3; object++) {
         const struct mesh_description *mesh = mesh_of(&imported, object);
         const struct affine *placement = &imported.fragment.objects[object].placement;
+        float turn = affine_determinant(placement) < 0 ? -1 : 1;
         ps_vec3 middle = middle_of(&imported, object);
         for (size_t i = 0; i < mesh->triangle_count; i++) {
             ps_vec3 outwards = ps_subtract(corner(&imported, object, i, 0), middle);
@@ -143,7 +145,7 @@ static void mirrored_object_keeps_its_front(void **state)
         assert_non_null(mesh->normals);
         for (size_t i = 0; i < mesh->vertex_count; i++) {
             ps_vec3 outwards = ps_subtract(affine_point(placement, mesh->vertices[i]), middle);
-            assert_true(ps_dot(affine_normal(placement, mesh->normals[i]), outwards) > 0);
+            assert_true(turn * ps_dot(affine_normal(placement, mesh->normals[i]), outwards) > 0);
         }
     }
     release_imported(&imported);
@@ -228,6 +230,46 @@ static void only_what_is_asked_for_comes(void **state)
     release_imported(&imported);
 }
 
+/* Blender's default scene, as COLLADA and FBX (in centimetres): a cube of side 2, a camera and a bulb.
+ * The files are the fuzzer's, which come after a byte that names the format. */
+static void default_scene_is_alike_in_other_formats(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *file, *path;
+        double unit;
+    } cases[] = {{"../fuzz/corpus_mesh/dae", "m.dae", 1},
+                 {"../fuzz/corpus_mesh/fbx", "m.fbx", 0.01}};
+    static char bytes[65536];
+    for (size_t i = 0; i < 2; i++) {
+        FILE *stream = fopen(data_path(cases[i].file), "rb");
+        assert_non_null(stream);
+        size_t length = fread(bytes, 1, sizeof bytes, stream);
+        fclose(stream);
+        struct mesh_request request = request_all(cases[i].path);
+        request.unit = cases[i].unit;
+        struct mesh_memory_file file = {cases[i].path, bytes + 1, length - 1};
+        struct imported imported = import_files(&request, &file, 1);
+        expect_success(&imported);
+        const struct camera_description *camera = &imported.fragment.cameras[0];
+        assert_int_equal(imported.fragment.camera_count, 1);
+        expect_near(camera->location.x, 7.3589, 1e-4);
+        expect_near(camera->location.y, 4.9583, 1e-4);
+        expect_near(camera->location.z, 6.9258, 1e-4);
+        ps_vec3 forward = ps_normalize(ps_subtract(camera->look_at, camera->location));
+        expect_near(forward.x, -0.6516, 1e-4);
+        expect_near(forward.y, -0.4453, 1e-4);
+        expect_near(camera->angle, 39.5978, 1e-3);
+        assert_int_equal(imported.fragment.light_count, 1);
+        assert_int_equal(imported.fragment.lights[0].kind, LIGHT_POINT);
+        expect_near(imported.fragment.lights[0].location.y, 5.9039, 1e-4);
+        assert_int_equal(mesh_of(&imported, 0)->triangle_count, 12);
+        expect_near(fabs(corner(&imported, 0, 0, 0).y), 1, 1e-4);
+        expect_color(material_named(&imported, "Material")->color.colors[0], 0.8, 0.8, 0.8);
+        release_imported(&imported);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -240,6 +282,7 @@ int main(void)
         cmocka_unit_test(mirrored_object_keeps_its_front),
         cmocka_unit_test(materials_are_as_in_blender),
         cmocka_unit_test(texture_lies_the_right_way_up),
+        cmocka_unit_test(default_scene_is_alike_in_other_formats),
         cmocka_unit_test(only_what_is_asked_for_comes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

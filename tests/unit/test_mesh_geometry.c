@@ -226,17 +226,6 @@ static void stl_is_flat(void **state)
     release_imported(&imported);
 }
 
-static void off_is_read(void **state)
-{
-    (void)state;
-    struct imported imported =
-        import_text("m.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n");
-    expect_success(&imported);
-    assert_int_equal(mesh_of(&imported, 0)->triangle_count, 2);
-    assert_int_equal(imported.fragment.material_count, 0);
-    release_imported(&imported);
-}
-
 static void import_is_repeatable(void **state)
 {
     (void)state;
@@ -265,7 +254,6 @@ int main(void)
         cmocka_unit_test(smoothing_that_cannot_be_followed_is_reported),
         cmocka_unit_test(ply_is_read),
         cmocka_unit_test(stl_is_flat),
-        cmocka_unit_test(off_is_read),
         cmocka_unit_test(import_is_repeatable),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

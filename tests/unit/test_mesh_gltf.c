@@ -197,6 +197,16 @@ static void alpha_mode_decides_on_opacity(void **state)
     release_imported(&imported);
 }
 
+static void known_extensions_may_be_required(void **state)
+{
+    (void)state;
+    struct imported imported = import_material(
+        "", ",\"extensionsRequired\":[\"KHR_lights_punctual\",\"KHR_materials_ior\","
+            "\"KHR_materials_emissive_strength\",\"KHR_materials_transmission\","
+            "\"KHR_materials_volume\",\"KHR_texture_transform\"]");
+    release_imported(&imported);
+}
+
 static void transmission_is_glass(void **state)
 {
     (void)state;
@@ -304,6 +314,48 @@ static void broken_accessors_are_refused(void **state)
                    "beyond");
 }
 
+static void lines_are_left_out(void **state)
+{
+    (void)state;
+    /* assimp alone crashes on the second: a loop whose first line is out of range. */
+    static const char *const primitives[] = {
+        "{\"attributes\":{\"POSITION\":0},\"mode\":2},{\"attributes\":{\"POSITION\":0}}",
+        "{\"attributes\":{\"POSITION\":0},\"indices\":2,\"mode\":2},"
+        "{\"attributes\":{\"POSITION\":0}}"};
+    for (size_t i = 0; i < 2; i++) {
+        char accessors[512];
+        snprintf(accessors, sizeof accessors,
+                 "%s,{\"bufferView\":0,\"byteOffset\":%d,\"componentType\":5121,\"count\":3,"
+                 "\"type\":\"SCALAR\"}",
+                 usual_accessors, 12);
+        struct imported imported =
+            import_parts((struct parts){.primitive = primitives[i], .accessors = accessors});
+        expect_success(&imported);
+        assert_int_equal(imported.fragment.object_count, 1);
+        release_imported(&imported);
+    }
+}
+
+/* The bytes from 3 to 14 of the positions, as indices: (0, 0, 0) thrice, which has no area, and
+ * (0, 0, 128), which is not there. */
+static void triangles_of_absent_vertices_are_counted(void **state)
+{
+    (void)state;
+    char accessors[512];
+    snprintf(accessors, sizeof accessors,
+             "%s,{\"bufferView\":0,\"byteOffset\":3,\"componentType\":5121,\"count\":12,"
+             "\"type\":\"SCALAR\"}",
+             usual_accessors);
+    struct imported imported = import_parts(
+        (struct parts){.accessors = accessors,
+                       .primitive = "{\"attributes\":{\"POSITION\":0}},"
+                                    "{\"attributes\":{\"POSITION\":0},\"indices\":2}"});
+    expect_success(&imported);
+    assert_int_equal(imported.fragment.object_count, 1);
+    assert_int_equal(imported.report.dropped_triangles, 4);
+    release_imported(&imported);
+}
+
 static void broken_meshes_are_refused(void **state)
 {
     (void)state;
@@ -351,11 +403,14 @@ int main(void)
         cmocka_unit_test(textures_have_their_channels_and_encodings),
         cmocka_unit_test(texture_transform_is_kept),
         cmocka_unit_test(alpha_mode_decides_on_opacity),
+        cmocka_unit_test(known_extensions_may_be_required),
         cmocka_unit_test(transmission_is_glass),
         cmocka_unit_test(emission_shines_from_both_sides_of_a_double_sided_material),
         cmocka_unit_test(no_material_is_none),
         cmocka_unit_test(skins_and_colours_are_no_hindrance),
         cmocka_unit_test(broken_accessors_are_refused),
+        cmocka_unit_test(lines_are_left_out),
+        cmocka_unit_test(triangles_of_absent_vertices_are_counted),
         cmocka_unit_test(broken_meshes_are_refused),
         cmocka_unit_test(broken_trees_are_refused),
     };

@@ -34,7 +34,9 @@ static void folders_and_pipes_are_refused(void **state)
     expect_failure(&imported, PS_ERROR_IO, "directory");
     assert_int_equal(rmdir(folder), 0);
     assert_int_equal(mkfifo(pipe, 0600), 0);
-    imported = import_path(pipe); /* must not wait for a writer */
+    alarm(20); /* it must not wait for a writer */
+    imported = import_path(pipe);
+    alarm(0);
     expect_failure(&imported, PS_ERROR_IO, "not a regular file");
 }
 
@@ -51,7 +53,7 @@ static void enormous_file_is_refused_unread(void **state)
 static void unknown_extension_lists_the_known(void **state)
 {
     (void)state;
-    static const char *const names[] = {"m.blend", "m", "m.", "obj", "d.obj/m", "m.obj~"};
+    static const char *const names[] = {"m.blend", "m.off", "m", "m.", "obj", "d.obj/m", "m.obj~"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         struct imported imported = import_text(names[i], "v 0 0 0\n");
         expect_failure(&imported, PS_ERROR_INVALID, ".obj, .gltf, .glb, .ply, .stl");
@@ -61,8 +63,8 @@ static void unknown_extension_lists_the_known(void **state)
 static void empty_and_random_files_are_refused(void **state)
 {
     (void)state;
-    static const char *const names[] = {"m.obj", "m.gltf", "m.glb", "m.ply", "m.stl",
-                                        "m.off", "m.dae",  "m.fbx", "m.3ds"};
+    static const char *const names[] = {"m.obj", "m.gltf", "m.glb", "m.ply",
+                                        "m.stl", "m.dae",  "m.fbx", "m.3ds"};
     char rubbish[4096];
     uint32_t random = 1;
     for (size_t i = 0; i < sizeof rubbish; i++)
@@ -124,12 +126,12 @@ static void bad_triangles_are_dropped_and_counted(void **state)
 {
     (void)state;
     struct imported imported = import_text(
-        "m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv inf 1 1\nv 2 0 0\nv 3e38 0 0\n"
-                 "f 1 2 3\nf 1 2 4\nf 1 3 5\nf 1 2 6\nf 1 1 2\nf 3 2 1\n");
+        "m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv inf 1 1\nv 2 0 0\nv 0.5 1e-12 0\n"
+                 "f 1 2 3\nf 1 2 4\nf 1 3 5\nf 1 2 6\nf 1 1 2\nf 1 2 7\nf 3 2 1\n");
     expect_success(&imported);
     assert_int_equal(mesh_of(&imported, 0)->triangle_count, 2);
     assert_int_equal(mesh_of(&imported, 0)->vertex_count, 6);
-    assert_int_equal(imported.report.dropped_triangles, 4);
+    assert_int_equal(imported.report.dropped_triangles, 5);
     for (size_t i = 0; i < mesh_of(&imported, 0)->vertex_count; i++)
         assert_true(isfinite(mesh_of(&imported, 0)->vertices[i].x));
     release_imported(&imported);
@@ -139,11 +141,26 @@ static void tiny_triangles_are_kept(void **state)
 {
     (void)state;
     struct imported imported =
-        import_text("m.obj", "v 0 0 0\nv 1e-15 0 0\nv 0 1e-15 0\nv 1e6 0 0\nv 1e6 1 0\n"
+        import_text("m.obj", "v 0 0 0\nv 1e-7 0 0\nv 0 1e-7 0\nv 1e6 0 0\nv 1e6 1 0\n"
                              "f 1 2 3\nf 1 4 5\n");
     expect_success(&imported);
     assert_int_equal(mesh_of(&imported, 0)->triangle_count, 2);
     assert_int_equal(imported.report.dropped_triangles, 0);
+    release_imported(&imported);
+}
+
+/* A normal computed in floats would be NaN. */
+static void triangles_beyond_floats_are_dropped(void **state)
+{
+    (void)state;
+    struct imported imported =
+        import_text("m.obj", "v 0 0 0\nv 1e-20 0 0\nv 0 1e-20 0\nv 1e30 0 0\nv 0 1e30 0\n"
+                             "v 1 0 0\nv 0 1 0\nvn 0 0 0\nf 1//1 2//1 3//1\nf 1//1 4//1 5//1\n"
+                             "f 1//1 6//1 7//1\n");
+    expect_success(&imported);
+    assert_int_equal(mesh_of(&imported, 0)->triangle_count, 1);
+    assert_int_equal(imported.report.dropped_triangles, 2);
+    expect_vector(mesh_of(&imported, 0)->normals[0], 0, 0, 1);
     release_imported(&imported);
 }
 
@@ -180,6 +197,9 @@ static void impossible_ply_headers_are_refused(void **state)
         "element vertex\n",
         "element vertex 1\nproperty float x\nelement vertex 9\n",
         "element face 1\nelement tristrips 9\n",
+        "element vertex 1\nproperty flot x\n",
+        "element vertex 1\npzroperty float x\n",
+        "element vertex 1\nproperty float x\nend_header\v\n",
     };
     for (size_t i = 0; i < sizeof elements / sizeof elements[0]; i++) {
         char text[512];
@@ -188,6 +208,92 @@ static void impossible_ply_headers_are_refused(void **state)
         struct imported imported = import_text("m.ply", text);
         expect_failure(&imported, PS_ERROR_INVALID, "PLY");
     }
+}
+
+/* --- nesting ---------------------------------------------------------------------------------- */
+
+#define TOO_DEEP 300
+
+static void deep_collada_is_refused(void **state)
+{
+    (void)state;
+    static char text[TOO_DEEP * 8] = "<?xml version=\"1.0\"?><!-- <a> --><b c=\">\"/>";
+    for (int i = 0; i < TOO_DEEP; i++)
+        strcat(text, "<node>");
+    struct imported imported = import_text("m.dae", text);
+    expect_failure(&imported, PS_ERROR_INVALID, "256 deep");
+    imported = import_text("m.dae", "<COLLADA><float_array count=\"150994944\">1</float_array>");
+    expect_failure(&imported, PS_ERROR_INVALID, "more numbers than there are");
+    for (size_t i = 0; i < sizeof text; i++) /* side by side is no depth */
+        text[i] = "<a></a><b/>"[i % 11];
+    text[sizeof text - 1] = '\0';
+    imported = import_text("m.dae", text);
+    assert_null(strstr(imported.error.text, "deep"));
+}
+
+static void deep_fbx_text_is_refused(void **state)
+{
+    (void)state;
+    static char text[TOO_DEEP * 8] = "; FBX 7.1.0 project file {{{{\nName: \"{{{{\"\n";
+    for (int i = 0; i < TOO_DEEP; i++)
+        strcat(text, "A: {");
+    struct imported imported = import_text("m.fbx", text);
+    expect_failure(&imported, PS_ERROR_INVALID, "256 deep");
+    imported =
+        import_text("m.fbx", "; FBX 7.1.0 project file\nVertices: *4000000000 {\n a: 1\n}\n");
+    expect_failure(&imported, PS_ERROR_INVALID, "more numbers than there are");
+}
+
+static size_t put_number(unsigned char *bytes, size_t at, uint32_t number)
+{
+    for (int i = 0; i < 4; i++)
+        bytes[at + (size_t)i] = (unsigned char)(number >> 8 * i);
+    return at + 4;
+}
+
+/* One record, of `properties` bytes, that ends at `end`. */
+static size_t put_record(unsigned char *bytes, size_t at, uint32_t end, uint32_t properties)
+{
+    at = put_number(bytes, at, end);
+    at = put_number(bytes, at, properties > 0);
+    at = put_number(bytes, at, properties);
+    bytes[at++] = 0; /* no name */
+    return at;
+}
+
+static struct imported import_fbx_bytes(const unsigned char *bytes, size_t length)
+{
+    struct mesh_request request = request_all("m.fbx");
+    struct mesh_memory_file file = {"m.fbx", bytes, length};
+    return import_files(&request, &file, 1);
+}
+
+static void broken_fbx_records_are_refused(void **state)
+{
+    (void)state;
+    static unsigned char bytes[8192];
+    memcpy(bytes, "Kaydara FBX Binary  \0\032", 23);
+    size_t start = put_number(bytes, 23, 7400), at = start;
+    for (int i = 0; i < TOO_DEEP; i++)
+        at = put_record(bytes, at, 8000, 0);
+    struct imported imported = import_fbx_bytes(bytes, 8000);
+    expect_failure(&imported, PS_ERROR_INVALID, "256 deep");
+
+    memset(bytes + start, 0, sizeof bytes - start);
+    put_record(bytes, start, 9000, 0); /* beyond the file */
+    imported = import_fbx_bytes(bytes, 8000);
+    expect_failure(&imported, PS_ERROR_INVALID, "inside of its parent");
+
+    memset(bytes + start, 0, sizeof bytes - start);
+    at = put_record(bytes, start, (uint32_t)start + 13 + 14, 14);
+    bytes[at] = 'd'; /* two thousand million numbers from one byte */
+    put_number(bytes, at + 1, 2000000000u);
+    put_number(bytes, at + 5, 1);
+    put_number(bytes, at + 9, 1);
+    imported = import_fbx_bytes(bytes, 8000);
+    expect_failure(&imported, PS_ERROR_INVALID, "inside of its parent");
+    imported = import_fbx_bytes(bytes, start);
+    expect_failure(&imported, PS_ERROR_INVALID, "cut short");
 }
 
 /* --- JSON ------------------------------------------------------------------------------------- */
@@ -256,9 +362,13 @@ int main(void)
         cmocka_unit_test(indices_out_of_range_are_refused),
         cmocka_unit_test(bad_triangles_are_dropped_and_counted),
         cmocka_unit_test(tiny_triangles_are_kept),
+        cmocka_unit_test(triangles_beyond_floats_are_dropped),
         cmocka_unit_test(non_manifold_geometry_is_accepted),
         cmocka_unit_test(file_without_triangles_is_refused),
         cmocka_unit_test(impossible_ply_headers_are_refused),
+        cmocka_unit_test(deep_collada_is_refused),
+        cmocka_unit_test(deep_fbx_text_is_refused),
+        cmocka_unit_test(broken_fbx_records_are_refused),
         cmocka_unit_test(json_is_read),
         cmocka_unit_test(broken_json_is_refused),
     };

@@ -195,7 +195,7 @@ static void missing_texture_is_reported(void **state)
     release_imported(&imported);
 }
 
-static void absent_material_is_none(void **state)
+static void absent_material_has_but_a_name(void **state)
 {
     (void)state;
     struct mesh_request request = request_all("m.obj");
@@ -205,15 +205,16 @@ static void absent_material_is_none(void **state)
         text_file("m.mtl", "newmtl there\nKd 1 0 0\n")};
     struct imported imported = import_files(&request, files, 2);
     expect_success(&imported);
-    assert_int_equal(imported.fragment.material_count, 1);
     assert_int_equal(imported.fragment.object_count, 2);
-    assert_int_equal(imported.fragment.objects[0].material, 0);
-    assert_true(imported.fragment.objects[1].material == NO_INDEX);
+    const struct material_description *materials = imported.fragment.materials;
+    assert_false(material_is_absent(&materials[imported.fragment.objects[0].material]));
+    assert_true(material_is_absent(&materials[imported.fragment.objects[1].material]));
+    assert_string_equal(materials[imported.fragment.objects[1].material].name, "lamp");
     assert_non_null(strstr(imported.report.notes, "lamp"));
     release_imported(&imported);
     imported = import_files(&request, files, 1); /* without its library */
     expect_success(&imported);
-    assert_int_equal(imported.fragment.material_count, 0);
+    assert_true(material_is_absent(&imported.fragment.materials[0]));
     assert_non_null(strstr(imported.report.notes, "no library"));
     release_imported(&imported);
 }
@@ -301,7 +302,7 @@ int main(void)
         cmocka_unit_test(picture_of_colour_and_opacity_gives_its_alpha),
         cmocka_unit_test(bump_grows_with_the_unit),
         cmocka_unit_test(missing_texture_is_reported),
-        cmocka_unit_test(absent_material_is_none),
+        cmocka_unit_test(absent_material_has_but_a_name),
         cmocka_unit_test(statements_before_the_first_material_are_harmless),
         cmocka_unit_test(cornell_boxes_come_out_right),
         cmocka_unit_test(conference_room_is_whole),

@@ -10,26 +10,21 @@ static void test_arithmetic_errors(void **state)
     static const struct bad cases[] = {
         {HEAD "image: {width: =1/0}", "5:18: error: division by zero\n"},
         {HEAD "image: {width: \"=1/0\"}", "5:19: error: division by zero\n"},
-        {HEAD "image: {width: =10^999}",
-         "5:19: error: the result is not a finite number\n"},
-        {HEAD "image: {width: =sqrt(-1)}",
-         "5:17: error: the result is not a finite number\n"},
+        {HEAD "image: {width: =10^999}", "5:19: error: the result is not a finite number\n"},
+        {HEAD "image: {width: =sqrt(-1)}", "5:17: error: the result is not a finite number\n"},
         {HEAD "image: {width: =sqr(1)}",
          "5:17: error: unknown name 'sqr' in arithmetic; did you mean 'sqrt'?\n"},
         {HEAD "image: {width: =(1}", "5:16: error: expected ')' at the end\n"},
-        {HEAD "image: {width: =2 3}",
-         "5:19: error: expected an operator, got '3'\n"},
+        {HEAD "image: {width: =2 3}", "5:19: error: expected an operator, got '3'\n"},
         {HEAD "image: {width: =1.2.3}", "5:17: error: this is not a number\n"},
-        {HEAD "image: {width: \"=min(1)\"}",
-         "5:18: error: min takes 2 to 8 arguments, got 1\n"},
+        {HEAD "image: {width: \"=min(1)\"}", "5:18: error: min takes 2 to 8 arguments, got 1\n"},
         {HEAD "image: {width: =}", "5:16: error: expected a number at the end\n"}};
     EXPECT_ALL(cases);
     char text[600] = HEAD "image: {width: =";
     size_t used = strlen(text);
     memset(text + used, '(', 200);
     text[used + 200] = '}';
-    expect_bytes(text, strlen(text),
-                 "5:81: error: the arithmetic is nested too deeply\n");
+    expect_bytes(text, strlen(text), "5:81: error: the arithmetic is nested too deeply\n");
 }
 
 static void test_keys(void **state)

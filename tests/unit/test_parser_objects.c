@@ -114,6 +114,9 @@ static void test_wrong_placements(void **state)
          "8:103: error: matrix in sphere: expected a number, got 'x'\n"
          "9:69: error: sphere has both scale and matrix; give one of them\n"
          "10:68: error: the transform is singular: it has no inverse\n"},
+        /* the last row is the sum of the others, but not in floats */
+        {OBJECTS SPHERE "matrix: [0.1, 0.2, 0.7, 0, 0.3, 0.1, 0.9, 0, 0.4, 0.3, 1.6, 0]}\n",
+         "6:69: error: the matrix is singular: it has no inverse\n"},
         {OBJECTS SPHERE "look_at: {from: [0, 0, 0], to: [0, 0, 0]}}\n" SPHERE
                         "look_at: {from: [0, 0, 0], to: [0, 1, 0]}}\n" SPHERE
                         "look_at: {form: 5}}\n",
@@ -155,7 +158,7 @@ static void test_wrong_shapes(void **state)
          "8:67: error: the hole is as large as the disc\n"
          "9:40: error: extent in plane: expected auto | number > 0, got 'far'\n"
          "10:21: error: the length of normal is 0\n"
-         "11:51: error: segments in torus: expected integer 3..65536, got '2.5'\n"
+         "11:51: error: segments in torus: expected integer 3..8192, got '2.5'\n"
          "12:38: error: minor_radius must be smaller than radius\n"
          "13:5: error: missing key 'file' in height_field\n"
          "13:45: error: smooth in height_field: expected yes | no, got '5'\n"},

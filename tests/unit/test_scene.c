@@ -248,6 +248,38 @@ static void test_camera_aims_and_stays_upright(void **state)
     assert_true(fabsf(ps_length(view.across) / ps_length(view.down) - 1) < 1e-5f);
 }
 
+/* Points at any depth along rays come back to where the rays went through the picture. */
+static void expect_projection(const struct camera *camera)
+{
+    static const float pinhole[2] = {0, 0};
+    for (int i = 0; i < 49; i++) {
+        float x = (float)(i % 7) * 12.0f - 4.0f, y = (float)(i / 7) * 9.0f - 3.0f, found_x, found_y;
+        ps_ray ray = camera_ray(camera, x, y, pinhole);
+        ps_vec3 point = ps_add_scaled(ray.origin, 0.5f + (float)i, ray.direction);
+        ps_vec3 behind = ps_add_scaled(ray.origin, -1.0f, ray.direction);
+        assert_true(camera_project(camera, point, &found_x, &found_y));
+        assert_true(fabsf(found_x - x) < 1e-2f && fabsf(found_y - y) < 1e-2f);
+        assert_false(camera_project(camera, behind, &found_x, &found_y));
+    }
+}
+
+static void test_camera_projects_where_its_rays_went(void **state)
+{
+    (void)state;
+    struct camera_description description = {
+        .location = {5, 1, 2}, .look_at = {1, 4, -3}, .up = {0, 1, 0}, .angle = 40};
+    struct camera perspective = camera_from_description(&description, 64, 48);
+    expect_projection(&perspective);
+    description.aperture = 0.3; /* the middle of the lens counts */
+    struct camera lens = camera_from_description(&description, 64, 48);
+    expect_projection(&lens);
+    description.aperture = 0;
+    description.kind = CAMERA_ORTHOGRAPHIC;
+    description.width = 3;
+    struct camera parallel = camera_from_description(&description, 64, 48);
+    expect_projection(&parallel);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -260,6 +292,7 @@ int main(void)
         cmocka_unit_test(test_sphere),
         cmocka_unit_test(test_scene_bounds),
         cmocka_unit_test(test_camera_angles),
+        cmocka_unit_test(test_camera_projects_where_its_rays_went),
         cmocka_unit_test(test_camera_aims_and_stays_upright),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -259,8 +259,6 @@ static void test_no_shape(void **state)
     ps_vec3 plate[2] = {{0, 0, 0}, {1, 0, 1}};
     struct object_description object = {.kind = OBJECT_QUAD, .vertices = point, .vertex_count = 4};
     expect_no_shape(object, NULL, "quad: it has no area");
-    object.origin = (struct origin){"a.psd", 7, 5};
-    expect_no_shape(object, NULL, "a.psd:7:5: quad: it has no area");
     object = (struct object_description){.kind = OBJECT_BOX, .vertices = plate, .vertex_count = 2};
     expect_no_shape(object, NULL, "box: its corners agree");
     expect_no_shape((struct object_description){.kind = OBJECT_INSTANCE}, NULL, "instance");

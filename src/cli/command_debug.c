@@ -1,0 +1,222 @@
+/* command_debug.c: psplat debug: pictures of what goes on inside of a render. */
+#include "cli/command.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/render_options.h"
+#include "debug/debug.h"
+
+#include "base/text.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct option options[] = {
+    {'o', "output", "FILE.png", "default: the scene's name, the view's, and .png"},
+    {0, "count", "N", "sources: dots at most (20000); maps: splats (12)"},
+    {0, "resolution", "N", "voxels: cells across the scene (16)"},
+    {0, "top", "NUMBER", "sources, overlap: the scale's upper end; default: by what there is"},
+    {0, "color", "power|bounce", "sources: what the dots' colours tell; default: power"},
+    RENDER_OPTIONS,
+};
+
+struct job {
+    struct render_options options;
+    struct debug_request request;
+    const char *view;
+    const char *output;
+    char *default_output; /* owned */
+    struct progress progress;
+};
+
+static bool take_output(struct job *job, const char *path)
+{
+    size_t length = strlen(path);
+    job->output = path;
+    if (length > 4 && strcmp(path + length - 4, ".png") == 0)
+        return true;
+    fprintf(stderr, "psplat: error: --output: '%s' does not end in .png\n", path);
+    return false;
+}
+
+static bool parse_top(const char *text, double *top)
+{
+    if (text_to_number(text, top) && *top > 0.0)
+        return true;
+    fprintf(stderr, "psplat: error: --top: expected a number above 0, got '%s'\n", text);
+    return false;
+}
+
+static bool parse_color(const char *text, bool *by_bounce)
+{
+    *by_bounce = strcmp(text, "bounce") == 0;
+    if (*by_bounce || strcmp(text, "power") == 0)
+        return true;
+    fprintf(stderr, "psplat: error: --color: expected power or bounce, got '%s'\n", text);
+    return false;
+}
+
+static bool parse_count(const struct argument *argument, double most, uint32_t *count)
+{
+    double number;
+    if (!parse_whole_number(argument->option->name, argument->value, 1, most, &number))
+        return false;
+    *count = (uint32_t)number;
+    return true;
+}
+
+static bool take_option(struct job *job, const struct argument *argument)
+{
+    const char *name = argument->option->name, *value = argument->value;
+    struct debug_options *chosen = &job->request.options;
+    if (strcmp(name, "output") == 0)
+        return take_output(job, value);
+    if (strcmp(name, "count") == 0)
+        return parse_count(argument, 1e7, &chosen->count);
+    else if (strcmp(name, "resolution") == 0)
+        return parse_count(argument, 1e5, &chosen->resolution);
+    else if (strcmp(name, "top") == 0)
+        return parse_top(value, &chosen->top);
+    else if (strcmp(name, "color") == 0)
+        return parse_color(value, &chosen->by_bounce);
+    return true;
+}
+
+static bool take_arguments(struct job *job, const struct argument *arguments, size_t count)
+{
+    size_t operands = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (arguments[i].option) {
+            if (!take_option(job, &arguments[i]))
+                return false;
+        } else if (operands++ == 0) {
+            job->view = arguments[i].value;
+        } else {
+            job->options.scene_path = arguments[i].value;
+        }
+    }
+    if (operands != 2)
+        print_error("debug: expected a view and a scene. Try 'psplat debug --help'.");
+    return operands == 2;
+}
+
+static bool find_view(struct job *job)
+{
+    struct error error;
+    if (debug_find(job->view, &job->request, &error) == PS_OK)
+        return true;
+    print_error(error.text);
+    return false;
+}
+
+/* Without --output: cornell-gbuffer-normal.png for gbuffer:normal of cornell.psd. */
+static bool choose_output(struct job *job)
+{
+    char suffix[128];
+    struct error error;
+    if (!job->output) {
+        int length = snprintf(suffix, sizeof suffix, "-%s.png", job->view);
+        for (int i = 0; i < length && i < (int)sizeof suffix; i++)
+            if (suffix[i] == ':')
+                suffix[i] = '-';
+        job->default_output = output_default_path(job->options.scene_path, suffix);
+        job->output = job->default_output;
+    }
+    if (!job->output) {
+        print_error("out of memory");
+        return false;
+    }
+    if (output_check(job->output, &error))
+        return true;
+    print_error(error.text);
+    return false;
+}
+
+/* The picture says what it shows and with which settings. */
+static ps_result write_canvas(const struct job *job, const struct canvas *canvas,
+                              const struct render_settings *settings, struct error *error)
+{
+    struct image facts = {0};
+    ps_result result = output_describe_settings(&facts, job->options.scene_path, settings, error);
+    if (result == PS_OK)
+        result = image_set_attribute(&facts, "psplat.debug", job->view, error);
+    if (result == PS_OK)
+        result = image_write_png(job->output, canvas->width, canvas->height, canvas->rgb,
+                                 facts.attributes, facts.attribute_count, error);
+    image_release(&facts);
+    if (result == PS_OK && !job->options.quiet)
+        fprintf(stderr, "psplat: wrote %s\n", job->output);
+    return result;
+}
+
+static ps_result draw_and_write(struct job *job, const struct scene *scene,
+                                struct render_settings *settings, struct error *error)
+{
+    struct render_callbacks callbacks = progress_callbacks(&job->progress);
+    struct statistics statistics;
+    struct canvas canvas;
+    statistics_init(&statistics);
+    ps_result result =
+        debug_draw(&job->request, scene, settings, &callbacks, &statistics, &canvas, error);
+    progress_clear(&job->progress);
+    if (result == PS_OK) {
+        result = write_canvas(job, &canvas, settings, error);
+        canvas_release(&canvas);
+    }
+    statistics_destroy(&statistics);
+    return result;
+}
+
+static int draw_job(struct job *job, struct scene_input *input, struct render_settings *settings)
+{
+    struct scene scene;
+    struct error error;
+    job->request.options.exposure = input->description.image.exposure;
+    ps_result result = scene_input_build_to_render(input, &scene, &error);
+    if (result == PS_OK) {
+        result = draw_and_write(job, &scene, settings, &error);
+        scene_release(&scene);
+    }
+    if (result == PS_OK)
+        return STATUS_OK;
+    if (error.text[0])
+        print_error(error.text);
+    return result == PS_ERROR_INVALID ? STATUS_USAGE : STATUS_FAILED;
+}
+
+static int load_and_draw(struct job *job)
+{
+    struct scene_input input;
+    struct render_settings settings;
+    int status = STATUS_USAGE;
+    if (render_options_load(&job->options, &input, &settings)) {
+        status = draw_job(job, &input, &settings);
+        settings_release(&settings);
+    }
+    scene_input_release(&input);
+    return status;
+}
+
+static int run(const struct argument *arguments, size_t count)
+{
+    struct job job = {.view = NULL};
+    int status = STATUS_USAGE;
+    if (render_options_take(&job.options, arguments, count) &&
+        take_arguments(&job, arguments, count) && find_view(&job)) {
+        status = STATUS_FAILED;
+        progress_start(&job.progress, job.options.quiet);
+        if (choose_output(&job))
+            status = load_and_draw(&job);
+    }
+    render_options_release(&job.options);
+    free(job.default_output);
+    return status;
+}
+
+const struct command command_debug = {
+    .name = "debug",
+    .operands = "sources|voxels|gbuffer[:LAYER]|maps|overlap SCENE.psd",
+    .summary = "draws what goes on inside of a render",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
+    .run = run,
+};

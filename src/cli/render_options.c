@@ -1,0 +1,107 @@
+#include "cli/render_options.h"
+
+#include "base/parallel.h"
+#include "base/text.h"
+#include <stdio.h>
+#include <string.h>
+
+#define DEFAULT_BATCH 4096
+
+static bool take_option(struct render_options *options, const struct argument *argument)
+{
+    const char *name = argument->option->name, *value = argument->value;
+    if (strcmp(name, "quiet") == 0)
+        options->quiet = true;
+    else if (strcmp(name, "isa") == 0)
+        options->isa = value;
+    else if (strcmp(name, "size") == 0)
+        options->size = value;
+    else if (strcmp(name, "exposure") == 0)
+        options->exposure = value;
+    else if (strcmp(name, "seed") == 0)
+        return parse_whole_number(name, value, 0, 9007199254740992.0, &options->seed);
+    else if (strcmp(name, "threads") == 0)
+        return parse_whole_number(name, value, 1, 1024, &options->threads);
+    else if (strcmp(name, "batch") == 0)
+        return parse_whole_number(name, value, 1, 4096, &options->batch);
+    return true; /* another's, or one that waits for the scene */
+}
+
+bool render_options_take(struct render_options *options, const struct argument *arguments,
+                         size_t count)
+{
+    *options = (struct render_options){
+        .seed = -1,
+        .threads = -1,
+        .batch = -1,
+        .arguments = arguments,
+        .argument_count = count,
+    };
+    for (size_t i = 0; i < count; i++)
+        if (arguments[i].option && !take_option(options, &arguments[i]))
+            return false;
+    return scene_options_take(&options->scene, arguments, count);
+}
+
+void render_options_release(struct render_options *options)
+{
+    scene_options_release(&options->scene);
+}
+
+static bool override_size(const char *text, struct image_description *image)
+{
+    char width[32];
+    size_t length = strcspn(text, "x");
+    double w, h;
+    snprintf(width, sizeof width, "%.*s", (int)(length < 31 ? length : 31), text);
+    if (!text[length] || !text_to_number(width, &w) || !text_to_number(text + length + 1, &h) ||
+        w < 1 || h < 1 || w > 65536 || h > 65536 || w != (double)(int64_t)w ||
+        h != (double)(int64_t)h) {
+        fprintf(stderr, "psplat: error: --size: expected WxH, each 1..65536, got '%s'\n", text);
+        return false;
+    }
+    image->width = (int64_t)w;
+    image->height = (int64_t)h;
+    return true;
+}
+
+static bool override_exposure(const char *text, double *exposure)
+{
+    double stops;
+    if (!text_to_number(text, &stops) || stops < -20 || stops > 20) {
+        fprintf(stderr, "psplat: error: --exposure: expected a number -20..20, got '%s'\n", text);
+        return false;
+    }
+    *exposure = stops;
+    return true;
+}
+
+/* Lays the command line over the scene. */
+static bool override(const struct render_options *options, struct scene_input *input)
+{
+    struct scene_description *description = &input->description;
+    for (size_t i = 0; i < options->argument_count; i++) {
+        const struct argument *argument = &options->arguments[i];
+        if (argument->option && strcmp(argument->option->name, "plugin") == 0 &&
+            !scene_input_override(input, argument->value))
+            return false;
+    }
+    if (options->seed >= 0)
+        description->render.seed = (int64_t)options->seed;
+    return (!options->size || override_size(options->size, &description->image)) &&
+           (!options->exposure ||
+            override_exposure(options->exposure, &description->image.exposure));
+}
+
+bool render_options_load(const struct render_options *options, struct scene_input *input,
+                         struct render_settings *settings)
+{
+    uint32_t threads =
+        options->threads > 0 ? (uint32_t)options->threads : parallel_processor_count();
+    size_t batch = options->batch > 0 ? (size_t)options->batch : DEFAULT_BATCH;
+    if (!scene_input_read(input, options->scene_path, &options->scene) ||
+        !override(options, input) || !scene_input_resolve(input, threads, batch, settings))
+        return false;
+    settings->isa = options->isa;
+    return true;
+}

@@ -1,0 +1,269 @@
+/* view_maps.c: single splats with their depth maps, before anything is summed or normalized (Hoet 2014,
+ * figure 14): above, what some splats light in the picture, each with its number; below, their maps.
+ *
+ * In the picture each splat gives its colour times the cosine, the same over all of its disc and
+ * whatever its size, so that the sharp shadows of small and large ones can be told. In a map grey is
+ * depth, white where it is nearest to the light; blue texels met nothing, and those outside of the disc,
+ * which light nothing, are dimmed.
+ */
+#include "debug/backdrop.h"
+#include "debug/debug.h"
+#include "debug/font.h"
+#include "debug/selection.h"
+#include "debug/sight.h"
+#include "image/magnify.h"
+#include "image/tonemap.h"
+#include <psplat/math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define USUAL_COUNT 12
+#define COLUMNS 6
+#define BATCH 4096 /* splats placed at a time */
+
+static const struct colour ink = {255, 220, 120};
+
+static ps_result offer_splats(struct render *render, const ps_source *sources, size_t n,
+                              ps_splat *placed, struct selection *splats)
+{
+    for (size_t first = 0; first < n; first += BATCH) {
+        size_t count = n - first < BATCH ? n - first : BATCH;
+        ps_result result = render->host.place_splats(&render->host, sources + first, count, placed);
+        if (result != PS_OK)
+            return result;
+        for (size_t i = 0; i < count; i++) {
+            float x, y;
+            ps_vec3 back = ps_scale(placed[i].axis_w, -1.0f);
+            if (placed[i].half_width > 0.0f && sight_of(render, placed[i].centre, back, &x, &y))
+                selection_offer(splats, &placed[i]);
+        }
+    }
+    return PS_OK;
+}
+
+/* Chooses among the splats whose middles are seen. */
+static ps_result choose_splats(struct render *render, struct selection *splats, struct error *error)
+{
+    const ps_source *sources;
+    size_t n = 0;
+    double progress;
+    ps_splat *placed = malloc(BATCH * sizeof *placed);
+    if (!placed)
+        return error_memory(error, BATCH * sizeof *placed, "splats");
+    ps_result result;
+    do {
+        render->error.text[0] = '\0';
+        result = render->host.next_sources(&render->host, &sources, &n, &progress);
+        if (result == PS_OK)
+            result = offer_splats(render, sources, n, placed, splats);
+        render->host.progress(&render->host, progress);
+    } while (result == PS_OK && n > 0);
+    free(placed);
+    selection_finish(splats);
+    if (result != PS_OK)
+        return error_set(error, result, "%s", render->error.text);
+    if (splats->count == 0)
+        return error_set(error, PS_ERROR_INVALID, "maps: no splat is in the picture");
+    return PS_OK;
+}
+
+static struct colour dim(struct colour colour)
+{
+    return (struct colour){colour.r / 3, colour.g / 3, colour.b / 3};
+}
+
+/* Draws a map of resolution^2 depths, a pixel a texel. The range of greys is the depths', but no less
+ * than the box's half-width, so that what is flat looks flat. */
+static void draw_texels(const float *depths, uint32_t resolution, float half_width, uint8_t *rgb)
+{
+    static const struct colour nothing = {40, 70, 190};
+    float nearest = INFINITY, farthest = -INFINITY;
+    for (uint32_t i = 0; i < resolution * resolution; i++)
+        if (depths[i] < INFINITY) {
+            nearest = fminf(nearest, depths[i]);
+            farthest = fmaxf(farthest, depths[i]);
+        }
+    float range = fmaxf(farthest - nearest, half_width);
+    struct canvas texels = {resolution, resolution, rgb};
+    float half = 0.5f * (float)resolution;
+    for (uint32_t i = 0; i < resolution * resolution; i++) {
+        uint32_t column = i % resolution, line = i / resolution;
+        float u = ((float)column + 0.5f) / half - 1.0f;
+        float v = ((float)line + 0.5f) / half - 1.0f;
+        float share = 1.0f - 0.85f * (depths[i] - nearest) / range;
+        uint8_t grey = depths[i] < INFINITY ? (uint8_t)(255.0f * share) : 0;
+        struct colour colour = depths[i] < INFINITY ? (struct colour){grey, grey, grey} : nothing;
+        canvas_set(&texels, (long)column, (long)line, u * u + v * v < 1.0f ? colour : dim(colour));
+    }
+}
+
+/* Where the maps are on the sheet. */
+struct layout {
+    uint32_t resolution;
+    size_t top; /* of the first row of cells */
+    size_t cell_width, cell_height, zoom, scale;
+};
+
+static struct layout layout_of(const struct render *render, uint32_t resolution)
+{
+    size_t scale = canvas_text_scale(render->film.width);
+    size_t cell = render->film.width / COLUMNS, margin = 4 * scale;
+    size_t room = cell > margin ? (cell - margin) / resolution : 1;
+    size_t zoom = room > 0 ? room : 1, side = zoom * resolution;
+    return (struct layout){
+        .resolution = resolution,
+        .top = render->film.height,
+        .cell_width = side + margin > cell ? side + margin : cell,
+        .cell_height = side + margin + (FONT_HEIGHT + 4) * scale,
+        .zoom = zoom,
+        .scale = scale,
+    };
+}
+
+static ps_result draw_map(const struct layout *layout, size_t index, const ps_splat *splat,
+                          const float *depths, struct canvas *canvas)
+{
+    uint32_t side = layout->resolution;
+    size_t left = index % COLUMNS * layout->cell_width + 2 * layout->scale;
+    size_t top = layout->top + index / COLUMNS * layout->cell_height + 2 * layout->scale;
+    uint8_t *texels = malloc(3 * (size_t)side * side);
+    uint8_t *large = malloc(3 * (size_t)side * side * layout->zoom * layout->zoom);
+    if (texels && large) {
+        char text[64];
+        snprintf(text, sizeof text, "%zu R=%.3g", index + 1, (double)splat->half_width);
+        canvas_text(canvas, (long)left, (long)top, layout->scale, ink, text);
+        draw_texels(depths, side, splat->half_width, texels);
+        magnify(texels, side, (struct rectangle){0, 0, side, side}, layout->zoom, large);
+        canvas_paste(canvas, left, top + (FONT_HEIGHT + 2) * layout->scale, large,
+                     side * layout->zoom, side * layout->zoom);
+    }
+    bool good = texels && large;
+    free(texels);
+    free(large);
+    return good ? PS_OK : PS_ERROR_MEMORY;
+}
+
+static ps_result draw_maps(const struct render *render, const struct layout *layout,
+                           const ps_splat *splats, size_t n, struct canvas *canvas,
+                           struct error *error)
+{
+    const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
+    const ps_visibility_vtable *vtable = visibility->descriptor->vtable;
+    size_t texels = (size_t)layout->resolution * layout->resolution;
+    float *depths = malloc(n * texels * sizeof *depths);
+    if (!depths)
+        return error_memory(error, n * texels * sizeof *depths, "depth maps");
+    vtable->depth_maps(visibility->state, &render->host, splats, n, depths);
+    ps_result result = PS_OK;
+    for (size_t i = 0; i < n && result == PS_OK; i++)
+        result = draw_map(layout, i, &splats[i], depths + i * texels, canvas);
+    free(depths);
+    return result == PS_OK ? PS_OK : error_memory(error, 3 * texels, "a map");
+}
+
+/* Luminance of a splat of mean power, on a white surface that faces it. */
+#define SPLAT_BRIGHTNESS 0.5f
+
+static float scale_of(const ps_splat *splats, size_t n)
+{
+    float sum = 0.0f;
+    for (size_t i = 0; i < n; i++)
+        sum += ps_luminance(splats[i].power);
+    return sum > 0.0f ? SPLAT_BRIGHTNESS * (float)n / sum : 0.0f;
+}
+
+/* Adds what the splats gave to the tiles to the picture in the canvas. */
+static void draw_light(const struct render *render, float scale, double exposure,
+                       struct canvas *canvas)
+{
+    const struct gbuffer *gbuffer = &render->gbuffer;
+    for (size_t i = 0; i < (size_t)gbuffer->tile_count * PS_TILE_PIXELS; i++) {
+        uint32_t x, y, lane = i % PS_TILE_PIXELS;
+        const ps_tile *tile = &gbuffer->tiles[i / PS_TILE_PIXELS];
+        if (!(tile->weight[lane] > 0.0f) ||
+            !gbuffer_pixel(gbuffer, (uint32_t)(i / PS_TILE_PIXELS), lane, &x, &y))
+            continue;
+        double under = tonemap_linear((double)canvas_get(canvas, x, y).r / 255.0);
+        float r = scale * tile->irradiance_r[lane] * tile->albedo_r[lane] + (float)under;
+        float g = scale * tile->irradiance_g[lane] * tile->albedo_g[lane] + (float)under;
+        float b = scale * tile->irradiance_b[lane] * tile->albedo_b[lane] + (float)under;
+        uint8_t rgb[3];
+        tonemap_planes(&r, &g, &b, 1, exposure, TONE_FILMIC, rgb);
+        canvas_set(canvas, (long)x, (long)y, (struct colour){rgb[0], rgb[1], rgb[2]});
+    }
+}
+
+static void number_splats(const struct render *render, const ps_splat *splats, size_t n,
+                          struct canvas *canvas)
+{
+    size_t scale = canvas_text_scale(render->film.width);
+    for (size_t i = 0; i < n; i++) {
+        float x, y;
+        char text[32];
+        if (!camera_project(&render->scene->camera, splats[i].centre, &x, &y))
+            continue;
+        snprintf(text, sizeof text, "%zu", i + 1);
+        canvas_text(canvas, lroundf(x) - (long)canvas_text_width(scale, text) / 2,
+                    lroundf(y) - (long)(FONT_HEIGHT * scale / 2), scale, ink, text);
+    }
+}
+
+static ps_result draw_picture(struct render *render, ps_splat *splats, size_t n, double exposure,
+                              struct canvas *canvas, struct error *error)
+{
+    render->counts_splats = true;
+    ps_result result = render->host.splat(&render->host, splats, n);
+    if (result != PS_OK)
+        return error_set(error, result, "%s", render->error.text);
+    backdrop_draw(render, exposure, canvas);
+    draw_light(render, scale_of(splats, n), exposure, canvas);
+    number_splats(render, splats, n, canvas);
+    return PS_OK;
+}
+
+static ps_result draw_sheet(struct render *render, uint32_t resolution,
+                            const struct selection *chosen, double exposure, struct canvas *canvas,
+                            struct error *error)
+{
+    struct layout layout = layout_of(render, resolution);
+    size_t n = chosen->count, rows = (n + COLUMNS - 1) / COLUMNS;
+    size_t width = COLUMNS * layout.cell_width;
+    ps_splat *splats = malloc(n * sizeof *splats);
+    if (!splats)
+        return error_memory(error, n * sizeof *splats, "splats");
+    for (size_t i = 0; i < n; i++)
+        splats[i] = *(const ps_splat *)selection_item(chosen, i);
+    ps_result result =
+        canvas_create(canvas, width > render->film.width ? width : render->film.width,
+                      layout.top + rows * layout.cell_height, error);
+    if (result == PS_OK)
+        result = draw_maps(render, &layout, splats, n, canvas, error);
+    if (result == PS_OK)
+        result = draw_picture(render, splats, n, exposure, canvas, error);
+    free(splats);
+    return result;
+}
+
+static ps_result draw(struct render *render, const struct debug_options *options, int part,
+                      struct canvas *canvas, struct error *error)
+{
+    (void)part;
+    const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
+    const ps_visibility_vtable *vtable = visibility->descriptor->vtable;
+    uint32_t resolution = vtable->resolution(visibility->state);
+    if (resolution == 0 || !vtable->depth_maps)
+        return error_set(error, PS_ERROR_INVALID, "maps: the visibility %s has no depth maps",
+                         visibility->descriptor->name);
+    struct selection splats;
+    ps_result result = selection_create(&splats, options->count ? options->count : USUAL_COUNT,
+                                        sizeof(ps_splat), error);
+    if (result != PS_OK)
+        return result;
+    result = choose_splats(render, &splats, error);
+    if (result == PS_OK)
+        result = draw_sheet(render, resolution, &splats, options->exposure, canvas, error);
+    selection_release(&splats);
+    return result;
+}
+
+const struct debug_view debug_maps = {.name = "maps", .draw = draw};

@@ -1,0 +1,41 @@
+/* memory.c: whether a picture of some size can be rendered here at all.
+ *
+ * A system that lends more memory than it has lets a render of a mistyped size begin and kills it
+ * later, with others. So what grows with the picture (G-buffer, film and the picture itself, which
+ * are there together at the end) is compared with the machine's physical memory beforehand. What
+ * else the system runs is not known, and not asked for.
+ */
+#include "film/film.h"
+#include "pipeline/render.h"
+#include "pipeline/render_state.h"
+
+#include <unistd.h>
+
+#define GIB 0x1p30
+
+double render_bytes(size_t width, size_t height)
+{
+    struct gbuffer gbuffer = gbuffer_layout(width, height);
+    struct film film = {.width = width, .height = height};
+    return (double)gbuffer_bytes(&gbuffer) + (double)film_bytes(&film) +
+           (double)picture_bytes(width, height);
+}
+
+/* Infinite where the system does not tell. */
+static double physical_memory(void)
+{
+    long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+    return pages > 0 && page > 0 ? (double)pages * (double)page : INFINITY;
+}
+
+ps_result render_check_memory(size_t width, size_t height, struct error *error)
+{
+    double wanted = render_bytes(width, height), there = physical_memory();
+    if (wanted <= there)
+        return PS_OK;
+    return error_set(
+        error, PS_ERROR_MEMORY,
+        "a picture of %zux%zu pixels takes %.1f GiB of memory to render, and this machine "
+        "has %.1f GiB; a smaller one is had by --size",
+        width, height, wanted / GIB, there / GIB);
+}

@@ -1,0 +1,32 @@
+/* exact.h: the inner loop for visibilities that judge every point by itself.
+ *
+ * The same sums as kernel.h, with V(p) from the visibility's test of the point instead of a depth
+ * map. A loop of its own: the rays cost a hundred times what the weights do, and the vector kernel
+ * stays as it is.
+ */
+#ifndef SPLAT_EXACT_H
+#define SPLAT_EXACT_H
+
+#include "splat/kernel.h"
+#include <psplat/strategy.h>
+
+struct exact_test {
+    const ps_visibility_vtable *vtable; /* with `visible` */
+    const void *state;
+    const ps_host *host;
+    float surface_offset; /* see ps_pass */
+};
+
+struct exact_count {
+    uint64_t asked; /* points inside of a splat's box that face the light */
+    uint64_t lit;
+};
+
+/* Adds n splats, in order, to the tile. `splats` and `prepared` are the same splats, chosen by
+ * `indices`. Any thread that owns the tile. */
+struct exact_count exact_accumulate(ps_tile *tile, const struct exact_test *test,
+                                    const ps_splat *splats, const struct kernel_splat *prepared,
+                                    const uint32_t *indices, size_t n,
+                                    const struct kernel_profile *profile);
+
+#endif

@@ -1,0 +1,229 @@
+/* test_caustic.c: light that mirrors and glass throw on a floor.
+ *
+ * A plane mirror of reflectance k: what it throws on a floor point comes from the lamp's image behind
+ * it, a sphere of radiance k L and radius r at distance d: E = pi k L (r / d)^2 cos(t), while all of
+ * the image is seen in the mirror. A vertical mirror throws no light of the floor back to it.
+ *
+ * A plate of glass under the sun: with reflectance R of one border (Fresnel) and A = exp(-absorption *
+ * length of the way through) it lets through T = (1 - R)^2 A / (1 - R^2 A^2), all reflections inside
+ * taken together. A sun of half angle s and irradiance 1 gives the mean of T over its disc, weighed
+ * with the cosine.
+ *
+ * A glass ball: path tracing is the truth. The camera does not see what is above the floor.
+ */
+#include "support/render_scene.h"
+#include "support/statistics_of.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#define PI 3.14159265358979323846
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+#define SEEDS 4
+
+struct method {
+    const char *name;
+    const char *choices[4];
+    double bias;
+};
+
+/* Looks at the floor from -0.4 to 0.4 in x and z. */
+#define CAMERA                                                                                     \
+    "psd: 1\n"                                                                                     \
+    "camera: {location: [0, 0.1, 0], look_at: [0, 0, 0], up: [0, 0, -1],\n"                        \
+    "         projection: orthographic, width: 0.8}\n"                                             \
+    "image: {width: 16, height: 16}\n"
+
+static void check(const char *name, const char *text, const struct method *methods, size_t count,
+                  double expected)
+{
+    for (size_t i = 0; i < count; i++) {
+        char what[128];
+        snprintf(what, sizeof what, "%s: %s", name, methods[i].name);
+        struct estimate estimate = estimate_channel(text, methods[i].choices, "indirect.G", SEEDS);
+        expect_estimate(what, estimate, expected, methods[i].bias);
+    }
+}
+
+/* --- mirror --------------------------------------------------------------------------------- */
+
+#define MIRROR(LIGHT)                                                                              \
+    CAMERA                                                                                         \
+    "materials: {floor: {diffuse: 0.5}, mirror: {mirror: 0.8}}\n"                                  \
+    "lights:\n"                                                                                    \
+    "  - " LIGHT "\n"                                                                              \
+    "objects:\n"                                                                                   \
+    "  - quad: {corners: [[-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]], material: floor}\n"     \
+    "  - quad: {corners: [[1, 0.2, -1], [1, 0.2, 1], [1, 1.8, 1], [1, 1.8, -1]],\n"                \
+    "           material: mirror, camera: no}\n"                                                   \
+    "render: {seed: %d}\n"
+
+/* Mean of h / d^3 over the floor that is seen, for the image at (2, 2, 0). */
+static double mean_from_image(void)
+{
+    double sum = 0;
+    for (int i = 0; i < 100; i++)
+        for (int k = 0; k < 100; k++) {
+            double x = 2 - (0.008 * (i + 0.5) - 0.4), z = 0.008 * (k + 0.5) - 0.4;
+            sum += 2 * pow(4 + x * x + z * z, -1.5);
+        }
+    return sum / 10000;
+}
+
+static const struct method mirror_methods[] = {
+    {"splat",
+     {"estimator=splat", "injection=photon:count=100000,bounces=0",
+      "visibility=shadowmap:size=0.08", NULL},
+     0.01},
+    {"photonmap",
+     {"estimator=photonmap:neighbours=60", "injection=photon:count=100000,bounces=0", NULL},
+     0.01},
+    {"pathtrace", {"estimator=pathtrace:samples=1024,bounces=0", NULL}, 0},
+    {"photonmap, gather",
+     {"estimator=photonmap:neighbours=60,gather=1024", "injection=photon:count=2000,bounces=0",
+      NULL},
+     0.005},
+};
+
+static void test_mirror(void **state)
+{
+    (void)state;
+    static const char lamp[] =
+        MIRROR("sphere: {location: [0, 2, 0], radius: 0.3, radiance: 1, visible: no}");
+    check("mirror, lamp", lamp, mirror_methods, COUNT(mirror_methods),
+          0.5 * 0.8 * 0.09 * mean_from_image());
+}
+
+/* Only light paths find the way of a light without a size over a mirror. */
+static void test_mirror_and_point_light(void **state)
+{
+    (void)state;
+    static const char point[] = MIRROR("point: {location: [0, 2, 0], intensity: 1}");
+    check("mirror, point light", point, mirror_methods, 2, 0.5 / PI * 0.8 * mean_from_image());
+}
+
+/* --- glass plate ---------------------------------------------------------------------------- */
+
+#define HALF_ANGLE 20.0
+#define IOR 1.5
+#define THICKNESS 0.4
+#define ABSORPTION 0.8
+
+static const char plate[] = CAMERA
+    "materials: {floor: {diffuse: 0.01}, glass: {dielectric: {ior: 1.5, absorption: 0.8}}}\n"
+    "lights: [{sun: {direction: [0, -1, 0], angle: 40, irradiance: 100}}]\n"
+    "objects:\n"
+    "  - quad: {corners: [[-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]], material: floor}\n"
+    "  - box: {corners: [[-1, 0.2, -1], [1, 0.6, 1]], material: glass, camera: no}\n"
+    "render: {seed: %d}\n";
+
+static double transmittance(double angle)
+{
+    double cosine = cos(angle), inner = sqrt(1 - pow(sin(angle) / IOR, 2));
+    double parallel = (IOR * cosine - inner) / (IOR * cosine + inner);
+    double perpendicular = (cosine - IOR * inner) / (cosine + IOR * inner);
+    double r = 0.5 * (parallel * parallel + perpendicular * perpendicular);
+    double a = exp(-ABSORPTION * THICKNESS / inner);
+    return (1 - r) * (1 - r) * a / (1 - r * r * a * a);
+}
+
+static double mean_transmittance(void)
+{
+    double sum = 0, whole = 0;
+    for (int i = 0; i < 1000; i++) {
+        double angle = HALF_ANGLE * PI / 180 * (i + 0.5) / 1000;
+        sum += transmittance(angle) * cos(angle) * sin(angle);
+        whole += cos(angle) * sin(angle);
+    }
+    return sum / whole;
+}
+
+static void test_absorbing_plate(void **state)
+{
+    (void)state;
+    static const struct method methods[] = {
+        {"splat",
+         {"estimator=splat", "injection=photon:count=50000,bounces=0",
+          "visibility=shadowmap:size=0.05", NULL},
+         0.01},
+        {"photonmap",
+         {"estimator=photonmap:neighbours=60", "injection=photon:count=50000,bounces=0", NULL},
+         0.01},
+        {"pathtrace", {"estimator=pathtrace:samples=512,bounces=0", NULL}, 0.002},
+    };
+    check("glass plate", plate, methods, COUNT(methods), 0.01 / PI * 100 * mean_transmittance());
+}
+
+/* --- agreement ------------------------------------------------------------------------------ */
+
+/* A lamp that shines on something, and a floor of which all that the caustic reaches is seen. */
+#define LIT(OBJECT)                                                                                \
+    "psd: 1\n"                                                                                     \
+    "camera: {location: [0, 0.1, 0], look_at: [0, 0, 0], up: [0, 0, -1],\n"                        \
+    "         projection: orthographic, width: 2}\n"                                               \
+    "image: {width: 24, height: 24}\n"                                                             \
+    "materials:\n"                                                                                 \
+    "  floor: {diffuse: 0.8}\n"                                                                    \
+    "  glass: {dielectric: {ior: 1.5}}\n"                                                          \
+    "  green: {dielectric: {ior: 1.5, absorption: 1}}\n"                                           \
+    "  metal: {metal: {color: 0.9, roughness: 0.4}}\n"                                             \
+    "lights:\n"                                                                                    \
+    "  - rectangle: {corners: [[-0.5, 3, -0.5], [0.5, 3, -0.5], [0.5, 3, 0.5]], radiance: 1,\n"    \
+    "                visible: no}\n"                                                               \
+    "objects:\n"                                                                                   \
+    "  - quad: {corners: [[-2, 0, 2], [2, 0, 2], [2, 0, -2], [-2, 0, -2]], material: floor}\n"     \
+    "  - " OBJECT "\n"                                                                             \
+    "render: {seed: %d}\n"
+
+/* The nearest photons alone overrate a focus; a radius limits that. */
+static const struct method agreeing[] = {
+    {"splat",
+     {"estimator=splat", "injection=photon:count=200000,bounces=0",
+      "visibility=shadowmap:size=0.05", NULL},
+     0.01},
+    {"photonmap",
+     {"estimator=photonmap:neighbours=500,max_radius=0.05,filter=box",
+      "injection=photon:count=200000,bounces=0", NULL},
+     0.015},
+};
+
+static void agree(const char *name, const char *text)
+{
+    static const char *const path_tracing[] = {"estimator=pathtrace:samples=2048,bounces=0", NULL};
+    struct estimate truth = estimate_channel(text, path_tracing, "indirect.G", SEEDS);
+    for (size_t i = 0; i < COUNT(agreeing); i++) {
+        char what[128];
+        snprintf(what, sizeof what, "%s: %s", name, agreeing[i].name);
+        expect_agreement(what, estimate_channel(text, agreeing[i].choices, "indirect.G", SEEDS),
+                         truth, agreeing[i].bias);
+    }
+}
+
+static void test_glass_ball(void **state)
+{
+    (void)state;
+    agree("glass ball",
+          LIT("sphere: {center: [0, 0.8, 0], radius: 0.5, material: glass, camera: no}"));
+    agree("glass ball that absorbs",
+          LIT("sphere: {center: [0, 0.8, 0], radius: 0.5, material: green, camera: no}"));
+}
+
+static void test_metal_ring(void **state)
+{
+    (void)state;
+    agree("metal ring", LIT("cylinder: {from: [0, 0, 0], to: [0, 0.4, 0], radius: 1.5, open: yes,"
+                            " material: metal, camera: no}"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_mirror),          cmocka_unit_test(test_mirror_and_point_light),
+        cmocka_unit_test(test_absorbing_plate), cmocka_unit_test(test_glass_ball),
+        cmocka_unit_test(test_metal_ring),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,362 @@
+/* test_debug_views.c: the views of debug show what they say: counts of splats against a count of our
+ * own and against the weights of a box filter, cells of a grid, and points that are hidden or not. */
+#include "debug/debug.h"
+#include "debug/id_colour.h"
+#include "debug/legend.h"
+#include "debug/sight.h"
+#include "support/render_scene.h"
+
+#include <psplat/math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define WIDTH 48
+#define HEIGHT 32
+#define PIXELS (WIDTH * HEIGHT)
+
+static void inspect(const char *text, const char *const choices[], render_inspector inspector,
+                    void *user)
+{
+    struct prepared prepared;
+    struct statistics statistics;
+    struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
+    struct error error;
+    prepare_text(text, 2, 100, choices, &prepared);
+    statistics_init(&statistics);
+    ps_result result = render_inspect(&prepared.scene, &prepared.settings, &callbacks, &statistics,
+                                      inspector, user, &error);
+    if (result != PS_OK)
+        print_error("%s\n", error.text);
+    assert_int_equal(result, PS_OK);
+    statistics_destroy(&statistics);
+    prepared_release(&prepared);
+}
+
+static ps_result view(const char *name, const char *text, const struct debug_options *options,
+                      const char *const choices[], struct canvas *canvas, struct error *error)
+{
+    struct prepared prepared;
+    struct statistics statistics;
+    struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
+    struct debug_request request = {.options = *options};
+    prepare_text(text, 2, 4096, choices, &prepared);
+    statistics_init(&statistics);
+    assert_int_equal(debug_find(name, &request, error), PS_OK);
+    ps_result result = debug_draw(&request, &prepared.scene, &prepared.settings, &callbacks,
+                                  &statistics, canvas, error);
+    statistics_destroy(&statistics);
+    prepared_release(&prepared);
+    return result;
+}
+
+/* --- overlap --- */
+
+static ps_result count_by_kernel(void *user, struct render *render, struct error *error)
+{
+    float *counts = user;
+    render->counts_splats = true;
+    ps_result result = render_estimate(render, error);
+    for (uint32_t tile = 0; tile < render->gbuffer.tile_count; tile++)
+        for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+            uint32_t x, y;
+            if (gbuffer_pixel(&render->gbuffer, tile, lane, &x, &y))
+                counts[y * WIDTH + x] = render->gbuffer.tiles[tile].weight[lane];
+        }
+    return result;
+}
+
+/* With a box filter and one size of splats, the weights of a render are counts over pi R^2. */
+static void expect_weights(const char *text, const char *visibility)
+{
+    const char *const choices[] = {"injection=photon:count=3000", "filter=box",
+                                   "normalization=density", visibility, NULL};
+    float *counts = calloc(PIXELS, sizeof *counts);
+    double most = 0;
+    assert_non_null(counts);
+    inspect(text, choices, count_by_kernel, counts);
+    struct rendering rendering = render_text(text, 2, choices);
+    const float *weights = image_channel(&rendering.image, "weight");
+    for (size_t i = 0; i < PIXELS; i++) {
+        double expected = (double)weights[i] * 3.14159265358979 * 50 * 50;
+        assert_true(fabs((double)counts[i] - expected) < 1e-3 * fmax(1, expected));
+        assert_true(counts[i] == floorf(counts[i]));
+        most = fmax(most, expected);
+    }
+    assert_true(most > 20);
+    rendering_release(&rendering);
+    free(counts);
+}
+
+static void test_overlap_is_the_weight_of_a_box(void **state)
+{
+    (void)state;
+    char *text = cornell_text(WIDTH, HEIGHT);
+    expect_weights(text, "visibility=none:size=50,follow=0,grow=1");
+    expect_weights(text, "visibility=shadowmap:size=50,follow=0,grow=1");
+    expect_weights(text, "visibility=raycast:size=50,follow=0,grow=1");
+    free(text);
+}
+
+struct tally {
+    const struct render *render;
+    int *counts;
+    bool *borderline;
+};
+
+static void tally_pixel(const struct tally *tally, const ps_splat *splat, size_t pixel)
+{
+    const struct film *film = &tally->render->film;
+    ps_vec3 p = {film->planes[FILM_POSITION_X][pixel], film->planes[FILM_POSITION_Y][pixel],
+                 film->planes[FILM_POSITION_Z][pixel]};
+    ps_vec3 n = {film->planes[FILM_NORMAL_X][pixel], film->planes[FILM_NORMAL_Y][pixel],
+                 film->planes[FILM_NORMAL_Z][pixel]};
+    double x = p.x - splat->centre.x, y = p.y - splat->centre.y, z = p.z - splat->centre.z;
+    double u = x * splat->axis_u.x + y * splat->axis_u.y + z * splat->axis_u.z;
+    double v = x * splat->axis_v.x + y * splat->axis_v.y + z * splat->axis_v.z;
+    double t = x * splat->axis_w.x + y * splat->axis_w.y + z * splat->axis_w.z;
+    double start = splat->start_depth + splat->start_slope_u * u + splat->start_slope_v * v;
+    double cosine =
+        -((double)n.x * splat->axis_w.x + (double)n.y * splat->axis_w.y + n.z * splat->axis_w.z);
+    const double margins[5] = {(splat->half_width - hypot(u, v)) / splat->half_width, cosine,
+                               (t - splat->near_depth) / splat->half_width,
+                               (splat->far_depth - t) / splat->half_width,
+                               (t - start) / splat->half_width};
+    int inside = 1;
+    for (int i = 0; i < 5; i++) {
+        inside = inside && margins[i] > 0;
+        tally->borderline[pixel] = tally->borderline[pixel] || fabs(margins[i]) < 1e-4;
+    }
+    tally->counts[pixel] += inside;
+}
+
+/* Asks for the splats as the estimator does, and tries each against each pixel. */
+static ps_result count_by_hand(void *user, struct render *render, struct error *error)
+{
+    (void)error;
+    struct tally *tally = user;
+    tally->render = render;
+    const ps_source *sources;
+    size_t n;
+    double progress;
+    do {
+        assert_int_equal(render->host.next_sources(&render->host, &sources, &n, &progress), PS_OK);
+        ps_splat *splats = malloc((n + 1) * sizeof *splats);
+        assert_non_null(splats);
+        assert_int_equal(render->host.place_splats(&render->host, sources, n, splats), PS_OK);
+        for (size_t i = 0; i < n; i++)
+            for (size_t pixel = 0; pixel < PIXELS && splats[i].half_width > 0; pixel++)
+                if (render->film.planes[FILM_COVERAGE][pixel] > 0)
+                    tally_pixel(tally, &splats[i], pixel);
+        free(splats);
+    } while (n > 0);
+    return PS_OK;
+}
+
+/* Sizes differ, sources are merged, and the filter does not count. */
+static void test_overlap_is_the_count_by_hand(void **state)
+{
+    (void)state;
+    const char *const choices[] = {"injection=photon:count=2000,bounces=2", "filter=gaussian",
+                                   "visibility=none:size=60", "stratification=grid:resolution=20",
+                                   NULL};
+    char *text = cornell_text(WIDTH, HEIGHT);
+    float *counts = calloc(PIXELS, sizeof *counts);
+    struct tally tally = {NULL, calloc(PIXELS, sizeof(int)), calloc(PIXELS, sizeof(bool))};
+    size_t compared = 0;
+    assert_true(counts && tally.counts && tally.borderline);
+    inspect(text, choices, count_by_kernel, counts);
+    inspect(text, choices, count_by_hand, &tally);
+    for (size_t i = 0; i < PIXELS; i++) {
+        if (tally.borderline[i])
+            continue;
+        assert_int_equal((int)counts[i], tally.counts[i]);
+        compared += tally.counts[i] > 0;
+    }
+    assert_true(compared > PIXELS / 4);
+    free(counts);
+    free(tally.counts);
+    free(tally.borderline);
+    free(text);
+}
+
+static void test_overlap_needs_splats(void **state)
+{
+    (void)state;
+    const char *const choices[] = {"injection=photon:count=200", "estimator=photonmap", NULL};
+    char *text = cornell_text(WIDTH, HEIGHT);
+    struct debug_options options = {.exposure = 0};
+    struct canvas canvas;
+    struct error error;
+    assert_int_equal(view("overlap", text, &options, choices, &canvas, &error), PS_ERROR_INVALID);
+    assert_non_null(strstr(error.text, "photonmap"));
+    assert_null(canvas.rgb);
+    const char *const open[] = {"injection=photon:count=200", "visibility=none", NULL};
+    assert_int_equal(view("maps", text, &options, open, &canvas, &error), PS_ERROR_INVALID);
+    assert_non_null(strstr(error.text, "none"));
+    free(text);
+}
+
+/* --- sight --- */
+
+static ps_result check_sight(void *user, struct render *render, struct error *error)
+{
+    (void)error;
+    size_t *seen = user;
+    const struct film *film = &render->film;
+    for (size_t i = 0; i < PIXELS; i++) {
+        if (!(film->planes[FILM_COVERAGE][i] > 0))
+            continue;
+        ps_vec3 p = {film->planes[FILM_POSITION_X][i], film->planes[FILM_POSITION_Y][i],
+                     film->planes[FILM_POSITION_Z][i]};
+        ps_vec3 n = {film->planes[FILM_NORMAL_X][i], film->planes[FILM_NORMAL_Y][i],
+                     film->planes[FILM_NORMAL_Z][i]};
+        float x, y;
+        assert_true(sight_of(render, p, n, &x, &y));
+        assert_true(fabsf(x - (float)(i % WIDTH) - 0.5f) < 0.02f);
+        assert_true(fabsf(y - (float)(i / WIDTH) - 0.5f) < 0.02f);
+        assert_false(sight_of(render, p, ps_scale(n, -1.0f), &x, &y)); /* its other side */
+        ps_vec3 beyond = ps_add_scaled(p, 20.0f, ps_subtract(p, render->scene->camera.location));
+        assert_false(sight_of(render, beyond, n, &x, &y));
+        (*seen)++;
+    }
+    float x, y;
+    ps_vec3 n = {0, 1, 0};
+    assert_false(sight_of(render, (ps_vec3){278, 273, -900}, n, &x, &y)); /* behind the camera */
+    assert_false(sight_of(render, (ps_vec3){278, 5000, 100}, n, &x, &y)); /* above the picture */
+    return PS_OK;
+}
+
+static void test_what_pixels_see_is_seen(void **state)
+{
+    (void)state;
+    const char *const choices[] = {"injection=photon:count=10", NULL};
+    char *text = cornell_text(WIDTH, HEIGHT);
+    size_t seen = 0;
+    inspect(text, choices, check_sight, &seen);
+    assert_true(seen > PIXELS / 3);
+    free(text);
+}
+
+/* --- voxels and layers --- */
+
+static const char wall[] = "psd: 1\n"
+                           "camera: {location: [0, 0, 9], look_at: [0, 0, 0], angle: 12}\n"
+                           "image: {width: 48, height: 32}\n"
+                           "materials: {m: {diffuse: [0.2, 0.5, 0.8]}}\n"
+                           "lights: [{point: {location: [0, 0, 5], intensity: 9}}]\n"
+                           "objects:\n"
+                           "  - quad: {corners: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]],"
+                           " material: m}\n"
+                           "  - quad: {corners: [[-1, -1, -1], [1, -1, -1], [1, 1, -1],"
+                           " [-1, 1, -1]], material: m}\n";
+
+static void test_voxels_are_cells_of_the_grid(void **state)
+{
+    (void)state;
+    struct debug_options options = {.resolution = 2};
+    struct canvas canvas;
+    struct error error;
+    struct colour corners[4];
+    assert_int_equal(view("voxels", wall, &options, NULL, &canvas, &error), PS_OK);
+    assert_int_equal(canvas.width, WIDTH);
+    assert_int_equal(canvas.height, HEIGHT);
+    for (size_t i = 0; i < 4; i++)
+        corners[i] = canvas_get(&canvas, i % 2 * (WIDTH - 1), i / 2 * (HEIGHT - 1));
+    for (size_t i = 0; i < 4; i++)
+        for (size_t j = 0; j < i; j++)
+            assert_memory_not_equal(&corners[i], &corners[j], sizeof corners[i]);
+    for (size_t y = 0; y < HEIGHT; y++)
+        for (size_t x = 0; x < WIDTH; x++) {
+            struct colour colour = canvas_get(&canvas, x, y);
+            size_t corner = (size_t)(y >= HEIGHT / 2) * 2 + (size_t)(x >= WIDTH / 2);
+            assert_memory_equal(&colour, &corners[corner], sizeof colour);
+        }
+    canvas_release(&canvas);
+}
+
+static struct colour middle_of(const char *layer)
+{
+    struct debug_options options = {.exposure = 0};
+    struct canvas canvas;
+    struct error error;
+    assert_int_equal(view(layer, wall, &options, NULL, &canvas, &error), PS_OK);
+    assert_int_equal(canvas.width, WIDTH);
+    assert_int_equal(canvas.height, HEIGHT);
+    struct colour colour = canvas_get(&canvas, WIDTH / 2, HEIGHT / 2);
+    canvas_release(&canvas);
+    return colour;
+}
+
+static void expect_colour(const char *layer, uint8_t r, uint8_t g, uint8_t b)
+{
+    struct colour colour = middle_of(layer);
+    assert_int_equal(colour.r, r);
+    assert_int_equal(colour.g, g);
+    assert_int_equal(colour.b, b);
+}
+
+static void test_layers_of_the_gbuffer(void **state)
+{
+    (void)state;
+    struct colour object = id_colour(0), material = id_colour(0);
+    expect_colour("gbuffer:albedo", 124, 188, 231); /* sRGB of 0.2, 0.5, 0.8 */
+    expect_colour("gbuffer:normal", 128, 128, 255);
+    expect_colour("gbuffer:throughput", 255, 255, 255);
+    expect_colour("gbuffer:emitted", 0, 0, 0);
+    expect_colour("gbuffer:object", object.r, object.g, object.b);
+    expect_colour("gbuffer:material", material.r, material.g, material.b);
+    struct colour position = middle_of("gbuffer:position"), depth = middle_of("gbuffer:depth");
+    assert_true(abs(position.r - 128) < 3 && abs(position.g - 128) < 3 && position.b > 140);
+    assert_true(depth.r > 250); /* the nearest point */
+    /* 0.2 / pi * 9 / 5^2 = 0.0229 and so on */
+    struct colour direct = middle_of("gbuffer:direct");
+    assert_true(abs(direct.r - 42) < 3 && abs(direct.g - 67) < 3 && abs(direct.b - 84) < 3);
+}
+
+/* --- names --- */
+
+static void expect_unknown(const char *name, const char *message)
+{
+    struct debug_request request;
+    struct error error;
+    assert_int_equal(debug_find(name, &request, &error), PS_ERROR_INVALID);
+    assert_non_null(strstr(error.text, message));
+}
+
+static void test_names_of_views(void **state)
+{
+    (void)state;
+    struct debug_request request;
+    struct error error;
+    assert_int_equal(debug_find("sources", &request, &error), PS_OK);
+    assert_ptr_equal(request.view, &debug_sources);
+    assert_int_equal(request.part, -1);
+    assert_int_equal(debug_find("gbuffer:normal", &request, &error), PS_OK);
+    assert_ptr_equal(request.view, &debug_gbuffer);
+    assert_int_equal(request.part, 1);
+    expect_unknown("source", "did you mean 'sources'?");
+    expect_unknown("everything", "there are: sources, voxels, gbuffer, maps, overlap");
+    expect_unknown("gbuffer:", "it has: albedo, normal");
+    expect_unknown("gbuffer:colour", "no part 'colour'; it has: albedo, normal");
+    expect_unknown("maps:1", "the view maps has no parts");
+    expect_unknown("", "there is no view ''");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_overlap_is_the_weight_of_a_box),
+        cmocka_unit_test(test_overlap_is_the_count_by_hand),
+        cmocka_unit_test(test_overlap_needs_splats),
+        cmocka_unit_test(test_what_pixels_see_is_seen),
+        cmocka_unit_test(test_voxels_are_cells_of_the_grid),
+        cmocka_unit_test(test_layers_of_the_gbuffer),
+        cmocka_unit_test(test_names_of_views),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
