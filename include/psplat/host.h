@@ -165,6 +165,25 @@ struct ps_host {
 
     /* Where the camera stands, and the direction of the middle of its picture. [any thread] */
     void (*camera)(const ps_host *host, ps_vec3 *position, ps_vec3 *direction);
+
+    /* How many lights there are; below they go by their index. They are the same in all passes.
+     * [any thread] */
+    uint32_t (*light_count)(const ps_host *host);
+
+    /* Describes a light. [any thread] */
+    void (*light)(const ps_host *host, uint32_t index, ps_light *light);
+
+    /* Intensity (W/sr) of a PS_LIGHT_POINT in n unit directions away from it; black for the other
+     * kinds. [any thread] */
+    void (*light_intensity)(const ps_host *host, uint32_t index, const ps_vec3 *directions,
+                            size_t n, ps_rgb *intensity);
+
+    /* Like emit_light for one light: rays that leave it, and the power (W) that each would carry if
+     * it were the only one. The first two of the four numbers choose the direction, the others the
+     * point on the light; of sun and sky, the point on a disc that is as large as the scene, in
+     * equal areas. [any thread] */
+    void (*emit_from)(const ps_host *host, uint32_t index, const float (*samples)[4], size_t n,
+                      ps_ray *rays, ps_rgb *power);
 };
 
 #endif

@@ -59,9 +59,10 @@ typedef struct ps_descriptor {
         state_size; /* bytes of state that the core allocates, zeroed, and fills from `params` */
 
     /* Checks what no table can, and prepares what follows from the parameters. Main thread, once,
-     * before any other callback and before the first pass: the host's ray queries, samples, bounds
-     * and memory are there, its tiles, sources, splats and progress not yet. The state is const afterwards. On failure returns non-zero and
-     * writes why into message (at most message_size bytes with the terminator). May be NULL. */
+     * before any other callback and before the first pass: the host's ray queries, samples, lights,
+     * bounds and memory are there, its tiles, sources, splats and progress not yet. The state is
+     * const afterwards, except to an injection's prepare. On failure returns non-zero and writes why
+     * into message (at most message_size bytes with the terminator). May be NULL. */
     int32_t (*init)(void *state, const ps_host *host, char *message, size_t message_size);
 
     /* Frees what init took. Main thread, once, only after a successful init. May be NULL. */

@@ -2,6 +2,7 @@
 #ifndef PSPLAT_PLUGIN_H
 #define PSPLAT_PLUGIN_H
 
+#include <psplat/alias.h>
 #include <psplat/bundle.h>
 #include <psplat/cell.h>
 #include <psplat/host.h>

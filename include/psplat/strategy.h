@@ -30,6 +30,10 @@ typedef struct ps_injection_vtable {
      * that depends on these alone. [worker] */
     ps_result (*emit)(const void *state, const ps_host *host, const ps_pass *pass, uint64_t first,
                       size_t n, const ps_source_sink *sink);
+    /* Makes what emit needs in this pass and keeps it in the state, which no other callback uses
+     * meanwhile. Before path_count and emit, in each pass whose sources are asked for; passes may
+     * not depend on each other. May be NULL. [main thread] */
+    ps_result (*prepare)(void *state, const ps_host *host, const ps_pass *pass);
 } ps_injection_vtable;
 
 #define PS_PATH_CHUNK 256

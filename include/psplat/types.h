@@ -121,6 +121,23 @@ typedef struct ps_splat {
     uint64_t path;
 } ps_splat;
 
+/* What the rays of a light have in common. */
+typedef enum ps_light_kind {
+    PS_LIGHT_POINT = 0,   /* they leave one point: a point light or a spotlight */
+    PS_LIGHT_SUN = 1,     /* they come from infinity, out of one direction or a small cone */
+    PS_LIGHT_SURFACE = 2, /* they leave a surface: a lamp that has a size, an object that shines */
+    PS_LIGHT_SKY = 3      /* they come from infinity, out of all directions */
+} ps_light_kind;
+
+typedef struct ps_light {
+    uint32_t kind;    /* ps_light_kind */
+    float cos_cone;   /* PS_LIGHT_POINT: cosine of the half angle of the cone around `axis` that it
+                         shines into; -1: all around */
+    ps_vec3 position; /* PS_LIGHT_POINT */
+    ps_vec3 axis;     /* PS_LIGHT_POINT, PS_LIGHT_SUN: unit; where it shines to */
+    ps_rgb power;     /* W; of sun and sky: what enters the sphere around the scene */
+} ps_light;
+
 #define PS_TILE_SIZE 16
 #define PS_TILE_PIXELS 256
 

@@ -23,7 +23,19 @@ static void host_intersect_packets(const ps_host *host, ps_packet *packets, size
     trace_packets(render_of(host)->trace, packets, n);
 }
 
-/* A ray of a light, moved off what it may lie on; black where there is no light. */
+/* A ray of a light, moved off what the light may lie on. */
+static ps_rgb emit_from(const struct scene *scene, size_t light, const float numbers[4],
+                        ps_ray *ray)
+{
+    ps_vec3 normal;
+    ps_rgb flux = light_emit(&scene->lights[light], numbers, ray, &normal);
+    if (light_is_delta(&scene->lights[light]))
+        ray->tnear = scene->surface_offset; /* a lamp may lie on a surface */
+    ray->origin = ps_add_scaled(ray->origin, scene->surface_offset, normal);
+    return flux;
+}
+
+/* A ray of one of the lights; black where there is none. */
 static ps_rgb emit(const struct scene *scene, const float numbers[4], ps_ray *ray)
 {
     *ray = (ps_ray){{0, 0, 0}, 0, {0, 0, 1}, 0};
@@ -31,14 +43,8 @@ static ps_rgb emit(const struct scene *scene, const float numbers[4], ps_ray *ra
         return (ps_rgb){0, 0, 0};
     float probability, left[4] = {numbers[0], numbers[1], numbers[2], numbers[3]};
     size_t light = scene_choose_light(scene, &left[2], &probability);
-    ps_vec3 normal;
-    ps_rgb flux = light_emit(&scene->lights[light], left, ray, &normal);
-    if (!(probability > 0.0f))
-        return (ps_rgb){0, 0, 0};
-    if (light_is_delta(&scene->lights[light]))
-        ray->tnear = scene->surface_offset; /* a lamp may lie on a surface */
-    ray->origin = ps_add_scaled(ray->origin, scene->surface_offset, normal);
-    return ps_rgb_scale(flux, 1.0f / probability);
+    ps_rgb flux = emit_from(scene, light, left, ray);
+    return probability > 0.0f ? ps_rgb_scale(flux, 1.0f / probability) : (ps_rgb){0, 0, 0};
 }
 
 static void host_emit_light(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
@@ -46,6 +52,44 @@ static void host_emit_light(const ps_host *host, const float (*samples)[4], size
 {
     for (size_t i = 0; i < n; i++)
         power[i] = emit(render_of(host)->scene, samples[i], &rays[i]);
+}
+
+static uint32_t host_light_count(const ps_host *host)
+{
+    return (uint32_t)render_of(host)->scene->light_count;
+}
+
+static void host_light(const ps_host *host, uint32_t index, ps_light *described)
+{
+    static const ps_light_kind kind_of[] = {
+        [EMITTER_SPOT] = PS_LIGHT_POINT,   [EMITTER_SUN] = PS_LIGHT_SUN,
+        [EMITTER_MESH] = PS_LIGHT_SURFACE, [EMITTER_SPHERE] = PS_LIGHT_SURFACE,
+        [EMITTER_SKY] = PS_LIGHT_SKY,
+    };
+    const struct light *light = &render_of(host)->scene->lights[index];
+    *described = (ps_light){.kind = kind_of[light->emitter], .power = light_power(light)};
+    if (light->emitter == EMITTER_SPOT) {
+        described->cos_cone = light->spot.cos_falloff;
+        described->position = light->spot.location;
+        described->axis = light->spot.axis;
+    }
+    if (light->emitter == EMITTER_SUN)
+        described->axis = ps_scale(light->sun.towards, -1.0f);
+}
+
+static void host_light_intensity(const ps_host *host, uint32_t index, const ps_vec3 *directions,
+                                 size_t n, ps_rgb *intensity)
+{
+    const struct light *light = &render_of(host)->scene->lights[index];
+    for (size_t i = 0; i < n; i++)
+        intensity[i] = light_intensity(light, directions[i]);
+}
+
+static void host_emit_from(const ps_host *host, uint32_t index, const float (*samples)[4], size_t n,
+                           ps_ray *rays, ps_rgb *power)
+{
+    for (size_t i = 0; i < n; i++)
+        power[i] = emit_from(render_of(host)->scene, index, samples[i], &rays[i]);
 }
 
 static void host_scatter(const ps_host *host, ps_direction direction, const ps_ray *rays,
@@ -79,6 +123,10 @@ void host_add_light_transport(ps_host *host)
     host->occluded = host_occluded;
     host->intersect_packets = host_intersect_packets;
     host->emit_light = host_emit_light;
+    host->light_count = host_light_count;
+    host->light = host_light;
+    host->light_intensity = host_light_intensity;
+    host->emit_from = host_emit_from;
     host->scatter = host_scatter;
     host->direct_radiance = host_direct_radiance;
     host->emitted_radiance = host_emitted_radiance;

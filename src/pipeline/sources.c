@@ -60,10 +60,29 @@ void source_stream_release(struct source_stream *stream)
 
 void source_stream_rewind(struct source_stream *stream)
 {
+    stream->path_count = 0;
+    stream->next_path = 0;
+    stream->prepared = false;
+}
+
+/* Not before sources are asked for: not all estimators do. */
+static ps_result prepare(struct source_stream *stream, struct error *error)
+{
     const struct strategy *injection = &stream->settings->strategies[PS_INJECTION];
     const ps_injection_vtable *vtable = injection->descriptor->vtable;
+    ps_result result = PS_OK;
+    double start = clock_seconds();
+    if (vtable->prepare)
+        result = vtable->prepare(injection->state, stream->host, stream->pass);
+    statistics_add_seconds(stream->statistics, "inject", clock_seconds() - start);
+    if (result == PS_CANCELLED)
+        return result;
+    if (result != PS_OK)
+        return error_set(error, result, "injection %s failed%s", injection->descriptor->name,
+                         result == PS_ERROR_MEMORY ? ": out of memory" : "");
     stream->path_count = vtable->path_count(injection->state);
-    stream->next_path = 0;
+    stream->prepared = true;
+    return PS_OK;
 }
 
 struct injection {
@@ -139,7 +158,7 @@ ps_result source_stream_next(struct source_stream *stream, const ps_source **sou
 {
     const ps_stratification_vtable *stratification =
         stream->settings->strategies[PS_STRATIFICATION].descriptor->vtable;
-    ps_result result = PS_OK;
+    ps_result result = stream->prepared ? PS_OK : prepare(stream, error);
     stream->batch.count = 0;
     while (stream->next_path < stream->path_count && stream->batch.count == 0 && result == PS_OK) {
         do

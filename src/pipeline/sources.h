@@ -22,6 +22,7 @@ struct source_stream {
     struct source_list *chunks; /* one for each chunk of a batch of paths; owned */
     struct source_list batch;   /* what was handed out last */
     uint64_t next_path, path_count;
+    bool prepared; /* the injection, for this pass */
 };
 
 ps_result source_stream_create(struct source_stream *stream, const struct render_settings *settings,

@@ -40,7 +40,8 @@ static size_t member_size(uint32_t type)
 }
 
 /* Every table of functions is two 32-bit numbers and then pointers, all of which must be there but
- * a visibility's depth maps and its test of points: it may have either, or neither. */
+ * a visibility's depth maps and its test of points (it may have either, or neither), and an
+ * injection's prepare. */
 static bool check_functions(const ps_descriptor *descriptor, struct error *error)
 {
     static const size_t first = 2 * sizeof(uint32_t);
@@ -48,6 +49,8 @@ static bool check_functions(const ps_descriptor *descriptor, struct error *error
     size_t size = vtable_size(descriptor->kind);
     if (descriptor->kind == PS_VISIBILITY)
         size = offsetof(ps_visibility_vtable, depth_maps);
+    if (descriptor->kind == PS_INJECTION)
+        size = offsetof(ps_injection_vtable, prepare);
     for (size_t offset = first; offset < size; offset += sizeof(void (*)(void))) {
         void (*function)(void);
         memcpy(&function, vtable + offset, sizeof function);

@@ -83,9 +83,14 @@ cmp -s example.c "$PSPLAT_SOURCE/tests/plugins/cosine.c" ||
 # --- statistics, layers and attributes ---
 
 : >statistics
-for choice in stratification=cascade estimator=splat estimator=photonmap estimator=vpl:lights=8 estimator=ssao denoiser=gaussian \
+for choice in injection=rsm:resolution=8 injection=voxel:resolution=8 stratification=cascade \
+    estimator=splat estimator=photonmap estimator=vpl:lights=8 estimator=ssao denoiser=gaussian \
     visibility=imperfect:points=1000; do
-    run 0 -q --size 16x9 -p injection=photon:count=200 -p $choice -o a.exr --stats a.json "$cornell"
+    case $choice in
+    injection=*) injection= ;;
+    *) injection="-p injection=photon:count=200" ;;
+    esac
+    run 0 -q --size 16x9 $injection -p $choice -o a.exr --stats a.json "$cornell"
     awk '/^  "/ { split($0, part, "\""); table = part[2] }
          /^    "/ { split($0, key, "\""); print table ": " key[2] }' a.json >>statistics
 done
