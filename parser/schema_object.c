@@ -16,7 +16,7 @@
 
 #define OVERRIDE_ROW(absent_)                                                                      \
     ROW(SCHEMA_MATERIAL, "material", OBJECT(material), PS_PARAM_STRING, "",                        \
-        "the surface of all of it, a name in materials", ANY, .absent = absent_)
+        "the surface of all of it, a name in materials", ANY, .absent = (absent_))
 
 #define POINT_ROW(name_, member, help_)                                                            \
     ROW(SCHEMA_VALUE, name_, OBJECT(member), PS_PARAM_VEC3, "scene units", help_, ANY)

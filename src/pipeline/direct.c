@@ -21,8 +21,8 @@ struct receivers {
 /* Two of a point's four numbers, or these moved by Roberts's sequence for many lights. */
 static void numbers_for_light(const float numbers[4], size_t light, float pair[2])
 {
-    size_t first = light % 2 * 2;
-    float turns = (float)(light / 2);
+    size_t first = light % 2 * 2, turn = light / 2;
+    float turns = (float)turn;
     float a = numbers[first] + 0.7548777f * turns, b = numbers[first + 1] + 0.5698403f * turns;
     pair[0] = fminf(a - floorf(a), 0x1.fffffep-1f);
     pair[1] = fminf(b - floorf(b), 0x1.fffffep-1f);

@@ -83,8 +83,9 @@ static void integrate(float roughness, float cosine, float *scale, float *bias)
     ps_vec3 out = {sqrtf(fmaxf(0.0f, 1.0f - square(cosine))), 0.0f, cosine};
     *scale = *bias = 0.0f;
     for (int i = 0; i < QUADRATURE * QUADRATURE; i++) {
-        float rest = 1.0f - ((float)(i % QUADRATURE) + 0.5f) / QUADRATURE;
-        float u2 = ((float)(i / QUADRATURE) + 0.5f) / QUADRATURE;
+        int row = i / QUADRATURE, column = i % QUADRATURE;
+        float rest = 1.0f - ((float)column + 0.5f) / QUADRATURE;
+        float u2 = ((float)row + 0.5f) / QUADRATURE;
         float density = 2.0f * rest / (QUADRATURE * QUADRATURE);
         ps_vec3 in = microfacet_sample(roughness, out, 1.0f - square(rest), u2);
         float share = density * microfacet_weight(roughness, (ps_rgb){1, 1, 1}, out, in).r;

@@ -87,21 +87,21 @@ static float *sample_heights(struct assembly *assembly, size_t texture,
 
 /* Makes the shape of number `slot`. */
 static ps_result add_shape(struct assembly *assembly, const struct object_description *object,
-                           struct shape_surroundings *surroundings, size_t slot)
+                           const struct shape_surroundings *surroundings, size_t slot)
 {
     struct scene *scene = assembly->scene;
+    struct shape_surroundings around = *surroundings;
     struct height_samples heights;
     float *samples = NULL;
     assembly->where = object->origin;
-    surroundings->meshes = assembly->description->meshes;
-    surroundings->heights = NULL;
+    around.meshes = assembly->description->meshes;
     if (object->kind == OBJECT_HEIGHT_FIELD) {
         samples = sample_heights(assembly, object->texture, &heights);
         if (!samples)
             return PS_ERROR_MEMORY;
-        surroundings->heights = &heights;
+        around.heights = &heights;
     }
-    ps_result result = shape_create(object, surroundings, &scene->shapes[slot], assembly->error);
+    ps_result result = shape_create(object, &around, &scene->shapes[slot], assembly->error);
     free(samples);
     if (result != PS_OK)
         return result;
