@@ -2,7 +2,7 @@
 #ifndef PSPLAT_TILE_H
 #define PSPLAT_TILE_H
 
-#include <psplat/types.h>
+#include <psplat/math.h>
 
 /* The pixels of a tile that see a surface. */
 typedef struct ps_points {
@@ -23,6 +23,20 @@ static inline void ps_collect_points(const ps_tile *tile, ps_points *points)
         points->normals[i] =
             (ps_vec3){tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
         points->lanes[i] = lane;
+    }
+}
+
+/* Forgets the hits of rays that left points by a smoothed or bent normal, but into their own surface:
+ * nothing shines on a point of its plane. Ray i left point targets[i]. `offset`: that of the rays
+ * (ps_pass.surface_offset). */
+static inline void ps_forget_own_surface(const ps_points *points, const uint32_t *targets, size_t n,
+                                         float offset, ps_hit *hits)
+{
+    for (size_t i = 0; i < n; i++) {
+        ps_vec3 from_hit = ps_subtract(points->positions[targets[i]], hits[i].position);
+        if (hits[i].distance < INFINITY &&
+            fabsf(ps_dot(from_hit, hits[i].geometric_normal)) < 2.0f * offset)
+            hits[i].distance = INFINITY;
     }
 }
 

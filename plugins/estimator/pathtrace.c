@@ -186,12 +186,12 @@ static void add_direct(const struct work *work, uint32_t number, const struct pa
     add_radiance(paths, radiance, sums);
 }
 
-/* Follows all paths by one segment: adds what the surfaces they meet emit and reflect. */
+/* Follows all paths by one segment, to hits that are known: adds what the surfaces they meet emit and
+ * reflect. */
 static void extend_paths(const struct work *work, uint32_t number, const uint64_t *blocks,
                          uint64_t sample, struct paths *paths, struct segment *segment,
                          ps_rgb *sums)
 {
-    work->host->intersect(work->host, paths->rays, paths->count, segment->hits);
     add_emission(work, paths, segment, sums);
     drop_lost(paths, segment);
     draw_numbers(work, number + 1, blocks, sample, paths, segment);
@@ -216,8 +216,13 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
     for (int64_t i = 0; i < state->samples; i++) {
         uint64_t sample = (uint64_t)work->pass->number * (uint64_t)state->samples + (uint64_t)i;
         start_paths(work, &points, blocks, sample, &paths, &segment);
-        for (uint32_t number = 1; paths.count > 0; number++)
+        for (uint32_t number = 1; paths.count > 0; number++) {
+            work->host->intersect(work->host, paths.rays, paths.count, segment.hits);
+            if (number == 1)
+                ps_forget_own_surface(&points, paths.pixels, paths.count,
+                                      work->pass->surface_offset, segment.hits);
             extend_paths(work, number, blocks, sample, &paths, &segment, sums);
+        }
     }
     for (size_t i = 0; i < points.count; i++)
         ps_add_irradiance(tile, points.lanes[i],

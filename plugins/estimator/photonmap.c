@@ -285,7 +285,7 @@ static void estimate_tile(void *user, uint64_t index, uint32_t worker)
 struct gathering {
     size_t count;
     uint64_t samples[PS_TILE_PIXELS];
-    size_t targets[PS_TILE_PIXELS]; /* point that each belongs to */
+    uint32_t targets[PS_TILE_PIXELS]; /* point that each belongs to */
     ps_ray rays[PS_TILE_PIXELS];
     ps_hit hits[PS_TILE_PIXELS];
     ps_rgb throughput[PS_TILE_PIXELS];
@@ -299,7 +299,7 @@ static void start_gathering(const struct work *work, const ps_points *points,
     g->count = points->count;
     for (size_t i = 0; i < points->count; i++) {
         g->samples[i] = samples[i];
-        g->targets[i] = i;
+        g->targets[i] = (uint32_t)i;
         g->throughput[i] = (ps_rgb){1, 1, 1};
         g->pdfs[i] = 0.0f;
     }
@@ -389,6 +389,8 @@ static void gather_once(const struct work *work, uint32_t worker, const ps_point
     start_gathering(work, points, samples, &g);
     for (uint32_t chain = 0; g.count > 0 && chain <= PS_LONGEST_CHAIN; chain++) {
         work->host->intersect(work->host, g.rays, g.count, g.hits);
+        if (chain == 0)
+            ps_forget_own_surface(points, g.targets, g.count, work->pass->surface_offset, g.hits);
         add_lights(work, chain, &g, sums);
         look_up_or_go_on(work, worker, chain, &g, sums);
     }
