@@ -3,7 +3,8 @@
  * Where all that is there reflects or transmits all of its light, radiance L from all around is the
  * radiance everywhere, by any number of bounces (inside of glass of index n it is n^2 L): each pixel
  * shows L. Two furnaces: an object on a white floor under a sky of radiance 1; and an object in a
- * hollow sphere that emits e and has albedo a, where L = e / (1 - a), here 1.
+ * hollow sphere that emits e and has albedo a, where L = e / (1 - a), here 1; there a white ball stands
+ * inside of the object, which glass, holes and all may show.
  *
  * Direct and indirect light together make 1, so the bias that is allowed is a share of the whole.
  */
@@ -63,6 +64,7 @@ static const char enclosure[] = "psd: 1\n"
                                 "image: {width: 24, height: 24}\n" MATERIALS "objects:\n"
                                 "  - sphere: {center: [0, 0, 0], radius: 2, material: wall}\n"
                                 "  - sphere: {center: [0, 0, 0], radius: 0.7, material: object}\n"
+                                "  - sphere: {center: [0, 0, 0], radius: 0.4, material: floor}\n"
                                 "render: {seed: %%d, light_samples: 32}\n";
 
 static void check(const char *name, const char *scene, const struct method *methods, size_t count,
