@@ -143,13 +143,13 @@ static void test_spot_direct(void **state)
 static void test_spot_one_bounce(void **state)
 {
     (void)state;
-    compare("B_onebounce.exr", "cornell.psd", 16, "estimator=pathtrace:samples=2,bounces=1");
+    compare("B_onebounce.exr", "cornell.psd", 8, "estimator=pathtrace:samples=8,bounces=1");
 }
 
 static void test_spot_all_bounces(void **state)
 {
     (void)state;
-    compare("B_full.exr", "cornell.psd", 16, "estimator=pathtrace:samples=2,bounces=0");
+    compare("B_full.exr", "cornell.psd", 8, "estimator=pathtrace:samples=8,bounces=0");
 }
 
 static void test_lamp_direct(void **state)
