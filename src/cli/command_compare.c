@@ -9,11 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { OPTION_LAYER, OPTION_CROP, OPTION_METRIC, OPTION_FAIL, OPTION_HEATMAP };
+enum { OPTION_LAYER, OPTION_CROP, OPTION_BELOW, OPTION_METRIC, OPTION_FAIL, OPTION_HEATMAP };
 
 static const struct option options[] = {
     [OPTION_LAYER] = {'l', "layer", "NAME", "compare NAME.R, NAME.G, NAME.B, or the channel NAME"},
     [OPTION_CROP] = {0, "crop", "X,Y,W,H", "compare this part only; 0,0 is the upper left corner"},
+    [OPTION_BELOW] = {0, "below", "NUMBER",
+                      "leave out pixels that reach it in the reference, and those beside them"},
     [OPTION_METRIC] = {'m', "metric", "NAME", "print this metric; may be repeated; default: all"},
     [OPTION_FAIL] = {0, "fail", "'METRIC>NUMBER'",
                      "exit with status 1 if so; also <, >=, <=; may be repeated"},
@@ -27,6 +29,8 @@ struct request {
     const char *layer, *heatmap;
     bool cropped;
     struct rectangle crop;
+    bool bounded;
+    double bound;                          /* of the reference, above which pixels do not count */
     bool any_chosen, chosen[METRIC_COUNT]; /* what is printed */
     struct metric_limit *limits;           /* owned */
     size_t limit_count;
@@ -44,6 +48,12 @@ static bool parse_option(const struct argument *argument, struct request *reques
     case OPTION_CROP:
         request->cropped = true;
         return parse_rectangle(argument->option->name, argument->value, &request->crop);
+    case OPTION_BELOW:
+        request->bounded = text_to_number(argument->value, &request->bound);
+        if (!request->bounded)
+            result =
+                error_set(&error, PS_ERROR_INVALID, "expected a number, got '%s'", argument->value);
+        break;
     case OPTION_METRIC:
         result = metric_find(argument->value, strlen(argument->value), &metric, &error);
         if (result == PS_OK)
@@ -114,11 +124,13 @@ static int check_limits(const struct request *request, const struct metric_value
     return status;
 }
 
-static int compare(const struct request *request, const struct picture_pair *pair)
+static int compare(const struct request *request, struct picture_pair *pair)
 {
     struct metric_value values[METRIC_COUNT];
     struct error error;
     ps_result result = picture_pair_check_finite(pair, &error);
+    if (result == PS_OK && request->bounded)
+        result = picture_pair_leave_out(pair, request->bound, &error);
     for (enum metric i = 0; i < METRIC_COUNT && result == PS_OK; i++)
         if (is_needed(request, i))
             result = metric_evaluate(i, pair, &values[i], &error);

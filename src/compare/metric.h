@@ -1,8 +1,9 @@
 /* metric.h: how much a picture differs from its reference, as numbers.
  *
  * I is the test picture, R the reference; "display" values are sRGB-encoded and clipped to 0..1,
- * not rounded. Means and sums run over all pixels and channels, in double and in one order. The
- * pictures must be finite (picture_pair_check_finite).
+ * not rounded. Means and sums run over all pixels and channels, in double and in one order; pixels
+ * that are left out do not count, but SSIM and FLIP, which look at neighbourhoods, take them as
+ * black in both pictures. The pictures must be finite (picture_pair_check_finite).
  */
 #ifndef COMPARE_METRIC_H
 #define COMPARE_METRIC_H

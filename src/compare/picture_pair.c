@@ -1,6 +1,8 @@
 #include "compare/picture_pair.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 
 static ps_result check_alike(const struct picture_pair *pair, const char *const paths[2],
@@ -71,6 +73,51 @@ ps_result picture_pair_crop(struct picture_pair *pair, struct rectangle crop, st
     pair->left += crop.x;
     pair->top += crop.y;
     return PS_OK;
+}
+
+static bool reaches(const struct picture_pair *pair, size_t pixel, double bound)
+{
+    for (size_t c = 0; c < pair->channel_count; c++)
+        if ((double)pair->reference[c][pixel] >= bound)
+            return true;
+    return false;
+}
+
+static void mark_with_neighbours(const struct picture_pair *pair, size_t pixel, bool *marks)
+{
+    size_t x = pixel % pair->width, y = pixel / pair->width;
+    for (size_t row = y > 0 ? y - 1 : 0; row <= y + 1 && row < pair->height; row++)
+        for (size_t column = x > 0 ? x - 1 : 0; column <= x + 1 && column < pair->width; column++)
+            marks[row * pair->width + column] = true;
+}
+
+static void clear_pixel(struct picture_pair *pair, size_t pixel)
+{
+    for (size_t c = 0; c < pair->channel_count; c++)
+        pair->reference[c][pixel] = pair->test[c][pixel] = 0.0f;
+}
+
+ps_result picture_pair_leave_out(struct picture_pair *pair, double bound, struct error *error)
+{
+    size_t pixels = pair->width * pair->height;
+    bool *marks = calloc(pixels, sizeof *marks);
+    if (!marks)
+        return error_memory(error, pixels * sizeof *marks, "the pixels that are left out");
+    for (size_t i = 0; i < pixels; i++)
+        if (reaches(pair, i, bound))
+            mark_with_neighbours(pair, i, marks);
+    pair->left_out = 0;
+    for (size_t i = 0; i < pixels; i++)
+        if (marks[i]) {
+            clear_pixel(pair, i);
+            pair->left_out++;
+        }
+    free(marks);
+    if (pair->left_out < pixels)
+        return PS_OK;
+    return error_set(error, PS_ERROR_INVALID,
+                     "no pixel is left: all reach %g in the reference, or lie beside one that does",
+                     bound);
 }
 
 static ps_result check_planes(const struct picture_pair *pair, float *const planes[3],

@@ -9,6 +9,7 @@
 struct picture_pair {
     size_t width, height;
     size_t left, top; /* of the crop in the pictures read */
+    size_t left_out;  /* pixels that do not count; they are 0 in both pictures */
     size_t channel_count;
     const char *names[3];          /* of the channels */
     float *reference[3], *test[3]; /* planes of width * height, linear */
@@ -22,6 +23,11 @@ void picture_pair_release(struct picture_pair *pair);
 
 /* Leaves only a part of both pictures; fails where it reaches beyond them. */
 ps_result picture_pair_crop(struct picture_pair *pair, struct rectangle crop, struct error *error);
+
+/* Leaves out the pixels where a channel of the reference is `bound` or more, and the eight beside
+ * each: a lamp in the picture, with its smooth edge, would else rule the error of all that it
+ * lights. Fails where nothing is left. The pictures must be finite. */
+ps_result picture_pair_leave_out(struct picture_pair *pair, double bound, struct error *error);
 
 /* Fails where a picture holds NaN or infinities, and says how many and where the first is. */
 ps_result picture_pair_check_finite(const struct picture_pair *pair, struct error *error);

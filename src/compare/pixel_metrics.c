@@ -13,6 +13,12 @@ static double squared(double x)
     return x * x;
 }
 
+/* Pixels that count; those left out are 0 in both pictures and add nothing to a sum. */
+static size_t counted_pixels(const struct picture_pair *pair)
+{
+    return pair->width * pair->height - pair->left_out;
+}
+
 /* Sum of (I-R)^2 over a channel's display values. */
 static double sum_display_error(const struct picture_pair *pair, size_t channel)
 {
@@ -44,7 +50,7 @@ static double pixel_difference(const struct picture_pair *pair, size_t pixel)
 ps_result pixel_thesis_rmse(const struct picture_pair *pair, double *numbers, struct error *error)
 {
     (void)error;
-    double pixels = (double)(pair->width * pair->height);
+    double pixels = (double)counted_pixels(pair);
     numbers[0] = 0.0;
     for (size_t c = 0; c < pair->channel_count; c++)
         numbers[0] += 255.0 * sqrt(sum_display_error(pair, c) / pixels);
@@ -77,7 +83,7 @@ ps_result pixel_relmse(const struct picture_pair *pair, double *numbers, struct 
             sum += squared((double)pair->test[c][i] - reference) /
                    (squared(reference) + RELMSE_OFFSET);
         }
-    numbers[0] = sum / (double)(pair->channel_count * pair->width * pair->height);
+    numbers[0] = sum / (double)(pair->channel_count * counted_pixels(pair));
     return PS_OK;
 }
 
@@ -99,7 +105,7 @@ ps_result pixel_psnr(const struct picture_pair *pair, double *numbers, struct er
     double sum = 0.0;
     for (size_t c = 0; c < pair->channel_count; c++)
         sum += sum_display_error(pair, c);
-    double mean = sum / (double)(pair->channel_count * pair->width * pair->height);
+    double mean = sum / (double)(pair->channel_count * counted_pixels(pair));
     numbers[0] = mean > 0.0 ? -10.0 * log10(mean) : INFINITY;
     return PS_OK;
 }
@@ -119,7 +125,8 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Nearest rank: the smallest difference that at least 99 % of the pixels don't exceed. */
+/* Nearest rank: the smallest difference that at least 99 % of the pixels don't exceed. Pixels that are left
+ * out come first. */
 ps_result pixel_p99(const struct picture_pair *pair, double *numbers, struct error *error)
 {
     size_t pixels = pair->width * pair->height;
@@ -129,7 +136,7 @@ ps_result pixel_p99(const struct picture_pair *pair, double *numbers, struct err
     for (size_t i = 0; i < pixels; i++)
         differences[i] = pixel_difference(pair, i);
     qsort(differences, pixels, sizeof *differences, compare_numbers);
-    numbers[0] = differences[pixels - 1 - pixels / 100];
+    numbers[0] = differences[pixels - 1 - counted_pixels(pair) / 100];
     free(differences);
     return PS_OK;
 }

@@ -81,6 +81,14 @@ expect 2 'expected X,Y,W,H' compare a.exr a.exr --crop 1,2,-3,4
 expect 2 'reaches beyond' compare a.exr a.exr --crop 30,0,11,5
 expect 2 'empty' compare a.exr a.exr --crop 0,0,0,5
 
+# Without the bright pixels: what is left is a smaller sum, and nothing is an error.
+expect 2 'expected a number' compare a.exr a.exr --below bright
+expect 1 'no pixel is left: all reach 0' compare a.exr a.exr --below 0
+expect 0 '^bias 1 1 1$' compare a.exr a.exr --below 0.2
+"$PSPLAT" compare a.exr b.exr --metric max >all
+"$PSPLAT" compare a.exr b.exr --metric max --below 1e9 | cmp -s - all ||
+    { echo "FAILED: --below 1e9 left something out"; failures=$((failures + 1)); }
+
 # Wrong pictures.
 expect 1 'missing.exr' compare a.exr missing.exr
 expect 1 'differ in size.*40x30.*20x30' compare a.exr narrow.exr

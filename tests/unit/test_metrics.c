@@ -111,6 +111,78 @@ static void test_two_by_two(void **state)
     assert_true(isfinite(evaluate(METRIC_FLIP, &pair)));
 }
 
+/* 4x3, one channel, R = 1 but for a lamp of 9 at (0, 1), I = R + 0.1 but for I = 50 at the lamp and
+ * beside it: six pixels are left out, at the others the difference is 0.1. */
+static void test_pixels_left_out(void **state)
+{
+    (void)state;
+    float reference[12], test[12];
+    for (size_t i = 0; i < 12; i++) {
+        reference[i] = i == 4 ? 9.0f : 1.0f;
+        test[i] = i % 4 < 2 ? 50.0f : 1.1f;
+    }
+    struct picture_pair pair = {.width = 4,
+                                .height = 3,
+                                .channel_count = 1,
+                                .names = {"R"},
+                                .reference = {reference},
+                                .test = {test}};
+    struct error error;
+    assert_int_equal(picture_pair_leave_out(&pair, 9.0, &error), PS_OK);
+    assert_int_equal(pair.left_out, 6);
+    assert_near(evaluate(METRIC_REL_RMSE, &pair), 0.1, 1e-6);
+    assert_near(evaluate(METRIC_RELMSE, &pair), 0.01 / 1.01, 1e-6);
+    assert_near(evaluate(METRIC_BIAS, &pair), 1.1, 1e-6);
+    assert_near(evaluate(METRIC_MAX, &pair), 0.1, 1e-6);
+    assert_near(evaluate(METRIC_P99, &pair), 0.1, 1e-6);
+}
+
+/* 264 pixels count, of which 1 % are two: the third largest difference. Of all 576, it were the sixth. */
+static void test_p99_of_what_counts(void **state)
+{
+    (void)state;
+    struct square_pair square;
+    struct error error;
+    square_open(&square);
+    square_fill(&square, 0, 0.0f);
+    square_fill(&square, 1, 0.0f);
+    for (size_t i = 0; i < PIXELS / 2; i++)
+        square.planes[0][i] = 9.0f;
+    for (size_t i = PIXELS - 4; i < PIXELS; i++)
+        square.planes[3][i] = 1.0f;
+    assert_int_equal(picture_pair_leave_out(&square.pair, 9.0, &error), PS_OK);
+    assert_int_equal(square.pair.left_out, PIXELS / 2 + SIDE);
+    assert_near(evaluate(METRIC_P99, &square.pair), 1.0, 0.0);
+}
+
+static void test_everything_left_out(void **state)
+{
+    (void)state;
+    struct square_pair square;
+    struct error error;
+    square_open(&square);
+    assert_int_equal(picture_pair_leave_out(&square.pair, 1.0, &error), PS_OK);
+    assert_int_equal(square.pair.left_out, 0);
+    assert_int_equal(picture_pair_leave_out(&square.pair, 0.1, &error), PS_ERROR_INVALID);
+}
+
+/* Display values: white against black, of which half does not count. */
+static void test_display_values_left_out(void **state)
+{
+    (void)state;
+    float reference[] = {0.0f, 0.0f, 0.0f, 2.0f}, test[] = {1.0f, 0.0f, 0.0f, 0.0f};
+    struct picture_pair pair = {.width = 4,
+                                .height = 1,
+                                .channel_count = 1,
+                                .names = {"R"},
+                                .reference = {reference},
+                                .test = {test}};
+    struct error error;
+    assert_int_equal(picture_pair_leave_out(&pair, 1.0, &error), PS_OK);
+    assert_near(evaluate(METRIC_THESIS_RMSE, &pair), 255.0 * sqrt(0.5), 1e-4);
+    assert_near(evaluate(METRIC_PSNR, &pair), -10.0 * log10(0.5), 1e-6);
+}
+
 static void test_bias_of_each_channel(void **state)
 {
     (void)state;
@@ -275,6 +347,10 @@ int main(void)
         cmocka_unit_test(test_identical_pictures),
         cmocka_unit_test(test_constant_offset),
         cmocka_unit_test(test_two_by_two),
+        cmocka_unit_test(test_pixels_left_out),
+        cmocka_unit_test(test_p99_of_what_counts),
+        cmocka_unit_test(test_everything_left_out),
+        cmocka_unit_test(test_display_values_left_out),
         cmocka_unit_test(test_bias_of_each_channel),
         cmocka_unit_test(test_p99),
         cmocka_unit_test(test_flip_black_and_white),
