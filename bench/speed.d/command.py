@@ -1,0 +1,77 @@
+"""command.py: what the command lines of bench/speed, bench/marks and bench/scaling share."""
+import argparse
+import json
+import os
+import sys
+
+from table import ROOT, fail
+
+WORK = os.path.join(ROOT, "build/speed")
+
+
+def say(text):
+    """Progress, beside the report on the standard output."""
+    print(text, file=sys.stderr, flush=True)
+
+
+def words(text):
+    return text.split(",")
+
+
+def whole_numbers(text):
+    return [int(word) for word in text.split(",")]
+
+
+def percentages(text):
+    """Relative errors, from the largest down: "10,6,3" percent."""
+    numbers = sorted((float(word) / 100 for word in text.split(",")), reverse=True)
+    if numbers[-1] <= 0:
+        raise ValueError
+    return numbers
+
+
+def make_parser(description, files):
+    parser = argparse.ArgumentParser(description=description)
+    add = parser.add_argument
+    add("--repeats", type=int, metavar="N", help="runs of each, of which the median counts; default: 3")
+    add("--quick", action="store_true", help="a small part, which shows that all works")
+    add("--psplat", metavar="FILE", help="the program; default: $PSPLAT, or that in build/bin")
+    add("--work", default=WORK, metavar="DIR", help="for pictures, which may be large; default: build/speed")
+    add("--out", default=WORK, metavar="DIR", help=f"for {files}; default: build/speed")
+    return parser
+
+
+def parse(parser, full, quick):
+    """Options that were not given are those of the full or of the quick measurement."""
+    plan = parser.parse_args()
+    for name, value in (quick if plan.quick else full).items():
+        if getattr(plan, name) is None:
+            setattr(plan, name, value)
+    if plan.repeats < 1:
+        fail("--repeats is at least 1")
+    os.makedirs(plan.out, exist_ok=True)
+    return plan
+
+
+def write_json(path, results):
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(results, file, indent=1)
+        file.write("\n")
+
+
+def write_text(path, text):
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text.rstrip("\n") + "\n")
+
+
+def report(path, text):
+    """Into the file, and on the standard output."""
+    write_text(path, text)
+    print(text.rstrip("\n"))
+
+
+def run(main):
+    try:
+        main()
+    except KeyboardInterrupt:
+        sys.exit("interrupted; what was measured in whole is in the folder of --out")

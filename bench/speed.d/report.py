@@ -1,0 +1,107 @@
+"""report.py: what bench/speed found, as Markdown."""
+from climb import rung_text
+from curve import ratio_text, reach_text, time_to
+
+# What splatting aims at: times as fast as the peer, at an error.
+AIMS = {"pathtrace": {0.06: 20, 0.03: 10}, "photonmap": {0.06: 50}}
+STAGES = ("inject", "stratify", "place", "maps", "bin", "splat")
+
+
+def markdown_table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows] + [""]
+
+
+def percent(number):
+    return f"{100 * number:.3g} %"
+
+
+def is_ours(name):
+    return name.startswith("splat")
+
+
+def curve_of(method):
+    return [(point["indirect_seconds"], point["error"]) for point in method["points"]]
+
+
+def _times(group, targets):
+    rows = []
+    for method in group["methods"]:
+        curve = curve_of(method)
+        seconds, least = min(curve, key=lambda point: point[1])
+        rows.append([method["name"], *(reach_text(time_to(curve, target)) for target in targets),
+                     f"{percent(least)} in {seconds:.3g} s ({method['stopped']})"])
+    return markdown_table(["method", *map(percent, targets), "least error"], rows)
+
+
+def _ratios(group, targets):
+    """Every row of ours against every peer, and what is aimed at."""
+    rows = []
+    curves = {method["name"]: curve_of(method) for method in group["methods"]}
+    for peer in (name for name in curves if not is_ours(name)):
+        for ours in filter(is_ours, curves):
+            rows.append([peer, ours, *(ratio_text(time_to(curves[peer], target), time_to(curves[ours], target))
+                                       for target in targets)])
+        if peer in AIMS and rows:
+            aims = (AIMS[peer].get(target) for target in targets)
+            rows.append([peer, "*aim*", *(f"*{aim}x*" if aim else "" for aim in aims)])
+    return markdown_table(["against", "method", *map(percent, targets)], rows) if rows else []
+
+
+def _points(group):
+    rows = []
+    for method in group["methods"]:
+        for point in method["points"]:
+            stages = point["stages"]
+            bound = "<= " if point["error"] <= group["reference"]["least_error"] else ""
+            rows.append([method["name"], rung_text(point["rung"]), bound + percent(point["error"]),
+                         " ".join(f"{ratio:.3f}" for ratio in point["bias"]),
+                         f"{point['indirect_seconds']:.3g}", f"{point['wall_seconds']:.3g}",
+                         " ".join(f"{stages[name]:.2g}" if name in stages else "-" for name in STAGES),
+                         f"{point['own_bytes'] / 1e6:.1f}", _instructions(point)])
+    return markdown_table(["method", "rung", "error", "bias", "seconds", "process", " ".join(STAGES), "own MB",
+                  "G instructions"], rows)
+
+
+def _instructions(point):
+    count = point["instructions"] or point.get("callgrind_instructions")
+    return f"{count / 1e9:.3g}" if count else "-"
+
+
+def _counted(bounces):
+    return {0: "all bounces", 1: "1 bounce"}.get(bounces, f"{bounces} bounces")
+
+
+def _reference(group, targets):
+    reference = group["reference"]
+    text = (f"Reference: path tracing, two halves of {reference['samples'] // 2} samples; noise of their mean "
+            f"{percent(reference['noise'])}, taken out of the errors.")
+    if reference["noise"] > min(targets):
+        text += " **That is much for the smallest error: use more samples.**"
+    return text
+
+
+def group_title(group):
+    return (f"{group['scene']}, {group['size']}, {_counted(group['bounces'])}, {group['threads']} "
+            f"thread{'s' if group['threads'] != 1 else ''}")
+
+
+def markdown(results):
+    head, targets = results["machine"], results["targets"]
+    lines = ["# Time to an error", "",
+             f"{head['date']}, {results['version']}, {head['processors']} x {head['processor']}, load "
+             f"{head['load']:.1f} at the start; medians of {results['repeats']}, methods by turns.",
+             "Error: relative RMSE of the indirect layer. Seconds: all that the indirect light takes "
+             "(injection to denoiser); G-buffer, direct light and files are the same for all and left out.",
+             "Times between rungs by interpolation in the logarithms, never past the ends of a ladder. "
+             f"Instructions: {results['instructions']}.", ""]
+    for name, why in results["skipped"].items():
+        lines += [f"Left out: {name}: {why}.", ""]
+    for group in results["groups"]:
+        lines += [f"## {group_title(group)}", "", _reference(group, targets), ""]
+        lines += _times(group, targets)
+        ratios = _ratios(group, targets)
+        if ratios:
+            lines += ["How many times as long the other takes:", ""] + ratios
+        lines += ["All points:", ""] + _points(group)
+    return "\n".join(lines)

@@ -1,0 +1,148 @@
+# The measurements of bench/speed, bench/marks and bench/scaling run, at small sizes, and say what they should
+# of times that are made up. No time is asserted.
+. "$PSPLAT_SOURCE/tests/cli/lib.sh"
+
+command -v python3 >/dev/null || skip "bench/speed needs python3"
+bench=$PSPLAT_SOURCE/bench
+PYTHONDONTWRITEBYTECODE=1
+export PSPLAT PYTHONDONTWRITEBYTECODE
+
+# measure STATUS COMMAND WORD...: a program of the folder bench, as `run` does with psplat.
+measure() {
+    expected=$1 program=$2
+    shift 2
+    last="bench/$program $*"
+    "$bench/$program" --work work --out results "$@" >out 2>err </dev/null
+    check_status $? "$expected"
+}
+
+# number FILE EXPRESSION: of a JSON file, which is called `d`.
+number() {
+    python3 -c "import json, sys; d = json.load(open(sys.argv[1])); print($2)" "$1" || fail "no $2 in $1"
+}
+
+# true_of TEXT EXPRESSION: a Python expression.
+true_of() {
+    python3 -c "import sys; sys.exit(not ($2))" || fail "$1: not $2"
+}
+
+# --- times to an error and their ratios, from curves that are made up ---
+
+PYTHONPATH=$bench/speed.d python3 - >out 2>err <<'END' || { fail "curves:"; cat err; }
+from curve import AT, NEVER, WITHIN, Reach, ratio_text, reach_text, time_to
+
+slope = [(1.0, 0.4), (4.0, 0.2), (16.0, 0.1)]  # error = 0.4 / sqrt(time)
+assert time_to(slope, 0.4) == Reach(WITHIN, 1.0)
+assert time_to(slope, 0.5) == Reach(WITHIN, 1.0)
+reach = time_to(slope, 0.3)
+assert reach.kind == AT and abs(reach.seconds - 16 / 9) < 1e-9, reach
+reach = time_to(slope, 0.1)
+assert reach.kind == AT and abs(reach.seconds - 16) < 1e-9, reach
+assert time_to(slope, 0.09) == Reach(NEVER, 16.0)
+assert time_to([], 0.1) is None
+# There and back, and there sooner: the least time counts.
+twice = [(10.0, 0.4), (40.0, 0.2), (1.0, 0.4), (4.0, 0.2)]
+assert abs(time_to(twice, 0.2).seconds - 4) < 1e-9
+
+assert reach_text(Reach(AT, 2.0)) == "2 s"
+assert reach_text(Reach(WITHIN, 2.0)) == "<= 2 s"
+assert reach_text(Reach(NEVER, 2.0)) == "not reached"
+assert ratio_text(Reach(AT, 6.0), Reach(AT, 2.0)) == "3x"
+assert ratio_text(Reach(AT, 6.0), Reach(WITHIN, 2.0)) == "> 3x"
+assert ratio_text(Reach(NEVER, 6.0), Reach(AT, 2.0)) == "> 3x"
+assert ratio_text(Reach(WITHIN, 6.0), Reach(AT, 2.0)) == "< 3x"
+assert ratio_text(Reach(WITHIN, 6.0), Reach(WITHIN, 2.0)) == "both at once"
+assert ratio_text(Reach(AT, 6.0), Reach(NEVER, 2.0)) == "not reached"
+END
+
+# --- bench/speed ---
+
+measure 0 speed --quick
+expect_text err "reference cornell-96x54-1-a.exr: "
+expect_no_text err "reused"
+expect_same out results/speed.md
+python3 -m json.tool results/speed.json >json || fail "speed.json is no JSON"
+methods=$(sed -n 's/^\[\(.*\)\]$/\1/p' "$bench/speed.d/methods.ini")
+for method in $methods; do
+    expect_match results/speed.md "^\| $method \| (<= )?[0-9n].* %"
+    expect_text json "\"name\": \"$method\""
+done
+expect_text results/speed.md "| pathtrace | splat |"
+expect_text results/speed.md "| pathtrace | *aim* |  | *20x* | *10x* |  |"
+expect_text results/speed.md "not reached"
+[ "$(number results/speed.json 'len(d["groups"][0]["methods"][0]["points"])')" = 2 ] || fail "not two rungs"
+grep -q '"estimate":' json && grep -q '"splat":' json || fail "no seconds by stage in speed.json"
+
+measure 0 speed --quick --methods pathtrace --rungs 1 --repeats 2
+[ "$(grep -c reused err)" -eq 2 ] || fail "the reference was not used again"
+[ "$(number results/speed.json 'd["groups"][0]["methods"][0]["points"][0]["repeats"]')" = 2 ] ||
+    fail "not two repeats"
+expect_no_text results/speed.md "| splat"
+
+# A noisy reference finds the error that a good one finds; as it stands, it would be three times as large.
+error_with() {
+    measure 0 speed --quick --methods splat-best --rungs 2 --reference-samples "$1"
+    expect_no_text err reused
+    number results/speed.json "d['groups'][0]['methods'][0]['points'][1]['$2']"
+}
+noisy=$(error_with 16 error)
+measured=$(number results/speed.json "d['groups'][0]['methods'][0]['points'][1]['measured_error']")
+good=$(error_with 1024 error)
+true_of "noise of the reference" "abs($noisy / $good - 1) < 0.25 and $measured > 2 * $good"
+
+measure 0 speed --quick --scenes conference --mesh /nowhere/conference.obj
+expect_text results/speed.md "Left out: conference: there is no /nowhere/conference.obj."
+measure 1 speed --quick --scenes nowhere
+expect_text err "speed: error: no scene 'nowhere'; there are: cornell, cornell-area, conference"
+measure 1 speed --quick --methods guess
+expect_text err "no method 'guess'; there are: splat"
+measure 1 speed --quick --psplat /nowhere/psplat
+expect_text err "no program '/nowhere/psplat'"
+measure 2 speed --quick --targets 0
+printf '[wrong]\noptions: estimator=nothing\n*:\n    x=1\n' >wrong.ini
+measure 1 speed --quick --table wrong.ini
+expect_text err "no estimator 'nothing'"
+
+# --- bench/marks: against a picture that is direct light alone, all indirect light is an error ---
+
+area=$PSPLAT_SOURCE/scenes/cornell-area.psd
+mkdir -p reference/pictures
+run 0 "$area" --size 64x36 -q -p estimator=pathtrace:samples=16,bounces=0 -o reference/pictures/A_full.exr
+run 0 "$area" --size 64x36 -q -p estimator=ambient:irradiance=0 -o reference/pictures/A_direct.exr
+cat >reference/README.md <<'END'
+| another | table |
+|---|---|
+| 1 | 2 |
+
+## The marks to beat (of some machine)
+
+| renderer, method | seconds | error | bias |
+|---|---|---|---|
+| Another renderer, 16 samples | 3.2 | 35 % | 1.000 |
+
+## Another heading
+| no mark | 1 | 2 | 3 |
+END
+printf '[dark]\noptions: estimator=ambient:irradiance={light}\n*:\n    light=0\n' >dark.ini
+measure 0 marks --quick --reference reference/pictures --size 64x36 --table dark.ini
+expect_match out '^\| psplat dark: light=0 \| [0-9.]+ \| 100 % \| 0\.[0-9]+ \|$'
+expect_text out "| Another renderer, 16 samples | 3.2 | 35 % | 1.000 |"
+expect_no_text out "no mark"
+python3 -m json.tool results/marks.json >/dev/null || fail "marks.json is no JSON"
+measure 0 marks --quick --reference nowhere
+expect_match out '^skipped: there is no .*A_full.exr'
+
+# --- bench/scaling ---
+
+measure 0 scaling --quick
+[ "$(wc -l <results/scaling.csv)" -eq 17 ] || fail "scaling.csv has not 16 points"
+expect_match results/scaling.csv '^series,x,threads,sources,'
+expect_match results/scaling.csv '^pixels,32400,2,'
+expect_text results/scaling.md "| indirect seconds with paths | 3162 to 10000 |"
+if command -v gnuplot >/dev/null; then
+    expect_text results/scaling.svg "</svg>"
+else
+    expect_text err "not drawn: there is no gnuplot"
+fi
+
+finish
