@@ -43,9 +43,11 @@ const float *image_channel(const struct image *image, const char *name);
 const char *image_attribute(const struct image *image, const char *name);
 
 /* Writes a scan-line OpenEXR, 32-bit float, ZIP compression, channels in the alphabetical order
- * that the format demands, string attributes as they stand. The same image gives the same bytes.
- * Channels' names must differ. */
-ps_result image_write_exr(const struct image *image, const char *path, struct error *error);
+ * that the format demands, string attributes as they stand. The same image gives the same bytes,
+ * whatever the number of threads, of which it uses `threads`, at least 1. Channels' names must
+ * differ. */
+ps_result image_write_exr(const struct image *image, const char *path, uint32_t threads,
+                          struct error *error);
 
 /* Reads a single-part scan-line or tiled (one level) OpenEXR, half, float or uint channels, into
  * floats; the picture is the data window. Refuses B44, deep, multi-part, mip-mapped and subsampled
