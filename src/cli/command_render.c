@@ -189,6 +189,7 @@ static int render_job(struct job *job, struct scene_input *input, struct render_
     double start = clock_seconds();
     statistics_add_seconds(&statistics, "load", start - job->progress.start);
     ps_result result = scene_input_build_to_render(input, &scene, &error);
+    statistics_add_seconds(&statistics, "scene", clock_seconds() - start);
     if (result == PS_OK) {
         result = render_and_write(job, description, &scene, settings, &statistics, &error);
         scene_release(&scene);

@@ -34,6 +34,11 @@ void image_release(struct image *image);
  * name. Returns its samples, or NULL when out of memory. */
 float *image_add_channel(struct image *image, const char *name);
 
+/* The same with samples that are there already, allocated with malloc: the picture owns them from then
+ * on. When out of memory, PS_ERROR_MEMORY, they stay the caller's. */
+ps_result image_adopt_channel(struct image *image, const char *name, float *samples,
+                              struct error *error);
+
 /* Appends, or replaces, a string attribute. */
 ps_result image_set_attribute(struct image *image, const char *name, const char *value,
                               struct error *error);

@@ -88,6 +88,12 @@ static void test_channels_in_memory(void **state)
     assert_non_null(samples);
     assert_ptr_equal(image_channel(&image, "direct.R"), samples);
     assert_null(image_channel(&image, "direct"));
+    float *adopted = calloc(6, sizeof *adopted);
+    struct error error;
+    assert_non_null(adopted);
+    assert_int_equal(image_adopt_channel(&image, "Z", adopted, &error), PS_OK);
+    assert_ptr_equal(image_channel(&image, "Z"), adopted);
+    assert_int_equal(image.channel_count, 2);
     image_release(&image);
     assert_int_equal(image.channel_count, 0);
     image_release(&image);
