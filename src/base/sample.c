@@ -96,16 +96,45 @@ static lanes sobol(uint32_t reversed_index)
     return fractions;
 }
 
+/* What scrambles the points of 2^32 indices: past these a fresh one begins. */
+struct scramble {
+    uint32_t high; /* half of the indices */
+    uint32_t seed, seeds[4];
+};
+
+static struct scramble scramble_of(uint32_t key, uint32_t high)
+{
+    struct scramble scramble = {.high = high, .seed = key};
+    if (high)
+        scramble.seed = sample_hash((uint64_t)key << 32 | high);
+    for (uint32_t d = 0; d < 4; d++)
+        scramble.seeds[d] = sample_hash((uint64_t)scramble.seed << 8 | (d + 1));
+    return scramble;
+}
+
+static void scrambled_point(const struct scramble *scramble, uint32_t low, float point[4])
+{
+    lanes fractions = sobol(scramble_reversed(reverse_bits(low), scramble->seed));
+    /* 24 bits: the float lies in [0, 1) and never rounds up to 1. */
+    for (int d = 0; d < 4; d++) {
+        uint32_t bits = owen_scramble(fractions[d], scramble->seeds[d]);
+        point[d] = (float)(int32_t)(bits >> 8) * 0x1p-24f;
+    }
+}
+
 void sample_point(uint32_t key, uint64_t index, float point[4])
 {
-    /* Past 2^32 points a fresh scramble begins. */
-    uint32_t high = (uint32_t)(index >> 32);
-    uint32_t seed = high ? sample_hash((uint64_t)key << 32 | high) : key;
-    uint32_t shuffled = scramble_reversed(reverse_bits((uint32_t)index), seed);
-    lanes fractions = sobol(shuffled);
-    /* 24 bits: the float lies in [0, 1) and never rounds up to 1. */
-    for (uint32_t d = 0; d < 4; d++) {
-        uint32_t bits = owen_scramble(fractions[d], sample_hash((uint64_t)seed << 8 | (d + 1)));
-        point[d] = (float)(int32_t)(bits >> 8) * 0x1p-24f;
+    struct scramble scramble = scramble_of(key, (uint32_t)(index >> 32));
+    scrambled_point(&scramble, (uint32_t)index, point);
+}
+
+void sample_points(uint32_t key, const uint64_t *indices, size_t n, float (*points)[4])
+{
+    struct scramble scramble = scramble_of(key, n > 0 ? (uint32_t)(indices[0] >> 32) : 0);
+    for (size_t i = 0; i < n; i++) {
+        uint32_t high = (uint32_t)(indices[i] >> 32);
+        if (high != scramble.high)
+            scramble = scramble_of(key, high);
+        scrambled_point(&scramble, (uint32_t)indices[i], points[i]);
     }
 }

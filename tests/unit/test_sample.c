@@ -47,6 +47,24 @@ static void test_pure_function(void **state)
     assert_int_equal(sample_hash(42), sample_hash(42));
 }
 
+static void test_points_are_those_of_their_indices(void **state)
+{
+    static const uint64_t indices[] = {5, 6, UINT64_C(1) << 32, UINT64_MAX, 7, 0, UINT64_MAX - 1};
+    enum { N = sizeof indices / sizeof indices[0] };
+    float points[N + 1][4], point[4];
+    (void)state;
+    for (size_t first = 0; first < N; first++) {
+        points[N - first][0] = -1;
+        sample_points(77, indices + first, N - first, points);
+        for (size_t i = first; i < N; i++) {
+            sample_point(77, indices[i], point);
+            assert_memory_equal(points[i - first], point, sizeof point);
+        }
+        assert_true(points[N - first][0] == -1);
+    }
+    sample_points(77, indices, 0, points);
+}
+
 /* Pictures of one seed are the same for ever: these are the numbers of the first version. */
 static void test_same_numbers_as_ever(void **state)
 {
@@ -299,6 +317,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_range),
         cmocka_unit_test(test_pure_function),
+        cmocka_unit_test(test_points_are_those_of_their_indices),
         cmocka_unit_test(test_same_numbers_as_ever),
         cmocka_unit_test(test_seeds_streams_and_sets_are_independent),
         cmocka_unit_test(test_dimensions_are_independent),
