@@ -50,11 +50,12 @@ uint32_t parallel_processor_count(void)
 
 void parallel_for(uint32_t threads, uint64_t count, parallel_body body, void *user)
 {
+    /* nowait: the end of the region is barrier enough. */
 #pragma omp parallel num_threads((int)threads)
     {
         uint32_t worker = (uint32_t)omp_get_thread_num();
         floating_point_mode before = flush_denormals();
-#pragma omp for schedule(dynamic, 1)
+#pragma omp for schedule(dynamic, 1) nowait
         for (uint64_t index = 0; index < count; index++)
             body(user, index, worker);
         restore_denormals(before);

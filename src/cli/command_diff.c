@@ -2,6 +2,7 @@
  *
  * NaN and infinities pass through: a picture of where they are is what one looks for.
  */
+#include "base/parallel.h"
 #include "cli/command.h"
 #include "compare/picture_pair.h"
 
@@ -62,7 +63,9 @@ static ps_result write_difference(const struct request *request, struct picture_
         result = subtract(pair, difference, error);
     for (int i = 0; i < 2 && result == PS_OK; i++)
         result = image_set_attribute(difference, names[i], request->paths[i], error);
-    return result == PS_OK ? image_write_exr(difference, request->output, error) : result;
+    if (result != PS_OK)
+        return result;
+    return image_write_exr(difference, request->output, parallel_processor_count(), error);
 }
 
 static int run(const struct argument *arguments, size_t count)

@@ -131,13 +131,13 @@ static bool check_outputs(const struct job *job)
 
 /* Writes all that can be written; the error is the first one's. */
 static ps_result write_files(struct job *job, const struct image *image, double exposure,
-                             struct statistics *statistics, struct error *error)
+                             uint32_t threads, struct statistics *statistics, struct error *error)
 {
     double start = clock_seconds();
     ps_result first = PS_OK;
     for (size_t i = 0; i < job->output_count; i++) {
         struct error reason;
-        ps_result result = output_write(image, job->outputs[i], exposure, &reason);
+        ps_result result = output_write(image, job->outputs[i], exposure, threads, &reason);
         if (result == PS_OK && !job->options.quiet)
             fprintf(stderr, "psplat: wrote %s\n", job->outputs[i]);
         if (result != PS_OK && first == PS_OK) {
@@ -170,7 +170,8 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     ps_result written = output_describe(&image, description->path, &job->options.scene, settings,
                                         description->image.exposure, error);
     if (written == PS_OK)
-        written = write_files(job, &image, description->image.exposure, statistics, error);
+        written = write_files(job, &image, description->image.exposure, settings->threads,
+                              statistics, error);
     image_release(&image);
     if (written == PS_OK && result == PS_CANCELLED)
         return error_set(error, PS_CANCELLED,
@@ -188,6 +189,7 @@ static int render_job(struct job *job, struct scene_input *input, struct render_
     double start = clock_seconds();
     statistics_add_seconds(&statistics, "load", start - job->progress.start);
     ps_result result = scene_input_build_to_render(input, &scene, &error);
+    statistics_add_seconds(&statistics, "scene", clock_seconds() - start);
     if (result == PS_OK) {
         result = render_and_write(job, description, &scene, settings, &statistics, &error);
         scene_release(&scene);

@@ -52,10 +52,10 @@ static ps_result write_png(const struct image *image, const char *path, double e
 }
 
 ps_result output_write(const struct image *image, const char *path, double exposure,
-                       struct error *error)
+                       uint32_t threads, struct error *error)
 {
     if (has_suffix(path, ".exr"))
-        return image_write_exr(image, path, error);
+        return image_write_exr(image, path, threads, error);
     return write_png(image, path, exposure, error);
 }
 

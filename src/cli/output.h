@@ -13,9 +13,10 @@ bool output_is_writable_format(const char *path);
  * it. */
 char *output_default_path(const char *scene_path, const char *suffix);
 
-/* Writes the picture by its name's suffix; exposure in stops, for PNG. */
+/* Writes the picture by its name's suffix; exposure in stops, for PNG; the threads change its time,
+ * not the file. */
 ps_result output_write(const struct image *image, const char *path, double exposure,
-                       struct error *error);
+                       uint32_t threads, struct error *error);
 
 /* Attributes that say how the picture was made: version, scene, every setting, and the command that
  * repeats it. */

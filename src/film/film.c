@@ -28,60 +28,120 @@ size_t film_bytes(const struct film *film)
     return film->width * film->height * sizeof(float) * FILM_PLANES;
 }
 
-static void add_color(struct film *film, enum film_plane red, size_t pixel, ps_rgb color)
+/* A row of a tile's pixels that are in the picture. */
+struct tile_row {
+    const ps_tile *tile;
+    const ps_rgb *direct, *emitted; /* of the row's pixels */
+    size_t lane, pixel;             /* its first, in the tile and in the film */
+    size_t count;
+};
+
+/* Adds to a plane what the pixels of a row see; where they see no surface, nothing. */
+static void add_seen(struct film *film, int plane, const struct tile_row *row, const float *values)
 {
-    film->planes[red][pixel] += color.r;
-    film->planes[red + 1][pixel] += color.g;
-    film->planes[red + 2][pixel] += color.b;
+    const uint32_t *object = row->tile->object + row->lane;
+    float *sums = film->planes[plane] + row->pixel;
+    for (size_t i = 0; i < row->count; i++)
+        sums[i] += object[i] == PS_NO_OBJECT ? 0.0f : values[i];
 }
 
-static void add_vector(struct film *film, enum film_plane x, size_t pixel, ps_vec3 vector)
+static void add_emitted(struct film *film, const struct tile_row *row)
 {
-    add_color(film, x, pixel, (ps_rgb){vector.x, vector.y, vector.z});
+    for (size_t i = 0; i < row->count; i++) {
+        film->planes[FILM_DIRECT_R][row->pixel + i] += row->emitted[i].r;
+        film->planes[FILM_DIRECT_G][row->pixel + i] += row->emitted[i].g;
+        film->planes[FILM_DIRECT_B][row->pixel + i] += row->emitted[i].b;
+    }
 }
 
-/* The share of the light that arrives where a pixel looks, and that its albedo and the way to the
- * camera leave. */
-static ps_rgb reflectance_of(const ps_tile *tile, uint32_t lane)
+/* One of red, green and blue, of a row. */
+struct row_channel {
+    const float *albedo, *throughput, *irradiance; /* indirect */
+    float direct[PS_TILE_SIZE];                    /* irradiance */
+};
+
+/* Adds the share of the light that arrives where a pixel looks, and that its albedo and the way to the
+ * camera leave; and the light that this reflects. */
+static void add_reflected(struct film *film, const struct tile_row *row, int channel,
+                          const struct row_channel *from)
 {
-    ps_rgb albedo = {tile->albedo_r[lane], tile->albedo_g[lane], tile->albedo_b[lane]};
-    ps_rgb throughput = {tile->throughput_r[lane], tile->throughput_g[lane],
-                         tile->throughput_b[lane]};
-    return ps_rgb_multiply(albedo, throughput);
+    float albedo[PS_TILE_SIZE], direct[PS_TILE_SIZE], indirect[PS_TILE_SIZE];
+    for (size_t i = 0; i < row->count; i++) {
+        albedo[i] = from->albedo[i] * from->throughput[i];
+        float reflectance = albedo[i] * (1.0f / PS_PI);
+        direct[i] = reflectance * from->direct[i];
+        indirect[i] = reflectance * from->irradiance[i];
+    }
+    add_seen(film, FILM_DIRECT_R + channel, row, direct);
+    add_seen(film, FILM_COLOR_R + channel, row, indirect);
+    add_seen(film, FILM_ALBEDO_R + channel, row, albedo);
 }
 
-static void add_lane(struct film *film, const ps_tile *tile, ps_rgb direct, uint32_t lane,
-                     size_t pixel)
+static void add_light(struct film *film, const struct tile_row *row)
 {
-    if (tile->object[lane] == PS_NO_OBJECT)
-        return;
-    ps_rgb albedo = reflectance_of(tile, lane);
-    ps_rgb reflectance = ps_rgb_scale(albedo, 1.0f / PS_PI);
-    ps_rgb irradiance = {tile->irradiance_r[lane], tile->irradiance_g[lane],
-                         tile->irradiance_b[lane]};
-    add_color(film, FILM_DIRECT_R, pixel, ps_rgb_multiply(reflectance, direct));
-    add_color(film, FILM_COLOR_R, pixel, ps_rgb_multiply(reflectance, irradiance));
-    add_color(film, FILM_ALBEDO_R, pixel, albedo);
-    ps_vec3 normal = {tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
-    ps_vec3 position = {tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
-    add_vector(film, FILM_NORMAL_X, pixel, normal);
-    add_vector(film, FILM_POSITION_X, pixel, position);
-    film->planes[FILM_WEIGHT][pixel] += tile->weight[lane];
-    film->planes[FILM_DEPTH][pixel] += tile->depth[lane];
-    film->planes[FILM_COVERAGE][pixel] += 1.0f;
+    const ps_tile *tile = row->tile;
+    size_t lane = row->lane;
+    struct row_channel channels[3] = {
+        {.albedo = tile->albedo_r + lane,
+         .throughput = tile->throughput_r + lane,
+         .irradiance = tile->irradiance_r + lane},
+        {.albedo = tile->albedo_g + lane,
+         .throughput = tile->throughput_g + lane,
+         .irradiance = tile->irradiance_g + lane},
+        {.albedo = tile->albedo_b + lane,
+         .throughput = tile->throughput_b + lane,
+         .irradiance = tile->irradiance_b + lane},
+    };
+    for (size_t i = 0; i < row->count; i++) {
+        channels[0].direct[i] = row->direct[i].r;
+        channels[1].direct[i] = row->direct[i].g;
+        channels[2].direct[i] = row->direct[i].b;
+    }
+    add_emitted(film, row);
+    for (int channel = 0; channel < 3; channel++)
+        add_reflected(film, row, channel, &channels[channel]);
+}
+
+static void add_geometry(struct film *film, const struct tile_row *row)
+{
+    const ps_tile *tile = row->tile;
+    size_t lane = row->lane;
+    float ones[PS_TILE_SIZE];
+    for (size_t i = 0; i < row->count; i++)
+        ones[i] = 1.0f;
+    add_seen(film, FILM_WEIGHT, row, tile->weight + lane);
+    add_seen(film, FILM_NORMAL_X, row, tile->normal_x + lane);
+    add_seen(film, FILM_NORMAL_Y, row, tile->normal_y + lane);
+    add_seen(film, FILM_NORMAL_Z, row, tile->normal_z + lane);
+    add_seen(film, FILM_POSITION_X, row, tile->position_x + lane);
+    add_seen(film, FILM_POSITION_Y, row, tile->position_y + lane);
+    add_seen(film, FILM_POSITION_Z, row, tile->position_z + lane);
+    add_seen(film, FILM_DEPTH, row, tile->depth + lane);
+    add_seen(film, FILM_COVERAGE, row, ones);
+}
+
+static size_t at_most_a_tile(size_t pixels)
+{
+    return pixels < PS_TILE_SIZE ? pixels : PS_TILE_SIZE;
 }
 
 void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t index)
 {
-    const ps_tile *tile = &gbuffer->tiles[index];
-    const ps_rgb *direct = &gbuffer->direct[(size_t)index * PS_TILE_PIXELS];
-    const ps_rgb *emitted = &gbuffer->emitted[(size_t)index * PS_TILE_PIXELS];
-    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-        uint32_t x, y;
-        if (!gbuffer_pixel(gbuffer, index, lane, &x, &y))
-            continue;
-        add_color(film, FILM_DIRECT_R, y * film->width + x, emitted[lane]);
-        add_lane(film, tile, direct[lane], lane, y * film->width + x);
+    size_t x = (size_t)(index % gbuffer->tiles_across) * PS_TILE_SIZE;
+    size_t y = (size_t)(index / gbuffer->tiles_across) * PS_TILE_SIZE;
+    size_t rows = at_most_a_tile(film->height - y);
+    for (size_t i = 0; i < rows; i++) {
+        size_t lane = i * PS_TILE_SIZE, first = (size_t)index * PS_TILE_PIXELS + lane;
+        struct tile_row row = {
+            .tile = &gbuffer->tiles[index],
+            .direct = &gbuffer->direct[first],
+            .emitted = &gbuffer->emitted[first],
+            .lane = lane,
+            .pixel = (y + i) * film->width + x,
+            .count = at_most_a_tile(film->width - x),
+        };
+        add_light(film, &row);
+        add_geometry(film, &row);
     }
 }
 
@@ -90,20 +150,29 @@ void film_count_pass(struct film *film)
     film->passes++;
 }
 
-static void scale_planes(struct film *film, int first, int last, size_t pixel, float factor)
+static void average_light(struct film *film, int plane)
 {
-    for (int plane = first; plane <= last; plane++)
-        film->planes[plane][pixel] *= factor;
+    float *sums = film->planes[plane];
+    float per_pass = film->passes ? 1.0f / (float)film->passes : 0.0f;
+    for (size_t i = 0; i < film->width * film->height; i++)
+        sums[i] *= per_pass;
+}
+
+static void average_geometry(struct film *film, int plane)
+{
+    const float *coverage = film->planes[FILM_COVERAGE];
+    float *sums = film->planes[plane];
+    for (size_t i = 0; i < film->width * film->height; i++)
+        sums[i] *= coverage[i] > 0.0f ? 1.0f / coverage[i] : 0.0f;
 }
 
 void film_average(struct film *film)
 {
-    float per_pass = film->passes ? 1.0f / (float)film->passes : 0.0f;
-    for (size_t pixel = 0; pixel < film->width * film->height; pixel++) {
-        float coverage = film->planes[FILM_COVERAGE][pixel];
-        scale_planes(film, FILM_DIRECT_R, FILM_DIRECT_B, pixel, per_pass);
-        scale_planes(film, FILM_ALBEDO_R, FILM_DEPTH, pixel, coverage > 0 ? 1.0f / coverage : 0.0f);
-        if (coverage <= 0.0f)
-            film->planes[FILM_DEPTH][pixel] = INFINITY;
-    }
+    for (int plane = FILM_DIRECT_R; plane <= FILM_DIRECT_B; plane++)
+        average_light(film, plane);
+    for (int plane = FILM_ALBEDO_R; plane <= FILM_DEPTH; plane++)
+        average_geometry(film, plane);
+    for (size_t i = 0; i < film->width * film->height; i++)
+        if (film->planes[FILM_COVERAGE][i] <= 0.0f)
+            film->planes[FILM_DEPTH][i] = INFINITY;
 }

@@ -2,18 +2,26 @@
  *
  * The order of calls matters and is written down nowhere: start, add the part, required attributes,
  * channels, other attributes, header; then for each chunk its information, the encoder (initialised
- * with the first chunk, updated with the others), the planes' pointers *moved to that chunk's first
- * line*, and the run; then finish. Bytes go through output_file rather than the library's own file
- * handling, so that the file appears whole and a failed write says why.
+ * with a thread's first chunk, updated with the others), the planes' pointers *moved to that chunk's
+ * first line*, and the run; then finish. Bytes go through output_file rather than the library's own
+ * file handling, so that the file appears whole and a failed write says why.
+ *
+ * Compression takes nearly all of the time, so chunks are shared out among threads, each with an
+ * encoder of its own on the one context, as the library has it. A thread that is done with a chunk
+ * waits for its turn before writing it: the file has its chunks in order, is the same for any number
+ * of threads, and no more than one chunk a thread is in memory. Chunks are handed out in order, so
+ * whoever holds the first that is missing never waits.
  *
  * The library's messages are dropped: its handler runs with the context locked while writing, so it
  * cannot ask for our data; result codes with what was being written tell as much. No capDate: the
  * same picture gives the same bytes.
  */
+#include "base/parallel.h"
 #include "image/image.h"
 #include "image/output_file.h"
 
 #include <OpenEXR/openexr.h>
+#include <pthread.h>
 #include <stdbool.h>
 #include <string.h>
 
@@ -21,6 +29,10 @@
 #define SHORT_NAME_LENGTH 31 /* longer names need a flag that readers before 2012 lack */
 #define PART 0               /* the file's only part */
 #define SAMPLE_SIZE ((int32_t)sizeof(float))
+
+/* Of zlib, whose own is 6: a fifth to a quarter of the time less for files 1 to 2 per cent longer.
+ * Levels below save no more: what radiance costs is its noise. */
+#define ZIP_LEVEL 3
 
 /* ITU-R BT.709-6: x and y of red, green, blue, and of white (D65). */
 static const exr_attr_chromaticities_t rec709 = {0.64f, 0.33f, 0.30f,   0.60f,
@@ -115,6 +127,9 @@ static ps_result write_header(exr_context_t context, const struct image *image,
                                                    (int32_t)image->height, EXR_COMPRESSION_ZIP);
     }
     if (code == EXR_ERR_SUCCESS) {
+        code = exr_set_zip_compression_level(context, PART, ZIP_LEVEL);
+    }
+    if (code == EXR_ERR_SUCCESS) {
         code = exr_attr_set_chromaticities(context, PART, "chromaticities", &rec709);
     }
     ps_result result = explain(sink, code, "the", "header");
@@ -149,56 +164,131 @@ static void point_at_line(exr_encode_pipeline_t *encoder, const struct image *im
     }
 }
 
+/* The chunks of a picture on their way to the file. Lines stand for the chunks they begin. */
+struct chunk_queue {
+    exr_context_t context;
+    const struct image *image;
+    pthread_mutex_t lock; /* of what follows */
+    pthread_cond_t moved; /* `written` or `code` has changed */
+    size_t handed_out;    /* lines that were given to threads */
+    size_t written;       /* lines that are in the file */
+    exr_result_t code;    /* of the first failure; ends the work */
+};
+
+static bool take_chunk(struct chunk_queue *queue, size_t *line)
+{
+    pthread_mutex_lock(&queue->lock);
+    bool left = queue->code == EXR_ERR_SUCCESS && queue->handed_out < queue->image->height;
+    *line = queue->handed_out;
+    queue->handed_out += left ? LINES_PER_CHUNK : 0;
+    pthread_mutex_unlock(&queue->lock);
+    return left;
+}
+
+static void give_up(struct chunk_queue *queue, exr_result_t code)
+{
+    pthread_mutex_lock(&queue->lock);
+    if (queue->code == EXR_ERR_SUCCESS) {
+        queue->code = code;
+    }
+    pthread_cond_broadcast(&queue->moved);
+    pthread_mutex_unlock(&queue->lock);
+}
+
+/* The encoder calls it between compressing and writing. */
+static exr_result_t await_turn(exr_encode_pipeline_t *encoder)
+{
+    struct chunk_queue *queue = encoder->encoding_user_data;
+    pthread_mutex_lock(&queue->lock);
+    while (queue->code == EXR_ERR_SUCCESS && queue->written != (size_t)encoder->chunk.start_y) {
+        pthread_cond_wait(&queue->moved, &queue->lock);
+    }
+    exr_result_t code = queue->code;
+    pthread_mutex_unlock(&queue->lock);
+    return code;
+}
+
+static void end_turn(struct chunk_queue *queue)
+{
+    pthread_mutex_lock(&queue->lock);
+    queue->written += LINES_PER_CHUNK;
+    pthread_cond_broadcast(&queue->moved);
+    pthread_mutex_unlock(&queue->lock);
+}
+
 /* Stands in for the library's own writing of a chunk. Readers take a chunk as long as its pixels
  * for uncompressed, but the library (openexr issue 2306) stores the ZIP stream
  * also where it happens to have just that length: two in a hundred tiny pictures came back as
  * noise. */
 static exr_result_t write_shorter(exr_encode_pipeline_t *encoder)
 {
-    exr_context_t context = encoder->encoding_user_data;
+    struct chunk_queue *queue = encoder->encoding_user_data;
     const void *bytes = encoder->compressed_bytes < encoder->packed_bytes
                             ? encoder->compressed_buffer
                             : encoder->packed_buffer;
-    return exr_write_scanline_chunk(context, PART, encoder->chunk.start_y, bytes,
-                                    encoder->compressed_bytes);
+    exr_result_t code = exr_write_scanline_chunk(queue->context, PART, encoder->chunk.start_y,
+                                                 bytes, encoder->compressed_bytes);
+    if (code == EXR_ERR_SUCCESS) {
+        end_turn(queue);
+    }
+    return code;
 }
 
-static exr_result_t write_chunk(exr_context_t context, exr_encode_pipeline_t *encoder,
-                                const struct image *image, size_t line)
+static exr_result_t write_chunk(struct chunk_queue *queue, exr_encode_pipeline_t *encoder,
+                                size_t line)
 {
+    exr_context_t context = queue->context;
     exr_chunk_info_t chunk;
+    bool first = !encoder->context;
     exr_result_t code = exr_write_scanline_chunk_info(context, PART, (int)line, &chunk);
-    if (code != EXR_ERR_SUCCESS) {
-        return code;
-    }
-    code = line == 0 ? exr_encoding_initialize(context, PART, &chunk, encoder)
+    if (code == EXR_ERR_SUCCESS) {
+        code = first ? exr_encoding_initialize(context, PART, &chunk, encoder)
                      : exr_encoding_update(context, PART, &chunk, encoder);
+    }
     if (code != EXR_ERR_SUCCESS) {
         return code;
     }
-    point_at_line(encoder, image, line);
-    if (line == 0) {
+    point_at_line(encoder, queue->image, line);
+    if (first) {
         code = exr_encoding_choose_default_routines(context, PART, encoder);
-        encoder->encoding_user_data = context;
+        encoder->encoding_user_data = queue;
+        encoder->yield_until_ready_fn = await_turn;
         encoder->write_fn = write_shorter;
     }
     return code == EXR_ERR_SUCCESS ? exr_encoding_run(context, PART, encoder) : code;
 }
 
-static ps_result write_chunks(exr_context_t context, const struct image *image,
-                              const struct exr_sink *sink)
+static void work_off_chunks(void *user, uint64_t index, uint32_t worker)
 {
+    (void)index;
+    (void)worker;
+    struct chunk_queue *queue = user;
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_result_t code = EXR_ERR_SUCCESS;
-    for (size_t line = 0; line < image->height && code == EXR_ERR_SUCCESS;
-         line += LINES_PER_CHUNK) {
-        code = write_chunk(context, &encoder, image, line);
+    for (size_t line; code == EXR_ERR_SUCCESS && take_chunk(queue, &line);) {
+        code = write_chunk(queue, &encoder, line);
     }
-    exr_encoding_destroy(context, &encoder);
-    return explain(sink, code, "the", "pixels");
+    if (code != EXR_ERR_SUCCESS) {
+        give_up(queue, code);
+    }
+    exr_encoding_destroy(queue->context, &encoder);
 }
 
-static ps_result write_picture(const struct image *image, struct exr_sink *sink)
+static ps_result write_chunks(exr_context_t context, const struct image *image, uint32_t threads,
+                              const struct exr_sink *sink)
+{
+    struct chunk_queue queue = {.context = context, .image = image, .code = EXR_ERR_SUCCESS};
+    size_t chunks = (image->height + LINES_PER_CHUNK - 1) / LINES_PER_CHUNK;
+    uint32_t workers = threads < chunks ? threads : (uint32_t)chunks;
+    pthread_mutex_init(&queue.lock, NULL);
+    pthread_cond_init(&queue.moved, NULL);
+    parallel_for(workers, workers, work_off_chunks, &queue);
+    pthread_cond_destroy(&queue.moved);
+    pthread_mutex_destroy(&queue.lock);
+    return explain(sink, queue.code, "the", "pixels");
+}
+
+static ps_result write_picture(const struct image *image, uint32_t threads, struct exr_sink *sink)
 {
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = drop_message;
@@ -213,13 +303,14 @@ static ps_result write_picture(const struct image *image, struct exr_sink *sink)
     }
     result = write_header(context, image, sink);
     if (result == PS_OK) {
-        result = write_chunks(context, image, sink);
+        result = write_chunks(context, image, threads, sink);
     }
     exr_result_t code = exr_finish(&context);
     return result == PS_OK ? explain(sink, code, "the", "end") : result;
 }
 
-ps_result image_write_exr(const struct image *image, const char *path, struct error *error)
+ps_result image_write_exr(const struct image *image, const char *path, uint32_t threads,
+                          struct error *error)
 {
     struct exr_sink sink = {.error = error};
     ps_result result = check_picture(image, path, error);
@@ -229,7 +320,7 @@ ps_result image_write_exr(const struct image *image, const char *path, struct er
     if (result != PS_OK) {
         return result;
     }
-    result = write_picture(image, &sink);
+    result = write_picture(image, threads, &sink);
     if (result != PS_OK) {
         output_file_discard(&sink.file);
         return result;

@@ -1,6 +1,7 @@
 /* image.c: the picture in memory: named planes of floats and string attributes. */
 #include "image/image.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,28 +20,44 @@ void image_release(struct image *image)
     *image = (struct image){0};
 }
 
+/* Whether there was memory; if not, the samples are not the picture's. */
+static bool append_channel(struct image *image, const char *name, float *samples)
+{
+    struct image_channel *channels =
+        realloc(image->channels, (image->channel_count + 1) * sizeof *channels);
+    if (!channels) {
+        return false;
+    }
+    image->channels = channels;
+    struct image_channel channel = {.name = strdup(name), .samples = samples};
+    if (!channel.name) {
+        return false;
+    }
+    channels[image->channel_count++] = channel;
+    return true;
+}
+
 float *image_add_channel(struct image *image, const char *name)
 {
     if (image->width == 0 || image->height == 0 || image->width > SIZE_MAX / image->height) {
         return NULL;
     }
-    struct image_channel *channels =
-        realloc(image->channels, (image->channel_count + 1) * sizeof *channels);
-    if (!channels) {
-        return NULL;
+    float *samples = calloc(image->width * image->height, sizeof *samples);
+    if (samples && append_channel(image, name, samples)) {
+        return samples;
     }
-    image->channels = channels;
-    struct image_channel channel = {
-        .name = strdup(name),
-        .samples = calloc(image->width * image->height, sizeof *channel.samples),
-    };
-    if (!channel.name || !channel.samples) {
-        free(channel.name);
-        free(channel.samples);
-        return NULL;
+    free(samples);
+    return NULL;
+}
+
+ps_result image_adopt_channel(struct image *image, const char *name, float *samples,
+                              struct error *error)
+{
+    if (append_channel(image, name, samples)) {
+        return PS_OK;
     }
-    channels[image->channel_count++] = channel;
-    return channel.samples;
+    return error_memory(error, (image->channel_count + 1) * sizeof *image->channels,
+                        "a channel of a picture");
 }
 
 static struct image_attribute *find_attribute(const struct image *image, const char *name)

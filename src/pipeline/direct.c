@@ -100,8 +100,7 @@ static float (*draw(const struct scene *scene, const struct light_numbers *from,
     if (!scene->has_sized_lights)
         return NULL;
     uint32_t key = sample_key(from->seed, from->stream, from->set);
-    for (size_t i = 0; i < n; i++)
-        sample_point(key, from->indices[first + i], room[i]);
+    sample_points(key, from->indices + first, n, room);
     return room;
 }
 

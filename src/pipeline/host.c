@@ -99,9 +99,7 @@ static ps_result host_for_each_tile(const ps_host *host, ps_body body, void *use
 static void host_samples(const ps_host *host, uint32_t stream, uint32_t set,
                          const uint64_t *indices, size_t n, float (*samples)[4])
 {
-    uint32_t key = sample_key(render_of(host)->settings->seed, stream, set);
-    for (size_t i = 0; i < n; i++)
-        sample_point(key, indices[i], samples[i]);
+    sample_points(sample_key(render_of(host)->settings->seed, stream, set), indices, n, samples);
 }
 
 static void host_scene_bounds(const ps_host *host, ps_vec3 *center, float *radius)

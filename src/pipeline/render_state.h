@@ -46,7 +46,7 @@ ps_result render_inspect(const struct scene *scene, struct render_settings *sett
                          const struct render_callbacks *callbacks, struct statistics *statistics,
                          render_inspector inspect, void *user, struct error *error);
 
-/* Of a picture with all layers. */
+/* Of a picture, less the planes that it takes over from the film. */
 size_t picture_bytes(size_t width, size_t height);
 
 /* Film to image: normalization, ambient fallback, denoiser, combination. Uses up the film. */

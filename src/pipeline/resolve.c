@@ -1,7 +1,6 @@
 /* resolve.c: the film becomes a picture: normalization, ambient fallback, denoiser, combination. */
 #include "base/clock.h"
 #include "pipeline/render_state.h"
-#include <string.h>
 
 /* The layers of the picture that come straight from the film. */
 static const struct layer {
@@ -22,7 +21,7 @@ struct rgb_planes {
 size_t picture_bytes(size_t width, size_t height)
 {
     size_t rgb_layers = 2; /* the picture and its indirect light */
-    return (3 * rgb_layers + sizeof layers / sizeof layers[0]) * width * height * sizeof(float);
+    return 3 * rgb_layers * width * height * sizeof(float);
 }
 
 static ps_result add_rgb(struct image *image, const char *const names[3], struct rgb_planes *planes,
@@ -36,16 +35,17 @@ static ps_result add_rgb(struct image *image, const char *const names[3], struct
     return error_memory(error, 3 * image->width * image->height * sizeof(float), "the picture");
 }
 
-static ps_result add_film_layers(const struct film *film, struct image *image, struct error *error)
+/* The planes change hands: copies would take as much time as all that is computed here. */
+static ps_result move_film_layers(struct film *film, struct image *image, struct error *error)
 {
-    size_t bytes = film->width * film->height * sizeof(float);
-    for (size_t i = 0; i < sizeof layers / sizeof layers[0]; i++) {
-        float *samples = image_add_channel(image, layers[i].name);
-        if (!samples)
-            return error_memory(error, bytes, "the picture");
-        memcpy(samples, film->planes[layers[i].plane], bytes);
+    ps_result result = PS_OK;
+    for (size_t i = 0; i < sizeof layers / sizeof layers[0] && result == PS_OK; i++) {
+        float **plane = &film->planes[layers[i].plane];
+        result = image_adopt_channel(image, layers[i].name, *plane, error);
+        if (result == PS_OK)
+            *plane = NULL;
     }
-    return PS_OK;
+    return result;
 }
 
 static ps_result normalize(struct render *render, struct rgb_planes out, struct error *error)
@@ -132,6 +132,7 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
     static const char *const indirect_names[3] = {"indirect.R", "indirect.G", "indirect.B"};
     *image = (struct image){.width = render->film.width, .height = render->film.height};
     struct rgb_planes picture, indirect;
+    double start = clock_seconds();
     ps_result result = add_rgb(image, picture_names, &picture, error);
     if (result == PS_OK)
         result = add_rgb(image, indirect_names, &indirect, error);
@@ -144,9 +145,10 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
     }
     if (result == PS_OK) {
         combine(render, indirect, picture);
-        result = add_film_layers(&render->film, image, error);
+        result = move_film_layers(&render->film, image, error);
     }
     if (result != PS_OK)
         image_release(image);
+    statistics_add_seconds(render->statistics, "resolve", clock_seconds() - start);
     return result;
 }

@@ -69,6 +69,7 @@ struct light_sun {
 struct light_surface {
     struct light_mesh mesh;
     struct distribution by_area; /* of triangles */
+    ps_vec3 *normals;            /* of the triangles' fronts, owned */
     float area;
     ps_rgb radiance; /* before the pattern */
     ps_rgb mean;     /* of the pattern, over the area */

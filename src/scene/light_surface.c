@@ -111,18 +111,29 @@ static ps_rgb mean_of_pattern(const struct light_surface *surface)
     return (ps_rgb){(float)red, (float)green, (float)blue};
 }
 
+/* Areas of the triangles, and their normals. */
+static void measure_triangles(const struct light_surface *surface, float *areas)
+{
+    for (size_t i = 0; i < surface->mesh.triangle_count; i++) {
+        struct corners corners = corners_of(&surface->mesh, i);
+        surface->normals[i] = (ps_vec3){0, 0, 1};
+        areas[i] = (float)measure(&corners, &surface->normals[i]);
+    }
+}
+
 static ps_result distribute_by_area(struct light_surface *surface, struct error *error)
 {
     size_t count = surface->mesh.triangle_count;
     float *areas = calloc(count, sizeof *areas);
-    if (!areas)
-        return error_memory(error, count * sizeof *areas, "an emissive mesh");
-    ps_vec3 normal;
-    for (size_t i = 0; i < count; i++) {
-        struct corners corners = corners_of(&surface->mesh, i);
-        areas[i] = (float)measure(&corners, &normal);
+    surface->normals = calloc(count, sizeof *surface->normals);
+    ps_result result = PS_OK;
+    if (areas && surface->normals) {
+        measure_triangles(surface, areas);
+        result = distribution_create(areas, count, &surface->by_area, error);
+    } else {
+        result = error_memory(error, count * (sizeof *areas + sizeof *surface->normals),
+                              "an emissive mesh");
     }
-    ps_result result = distribution_create(areas, count, &surface->by_area, error);
     free(areas);
     return result;
 }
@@ -138,8 +149,10 @@ ps_result light_surface_create(const struct light_mesh *mesh, ps_rgb radiance, b
     if (mesh->triangle_count == 0)
         return PS_OK;
     ps_result result = distribute_by_area(surface, error);
-    if (result != PS_OK)
+    if (result != PS_OK) {
+        light_surface_release(surface);
         return result;
+    }
     surface->area = (float)surface->by_area.total;
     surface->mean = mean_of_pattern(surface);
     return PS_OK;
@@ -148,6 +161,7 @@ ps_result light_surface_create(const struct light_mesh *mesh, ps_rgb radiance, b
 void light_surface_release(struct light_surface *surface)
 {
     distribution_release(&surface->by_area);
+    free(surface->normals);
     *surface = (struct light_surface){.area = 0.0f};
 }
 
@@ -171,11 +185,11 @@ struct surface_point {
 /* Needs an area. */
 static struct surface_point choose_point(const struct light_surface *surface, float u1, float u2)
 {
-    struct surface_point point = {.normal = {0, 0, 1}};
+    struct surface_point point;
     size_t triangle = distribution_choose(&surface->by_area, u1, &u1);
     struct corners corners = corners_of(&surface->mesh, triangle);
     struct shares shares = shares_of(u1, u2);
-    measure(&corners, &point.normal);
+    point.normal = surface->normals[triangle];
     point.position = point_of(&corners, &shares);
     point.pattern = pattern_at(&surface->mesh, triangle, point.position, &shares);
     return point;

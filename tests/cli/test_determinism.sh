@@ -17,6 +17,7 @@ same() {
 same twice --threads 1
 same threads2 --threads 2
 same threads3 -t 3
+same threads16 -t 16
 same default
 same stats --threads 2 --stats stats.json
 same batch1000 --threads 2 --batch 1000

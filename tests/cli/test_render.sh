@@ -123,7 +123,7 @@ expect_text err "psplat: error: --size"
 # --- --stats ---
 
 run 0 $small --passes 2 --stats stats.json -o stats.exr "$cornell"
-for key in seconds counters bytes load build gbuffer direct inject stratify place estimate film \
+for key in seconds counters bytes load scene build gbuffer direct inject stratify place estimate film resolve \
     normalize denoise maps bin splat write total "sources injected" sources passes \
     "pixels without weight" splats "map rays" "pixel-splat tests" \
     "pixel-splat tests with weight" "ray tracer" G-buffer; do

@@ -45,12 +45,17 @@ static void assert_same(const struct image *a, const struct image *b)
     }
 }
 
-static void write_picture(const struct image *image, const char *path)
+static void write_with_threads(const struct image *image, const char *path, uint32_t threads)
 {
     struct error error = {{0}};
-    if (image_write_exr(image, path, &error) != PS_OK) {
+    if (image_write_exr(image, path, threads, &error) != PS_OK) {
         fail_msg("%s", error.text);
     }
+}
+
+static void write_picture(const struct image *image, const char *path)
+{
+    write_with_threads(image, path, 3);
 }
 
 static struct image read_picture(const char *path)
@@ -83,6 +88,12 @@ static void test_channels_in_memory(void **state)
     assert_non_null(samples);
     assert_ptr_equal(image_channel(&image, "direct.R"), samples);
     assert_null(image_channel(&image, "direct"));
+    float *adopted = calloc(6, sizeof *adopted);
+    struct error error;
+    assert_non_null(adopted);
+    assert_int_equal(image_adopt_channel(&image, "Z", adopted, &error), PS_OK);
+    assert_ptr_equal(image_channel(&image, "Z"), adopted);
+    assert_int_equal(image.channel_count, 2);
     image_release(&image);
     assert_int_equal(image.channel_count, 0);
     image_release(&image);
@@ -173,25 +184,42 @@ static void test_reserved_attributes(void **state)
         struct image image = picture(2, 2, 1);
         struct error error = {{0}};
         assert_int_equal(image_set_attribute(&image, names[i], "x", &error), PS_OK);
-        assert_int_not_equal(image_write_exr(&image, scratch_path(state, "a.exr"), &error), PS_OK);
+        assert_int_not_equal(image_write_exr(&image, scratch_path(state, "a.exr"), 1, &error),
+                             PS_OK);
         assert_non_null(strstr(error.text, names[i]));
         assert_int_equal(scratch_file_count(state), 0);
         image_release(&image);
     }
 }
 
-static void test_same_bytes(void **state)
+static void assert_same_bytes(const char *path_a, const char *path_b)
 {
-    struct image image = picture(50, 37, 5);
     size_t size_a, size_b;
-    write_picture(&image, scratch_path(state, "a.exr"));
-    write_picture(&image, scratch_path(state, "b.exr"));
-    unsigned char *a = scratch_load(scratch_path(state, "a.exr"), &size_a);
-    unsigned char *b = scratch_load(scratch_path(state, "b.exr"), &size_b);
+    unsigned char *a = scratch_load(path_a, &size_a);
+    unsigned char *b = scratch_load(path_b, &size_b);
     assert_int_equal(size_a, size_b);
     assert_memory_equal(a, b, size_a);
     free(a);
     free(b);
+}
+
+/* Chunks that take unequally long: those that come first are noise, the last are of one colour. */
+static void test_same_bytes_whatever_the_threads(void **state)
+{
+    static const uint32_t threads[] = {1, 2, 3, 8, 64};
+    struct image image = picture(50, 16 * 40 + 5, 5);
+    for (size_t i = 0; i < image.channel_count; i++) {
+        for (size_t j = image.width * image.height / 2; j < image.width * image.height; j++) {
+            image.channels[i].samples[j] = 0.5f;
+        }
+    }
+    const char *one = scratch_path(state, "one.exr");
+    write_with_threads(&image, one, 1);
+    for (size_t i = 0; i < sizeof threads / sizeof *threads; i++) {
+        const char *other = scratch_path(state, "other.exr");
+        write_with_threads(&image, other, threads[i]);
+        assert_same_bytes(one, other);
+    }
     image_release(&image);
 }
 
@@ -270,7 +298,7 @@ int main(void)
         SCRATCH_TEST(test_many_channels),
         SCRATCH_TEST(test_attributes_in_files),
         SCRATCH_TEST(test_reserved_attributes),
-        SCRATCH_TEST(test_same_bytes),
+        SCRATCH_TEST(test_same_bytes_whatever_the_threads),
         SCRATCH_TEST(test_stream_as_long_as_the_pixels),
         SCRATCH_TEST(test_other_programs_can_read_it),
     };

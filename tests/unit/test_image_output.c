@@ -23,7 +23,7 @@ static ps_result write_some(const char *path, struct error *error)
     }
     struct image image = {.width = WIDTH, .height = HEIGHT};
     assert_non_null(image_add_channel(&image, "R"));
-    ps_result result = image_write_exr(&image, path, error);
+    ps_result result = image_write_exr(&image, path, 1, error);
     image_release(&image);
     return result;
 }
@@ -107,6 +107,32 @@ static void test_a_write_that_fails_leaves_what_was_there(void **state)
         free(bytes);
         assert_int_equal(scratch_file_count(state), i + 1);
     }
+}
+
+/* Among many chunks on several threads: those that wait for their turn must not wait for ever. */
+static void test_a_chunk_that_fails_ends_the_others(void **state)
+{
+    struct image image = {.width = 64, .height = 16 * 50};
+    float *samples = image_add_channel(&image, "R");
+    assert_non_null(samples);
+    for (size_t i = 0; i < image.width * image.height; i++) {
+        samples[i] = (float)(i * 2654435761u % 1000003u);
+    }
+    struct rlimit limit, old;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
+    limit = old;
+    signal(SIGXFSZ, SIG_IGN);
+    for (rlim_t size = 500; size < 60000; size += 6000) {
+        struct error error;
+        limit.rlim_cur = size;
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+        ps_result result = image_write_exr(&image, scratch_path(state, "a.exr"), 4, &error);
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
+        assert_int_equal(result, PS_ERROR_IO);
+        assert_non_null(strstr(error.text, strerror(EFBIG)));
+        assert_int_equal(scratch_file_count(state), 0);
+    }
+    image_release(&image);
 }
 
 static void test_replacing(void **state)
@@ -246,11 +272,11 @@ static void test_exr_refusals(void **state)
     struct error error = {{0}};
     const char *path = scratch_path(state, "a.exr");
     struct image image = {.width = 2, .height = 2};
-    assert_int_equal(image_write_exr(&image, path, &error), PS_ERROR_INVALID);
+    assert_int_equal(image_write_exr(&image, path, 1, &error), PS_ERROR_INVALID);
     assert_non_null(strstr(error.text, path));
     assert_non_null(image_add_channel(&image, "R"));
     assert_non_null(image_add_channel(&image, "R"));
-    assert_int_equal(image_write_exr(&image, path, &error), PS_ERROR_INVALID);
+    assert_int_equal(image_write_exr(&image, path, 1, &error), PS_ERROR_INVALID);
     assert_non_null(strstr(error.text, "two channels"));
     image_release(&image);
     assert_int_equal(scratch_file_count(state), 0);
@@ -263,6 +289,7 @@ int main(void)
         SCRATCH_TEST(test_without_permission),
         cmocka_unit_test(test_devices_are_written_directly),
         SCRATCH_TEST(test_a_write_that_fails_leaves_what_was_there),
+        SCRATCH_TEST(test_a_chunk_that_fails_ends_the_others),
         SCRATCH_TEST(test_replacing),
         SCRATCH_TEST(test_long_names),
         SCRATCH_TEST(test_two_files_at_once),

@@ -47,6 +47,59 @@ static void test_pure_function(void **state)
     assert_int_equal(sample_hash(42), sample_hash(42));
 }
 
+static void test_points_are_those_of_their_indices(void **state)
+{
+    static const uint64_t indices[] = {5, 6, UINT64_C(1) << 32, UINT64_MAX, 7, 0, UINT64_MAX - 1};
+    enum { N = sizeof indices / sizeof indices[0] };
+    float points[N + 1][4], point[4];
+    (void)state;
+    for (size_t first = 0; first < N; first++) {
+        points[N - first][0] = -1;
+        sample_points(77, indices + first, N - first, points);
+        for (size_t i = first; i < N; i++) {
+            sample_point(77, indices[i], point);
+            assert_memory_equal(points[i - first], point, sizeof point);
+        }
+        assert_true(points[N - first][0] == -1);
+    }
+    sample_points(77, indices, 0, points);
+}
+
+/* Pictures of one seed are the same for ever: these are the numbers of the first version. */
+static void test_same_numbers_as_ever(void **state)
+{
+    static const struct {
+        uint32_t key;
+        uint64_t index;
+        float point[4];
+    } known[] = {
+        {0, UINT64_C(0), {0x1.91d6ap-3f, 0x1.38c1fcp-2f, 0x1.5d27a8p-3f, 0x1.62fb28p-2f}},
+        {0, UINT64_C(0x1), {0x1.ed0bc6p-1f, 0x1.a00a02p-1f, 0x1.c5d5ccp-1f, 0x1.2598fp-1f}},
+        {12345u, UINT64_C(0x1), {0x1.37096cp-1f, 0x1.5921e6p-1f, 0x1.b7fb98p-3f, 0x1.ffb53ep-1f}},
+        {12345u,
+         UINT64_C(0x12345678),
+         {0x1.41c8fcp-2f, 0x1.74dc28p-2f, 0x1.300538p-1f, 0x1.a8271p-1f}},
+        {12345u,
+         UINT64_C(0xffffffff),
+         {0x1.076a2cp-1f, 0x1.d882b8p-2f, 0x1.9936ccp-1f, 0x1.c1e92p-5f}},
+        {12345u,
+         UINT64_C(0x123456789abcdef),
+         {0x1.5a5adap-1f, 0x1.f0d31cp-1f, 0x1.2f7e6cp-2f, 0x1.4709dp-2f}},
+        {3735928559u,
+         UINT64_C(0x12345678),
+         {0x1.a8c184p-2f, 0x1.192742p-1f, 0x1.43c9e2p-1f, 0x1.d4f238p-2f}},
+        {3735928559u,
+         UINT64_C(0x123456789abcdef),
+         {0x1.ac10ep-2f, 0x1.48c456p-1f, 0x1.49a5a4p-1f, 0x1.dc5978p-1f}},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        float point[4];
+        sample_point(known[i].key, known[i].index, point);
+        assert_memory_equal(point, known[i].point, sizeof point);
+    }
+}
+
 /* Correlation of dimension a of one key's points with dimension b of another's. */
 static double correlation(uint32_t key_a, int a, uint32_t key_b, int b)
 {
@@ -264,6 +317,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_range),
         cmocka_unit_test(test_pure_function),
+        cmocka_unit_test(test_points_are_those_of_their_indices),
+        cmocka_unit_test(test_same_numbers_as_ever),
         cmocka_unit_test(test_seeds_streams_and_sets_are_independent),
         cmocka_unit_test(test_dimensions_are_independent),
         cmocka_unit_test(test_dimensions_are_scrambled_apart),
