@@ -72,6 +72,8 @@ static const struct schema_row image_rows[] = {
     ROW(SCHEMA_STRATEGY, name_, offsetof(struct render_description, strategies[kind_]),            \
         PS_PARAM_STRING, "", help_, ANY, .absent = "psplat's default")
 
+static const char *const direct_ways[] = {"rays", "shadowmap", NULL};
+
 static const struct schema_row render_rows[] = {
     STRATEGY_ROW(0, "injection", "plugin that makes indirect light sources"),
     STRATEGY_ROW(1, "stratification", "plugin that merges neighbouring sources"),
@@ -86,6 +88,10 @@ static const struct schema_row render_rows[] = {
                  "start of the random numbers")),
     VALUE(PS_INT(struct render_description, light_samples, "4", 1, 65536, "",
                  "shadow rays to each light that has a size, for a pixel and pass")),
+    VALUE(PS_CHOICE(struct render_description, direct, "rays", direct_ways,
+                    "how it is found what lights reach; those that have a size: by rays alone")),
+    VALUE(PS_INT(struct render_description, direct_resolution, "1024", 1, 8192, "pixels",
+                 "pixels along the side of each map of direct: shadowmap")),
     VALUE(PS_NUMBER(struct render_description, indirect_exposure, "1", 0, INFINITY, 0, "",
                     "factor on the indirect light when it joins the direct light")),
     VALUE(PS_COLOR(struct render_description, ambient, "0", 0, INFINITY, "W/(m^2 sr)",

@@ -138,7 +138,7 @@ struct ps_host {
                               ps_splat *splats);
 
     /* Adds the light of splats to the tiles: depth maps by the chosen visibility, weights by the
-     * chosen filter. Irradiance += power * K * V * max(0, -n.w), weight += K * V; bitwise the same
+     * chosen filter. Irradiance += power * K * V * max(0, -n.w), weight += merged * K * V; bitwise the same
      * for any number of threads and any batching. Cuts the splats' depth ranges. [main thread,
      * inside accumulate] */
     ps_result (*splat)(const ps_host *host, ps_splat *splats, size_t n);

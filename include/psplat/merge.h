@@ -117,6 +117,34 @@ static inline void ps_strata_end_at(ps_strata *strata, size_t end)
     strata->starts[++strata->count] = end;
 }
 
+/* The first entry of that key or a larger one, where they are sorted; their number where there is none. */
+static inline size_t ps_strata_find(const ps_strata *strata, uint64_t key)
+{
+    size_t low = 0, high = strata->entry_count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (strata->entries[middle].key < key)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* The stratum that an entry lies in. */
+static inline size_t ps_stratum_of(const ps_strata *strata, size_t entry)
+{
+    size_t low = 0, high = strata->count;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (strata->starts[middle] <= entry)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 /* Sorts, and makes each cell that holds something a stratum. */
 static inline void ps_strata_from_cells(ps_strata *strata)
 {

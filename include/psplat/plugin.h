@@ -6,6 +6,7 @@
 #include <psplat/bundle.h>
 #include <psplat/cell.h>
 #include <psplat/host.h>
+#include <psplat/light_map.h>
 #include <psplat/math.h>
 #include <psplat/merge.h>
 #include <psplat/module.h>

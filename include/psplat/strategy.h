@@ -46,7 +46,16 @@ typedef struct ps_stratification_vtable {
      * shrinks. The sum of powers must stay. [main thread] */
     ps_result (*combine)(const void *state, const ps_host *host, const ps_pass *pass,
                          ps_source *sources, size_t *n);
+    /* Numbers the cells that `count` points lie in, for pictures of them: sources of the same number
+     * are those that combine would make one, given these n of the pass, but for their normals and for
+     * limits on how many; PS_NO_CELL where it would merge none. May be NULL: there are no cells.
+     * [main thread] */
+    ps_result (*cells)(const void *state, const ps_host *host, const ps_pass *pass,
+                       const ps_source *sources, size_t n, const ps_vec3 *points, size_t count,
+                       uint64_t *numbers);
 } ps_stratification_vtable;
+
+#define PS_NO_CELL UINT64_MAX
 
 typedef struct ps_visibility_vtable {
     uint32_t size;

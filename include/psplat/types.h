@@ -117,7 +117,7 @@ typedef struct ps_splat {
     float bias_slope;    /* theta between the light and the receiver's normal */
     uint32_t two_sided;  /* 1: lit where |t - map| <= bias; 0: lit where t <= map + bias */
     ps_rgb power;        /* W */
-    uint32_t reserved;
+    float merged;        /* sources that it stands for: how often its weight counts; 0 is as 1 */
     uint64_t path;
 } ps_splat;
 

@@ -31,17 +31,12 @@
 #define STREAM_PIXEL PS_STREAM_PLUGIN     /* the place in the pixels; index: the pass */
 #define STREAM_RAY (PS_STREAM_PLUGIN + 1) /* rays without a common origin; set: the map */
 
-/* A wider spotlight would have all of its pixels near the rim of a perspective map. */
-#define WIDEST_CONE_COSINE (1.0f / 3.0f)
-
 #define MEMORY "shadow maps"
 
 struct map {
     uint32_t light;
-    uint32_t kind;  /* ps_light_kind */
-    float reach;    /* PS_LIGHT_POINT: half the width at distance 1 */
-    ps_vec3 origin; /* PS_LIGHT_POINT */
-    ps_vec3 axis, u, v;
+    uint32_t kind;      /* ps_light_kind */
+    ps_light_view view; /* PS_LIGHT_POINT */
 };
 
 struct state {
@@ -69,25 +64,16 @@ struct path {
 
 static uint32_t maps_of_light(const ps_light *light)
 {
-    if (!(ps_rgb_maximum(light->power) > 0.0f))
-        return 0;
-    return light->kind == PS_LIGHT_POINT && light->cos_cone < WIDEST_CONE_COSINE ? 6 : 1;
+    if (light->kind == PS_LIGHT_POINT)
+        return ps_light_view_count(light);
+    return ps_rgb_maximum(light->power) > 0.0f;
 }
 
-/* Face 0 looks along the light's axis; 1 to 5 are the other sides of the cube. */
 static struct map map_of_light(uint32_t index, const ps_light *light, uint32_t face)
 {
-    struct map map = {.light = index, .kind = light->kind, .origin = light->position};
-    if (light->kind != PS_LIGHT_POINT)
-        return map;
-    ps_vec3 sides[3];
-    sides[0] = light->axis;
-    ps_frame(light->axis, &sides[1], &sides[2]);
-    map.axis = ps_scale(sides[face / 2], face % 2 ? -1.0f : 1.0f);
-    map.u = sides[(face / 2 + 1) % 3];
-    map.v = sides[(face / 2 + 2) % 3];
-    float cosine = light->cos_cone;
-    map.reach = cosine < WIDEST_CONE_COSINE ? 1.0f : sqrtf(1.0f - cosine * cosine) / cosine;
+    struct map map = {.light = index, .kind = light->kind};
+    if (light->kind == PS_LIGHT_POINT)
+        map.view = ps_light_view_of(light, face);
     return map;
 }
 
@@ -123,19 +109,16 @@ static void look_through(const struct state *state, const ps_host *host, const p
                          ps_rgb *power)
 {
     ps_vec3 directions[PS_PATH_CHUNK] = {{0, 0, 0}};
-    float step = 2.0f * map->reach / (float)state->resolution;
+    float step = 2.0f * map->view.reach / (float)state->resolution;
     for (size_t i = 0; i < n; i++) {
         float place[2];
         place_pixel(state, pixels[i], place);
-        ps_vec3 d = ps_add_scaled(map->axis, (2.0f * place[0] - 1.0f) * map->reach, map->u);
-        d = ps_add_scaled(d, (2.0f * place[1] - 1.0f) * map->reach, map->v);
-        directions[i] = ps_normalize(d);
-        /* The lamp may lie on a surface. */
-        rays[i] = (ps_ray){map->origin, pass->surface_offset, directions[i], INFINITY};
+        rays[i] = ps_light_view_ray(&map->view, place[0], place[1], pass->surface_offset);
+        directions[i] = rays[i].direction;
     }
     host->light_intensity(host, map->light, directions, n, power);
     for (size_t i = 0; i < n; i++) {
-        float cosine = ps_dot(directions[i], map->axis);
+        float cosine = ps_dot(directions[i], map->view.axis);
         power[i] = ps_rgb_scale(power[i], step * step * cosine * cosine * cosine);
     }
 }

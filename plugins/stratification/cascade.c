@@ -87,6 +87,15 @@ static uint32_t cascade_around(const struct cascades *cascades, ps_vec3 position
     return layer;
 }
 
+/* PS_NO_CELL beyond, unless what is there merges too. */
+static uint64_t key_in(const struct state *state, const struct cascades *cascades, uint32_t layer,
+                       ps_vec3 position)
+{
+    if (layer == cascades->count && state->beyond != BEYOND_MERGE)
+        return PS_NO_CELL;
+    return ps_cell_key(&cascades->lattices[layer], layer, position);
+}
+
 static void add_sources(const struct state *state, const ps_host *host, ps_source *sources,
                         size_t n, ps_strata *strata)
 {
@@ -94,13 +103,12 @@ static void add_sources(const struct state *state, const ps_host *host, ps_sourc
     size_t beyond = 0;
     for (size_t i = 0; i < n; i++) {
         uint32_t layer = cascade_around(&cascades, sources[i].position);
-        int outside = layer == cascades.count;
-        beyond += (size_t)outside;
-        if (outside && state->beyond == BEYOND_DROP)
+        uint64_t key = key_in(state, &cascades, layer, sources[i].position);
+        beyond += layer == cascades.count;
+        if (key != PS_NO_CELL)
+            ps_strata_add(strata, i, key);
+        else if (state->beyond == BEYOND_DROP)
             ps_source_remove(&sources[i]);
-        if (!outside || state->beyond == BEYOND_MERGE)
-            ps_strata_add(strata, i,
-                          ps_cell_key(&cascades.lattices[layer], layer, sources[i].position));
     }
     host->count(host, "sources beyond", (double)beyond);
 }
@@ -121,6 +129,19 @@ static ps_result combine(const void *opaque, const ps_host *host, const ps_pass 
     ps_strata_from_cells(&strata);
     ps_strata_merge(&strata, &settings, n);
     ps_strata_release(&strata);
+    return PS_OK;
+}
+
+static ps_result cells(const void *opaque, const ps_host *host, const ps_pass *pass,
+                       const ps_source *sources, size_t n, const ps_vec3 *points, size_t count,
+                       uint64_t *numbers)
+{
+    (void)pass;
+    (void)sources;
+    (void)n;
+    struct cascades cascades = cascades_of(opaque, host);
+    for (size_t i = 0; i < count; i++)
+        numbers[i] = key_in(opaque, &cascades, cascade_around(&cascades, points[i]), points[i]);
     return PS_OK;
 }
 
@@ -159,6 +180,7 @@ static const ps_stratification_vtable vtable = {
     .size = sizeof vtable,
     .whole_pass = 1,
     .combine = combine,
+    .cells = cells,
 };
 
 static const ps_descriptor descriptor = {

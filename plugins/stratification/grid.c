@@ -83,6 +83,15 @@ static void join_level(const struct state *state, ps_strata *strata, unsigned le
     }
 }
 
+static void make_strata(const struct state *state, const ps_host *host, const ps_source *sources,
+                        size_t n, ps_strata *strata)
+{
+    add_sources(state, host, sources, n, strata);
+    ps_strata_from_cells(strata);
+    for (unsigned level = 1; level <= (unsigned)state->levels && state->threshold > 1; level++)
+        join_level(state, strata, level);
+}
+
 static ps_result combine(const void *opaque, const ps_host *host, const ps_pass *pass,
                          ps_source *sources, size_t *n)
 {
@@ -96,11 +105,33 @@ static ps_result combine(const void *opaque, const ps_host *host, const ps_pass 
     };
     if (!ps_strata_create(&strata, host, pass, sources, *n))
         return PS_ERROR_MEMORY;
-    add_sources(state, host, sources, *n, &strata);
-    ps_strata_from_cells(&strata);
-    for (unsigned level = 1; level <= (unsigned)state->levels && state->threshold > 1; level++)
-        join_level(state, &strata, level);
+    make_strata(state, host, sources, *n, &strata);
     ps_strata_merge(&strata, &settings, n);
+    ps_strata_release(&strata);
+    return PS_OK;
+}
+
+/* A cell that holds nothing goes by its own key, others by that of the first one that they joined. */
+static uint64_t number_of(const ps_strata *strata, uint64_t key)
+{
+    size_t entry = ps_strata_find(strata, key);
+    if (entry == strata->entry_count || strata->entries[entry].key != key)
+        return key;
+    return strata->entries[strata->starts[ps_stratum_of(strata, entry)]].key;
+}
+
+static ps_result cells(const void *opaque, const ps_host *host, const ps_pass *pass,
+                       const ps_source *sources, size_t n, const ps_vec3 *points, size_t count,
+                       uint64_t *numbers)
+{
+    const struct state *state = opaque;
+    ps_lattice lattice = lattice_of(state, host);
+    ps_strata strata;
+    if (!ps_strata_create(&strata, host, pass, NULL, n))
+        return PS_ERROR_MEMORY;
+    make_strata(state, host, sources, n, &strata);
+    for (size_t i = 0; i < count; i++)
+        numbers[i] = number_of(&strata, ps_cell_key(&lattice, 0, points[i]));
     ps_strata_release(&strata);
     return PS_OK;
 }
@@ -140,6 +171,7 @@ static const ps_stratification_vtable vtable = {
     .size = sizeof vtable,
     .whole_pass = 1,
     .combine = combine,
+    .cells = cells,
 };
 
 static const ps_descriptor descriptor = {

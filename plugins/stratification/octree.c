@@ -18,13 +18,18 @@ struct state {
 };
 
 /* Cells of the deepest level; the root is the cube around the scene's sphere. */
-static void add_sources(const ps_host *host, const ps_source *sources, size_t n, ps_strata *strata)
+static ps_lattice lattice_of(const ps_host *host)
 {
     ps_vec3 center;
     float radius;
     host->scene_bounds(host, &center, &radius);
-    ps_lattice lattice = {ps_subtract(center, (ps_vec3){radius, radius, radius}),
-                          2.0 * (double)radius / PS_CELLS_ACROSS};
+    return (ps_lattice){ps_subtract(center, (ps_vec3){radius, radius, radius}),
+                        2.0 * (double)radius / PS_CELLS_ACROSS};
+}
+
+static void add_sources(const ps_host *host, const ps_source *sources, size_t n, ps_strata *strata)
+{
+    ps_lattice lattice = lattice_of(host);
     for (size_t i = 0; i < n; i++)
         ps_strata_add(strata, i, ps_cell_key(&lattice, 0, sources[i].position));
 }
@@ -79,6 +84,36 @@ static ps_result combine(const void *opaque, const ps_host *host, const ps_pass 
     return PS_OK;
 }
 
+/* The leaf that a cell of the deepest level lies in, whether it holds sources or not: its path from the
+ * root, behind a leading 1. */
+static uint64_t leaf_around(const struct state *state, const ps_strata *strata, uint64_t key)
+{
+    for (unsigned depth = 0;; depth++) {
+        unsigned shift = 3 * (PS_CELL_BITS - depth);
+        uint64_t node = key >> shift;
+        size_t held =
+            ps_strata_find(strata, (node + 1) << shift) - ps_strata_find(strata, node << shift);
+        if (held <= (size_t)state->capacity || depth >= (unsigned)state->depth)
+            return UINT64_C(1) << 3 * depth | node;
+    }
+}
+
+static ps_result cells(const void *opaque, const ps_host *host, const ps_pass *pass,
+                       const ps_source *sources, size_t n, const ps_vec3 *points, size_t count,
+                       uint64_t *numbers)
+{
+    ps_lattice lattice = lattice_of(host);
+    ps_strata strata;
+    if (!ps_strata_create(&strata, host, pass, NULL, n))
+        return PS_ERROR_MEMORY;
+    add_sources(host, sources, n, &strata);
+    ps_strata_sort(&strata);
+    for (size_t i = 0; i < count; i++)
+        numbers[i] = leaf_around(opaque, &strata, ps_cell_key(&lattice, 0, points[i]));
+    ps_strata_release(&strata);
+    return PS_OK;
+}
+
 static const ps_param params[] = {
     PS_INT(struct state, capacity, "8", 1, 1000000000, "sources",
            "a node that holds more splits into eight"),
@@ -91,6 +126,7 @@ static const ps_stratification_vtable vtable = {
     .size = sizeof vtable,
     .whole_pass = 1,
     .combine = combine,
+    .cells = cells,
 };
 
 static const ps_descriptor descriptor = {

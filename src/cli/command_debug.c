@@ -13,7 +13,7 @@
 static const struct option options[] = {
     {'o', "output", "FILE.png", "default: the scene's name, the view's, and .png"},
     {0, "count", "N", "sources: dots at most (20000); maps: splats (12)"},
-    {0, "resolution", "N", "voxels: cells across the scene (16)"},
+    {0, "resolution", "N", "voxels: cells across the scene, not the stratification's own"},
     {0, "top", "NUMBER", "sources, overlap: the scale's upper end; default: by what there is"},
     {0, "color", "power|bounce", "sources: what the dots' colours tell; default: power"},
     RENDER_OPTIONS,

@@ -129,6 +129,15 @@ static bool check_outputs(const struct job *job)
     return good;
 }
 
+/* Pixels that look black, or ambient, for want of splats. */
+static void tell_of_dark_pixels(const struct job *job, const struct statistics *statistics)
+{
+    double dark = statistics_counter(statistics, "pixels without weight");
+    if (dark > 0.0 && !job->options.quiet)
+        fprintf(stderr, "psplat: no indirect light reached %.0f pixel%s\n", dark,
+                dark == 1.0 ? "" : "s");
+}
+
 /* Writes all that can be written; the error is the first one's. */
 static ps_result write_files(struct job *job, const struct image *image, double exposure,
                              uint32_t threads, struct statistics *statistics, struct error *error)
@@ -164,6 +173,7 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     progress_clear(&job->progress);
     if (result != PS_OK && result != PS_CANCELLED)
         return result;
+    tell_of_dark_pixels(job, statistics);
     /* An interrupted render is repeated by asking for the passes that were done. */
     double passes = statistics_counter(statistics, "passes");
     settings->passes = (uint32_t)passes;

@@ -115,6 +115,11 @@ static void print_command(FILE *stream, const struct image *image, const char *s
             image->height, settings->passes, settings->seed);
     if (settings->isa)
         fprintf(stream, " --isa %s", settings->isa);
+    if (settings->direct == DIRECT_SHADOWMAP)
+        fprintf(stream, " --direct shadowmap --direct-resolution %" PRIu32,
+                settings->direct_resolution);
+    else
+        fprintf(stream, " --direct rays");
     char stops[32];
     text_from_number(exposure, stops, sizeof stops);
     fprintf(stream, " --exposure %s", stops);
@@ -147,9 +152,12 @@ static ps_result set_command(struct image *image, const char *scene_path,
 ps_result output_describe_settings(struct image *image, const char *scene_path,
                                    const struct render_settings *settings, struct error *error)
 {
-    char seed[32], passes[32], indirect[32], ambient[64];
+    char seed[32], passes[32], direct[64] = "rays", indirect[32], ambient[64];
     snprintf(seed, sizeof seed, "%" PRIu64, settings->seed);
     snprintf(passes, sizeof passes, "%" PRIu32, settings->passes);
+    if (settings->direct == DIRECT_SHADOWMAP)
+        snprintf(direct, sizeof direct, "shadowmap:resolution=%" PRIu32,
+                 settings->direct_resolution);
     text_from_number(settings->indirect_exposure, indirect, sizeof indirect);
     snprintf(ambient, sizeof ambient, "[%.9g, %.9g, %.9g]", (double)settings->ambient.r,
              (double)settings->ambient.g, (double)settings->ambient.b);
@@ -157,6 +165,7 @@ ps_result output_describe_settings(struct image *image, const char *scene_path,
                                     {"psplat.scene", scene_path},
                                     {"psplat.seed", seed},
                                     {"psplat.passes", passes},
+                                    {"psplat.direct", direct},
                                     {"psplat.indirect_exposure", indirect},
                                     {"psplat.ambient", ambient}};
     ps_result result = PS_OK;

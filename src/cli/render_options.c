@@ -18,6 +18,10 @@ static bool take_option(struct render_options *options, const struct argument *a
         options->size = value;
     else if (strcmp(name, "exposure") == 0)
         options->exposure = value;
+    else if (strcmp(name, "direct") == 0)
+        options->direct = value;
+    else if (strcmp(name, "direct-resolution") == 0)
+        return parse_whole_number(name, value, 1, 8192, &options->direct_resolution);
     else if (strcmp(name, "seed") == 0)
         return parse_whole_number(name, value, 0, 9007199254740992.0, &options->seed);
     else if (strcmp(name, "threads") == 0)
@@ -34,6 +38,7 @@ bool render_options_take(struct render_options *options, const struct argument *
         .seed = -1,
         .threads = -1,
         .batch = -1,
+        .direct_resolution = -1,
         .arguments = arguments,
         .argument_count = count,
     };
@@ -76,6 +81,17 @@ static bool override_exposure(const char *text, double *exposure)
     return true;
 }
 
+static bool override_direct(const char *text, int32_t *direct)
+{
+    bool maps = strcmp(text, "shadowmap") == 0;
+    if (!maps && strcmp(text, "rays") != 0) {
+        fprintf(stderr, "psplat: error: --direct: expected rays or shadowmap, got '%s'\n", text);
+        return false;
+    }
+    *direct = maps ? DIRECT_SHADOWMAP : DIRECT_RAYS;
+    return true;
+}
+
 /* Lays the command line over the scene. */
 static bool override(const struct render_options *options, struct scene_input *input)
 {
@@ -88,9 +104,12 @@ static bool override(const struct render_options *options, struct scene_input *i
     }
     if (options->seed >= 0)
         description->render.seed = (int64_t)options->seed;
+    if (options->direct_resolution > 0)
+        description->render.direct_resolution = (int64_t)options->direct_resolution;
     return (!options->size || override_size(options->size, &description->image)) &&
            (!options->exposure ||
-            override_exposure(options->exposure, &description->image.exposure));
+            override_exposure(options->exposure, &description->image.exposure)) &&
+           (!options->direct || override_direct(options->direct, &description->render.direct));
 }
 
 bool render_options_load(const struct render_options *options, struct scene_input *input,

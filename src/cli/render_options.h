@@ -14,6 +14,9 @@
         {0, "isa", "NAME",                                                                         \
          "instruction set: baseline, avx2 or avx512; default: the best there is"},                 \
         {0, "batch", "N", "splats held in memory at a time; nor on these"},                        \
+        {0, "direct", "rays|shadowmap",                                                            \
+         "how direct light finds shadows; lights that have a size: by rays alone"},                \
+        {0, "direct-resolution", "N", "pixels along the side of each of these shadow maps"},       \
         {0, "exposure", "STOPS", "brightness of the PNG: a factor of 2^STOPS"},                    \
     {                                                                                              \
         'q', "quiet", NULL, "print nothing but errors"                                             \
@@ -22,8 +25,8 @@
 struct render_options {
     const char *scene_path;
     struct scene_options scene;
-    const char *size, *exposure, *isa;
-    double seed, threads, batch; /* negative: not given */
+    const char *size, *exposure, *isa, *direct;
+    double seed, threads, batch, direct_resolution; /* negative: not given */
     bool quiet;
     const struct argument *arguments; /* borrowed; --plugin waits for the scene */
     size_t argument_count;

@@ -10,7 +10,7 @@
 /* Points that receive light: of a surface hit, or of the G-buffer, of which only position and normal
  * are known. */
 struct receivers {
-    const struct scene *scene;
+    const struct lighting *lighting;
     size_t n; /* at most CHUNK */
     const ps_vec3 *positions, *normals;
     const ps_ray *rays; /* NULL: irradiance is asked for */
@@ -40,16 +40,16 @@ static ps_rgb response(const struct receivers *to, size_t i, ps_vec3 direction, 
     ps_rgb reflected = ps_rgb_scale(hit->albedo, cosine / PS_PI);
     if (!(hit->flags & PS_HIT_SPECULAR))
         return reflected;
-    return ps_rgb_add(reflected,
-                      material_gloss(&to->scene->materials[hit->material], to->scene->microfacets,
-                                     &to->rays[i], hit, direction, light_pdf));
+    return ps_rgb_add(reflected, material_gloss(&to->lighting->scene->materials[hit->material],
+                                                to->lighting->scene->microfacets, &to->rays[i], hit,
+                                                direction, light_pdf));
 }
 
 /* The shadow ray from a receiver to a light, and what arrives where nothing is in the way. */
 static ps_rgb connect(const struct receivers *to, size_t i, size_t light, ps_ray *ray)
 {
     static const ps_rgb nothing = {0, 0, 0};
-    const struct scene *scene = to->scene;
+    const struct scene *scene = to->lighting->scene;
     ps_vec3 away = to->hits ? to->hits[i].geometric_normal : to->normals[i];
     ps_vec3 origin = ps_add_scaled(to->positions[i], scene->surface_offset, away);
     float pair[2] = {0, 0};
@@ -66,31 +66,46 @@ static ps_rgb connect(const struct receivers *to, size_t i, size_t light, ps_ray
     return ps_rgb_multiply(sample.weight, response(to, i, sample.direction, sample.pdf));
 }
 
-static void add_light(const struct receivers *to, const struct trace *trace, size_t light,
-                      ps_rgb *sums)
+/* The share of a light that gets along each of n shadow rays, to points of these normals. */
+static void find_lit(const struct lighting *lighting, size_t light, const ps_ray *rays,
+                     const ps_vec3 *normals, size_t n, float *lit)
+{
+    uint8_t blocked[CHUNK];
+    if (lighting->maps && shadow_maps_hold(lighting->maps, light)) {
+        for (size_t i = 0; i < n; i++)
+            lit[i] = shadow_maps_lit(lighting->maps, light, rays[i].origin, normals[i]);
+        return;
+    }
+    trace_occluded(lighting->trace, rays, n, blocked);
+    for (size_t i = 0; i < n; i++)
+        lit[i] = blocked[i] ? 0.0f : 1.0f;
+}
+
+static void add_light(const struct receivers *to, size_t light, ps_rgb *sums)
 {
     ps_ray rays[CHUNK];
     ps_rgb unshadowed[CHUNK];
+    ps_vec3 normals[CHUNK];
     size_t targets[CHUNK];
-    uint8_t blocked[CHUNK];
+    float lit[CHUNK];
     size_t count = 0;
     for (size_t i = 0; i < to->n; i++) {
         unshadowed[count] = connect(to, i, light, &rays[count]);
+        normals[count] = to->normals[i];
         targets[count] = i;
         count += ps_rgb_maximum(unshadowed[count]) > 0.0f;
     }
     if (count == 0)
         return;
-    trace_occluded(trace, rays, count, blocked);
+    find_lit(to->lighting, light, rays, normals, count, lit);
     for (size_t i = 0; i < count; i++)
-        if (!blocked[i])
-            sums[targets[i]] = ps_rgb_add(sums[targets[i]], unshadowed[i]);
+        sums[targets[i]] = ps_rgb_add(sums[targets[i]], ps_rgb_scale(unshadowed[i], lit[i]));
 }
 
-static void add_lights(const struct receivers *to, const struct trace *trace, ps_rgb *sums)
+static void add_lights(const struct receivers *to, ps_rgb *sums)
 {
-    for (size_t light = 0; light < to->scene->light_count; light++)
-        add_light(to, trace, light, sums);
+    for (size_t light = 0; light < to->lighting->scene->light_count; light++)
+        add_light(to, light, sums);
 }
 
 /* Draws `n` points' numbers, where some light needs them; else NULL. */
@@ -104,9 +119,8 @@ static float (*draw(const struct scene *scene, const struct light_numbers *from,
     return room;
 }
 
-void direct_radiance(const struct scene *scene, const struct trace *trace, const ps_ray *rays,
-                     const ps_hit *hits, size_t n, const struct light_numbers *numbers,
-                     ps_rgb *radiance)
+void direct_radiance(const struct lighting *lighting, const ps_ray *rays, const ps_hit *hits,
+                     size_t n, const struct light_numbers *numbers, ps_rgb *radiance)
 {
     ps_vec3 positions[CHUNK], normals[CHUNK];
     float room[CHUNK][4];
@@ -118,15 +132,15 @@ void direct_radiance(const struct scene *scene, const struct trace *trace, const
             radiance[first + i] = (ps_rgb){0, 0, 0};
         }
         struct receivers to = {
-            .scene = scene,
+            .lighting = lighting,
             .n = count,
             .positions = positions,
             .normals = normals,
             .rays = rays + first,
             .hits = hits + first,
-            .numbers = draw(scene, numbers, first, count, room),
+            .numbers = draw(lighting->scene, numbers, first, count, room),
         };
-        add_lights(&to, trace, radiance + first);
+        add_lights(&to, radiance + first);
     }
 }
 
@@ -172,9 +186,10 @@ void emitted_radiance(const struct scene *scene, const ps_ray *rays, const ps_hi
     }
 }
 
-void direct_light_tile(const struct scene *scene, const struct trace *trace,
-                       struct gbuffer *gbuffer, uint32_t index, uint64_t seed, uint32_t pass)
+void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer, uint32_t index,
+                       uint64_t seed, uint32_t pass)
 {
+    const struct scene *scene = lighting->scene;
     ps_rgb *direct = &gbuffer->direct[(size_t)index * PS_TILE_PIXELS];
     ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}};
     uint64_t indices[PS_TILE_PIXELS];
@@ -183,7 +198,7 @@ void direct_light_tile(const struct scene *scene, const struct trace *trace,
     ps_points points;
     ps_collect_points(&gbuffer->tiles[index], &points);
     struct light_numbers numbers = {seed, PS_STREAM_LIGHT, 0, indices};
-    struct receivers to = {.scene = scene,
+    struct receivers to = {.lighting = lighting,
                            .n = points.count,
                            .positions = points.positions,
                            .normals = points.normals};
@@ -192,7 +207,7 @@ void direct_light_tile(const struct scene *scene, const struct trace *trace,
             indices[i] =
                 ps_sample_block(index, points.lanes[i]) + (uint64_t)pass * samples + sample;
         to.numbers = draw(scene, &numbers, 0, points.count, room);
-        add_lights(&to, trace, irradiance);
+        add_lights(&to, irradiance);
     }
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         direct[lane] = (ps_rgb){0, 0, 0};

@@ -1,4 +1,4 @@
-/* direct.h: light straight from the lights, by shadow rays; and what surfaces and sky emit.
+/* direct.h: light straight from the lights, by shadow rays or maps; and what surfaces and sky emit.
  *
  * Each light is sampled once for each point; lights without a size need no random numbers. Where
  * gloss can also find a light by scattering, both ways are weighed (Veach and Guibas 1995).
@@ -7,6 +7,14 @@
 #define PIPELINE_DIRECT_H
 
 #include "film/gbuffer.h"
+#include "pipeline/shadow_maps.h"
+
+/* The lights, and how it is found what they reach. */
+struct lighting {
+    const struct scene *scene;
+    const struct trace *trace;
+    const struct shadow_maps *maps; /* NULL: by shadow rays alone */
+};
 
 /* Which random numbers choose points on lights; see ps_host.samples. */
 struct light_numbers {
@@ -16,9 +24,8 @@ struct light_numbers {
 };
 
 /* Radiance that the surfaces hit reflect back along the rays, of light straight from the lights. */
-void direct_radiance(const struct scene *scene, const struct trace *trace, const ps_ray *rays,
-                     const ps_hit *hits, size_t n, const struct light_numbers *numbers,
-                     ps_rgb *radiance);
+void direct_radiance(const struct lighting *lighting, const ps_ray *rays, const ps_hit *hits,
+                     size_t n, const struct light_numbers *numbers, ps_rgb *radiance);
 
 /* Radiance that what the rays met (or the sky) emits along them. `pdfs` (NULL: all 0) as in
  * ps_host.emitted_radiance. */
@@ -27,7 +34,7 @@ void emitted_radiance(const struct scene *scene, const ps_ray *rays, const ps_hi
 
 /* Fills in the direct irradiance of a tile's pixels: the mean of scene->light_samples shadow rays for
  * each light that has a size. */
-void direct_light_tile(const struct scene *scene, const struct trace *trace,
-                       struct gbuffer *gbuffer, uint32_t tile, uint64_t seed, uint32_t pass);
+void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer, uint32_t tile,
+                       uint64_t seed, uint32_t pass);
 
 #endif

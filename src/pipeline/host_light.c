@@ -61,20 +61,7 @@ static uint32_t host_light_count(const ps_host *host)
 
 static void host_light(const ps_host *host, uint32_t index, ps_light *described)
 {
-    static const ps_light_kind kind_of[] = {
-        [EMITTER_SPOT] = PS_LIGHT_POINT,   [EMITTER_SUN] = PS_LIGHT_SUN,
-        [EMITTER_MESH] = PS_LIGHT_SURFACE, [EMITTER_SPHERE] = PS_LIGHT_SURFACE,
-        [EMITTER_SKY] = PS_LIGHT_SKY,
-    };
-    const struct light *light = &render_of(host)->scene->lights[index];
-    *described = (ps_light){.kind = kind_of[light->emitter], .power = light_power(light)};
-    if (light->emitter == EMITTER_SPOT) {
-        described->cos_cone = light->spot.cos_falloff;
-        described->position = light->spot.location;
-        described->axis = light->spot.axis;
-    }
-    if (light->emitter == EMITTER_SUN)
-        described->axis = ps_scale(light->sun.towards, -1.0f);
+    *described = light_describe(&render_of(host)->scene->lights[index]);
 }
 
 static void host_light_intensity(const ps_host *host, uint32_t index, const ps_vec3 *directions,
@@ -108,7 +95,8 @@ static void host_direct_radiance(const ps_host *host, const ps_ray *rays, const 
 {
     const struct render *render = render_of(host);
     struct light_numbers numbers = {render->settings->seed, stream, set, indices};
-    direct_radiance(render->scene, render->trace, rays, hits, n, &numbers, radiance);
+    struct lighting lighting = {render->scene, render->trace, NULL};
+    direct_radiance(&lighting, rays, hits, n, &numbers, radiance);
 }
 
 static void host_emitted_radiance(const ps_host *host, const ps_ray *rays, const ps_hit *hits,

@@ -35,6 +35,22 @@ static ps_result choose_instruction_set(struct render *render, struct error *err
     return error_set(error, PS_ERROR_INVALID, "this processor has no instruction set '%s'", isa);
 }
 
+static ps_result create_shadow_maps(struct render *render, struct error *error)
+{
+    const struct render_settings *settings = render->settings;
+    if (settings->direct != DIRECT_SHADOWMAP)
+        return PS_OK;
+    double start = clock_seconds();
+    ps_result result = shadow_maps_create(render->scene, render->trace, settings->direct_resolution,
+                                          settings->threads, &render->shadow_maps, error);
+    if (result != PS_OK)
+        return result;
+    statistics_add_seconds(render->statistics, "direct maps", clock_seconds() - start);
+    statistics_set_bytes(render->statistics, "direct maps",
+                         (double)shadow_maps_bytes(render->shadow_maps));
+    return PS_OK;
+}
+
 static ps_result create(struct render *render, struct error *error)
 {
     const struct scene *scene = render->scene;
@@ -43,6 +59,8 @@ static ps_result create(struct render *render, struct error *error)
     if (result == PS_OK)
         result = trace_create(scene, render->settings->isa, &render->trace, error);
     statistics_add_seconds(render->statistics, "build", clock_seconds() - start);
+    if (result == PS_OK)
+        result = create_shadow_maps(render, error);
     if (result == PS_OK)
         result = gbuffer_create(scene->width, scene->height, &render->gbuffer, error);
     if (result == PS_OK)
@@ -69,6 +87,7 @@ static void destroy(struct render *render)
         strategy_stop(&render->settings->strategies[kind]);
     film_release(&render->film);
     gbuffer_release(&render->gbuffer);
+    shadow_maps_destroy(render->shadow_maps);
     trace_destroy(render->trace);
 }
 
@@ -105,8 +124,9 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct tile_work *work = user;
     struct render *render = work->render;
-    direct_light_tile(render->scene, render->trace, &render->gbuffer, (uint32_t)index,
-                      render->settings->seed, render->pass.number);
+    struct lighting lighting = {render->scene, render->trace, render->shadow_maps};
+    direct_light_tile(&lighting, &render->gbuffer, (uint32_t)index, render->settings->seed,
+                      render->pass.number);
 }
 
 static void add_tile(void *user, uint64_t index, uint32_t worker)
@@ -160,6 +180,7 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
         render,
         {.scene = render->scene,
          .trace = render->trace,
+         .maps = render->shadow_maps,
          .gbuffer = &render->gbuffer,
          .seed = render->settings->seed,
          .number = number},

@@ -5,6 +5,7 @@
 
 #include "film/film.h"
 #include "pipeline/render.h"
+#include "pipeline/shadow_maps.h"
 #include "pipeline/sources.h"
 #include "splat/splatter.h"
 
@@ -14,6 +15,7 @@ struct render {
     const struct render_callbacks *callbacks;
     struct statistics *statistics;
     struct trace *trace;
+    struct shadow_maps *shadow_maps; /* for the direct light of the picture; NULL: shadow rays */
     struct gbuffer gbuffer;
     struct film film;
     struct source_stream sources;

@@ -93,6 +93,8 @@ ps_result settings_resolve(struct loader *loader, const struct render_descriptio
         .seed = (uint64_t)description->seed,
         .threads = threads,
         .batch = batch,
+        .direct = (enum direct_light)description->direct,
+        .direct_resolution = (uint32_t)description->direct_resolution,
         .indirect_exposure = description->indirect_exposure,
         .ambient = description->ambient,
     };

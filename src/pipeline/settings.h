@@ -17,6 +17,8 @@ struct render_settings {
     uint32_t threads;
     const char *isa; /* instruction set, a name of kernel.h, borrowed; NULL: the best there is */
     size_t batch;    /* splats at a time; changes memory, not the picture */
+    enum direct_light direct;
+    uint32_t direct_resolution; /* pixels along the side of each map of DIRECT_SHADOWMAP */
     double indirect_exposure;
     ps_rgb ambient;
 };

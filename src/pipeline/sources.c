@@ -153,6 +153,24 @@ static void measure(const struct source_stream *stream)
     statistics_set_bytes(stream->statistics, "sources", (double)(capacity * sizeof(ps_source)));
 }
 
+/* Adds the next paths' sources to the batch. */
+static ps_result inject_more(struct source_stream *stream, struct error *error)
+{
+    return stream->host->cancelled(stream->host) ? PS_CANCELLED : inject(stream, error);
+}
+
+ps_result source_stream_injected(struct source_stream *stream, const ps_source **sources, size_t *n,
+                                 struct error *error)
+{
+    ps_result result = stream->prepared ? PS_OK : prepare(stream, error);
+    stream->batch.count = 0;
+    while (stream->next_path < stream->path_count && result == PS_OK)
+        result = inject_more(stream, error);
+    *sources = stream->batch.items;
+    *n = stream->batch.count;
+    return result;
+}
+
 ps_result source_stream_next(struct source_stream *stream, const ps_source **sources, size_t *n,
                              struct error *error)
 {
@@ -162,7 +180,7 @@ ps_result source_stream_next(struct source_stream *stream, const ps_source **sou
     stream->batch.count = 0;
     while (stream->next_path < stream->path_count && stream->batch.count == 0 && result == PS_OK) {
         do
-            result = stream->host->cancelled(stream->host) ? PS_CANCELLED : inject(stream, error);
+            result = inject_more(stream, error);
         while (stratification->whole_pass && stream->next_path < stream->path_count &&
                result == PS_OK);
         if (result == PS_OK && stream->batch.count > 0)

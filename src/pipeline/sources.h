@@ -37,6 +37,11 @@ void source_stream_rewind(struct source_stream *stream);
 ps_result source_stream_next(struct source_stream *stream, const ps_source **sources, size_t *n,
                              struct error *error);
 
+/* All sources of the pass as they are injected, before stratification; uses up the stream. Valid until
+ * it is rewound. */
+ps_result source_stream_injected(struct source_stream *stream, const ps_source **sources, size_t *n,
+                                 struct error *error);
+
 /* Share of the pass's paths that were injected, 0..1. */
 double source_stream_progress(const struct source_stream *stream);
 

@@ -109,8 +109,8 @@ static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t 
         indices[i] = pixel_index(pass, tile, sight->lanes[i]);
     }
     struct light_numbers numbers = {pass->seed, PS_STREAM_LIGHT, depth + 1, indices};
-    direct_radiance(pass->scene, pass->trace, sight->rays, glossy, sight->count, &numbers,
-                    radiance);
+    struct lighting lighting = {pass->scene, pass->trace, pass->maps};
+    direct_radiance(&lighting, sight->rays, glossy, sight->count, &numbers, radiance);
     for (size_t i = 0; i < sight->count; i++)
         add_to_lane(pass, tile, sight->lanes[i],
                     ps_rgb_multiply(sight->throughput[i], radiance[i]));

@@ -13,6 +13,7 @@
 struct view_pass {
     const struct scene *scene;
     const struct trace *trace;
+    const struct shadow_maps *maps; /* for what gloss reflects of the lights; NULL: shadow rays */
     struct gbuffer *gbuffer;
     uint64_t seed;
     uint32_t number;          /* of the pass */

@@ -40,8 +40,8 @@ static size_t member_size(uint32_t type)
 }
 
 /* Every table of functions is two 32-bit numbers and then pointers, all of which must be there but
- * a visibility's depth maps and its test of points (it may have either, or neither), and an
- * injection's prepare. */
+ * a visibility's depth maps and its test of points (it may have either, or neither), an injection's
+ * prepare, and a stratification's cells. */
 static bool check_functions(const ps_descriptor *descriptor, struct error *error)
 {
     static const size_t first = 2 * sizeof(uint32_t);
@@ -51,6 +51,8 @@ static bool check_functions(const ps_descriptor *descriptor, struct error *error
         size = offsetof(ps_visibility_vtable, depth_maps);
     if (descriptor->kind == PS_INJECTION)
         size = offsetof(ps_injection_vtable, prepare);
+    if (descriptor->kind == PS_STRATIFICATION)
+        size = offsetof(ps_stratification_vtable, cells);
     for (size_t offset = first; offset < size; offset += sizeof(void (*)(void))) {
         void (*function)(void);
         memcpy(&function, vtable + offset, sizeof function);

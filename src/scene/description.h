@@ -241,11 +241,16 @@ struct strategy_choice {
 
 #define STRATEGY_KINDS 7
 
+/* How it is found what the lights reach. */
+enum direct_light { DIRECT_RAYS, DIRECT_SHADOWMAP };
+
 struct render_description {
     struct strategy_choice strategies[STRATEGY_KINDS];
     int64_t passes;
     int64_t seed;
-    int64_t light_samples;    /* shadow rays for each light that has a size, pixel and pass */
+    int64_t light_samples; /* shadow rays for each light that has a size, pixel and pass */
+    int32_t direct;        /* enum direct_light */
+    int64_t direct_resolution;
     double indirect_exposure; /* factor on the indirect light when it joins the direct light */
     ps_rgb ambient;           /* radiance of pixels that no indirect light reached */
 };

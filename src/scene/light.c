@@ -84,6 +84,24 @@ void light_release(struct light *light)
 
 /* --- the whole light --- */
 
+ps_light light_describe(const struct light *light)
+{
+    static const ps_light_kind kind_of[] = {
+        [EMITTER_SPOT] = PS_LIGHT_POINT,   [EMITTER_SUN] = PS_LIGHT_SUN,
+        [EMITTER_MESH] = PS_LIGHT_SURFACE, [EMITTER_SPHERE] = PS_LIGHT_SURFACE,
+        [EMITTER_SKY] = PS_LIGHT_SKY,
+    };
+    ps_light described = {.kind = kind_of[light->emitter], .power = light_power(light)};
+    if (light->emitter == EMITTER_SPOT) {
+        described.cos_cone = light->spot.cos_falloff;
+        described.position = light->spot.location;
+        described.axis = light->spot.axis;
+    }
+    if (light->emitter == EMITTER_SUN)
+        described.axis = ps_scale(light->sun.towards, -1.0f);
+    return described;
+}
+
 ps_rgb light_power(const struct light *light)
 {
     switch (light->emitter) {

@@ -142,6 +142,9 @@ void light_disc_triangles(const struct light_description *description, size_t se
 
 /* --- the whole light --- */
 
+/* What the light is, in the words of the plugin interface. */
+ps_light light_describe(const struct light *light);
+
 /* Radiant flux, W; of sun and sky: through discs as large as the scene. Of a mesh with a pattern:
  * an estimate, good enough to share light paths by. */
 ps_rgb light_power(const struct light *light);

@@ -91,7 +91,7 @@ static float half_width(const struct box_scene *scene, const ps_box_settings *se
 static ps_splat place_one(const struct box_scene *scene, const ps_box_settings *settings,
                           const ps_source *source, const ps_hit *hit)
 {
-    ps_splat splat = {.power = source->power, .path = source->path};
+    ps_splat splat = {.power = source->power, .merged = source->merged, .path = source->path};
     if (!(hit->distance < INFINITY))
         return splat;
     float size = half_width(scene, settings, source, hit->distance);

@@ -71,6 +71,7 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
                                    const float *depths)
 {
     float inverse = 1.0f / splat->half_width;
+    float merged = profile->counting ? 1.0f : fmaxf(splat->merged, 1.0f);
     return (struct kernel_splat){
         .centre = splat->centre,
         .u = ps_scale(splat->axis_u, inverse),
@@ -84,8 +85,8 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
         .bias_constant = splat->bias_constant,
         .bias_slope = splat->bias_slope,
         .front = splat->two_sided ? 0.0f : INFINITY,
-        .kernel_scale = profile->counting ? 1.0f : profile->scale * inverse * inverse,
-        .power = splat->power,
+        .kernel_scale = profile->counting ? 1.0f : merged * profile->scale * inverse * inverse,
+        .power = ps_rgb_scale(splat->power, 1.0f / merged),
         .depths = depths,
     };
 }

@@ -6,7 +6,10 @@
  *     k = profile(u^2 + v^2) * scale / R^2      the kernel K, 1/m^2, integrates to 1 over its disc
  *     lit where u^2 + v^2 < 1, near <= t <= far, n.W < 0, t lies past the plane that the bundle
  *     starts on, and not past the map by more than the bias
- *     irradiance += power * k * max(0, -n.W), weight += k
+ *     irradiance += power * k * max(0, -n.W), weight += merged * k
+ *
+ * A splat that stands for several sources weighs as much as they would (Hoet 2014, section 3.2.1); the
+ * loop has that as a larger k of a lesser power.
  *
  * The cosine is there because K lies in the plane across the beam. No branches: masks, one gather
  * from the depth map and one from the profile, so that compilers turn the loop into 8 or 16 lanes.
@@ -38,7 +41,7 @@ struct kernel_splat {
         start_v; /* depth of the start plane: start_depth + start_u * u + start_v * v */
     float bias_constant, bias_slope;
     float front; /* added to the bias in front of the map: 0 for two-sided maps, or infinite */
-    float kernel_scale;
+    float kernel_scale; /* with `merged` in it, by which the power is divided */
     ps_rgb power;
     const float *depths; /* resolution^2 */
 };

@@ -72,6 +72,32 @@ differs overlap -p visibility=none
 differs overlap -p injection=photon:count=2000
 run 0 debug voxels $small --resolution 16 -o usual.png
 expect_same usual.png new/cornell-voxels.png
+# The cells of the scene's own stratification, with its parameters; --resolution goes before it.
+# cells NAME STRATIFICATION [OPTION...]: the pixels of that view, without what the file says of itself.
+cells() {
+    name=$1 stratification=$2
+    shift 2
+    run 0 debug voxels $small -p stratification=$stratification "$@" -o "$name.png"
+    sed 's/.*IDAT/IDAT/; /IDAT/,$!d' "$name.png" >"$name.pixels"
+}
+cells usual none
+cells grid grid:resolution=16,threshold=1
+expect_same grid.pixels usual.pixels
+cells fine grid:resolution=17,threshold=1
+expect_different fine.pixels grid.pixels
+cells joined grid:resolution=16,threshold=20
+expect_different joined.pixels grid.pixels
+cells cascade cascade:resolution=12
+expect_different cascade.pixels grid.pixels
+cells coarse cascade:resolution=6
+expect_different coarse.pixels cascade.pixels
+cells octree octree:capacity=2
+cells octree3 octree:capacity=2 -t 3 --batch 17
+expect_same octree.png octree3.png
+cells crowded octree:capacity=20
+expect_different crowded.pixels octree.pixels
+cells own octree:capacity=2 --resolution 16
+expect_same own.pixels usual.pixels
 run 0 debug sources $small --count 20000 --color power -o usual.png
 expect_same usual.png new/cornell-sources.png
 

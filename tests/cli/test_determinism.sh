@@ -50,6 +50,11 @@ expect_text err "psplat: error: "
 expect_text err "sse9"
 [ ! -e no.exr ] || fail "a picture in spite of the error"
 
+run 0 $scene --direct shadowmap --direct-resolution 99 --threads 1 -o maps1.exr
+run 0 $scene --direct shadowmap --direct-resolution 99 --threads 3 -o maps3.exr
+expect_same maps1.exr maps3.exr
+expect_different maps1.exr one.exr
+
 # Every strategy that works on many pixels or sources at once.
 other="--size 80x45 --plugin injection=photon:count=2000,bounces=0 --plugin denoiser=gaussian:size=9x9
     --plugin visibility=none --plugin normalization=weight $cornell"

@@ -29,6 +29,7 @@ expect_text out "psplat.version: $("$PSPLAT" --version | sed 's/^psplat //')"
 expect_text out "psplat.scene: $cornell"
 expect_text out "psplat.seed: 0"
 expect_text out "psplat.passes: 1"
+expect_text out "psplat.direct: rays"
 expect_text out "psplat.injection: photon:count=500,bounces=1,roulette=2"
 expect_text out "psplat.stratification: none"
 expect_text out "psplat.visibility: shadowmap:size=30,follow=0.25,"
@@ -43,6 +44,20 @@ run 0 --size 30x20 --passes 2 --seed 9007199254740992 --threads 2 --batch 77 \
     -p filter=gaussian:sigma=0.33333333333333331 -p normalization=weight:exposure=0.1 \
     -p denoiser=gaussian:size=3x3 -o all.exr "$cornell"
 repeats all.exr
+
+# Shadows by maps: on the command line, in the scene, and a line that takes them back.
+run 0 $small --direct shadowmap --direct-resolution 20 -o maps.exr "$cornell"
+repeats maps.exr
+run 0 info maps.exr
+expect_text out "psplat.direct: shadowmap:resolution=20"
+expect_different maps.exr plain.exr
+sed 's/^render:.*/&\n  direct: shadowmap\n  direct_resolution: 20/' "$cornell" >maps.psd
+run 0 $small -o scene-maps.exr maps.psd
+repeats scene-maps.exr
+expect_same_pixels scene-maps.exr maps.exr
+run 0 $small --direct rays -o rays.exr maps.psd
+repeats rays.exr
+expect_same_pixels rays.exr plain.exr
 
 # A scene whose name needs quotes, with settings of its own that no option has.
 mkdir "it's a folder"

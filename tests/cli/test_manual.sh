@@ -90,7 +90,7 @@ for choice in injection=rsm:resolution=8 injection=voxel:resolution=8 stratifica
     injection=*) injection= ;;
     *) injection="-p injection=photon:count=200" ;;
     esac
-    run 0 -q --size 16x9 $injection -p $choice -o a.exr --stats a.json "$cornell"
+    run 0 -q --size 16x9 --direct shadowmap --direct-resolution 8 $injection -p $choice -o a.exr --stats a.json "$cornell"
     awk '/^  "/ { split($0, part, "\""); table = part[2] }
          /^    "/ { split($0, key, "\""); print table ": " key[2] }' a.json >>statistics
 done

@@ -131,6 +131,15 @@ for key in seconds counters bytes load scene build gbuffer direct inject stratif
 done
 expect_match stats.json '"passes": 2,?$'
 
+# Pixels that no light reached are told of where there are any, with the same number.
+run 0 --size 48x27 -p injection=photon:count=8 --stats dark.json -o dark.exr "$cornell"
+dark=$(sed -n 's/.*"pixels without weight": \([0-9]*\).*/\1/p' dark.json)
+[ "${dark:-0}" -gt 100 ] || fail "$dark pixels without weight of 8 photons"
+expect_match err "^psplat: no indirect light reached $dark pixels\$"
+run 0 --size 48x27 -p estimator=ambient --stats lit.json -o lit.exr "$cornell"
+expect_text lit.json '"pixels without weight": 0'
+expect_no_text err "no indirect light reached"
+
 # Valid JSON, as far as it has objects, texts and numbers: what is whole is replaced until one value is
 # left.
 is_json() {

@@ -38,6 +38,13 @@ done
 for value in 0 1048577 many; do
     usage "--batch: expected a whole number 1..4096, got '$value'" --batch "$value" "$cornell"
 done
+for value in 0 8193 1.5 fine; do
+    usage "--direct-resolution: expected a whole number 1..8192, got '$value'" \
+        --direct-resolution "$value" "$cornell"
+done
+for value in maps Rays ""; do
+    usage "--direct: expected rays or shadowmap, got '$value'" --direct "$value" "$cornell"
+done
 for value in 10 10x 10x0 0x10 65537x1 1x65537 1.5x2 -1x5 axb 10x10x10 10X10 "" x; do
     usage "--size: expected WxH, each 1..65536, got '$value'" --size "$value" "$cornell"
 done

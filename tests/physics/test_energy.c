@@ -39,12 +39,13 @@ static double gather(const struct scene *scene, const struct trace *trace, size_
         rays[i] = (ps_ray){origin, 0, ps_cosine_direction(first.normal, u[0], u[1]), INFINITY};
     }
     trace_intersect(trace, RAYS_INCOHERENT, rays, RAYS, hits);
+    struct lighting lighting = {scene, trace, NULL};
     double sum = 0;
     for (size_t i = 0; i < RAYS; i++) {
         ps_rgb radiance;
         if (!(hits[i].distance < INFINITY))
             continue;
-        direct_radiance(scene, trace, &rays[i], &hits[i], 1, &no_numbers, &radiance);
+        direct_radiance(&lighting, &rays[i], &hits[i], 1, &no_numbers, &radiance);
         sum += first.albedo.g * radiance.g;
     }
     return sum / RAYS;

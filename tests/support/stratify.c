@@ -109,25 +109,62 @@ static void create(struct loader *loader, const char *text, struct strategy *str
     strategy_choice_release(&choice);
 }
 
-size_t stratify(struct stage *stage, const char *choice, ps_source *sources, size_t n)
-{
+/* A strategy that was started on a stage. */
+struct running {
     struct loader *loader;
     struct strategy strategy;
+    ps_host host;
+    ps_pass pass;
+};
+
+static const ps_stratification_vtable *start(struct stage *stage, const char *choice,
+                                             struct running *running)
+{
     struct error error;
-    ps_host host = host_of(stage);
-    ps_pass pass = {.size = sizeof pass, .number = stage->pass, .seed = stage->seed};
+    running->host = host_of(stage);
+    running->pass = (ps_pass){.size = sizeof(ps_pass), .number = stage->pass, .seed = stage->seed};
     statistics_destroy(&stage->statistics);
     statistics_init(&stage->statistics);
-    assert_int_equal(loader_create(&loader, &error), PS_OK);
-    create(loader, choice, &strategy);
-    if (strategy_start(&strategy, &host, &error) != PS_OK)
+    assert_int_equal(loader_create(&running->loader, &error), PS_OK);
+    create(running->loader, choice, &running->strategy);
+    if (strategy_start(&running->strategy, &running->host, &error) != PS_OK)
         fail_msg("%s: %s", choice, error.text);
-    const ps_stratification_vtable *vtable = strategy.descriptor->vtable;
-    stage->result = vtable->combine(strategy.state, &host, &pass, sources, &n);
+    return running->strategy.descriptor->vtable;
+}
+
+static void stop(struct stage *stage, struct running *running)
+{
     assert_int_equal(stage->allocations, 0);
-    strategy_release(&strategy);
-    loader_destroy(loader);
+    strategy_release(&running->strategy);
+    loader_destroy(running->loader);
+}
+
+size_t stratify(struct stage *stage, const char *choice, ps_source *sources, size_t n)
+{
+    struct running running;
+    const ps_stratification_vtable *vtable = start(stage, choice, &running);
+    stage->result =
+        vtable->combine(running.strategy.state, &running.host, &running.pass, sources, &n);
+    stop(stage, &running);
     return n;
+}
+
+bool stratify_cells(struct stage *stage, const char *choice, const ps_source *sources, size_t n,
+                    uint64_t *numbers)
+{
+    struct running running;
+    const ps_stratification_vtable *vtable = start(stage, choice, &running);
+    bool has_cells = vtable->cells != NULL;
+    ps_vec3 *points = calloc(n + 1, sizeof *points);
+    assert_non_null(points);
+    for (size_t i = 0; i < n; i++)
+        points[i] = sources[i].position;
+    if (has_cells)
+        stage->result = vtable->cells(running.strategy.state, &running.host, &running.pass, sources,
+                                      n, points, n, numbers);
+    free(points);
+    stop(stage, &running);
+    return has_cells;
 }
 
 bool stratification_refuses(struct stage *stage, const char *choice)

@@ -29,6 +29,11 @@ ps_source stratify_source(ps_vec3 position, float power, uint64_t path);
  * refuses its parameters fails the test. Everything it allocated must be released. */
 size_t stratify(struct stage *stage, const char *choice, ps_source *sources, size_t n);
 
+/* The numbers of the cells that the sources themselves lie in, by that choice; false where it has no
+ * cells. */
+bool stratify_cells(struct stage *stage, const char *choice, const ps_source *sources, size_t n,
+                    uint64_t *numbers);
+
 /* Whether the plugin refuses its parameters in init. */
 bool stratification_refuses(struct stage *stage, const char *choice);
 

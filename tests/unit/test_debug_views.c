@@ -279,6 +279,46 @@ static void test_voxels_are_cells_of_the_grid(void **state)
     canvas_release(&canvas);
 }
 
+static size_t count_colours(const struct canvas *canvas)
+{
+    size_t colours = 0;
+    for (size_t i = 0; i < PIXELS; i++) {
+        bool met = false;
+        for (size_t j = 0; j < i && !met; j++)
+            met = memcmp(canvas->rgb + 3 * i, canvas->rgb + 3 * j, 3) == 0;
+        colours += !met;
+    }
+    return colours;
+}
+
+/* How many cells the wall has by a stratification; as many sources as fill them all. */
+static size_t cells_of_wall(const char *stratification)
+{
+    const char *const choices[] = {"injection=photon:count=40000", stratification, NULL};
+    struct debug_options options = {.resolution = 0};
+    struct canvas canvas;
+    struct error error;
+    assert_int_equal(view("voxels", wall, &options, choices, &canvas, &error), PS_OK);
+    size_t colours = count_colours(&canvas);
+    canvas_release(&canvas);
+    return colours;
+}
+
+/* The wall lies in the middle of the scene's sphere, and half of its width across is to be seen. */
+static void test_voxels_are_cells_of_the_stratification(void **state)
+{
+    (void)state;
+    assert_int_equal(cells_of_wall("stratification=grid:resolution=2,threshold=1"), 4);
+    assert_int_equal(cells_of_wall("stratification=grid:resolution=2,threshold=1000000"), 1);
+    assert_int_equal(cells_of_wall("stratification=octree:depth=1,capacity=1"), 4);
+    assert_int_equal(cells_of_wall("stratification=octree:depth=1,capacity=1000000"), 1);
+    assert_true(cells_of_wall("stratification=octree:capacity=4") > 16);
+    assert_int_equal(cells_of_wall("stratification=cascade:levels=1,resolution=2,cell=1000"), 4);
+    /* Nothing but what lies beyond: no cells. */
+    assert_int_equal(
+        cells_of_wall("stratification=cascade:levels=1,resolution=2,cell=0.001,beyond=keep"), 1);
+}
+
 static struct colour middle_of(const char *layer)
 {
     struct debug_options options = {.exposure = 0};
@@ -355,6 +395,7 @@ int main(void)
         cmocka_unit_test(test_overlap_needs_splats),
         cmocka_unit_test(test_what_pixels_see_is_seen),
         cmocka_unit_test(test_voxels_are_cells_of_the_grid),
+        cmocka_unit_test(test_voxels_are_cells_of_the_stratification),
         cmocka_unit_test(test_layers_of_the_gbuffer),
         cmocka_unit_test(test_names_of_views),
     };

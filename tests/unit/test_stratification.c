@@ -227,13 +227,66 @@ static void test_choices_repeat(void **state)
     stage_release(&stage);
 }
 
+/* Sources of one number became one, and those of none stayed. */
+static void expect_cells(struct stage *stage, const char *choice, size_t n)
+{
+    ps_source *given = random_sources(n), *left = random_sources(n);
+    uint64_t *numbers = calloc(n, sizeof *numbers);
+    assert_non_null(numbers);
+    assert_true(stratify_cells(stage, choice, given, n, numbers));
+    assert_int_equal(stage->result, PS_OK);
+    size_t count = stratify(stage, choice, left, n);
+    print_message("%s: %zu of %zu\n", choice, count, n);
+    for (size_t i = 0; i < count; i++) {
+        uint64_t number = numbers[left[i].path];
+        size_t alike = 0;
+        for (size_t j = 0; j < n; j++)
+            alike += numbers[j] == number;
+        assert_true(left[i].merged == (number == PS_NO_CELL ? 1.0f : (float)alike));
+    }
+    free(numbers);
+    free(left);
+    free(given);
+}
+
+static void test_cells_hold_what_merges(void **state)
+{
+    (void)state;
+    static const char *const cells[] = {
+        "grid:resolution=8,normal_angle=180,threshold=1",
+        "grid:resolution=8,normal_angle=180",
+        "grid:resolution=16,normal_angle=180,threshold=3,levels=2",
+        "grid:cell=0.7,centre=camera,normal_angle=180,threshold=40,levels=4",
+        "grid:resolution=32,normal_angle=180,threshold=9,levels=20",
+        "cascade:resolution=8,normal_angle=180",
+        "cascade:cell=0.1,resolution=8,beyond=keep,normal_angle=180",
+        "cascade:cell=0.1,resolution=8,beyond=merge,normal_angle=180",
+        "cascade:levels=15,growth=1.1,resolution=16,normal_angle=180",
+        "octree:normal_angle=180",
+        "octree:capacity=1,depth=20,normal_angle=180",
+        "octree:capacity=30,depth=3,normal_angle=180",
+        "octree:depth=0,normal_angle=180",
+    };
+    struct stage stage = stage_of(RADIUS);
+    uint64_t number;
+    ps_source *one = random_sources(1);
+    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; i++)
+        expect_cells(&stage, cells[i], 2000);
+    assert_false(stratify_cells(&stage, "none", one, 1, &number));
+    stage.out_of_memory = true;
+    assert_true(stratify_cells(&stage, "octree", one, 1, &number));
+    assert_int_equal(stage.result, PS_ERROR_MEMORY);
+    free(one);
+    stage_release(&stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_power_and_order_stay), cmocka_unit_test(test_none_and_one),
         cmocka_unit_test(test_converges_to_none),    cmocka_unit_test(test_hostile_input),
         cmocka_unit_test(test_out_of_memory),        cmocka_unit_test(test_memory_goes_by_sources),
-        cmocka_unit_test(test_choices_repeat),
+        cmocka_unit_test(test_choices_repeat),       cmocka_unit_test(test_cells_hold_what_merges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,128 @@
+/* test_convergence.c: pictures come closer to those of the reference strategy as the resolution of an
+ * approximate one grows: stratifications to `none`, visibilities to `raycast`, injections to `photon`.
+ * That fine cells merge nothing at all is the subject of test_merging.c.
+ */
+#include "support/render_scene.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define MOST_STEPS 4
+
+/* The same light paths for all, where they are by photons. */
+#define PHOTONS "injection=photon:count=8000"
+
+struct approximation {
+    const char *reference[3];
+    const char *steps[MOST_STEPS]; /* from coarse to fine */
+    double last;                   /* the finest one's error at most */
+};
+
+static struct rendering render(const char *text, const char *const fixed[], const char *choice)
+{
+    const char *const choices[] = {choice, fixed[0], fixed[1], NULL};
+    return render_text(text, 2, choices);
+}
+
+/* RMS of the difference over the reference's mean, in green. */
+static double distance(const struct image *reference, const struct image *test)
+{
+    const float *a = image_channel(reference, "indirect.G");
+    const float *b = image_channel(test, "indirect.G");
+    size_t n = reference->width * reference->height;
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += pow((double)b[i] - (double)a[i], 2);
+    return sqrt(sum / (double)n) / mean_of_all(reference, "indirect.G");
+}
+
+static void expect_convergence(const struct approximation *approximation)
+{
+    char *text = cornell_text(64, 36);
+    const char *const *fixed = approximation->reference + 1;
+    struct rendering reference = render(text, fixed, approximation->reference[0]);
+    double before = INFINITY;
+    for (int i = 0; i < MOST_STEPS && approximation->steps[i]; i++) {
+        struct rendering test = render(text, fixed, approximation->steps[i]);
+        double now = distance(&reference.image, &test.image);
+        print_message("%-56s %.4f\n", approximation->steps[i], now);
+        assert_true(now < 0.8 * before);
+        before = now;
+        rendering_release(&test);
+    }
+    assert_true(before < approximation->last);
+    rendering_release(&reference);
+    free(text);
+}
+
+/* Splats of one size, or those of what was merged would be larger ones. */
+#define EVEN "visibility=shadowmap:grow=1"
+
+static void test_stratifications_converge_to_none(void **state)
+{
+    (void)state;
+    static const struct approximation approximations[] = {
+        {{"stratification=none", PHOTONS, EVEN},
+         {"stratification=grid:resolution=32", "stratification=grid:resolution=128",
+          "stratification=grid:resolution=512", "stratification=grid:resolution=2048"},
+         0.1},
+        {{"stratification=none", PHOTONS, EVEN},
+         {"stratification=cascade:resolution=64", "stratification=cascade:resolution=256",
+          "stratification=cascade:resolution=1024", "stratification=cascade:resolution=4096"},
+         0.1},
+        {{"stratification=none", PHOTONS, EVEN},
+         {"stratification=octree:capacity=64", "stratification=octree:capacity=16",
+          "stratification=octree:capacity=4", "stratification=octree:capacity=1"},
+         0.1},
+    };
+    for (size_t i = 0; i < sizeof approximations / sizeof approximations[0]; i++)
+        expect_convergence(&approximations[i]);
+}
+
+static void test_visibilities_converge_to_raycast(void **state)
+{
+    (void)state;
+    static const struct approximation approximations[] = {
+        {{"visibility=raycast:size=30", PHOTONS, "stratification=none"},
+         {"visibility=shadowmap:size=30,resolution=2", "visibility=shadowmap:size=30,resolution=8",
+          "visibility=shadowmap:size=30,resolution=32"},
+         0.02},
+        {{"visibility=raycast:size=30", PHOTONS, "stratification=none"},
+         {"visibility=imperfect:size=30,points=1000,resolution=4",
+          "visibility=imperfect:size=30,points=20000,resolution=8",
+          "visibility=imperfect:size=30,points=200000,resolution=16"},
+         0.06},
+    };
+    for (size_t i = 0; i < sizeof approximations / sizeof approximations[0]; i++)
+        expect_convergence(&approximations[i]);
+}
+
+static void test_injections_converge_to_photon(void **state)
+{
+    (void)state;
+    static const struct approximation approximations[] = {
+        {{"injection=photon:count=60000", "visibility=none:size=50", "stratification=none"},
+         {"injection=rsm:count=60000,resolution=2", "injection=rsm:count=60000,resolution=8",
+          "injection=rsm:count=60000,resolution=128"},
+         0.25},
+        {{"injection=photon:count=60000", "visibility=none:size=50", "stratification=none"},
+         {"injection=voxel:resolution=8", "injection=voxel:resolution=32",
+          "injection=voxel:resolution=128"},
+         0.5},
+    };
+    for (size_t i = 0; i < sizeof approximations / sizeof approximations[0]; i++)
+        expect_convergence(&approximations[i]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_stratifications_converge_to_none),
+        cmocka_unit_test(test_visibilities_converge_to_raycast),
+        cmocka_unit_test(test_injections_converge_to_photon),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
