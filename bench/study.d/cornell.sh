@@ -1,11 +1,12 @@
 # shellcheck shell=bash disable=SC2154 # variables are those of bench/study
 # cornell.sh: the thesis's Cornell box: the points of its graphs, and what its figures show. Sourced by bench/study.
 
-# Regions in pixels of 1600x900. Ceiling: over the middle of the box, and near its back edge. Foot: the floor behind the
-# tall block, of which the camera sees a strip to its left.
+# Regions in pixels of 1600x900. Ceiling: over the middle of the box, and near its back edge. Behind the tall block: the
+# back wall at its upper right edge, and the floor between it and the red wall.
 ceiling_bright=720,80,160,56
 ceiling_dim=560,160,80,20
-foot=576,752,24,32
+behind_wall=824,380,64,48
+behind_floor=556,748,28,24
 
 # curve METHOD LEVEL PATHS SIZE OPTIONS-FUNCTION ARGUMENT...: one point.
 curve() {
@@ -123,16 +124,18 @@ cornell_disparity() {
 
 cornell_regions() {
     local normalization
+    local -a leaks=(small-weight-4 leak-large-weight small-density-4 leak-large-density own-2 leak-large-own)
     local -a ceiling=(pm-3 small-weight-4 large-weight-5 strat-weight-4 small-density-5 large-density-5 strat-density-4 own-4)
     level "$ceiling_bright" ceiling-bright ambient cornell "${ceiling[@]}"
     level "$ceiling_dim" ceiling-dim ambient cornell "${ceiling[@]}"
     for normalization in weight density; do
         set_options thesis_splats 25000 "$large_size" "$normalization"
-        render "leak-large-$normalization" "$cornell" "${options[@]}"
+        point "leak-large-$normalization" cornell leak 1 "$(paths 25000)" "$large_size" "$cornell" "${options[@]}"
     done
     set_options own_splats 25000 "$large_size"
-    render leak-large-own "$cornell" "${options[@]}"
-    level "$foot" foot ambient cornell small-weight-4 leak-large-weight small-density-4 leak-large-density own-2 leak-large-own
+    point leak-large-own cornell leak 1 "$(paths 25000)" "$large_size" "$cornell" "${options[@]}"
+    level "$behind_wall" wall ambient cornell "${leaks[@]}"
+    level "$behind_floor" floor ambient cornell "${leaks[@]}"
 }
 
 # data_megabytes RENDER: sources and strata, or photons: what the thesis's table counts.

@@ -7,11 +7,16 @@ set grid linecolor '#dddddd'
 set xlabel 'seconds without the G-buffer'
 set format x '%g'
 set format y '%g'
-set key outside below horizontal autotitle columnhead samplen 2 maxrows 3
+set key outside below horizontal autotitle columnhead samplen 3 maxrows 4
 set style data linespoints
 set pointsize 0.6
+set bmargin 9
+# Own methods have the same line in every graph.
+line(name) = name eq 'path' ? 8 : name eq 'own' ? 7 : name eq 'pm' ? 4 : \
+    name[1:5] eq 'small' ? 1 : name[1:5] eq 'large' ? 2 : 6
+dashes(name) = strstrt(name, 'density') ? 2 : 1
 set multiplot layout 1,2
 set ylabel 'error of the thesis (0 to 765)'
-plot for [name in files] name.'.dat' using 1:2
+plot for [name in files] name.'.dat' using 1:2 linetype line(name) dashtype dashes(name)
 set ylabel 'relative RMSE (%)'
-plot for [name in files] name.'.dat' using 1:3
+plot for [name in files] name.'.dat' using 1:3 linetype line(name) dashtype dashes(name)

@@ -11,15 +11,21 @@ start_tables() {
     echo 'id,value' >"$out/figures.csv"
 }
 
-# row FILE FIELD...
+# row FILE FIELD...: stops at a field that could not be found or calculated.
 row() {
-    local IFS=,
+    local field IFS=,
+    for field in "${@:2}"; do
+        [[ -n $field ]] || {
+            echo "study: error: no value for a field of $1.csv: ${*:2}" >&2
+            exit 1
+        }
+    done
     echo "${*:2}" >>"$out/$1.csv"
 }
 
 # calculate EXPRESSION: by awk, to six digits; 1 or 0 for a comparison.
 calculate() {
-    awk "BEGIN { printf \"%.6g\\n\", ($1) }"
+    awk "BEGIN { printf \"%.6g\\n\", (${1//$'\n'/ }) }"
 }
 
 # metric NAME REFERENCE TEST [OPTION...]: the numbers of one metric of the indirect layer.

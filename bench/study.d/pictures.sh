@@ -6,7 +6,7 @@
 box=340,0,920,900
 ceiling=420,0,760,182
 corner=990,110,160,160
-behind=480,520,400,320
+behind=440,320,560,480
 chair_backs=500,200,1000,620
 
 # keep_picture NAME: moves $work/NAME.png into the page, in as few bytes as there are tools for.
@@ -41,7 +41,7 @@ cornell_pictures() {
         picture "ceiling-$level" "$level" --layer indirect --crop "$(scaled "$ceiling")"
     done
     for level in small-weight-4 leak-large-weight small-density-4 leak-large-density cornell-a; do
-        picture "behind-$level" "$level" --layer indirect --exposure 2 --zoom 2 --crop "$(scaled "$behind")"
+        picture "behind-$level" "$level" --layer indirect --exposure 2 --crop "$(scaled "$behind")"
     done
     for level in merged-many-1 unmerged-1; do
         picture "$level" "$level" --crop "$(scaled "$box")"
@@ -62,6 +62,12 @@ conference_pictures() {
     for level in chairs-full-4 chairs-full-32 chairs-close-4 chairs-close-32 chairs-a; do
         picture "$level" "$level" --layer indirect --exposure 3 --crop "$(scaled "$chair_backs")"
     done
+}
+
+draw_pictures() {
+    cornell_pictures
+    overlap_picture
+    [[ $conditions != conference* ]] || conference_pictures
 }
 
 # curve_data METHOD TITLE: seconds, thesis's metric, relative RMSE in per cent; the titles of columns are those of curves.
