@@ -11,8 +11,11 @@ conference_scene=$parts/conference.psd
 # Checksum of the program and its plugins.
 program_sum() {
     local folder
-    folder=$(dirname "$psplat")/..
-    find "$psplat" "$folder/lib/psplat" -name '*.so' -o -path "$psplat" 2>/dev/null | sort | xargs cat | cksum
+    folder=$(dirname "$psplat")/../lib/psplat
+    {
+        cat "$psplat"
+        [[ ! -d $folder ]] || find "$folder" -name '*.so' -print0 | sort -z | xargs -0 cat
+    } | cksum
 }
 program=$(program_sum)
 
