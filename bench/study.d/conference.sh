@@ -43,17 +43,17 @@ conference_methods() {
     room room-path path 16 - "${options[@]}"
 }
 
-# Figure 19: the same splats with maps of 4x4 and of 32x32 texels. With psplat's full beams, whose maps see all that
-# lies between source and surface; the thesis's close box is measured too.
+# Figure 19: the same large splats with maps of 4x4 and of 32x32 texels. With psplat's full beams, whose maps see all
+# that lies between source and surface; the thesis's close box is measured too.
 conference_chairs() {
     local texels box n
-    n=$(paths 1000000)
+    n=$(paths 200000)
     render chairs-ambient "$conference_scene" --param mesh="$conference" --camera chairs \
         --plugin estimator=ambient:irradiance=1
     for texels in 4 32; do
         render "chairs-full-$texels" "$conference_scene" --param mesh="$conference" --camera chairs \
-            --plugin injection=photon:count="$n" --plugin visibility=shadowmap:size=0.15,resolution="$texels"
-        box=$(thesis_box 0.15 1 "$texels")
+            --plugin injection=photon:count="$n" --plugin visibility=shadowmap:size="$conference_large",resolution="$texels"
+        box=$(thesis_box "$conference_large" 1 "$texels")
         render "chairs-close-$texels" "$conference_scene" --param mesh="$conference" --camera chairs \
             --plugin injection=photon:count="$n" --plugin "$box" --plugin normalization=weight
     done

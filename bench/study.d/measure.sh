@@ -78,7 +78,7 @@ point() {
     if [[ ! -f $work/$id.row || $(head -n 1 "$work/$id.row") != "$key" ]]; then
         seconds=$(estimate_seconds "$work/$id.json")
         for again in 1 2; do
-            ((!quick)) && [[ $(calculate "($seconds < 1)") == 1 ]] || break
+            ((quick == 0 && $(calculate "$seconds < 1"))) || break
             "$psplat" render "$1" --quiet --size "$size" "${@:2}" -o "$work/again.exr" --stats "$work/again.json"
             seconds=$(awk -v a="$seconds" -v b="$(estimate_seconds "$work/again.json")" 'BEGIN { print (a < b) ? a : b }')
         done

@@ -32,7 +32,7 @@ thesis_strata() { # PATHS SIZE NORMALIZATION CELLS [GROW]
 
 own_splats() { # PATHS SIZE
     printf -- '--plugin\n%s\n' "injection=photon:count=$(paths "$1")" \
-        "visibility=shadowmap:size=$2,resolution=$resolution" filter=gaussian normalization=density
+        "visibility=shadowmap:size=$2,resolution=$resolution" normalization=density
 }
 
 path_trace() { # SAMPLES

@@ -61,7 +61,7 @@ judge_trends() {
     trend leak-density "$(ratio "$(leak wall leak-large-density)" "$(leak wall small-density-4)")" '>' 1.1 \
         'larger maps leak behind the boxes (density): relative brightness over that by small maps'
     if [[ $conditions == conference* ]]; then
-        trend chairs "$(ratio "$(shade chairs-full-4)" "$(shade chairs-full-32)")" '>' 1.1 \
+        trend chairs "$(ratio "$(shade chairs-full-4)" "$(shade chairs-full-32)")" '>' 1.2 \
             'maps of 4x4 lose the shadows of chairs that 32x32 keep: brightness there over that by 32x32'
         for name in full-4 full-32 close-4 close-32; do
             row figures "shade_${name/-/_}" "$(shade "chairs-$name")"

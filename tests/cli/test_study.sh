@@ -81,4 +81,25 @@ for placeholder in '{{points:none:seconds}}' '{{points:pm-1:none}}' '{{picture:n
     expect_text err "study: error: page.md:1:"
 done
 
+# judge QUICK VALUE: the status of a study whose one trend, to be above 1, is VALUE.
+judge() {
+    mkdir -p trends
+    bash -c 'set -euo pipefail
+        parts=$1/bench/study.d quick=$2 out=trends
+        . "$parts/measure.sh"
+        . "$parts/trends.sh"
+        start_trends
+        trend some "$3" ">" 1 "a trend"
+        report_trends' bash "$PSPLAT_SOURCE" "$@" >out 2>err
+}
+
+# A trend that does not hold fails a full study, and one that could not be measured any.
+judge 0 1.5 || fail "a trend that holds fails the study"
+expect_match out '^holds +some +1\.5'
+judge 0 0.5 && fail "a trend that does not hold passes"
+expect_match out '^does not hold +some'
+judge 1 0.5 || fail "a trend fails a quick study"
+judge 1 '' && fail "a trend without a number passes"
+expect_text err "no value for a field of trends.csv"
+
 finish
