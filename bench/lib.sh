@@ -1,0 +1,25 @@
+# lib.sh: what the measurements in bench/ share; sourced, not run. POSIX sh.
+
+# statistic SECTION NAME FILE: a number of a --stats file. The section is seconds, counters or bytes: a counter
+# may have the name of a purpose of memory. Prints nothing where there is no such number.
+statistic() {
+    awk -v section="\"$1\":" -v name="\"$2\":" '
+        $1 ~ /^"/ && $NF == "{" { inside = ($1 == section) }
+        inside && index($0, name) {
+            number = substr($0, index($0, name) + length(name))
+            gsub(/[ ,]/, "", number)
+            print number
+        }' "$3"
+}
+
+# own_bytes FILE: the memory that belongs to the estimator of that --stats file: sources, strata, splats, maps, bins,
+# photons and their tree. The scene, the G-buffer and the film, which all estimators have, do not count.
+own_bytes() {
+    awk '
+        $1 ~ /^"/ && $NF == "{" { inside = ($1 == "\"bytes\":") }
+        /"photon tree bytes":/ || (inside && /": / && !/"ray tracer":|"G-buffer":|"film":/) {
+            gsub(/,/, "", $NF)
+            sum += $NF
+        }
+        END { printf "%.0f\n", sum }' "$1"
+}
