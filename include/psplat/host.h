@@ -30,13 +30,13 @@ typedef enum ps_stream {
 /* How large a splat is and where its box begins: the parameters that every visibility shares
  * (PS_BOX_PARAMS in strategy.h gives the rows). Scene units. */
 typedef struct ps_box_settings {
-    double size;            /* half-width R; 0: automatic, 5 % of the scene's radius */
-    double follow;          /* R is at most follow * distance travelled, or size / 5; 0: no limit */
-    double depth;           /* how far the box reaches past the first hit; 0: R tan(theta) + R */
-    double step_back;       /* see step_back_rule */
+    double size;      /* half-width R; 0: automatic, by the scene's radius and the light paths */
+    double follow;    /* R is at most follow * distance travelled, or size / 5; 0: no limit */
+    double depth;     /* how far the box reaches past the first hit; 0: R tan(theta) + R */
+    double step_back; /* see step_back_rule */
     int32_t step_back_rule; /* 0: auto, min(d, R tan(theta) + R/2); 1: full, from the source; -1:
                                step_back */
-    int32_t reserved;
+    int32_t walls;          /* 1: full beams make up for what walls beside their source keep back */
     double grow; /* where sources were merged, R is multiplied by min(sqrt(merged), grow); at most
                     1: not at all */
 } ps_box_settings;
@@ -52,6 +52,8 @@ typedef struct ps_pass {
                              normal */
     uint32_t specular;    /* 1: some surface mirrors, shines by gloss or refracts */
 } ps_pass;
+
+#define PS_MOST_INTERLEAVE 8
 
 /* A body of parallel_for: item `index`, on worker `worker` < thread_count. */
 typedef void (*ps_body)(void *user, uint64_t index, uint32_t worker);
@@ -137,10 +139,16 @@ struct ps_host {
     ps_result (*place_splats)(const ps_host *host, const ps_source *sources, size_t n,
                               ps_splat *splats);
 
+    /* Lets a splat light only the pixels of one of n x n interleaved subsets, n^2 times as strongly,
+     * and joins what neighbouring pixels learned at the end of the pass; 1 <= n <=
+     * PS_MOST_INTERLEAVE, and 1 unless called. Before the render's first splat. [main thread, inside
+     * accumulate] */
+    void (*interleave)(const ps_host *host, uint32_t n);
+
     /* Adds the light of splats to the tiles: depth maps by the chosen visibility, weights by the
-     * chosen filter. Irradiance += power * K * V * max(0, -n.w), weight += merged * K * V; bitwise the same
-     * for any number of threads and any batching. Cuts the splats' depth ranges. [main thread,
-     * inside accumulate] */
+     * chosen filter. Irradiance += power * K * V * max(0, -n.w), weight += merged * K *
+     * V, which the tiles have when the pass ends; bitwise the same for any number of threads and any
+     * batching. Cuts the splats' depth ranges. [main thread, inside accumulate] */
     ps_result (*splat)(const ps_host *host, ps_splat *splats, size_t n);
 
     /* Tile `index` of the pass; one worker at a time may write to it. Borrowed until the pass ends.

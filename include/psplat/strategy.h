@@ -137,15 +137,17 @@ typedef struct ps_denoiser_vtable {
     double follow;                                                                                 \
     ps_number_or_choice depth;                                                                     \
     ps_number_or_choice step_back;                                                                 \
-    double grow;
+    double grow;                                                                                   \
+    int32_t walls;
 
 #define PS_BOX_CHOICES                                                                             \
     static const char *const box_auto[] = {"auto", NULL};                                          \
     static const char *const box_step_back[] = {"auto", "full", NULL};
 
-#define PS_BOX_PARAMS(state, step_back_default)                                                    \
-    PS_NUMBER_OR(state, size, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",     \
-                 "half-width of the box; auto: 5 % of the scene's radius"),                        \
+#define PS_BOX_PARAMS(state, step_back_default, walls_default)                                     \
+    PS_NUMBER_OR(                                                                                  \
+        state, size, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",              \
+        "half-width of the box; auto: by the scene's radius and the number of light paths"),       \
         PS_NUMBER(                                                                                 \
             state, follow, "0.25", 0, INFINITY, 0, "",                                             \
             "limit of size, down to a fifth, as a fraction of the distance travelled; 0: none"),   \
@@ -156,7 +158,9 @@ typedef struct ps_denoiser_vtable {
             state, step_back, step_back_default, 0, INFINITY, 0, box_step_back, "scene units",     \
             "start of the box before the first hit; auto: by its slope, full: the source"),        \
         PS_NUMBER(state, grow, "1.5", 1, INFINITY, 0, "",                                          \
-                  "limit of the growth of size, sqrt(sources merged into one); 1: none")
+                  "limit of the growth of size, sqrt(sources merged into one); 1: none"),          \
+        PS_BOOL(state, walls, walls_default,                                                       \
+                "full beams make up for the part that walls beside their source keep back")
 
 /* The parameters as host->place_boxes wants them. */
 #define PS_BOX_SETTINGS(state)                                                                     \
@@ -164,7 +168,7 @@ typedef struct ps_denoiser_vtable {
     {                                                                                              \
         .size = (state)->size.number, .follow = (state)->follow, .depth = (state)->depth.number,   \
         .step_back = (state)->step_back.number, .step_back_rule = (state)->step_back.choice,       \
-        .grow = (state)->grow                                                                      \
+        .grow = (state)->grow, .walls = (state)->walls                                             \
     }
 
 #endif

@@ -101,6 +101,15 @@ typedef struct ps_source {
     uint64_t path; /* number of the light path, counted over all passes; keys random streams */
 } ps_source;
 
+/* A wall beside a source, behind which part of its bundle would start: the ray at (u, v), in
+ * half-widths, starts distance - u * normal_u - v * normal_v in front of it. */
+typedef struct ps_wall {
+    float normal_u, normal_v; /* length 1 */
+    float distance;
+} ps_wall;
+
+#define PS_MOST_WALLS 2
+
 /* A source carried to the surface that it lights: an orthographic box around the first hit.
  * A point p lies at depth t = (p - centre).axis_w, and is inside where
  * |(p - centre).axis_u|, |(p - centre).axis_v| <= half_width and near_depth <= t <= far_depth. */
@@ -109,16 +118,17 @@ typedef struct ps_splat {
     float half_width;               /* > 0; a splat with half_width 0 lights nothing */
     ps_vec3 axis_u, axis_v, axis_w; /* orthonormal; axis_w is the direction of the light */
     float near_depth, far_depth; /* relative to the centre; near <= 0 <= far until cut to a map */
-    float start_depth;           /* depth at which rays of the bundle start (what lies before stays
-                                    dark), at the centre, ... */
-    float start_slope_u,
-        start_slope_v;   /* ... and its change along u and v (a tilted start plane) */
-    float bias_constant; /* depth tolerance: constant + slope * tan(theta), */
-    float bias_slope;    /* theta between the light and the receiver's normal */
-    uint32_t two_sided;  /* 1: lit where |t - map| <= bias; 0: lit where t <= map + bias */
-    ps_rgb power;        /* W */
-    float merged;        /* sources that it stands for: how often its weight counts; 0 is as 1 */
-    uint64_t path;
+    /* Depth at which rays of the bundle start (what lies before stays dark), at the centre, and its
+     * change along u and v (a tilted start plane). */
+    float start_depth, start_slope_u, start_slope_v;
+    /* Lit where t <= map + constant + slope * tan(theta), theta between the light and the receiver's
+     * normal. */
+    float bias_constant, bias_slope;
+    ps_rgb power;  /* W */
+    float merged;  /* sources that it stands for: how often its weight counts; 0 is as 1 */
+    uint64_t path; /* of its source */
+    uint32_t wall_count;
+    ps_wall walls[PS_MOST_WALLS];
 } ps_splat;
 
 /* What the rays of a light have in common. */

@@ -9,9 +9,14 @@
  * the surface, has none. The driver multiplies by albedo / pi. Placing, depth maps, bins and the
  * inner loop are the core's (src/splat), shared by whatever splats.
  */
+#include <math.h>
 #include <psplat/plugin.h>
 
 #define BATCH 4096 /* splats placed at a time */
+
+struct state {
+    int64_t interleave;
+};
 
 static ps_result splat_batches(const ps_host *host, const ps_source *sources, size_t n,
                                ps_splat *splats)
@@ -28,13 +33,27 @@ static ps_result splat_batches(const ps_host *host, const ps_source *sources, si
     return result;
 }
 
-static ps_result accumulate(const void *state, const ps_host *host, const ps_pass *pass)
+/* Interleaving pays where n pixels are little beside a splat; in small pictures, or small parts of
+ * them, it blurs edges and adds noise. */
+#define SIDE_PER_STEP 150.0f /* pixels of the picture's side for each step of n */
+#define MOST_AUTOMATIC 4
+
+static uint32_t interleave_of(const struct state *state, const ps_pass *pass)
 {
-    (void)state;
-    (void)pass;
+    if (state->interleave > 0)
+        return (uint32_t)state->interleave;
+    float side = PS_TILE_SIZE * sqrtf((float)pass->tile_count);
+    uint32_t n = (uint32_t)(side / SIDE_PER_STEP);
+    return n < 1 ? 1 : n < MOST_AUTOMATIC ? n : MOST_AUTOMATIC;
+}
+
+static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pass *pass)
+{
     ps_splat *splats = host->allocate(host, BATCH * sizeof *splats, "splats placed");
     if (!splats)
         return PS_ERROR_MEMORY;
+    const struct state *state = opaque;
+    host->interleave(host, interleave_of(state, pass));
     const ps_source *sources;
     size_t n;
     double progress;
@@ -49,6 +68,12 @@ static ps_result accumulate(const void *state, const ps_host *host, const ps_pas
     return result;
 }
 
+static const ps_param params[] = {
+    PS_INT(struct state, interleave, "0", 0, PS_MOST_INTERLEAVE, "pixels",
+           "n: a splat lights every n-th pixel across and down, and neighbours are averaged; 0: by "
+           "the picture's size, at most 4"),
+};
+
 static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};
 
 static const ps_descriptor descriptor = {
@@ -58,6 +83,10 @@ static const ps_descriptor descriptor = {
     .version = "1.0",
     .summary = "photon splatting: bundled light rays with small shadow maps",
     .paper = "Hoet 2014, Indirect illumination using photon splatting",
+    .params = params,
+    .param_count = sizeof params / sizeof params[0],
+    .param_size = sizeof params[0],
+    .state_size = sizeof(struct state),
     .vtable = &vtable,
 };
 

@@ -567,7 +567,7 @@ static void depth_maps(const void *opaque, const ps_host *host, const ps_splat *
 }
 
 static const ps_param params[] = {
-    PS_BOX_PARAMS(struct state, "full"),
+    PS_BOX_PARAMS(struct state, "full", "yes"),
     PS_INT(struct state, resolution, "8", 1, MOST_TEXELS, "texels", "side of a depth map"),
     PS_NUMBER_OR(struct state, bias, "slope", 0, INFINITY, 0, bias_choices, "scene units",
                  "depth tolerance; slope: 1.5 texels times the receiver's slope"),

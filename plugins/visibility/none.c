@@ -26,7 +26,7 @@ static void place(const void *opaque, const ps_host *host, const ps_source *sour
     host->place_boxes(host, &settings, sources, hits, n, splats);
 }
 
-static const ps_param params[] = {PS_BOX_PARAMS(struct state, "auto")};
+static const ps_param params[] = {PS_BOX_PARAMS(struct state, "auto", "no")};
 
 static const ps_visibility_vtable vtable = {
     .size = sizeof vtable,

@@ -62,7 +62,7 @@ static void visible(const void *state, const ps_host *host, const ps_splat *spla
     }
 }
 
-static const ps_param params[] = {PS_BOX_PARAMS(struct state, "full")};
+static const ps_param params[] = {PS_BOX_PARAMS(struct state, "full", "yes")};
 
 static const ps_visibility_vtable vtable = {
     .size = sizeof vtable,

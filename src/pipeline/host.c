@@ -5,6 +5,7 @@
 #include "pipeline/host_light.h"
 #include "pipeline/render_state.h"
 #include "splat/box.h"
+#include "splat/wall.h"
 #include <psplat/math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -119,9 +120,16 @@ static void host_place_boxes(const ps_host *host, const ps_box_settings *setting
                              ps_splat *splats)
 {
     const struct render *render = render_of(host);
-    struct box_scene scene = {render->scene->radius, render->scene->surface_offset,
-                              render->settings->seed};
+    struct box_scene scene = {
+        .radius = render->scene->radius,
+        .surface_offset = render->scene->surface_offset,
+        .automatic_size = box_automatic_size(render->scene->radius, render->sources.path_count,
+                                             render->pass.number),
+        .seed = render->settings->seed,
+    };
     box_place(&scene, settings, sources, hits, n, splats);
+    if (settings->walls && settings->step_back_rule == 1)
+        wall_find(host, render->scene->surface_offset, sources, n, splats);
 }
 
 static ps_result host_next_sources(const ps_host *host, const ps_source **sources, size_t *n,
@@ -188,31 +196,51 @@ static ps_result tabulate_filter(struct render *render, struct kernel_profile *p
                      filter->descriptor->name);
 }
 
+static void host_interleave(const ps_host *host, uint32_t n)
+{
+    render_of(host)->interleave = n < 1 ? 1 : n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
+}
+
 static ps_result create_splatter(struct render *render)
 {
     const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
-    struct splatter_visibility chosen = {visibility->descriptor->vtable, visibility->state,
-                                         render->scene->surface_offset};
-    struct kernel_profile profile;
+    struct splatter_settings settings = {
+        .host = &render->host,
+        .visibility = visibility->descriptor->vtable,
+        .visibility_state = visibility->state,
+        .surface_offset = render->scene->surface_offset,
+        .kernel = render->kernel,
+        .interleave = render->counts_splats ? 1 : render->interleave,
+        .threads = render->settings->threads,
+        .batch = render->settings->batch,
+    };
     ps_result result = PS_OK;
     if (render->counts_splats)
-        kernel_profile_count(&profile);
+        kernel_profile_count(&settings.profile);
     else
-        result = tabulate_filter(render, &profile);
+        result = tabulate_filter(render, &settings.profile);
     if (result == PS_OK)
-        result = splatter_create(&render->splatter, &render->gbuffer, &render->host, chosen,
-                                 &profile, render->kernel.accumulate, render->settings->threads,
-                                 render->settings->batch, &render->error);
+        result = splatter_create(&render->splatter, &render->gbuffer, &settings, &render->error);
     render->has_splatter = result == PS_OK;
-    if (render->has_splatter)
-        splatter_begin_pass(&render->splatter);
     return result;
+}
+
+static ps_result begin_splatting(struct render *render)
+{
+    ps_result result = render->has_splatter ? PS_OK : create_splatter(render);
+    if (result != PS_OK)
+        return result;
+    uint64_t paths = render->sources.path_count;
+    struct splatter_pass pass = {render->pass.number, paths * render->pass.number, paths};
+    splatter_begin_pass(&render->splatter, &render->gbuffer, pass);
+    render->splatting = true;
+    return PS_OK;
 }
 
 static ps_result host_splat(const ps_host *host, ps_splat *splats, size_t n)
 {
     struct render *render = render_of(host);
-    ps_result result = render->has_splatter ? PS_OK : create_splatter(render);
+    ps_result result = render->splatting ? PS_OK : begin_splatting(render);
     if (result == PS_OK)
         result = splatter_add(&render->splatter, splats, n, &render->error);
     if (result == PS_OK)
@@ -259,6 +287,7 @@ void host_create(struct render *render)
         .place_boxes = host_place_boxes,
         .next_sources = host_next_sources,
         .place_splats = host_place_splats,
+        .interleave = host_interleave,
         .splat = host_splat,
         .tile = host_tile,
         .pixel = host_pixel,
@@ -280,6 +309,8 @@ void host_report_splatter(struct render *render)
     statistics_add_seconds(statistics, "maps", splatter->map_seconds);
     statistics_add_seconds(statistics, "bin", splatter->bin_seconds);
     statistics_add_seconds(statistics, "splat", splatter->kernel_seconds);
+    statistics_add_seconds(statistics, "join", splatter->join_seconds);
+    statistics_set_bytes(statistics, "splatted pixels", (double)field_bytes(&splatter->field));
     statistics_count(statistics, "splats", (double)splatter->splats);
     statistics_count(statistics, "map rays", (double)splatter->map_rays);
     statistics_count(statistics, "visibility rays", (double)splatter->exact_tests);

@@ -149,11 +149,13 @@ ps_result render_estimate(struct render *render, struct error *error)
     const struct strategy *estimator = &render->settings->strategies[PS_ESTIMATOR];
     const ps_estimator_vtable *vtable = estimator->descriptor->vtable;
     source_stream_rewind(&render->sources);
-    if (render->has_splatter)
-        splatter_begin_pass(&render->splatter);
+    render->splatting = false;
+    render->interleave = 1;
     render->error.text[0] = '\0';
     double start = clock_seconds();
     ps_result result = vtable->accumulate(estimator->state, &render->host, &render->pass);
+    if (render->splatting)
+        splatter_end_pass(&render->splatter, &render->gbuffer);
     statistics_add_seconds(render->statistics, "estimate", clock_seconds() - start);
     if (result == PS_OK && render->host.cancelled(&render->host))
         return PS_CANCELLED;

@@ -1,7 +1,6 @@
 #include "splat/bin.h"
 
 #include "base/parallel.h"
-#include <psplat/math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,35 +52,6 @@ size_t bins_bytes(const struct bins *bins)
     return bytes;
 }
 
-static float along(ps_vec3 extent, ps_vec3 axis)
-{
-    return extent.x * fabsf(axis.x) + extent.y * fabsf(axis.y) + extent.z * fabsf(axis.z);
-}
-
-/* Whether some normal of the node may face against w. */
-static bool may_face(const struct pyramid_node *node, ps_vec3 w)
-{
-    float lowest = (w.x > 0 ? node->normal_low.x : node->normal_high.x) * w.x +
-                   (w.y > 0 ? node->normal_low.y : node->normal_high.y) * w.y +
-                   (w.z > 0 ? node->normal_low.z : node->normal_high.z) * w.z;
-    return lowest < 0.0f;
-}
-
-/* Whether the splat's box may hold a point of the node's. */
-static bool touches(const struct pyramid_node *node, const ps_splat *splat)
-{
-    if (node->extent.x < 0.0f || !may_face(node, splat->axis_w))
-        return false;
-    ps_vec3 offset = ps_subtract(node->center, splat->centre);
-    float depth = ps_dot(offset, splat->axis_w), reach = along(node->extent, splat->axis_w);
-    if (depth - reach > splat->far_depth || depth + reach < splat->near_depth)
-        return false;
-    return fabsf(ps_dot(offset, splat->axis_u)) <=
-               splat->half_width + along(node->extent, splat->axis_u) &&
-           fabsf(ps_dot(offset, splat->axis_v)) <=
-               splat->half_width + along(node->extent, splat->axis_v);
-}
-
 static bool reserve_pair(struct bin_chunk *chunk)
 {
     if (chunk->count < chunk->capacity)
@@ -113,26 +83,22 @@ static void add_pair(struct bin_chunk *chunk, uint32_t tile, uint32_t splat)
 struct sort {
     struct bins *bins;
     const struct pyramid *pyramid;
-    const ps_splat *splats;
+    const struct kernel_variant *kernel;
+    const struct kernel_splat *splats;
     size_t n;
 };
 
-static void visit(const struct sort *sort, struct bin_chunk *chunk, uint32_t splat, int level,
-                  uint32_t column, uint32_t row)
+/* The splat that is being binned, and where its pairs go. */
+struct binning {
+    struct bin_chunk *chunk;
+    uint32_t splat;
+};
+
+static bool visit(void *user, uint32_t tile)
 {
-    const struct pyramid *pyramid = sort->pyramid;
-    uint32_t index = row * pyramid->across[level] + column;
-    if (!touches(&pyramid->nodes[pyramid->first[level] + index], &sort->splats[splat]))
-        return;
-    if (level == 0) {
-        add_pair(chunk, index, splat);
-        return;
-    }
-    uint32_t across = pyramid->across[level - 1], down = pyramid->down[level - 1];
-    for (uint32_t y = row * PYRAMID_GROUP; y < (row + 1) * PYRAMID_GROUP && y < down; y++)
-        for (uint32_t x = column * PYRAMID_GROUP; x < (column + 1) * PYRAMID_GROUP && x < across;
-             x++)
-            visit(sort, chunk, splat, level - 1, x, y);
+    const struct binning *binning = user;
+    add_pair(binning->chunk, tile, binning->splat);
+    return true;
 }
 
 static void bin_part(void *user, uint64_t index, uint32_t worker)
@@ -143,15 +109,11 @@ static void bin_part(void *user, uint64_t index, uint32_t worker)
     chunk->count = 0;
     chunk->failed = false;
     memset(chunk->counts, 0, sort->bins->tile_count * sizeof *chunk->counts);
-    const struct pyramid *pyramid = sort->pyramid;
-    int top = pyramid->levels - 1;
     size_t first = sort->n * index / CHUNKS, last = sort->n * (index + 1) / CHUNKS;
     for (size_t i = first; i < last; i++) {
-        if (!(sort->splats[i].half_width > 0.0f))
-            continue;
-        for (uint32_t row = 0; row < pyramid->down[top]; row++)
-            for (uint32_t column = 0; column < pyramid->across[top]; column++)
-                visit(sort, chunk, (uint32_t)i, top, column, row);
+        struct binning binning = {chunk, (uint32_t)i};
+        if (sort->splats[i].kernel_scale > 0.0f)
+            pyramid_visit(sort->pyramid, sort->kernel, &sort->splats[i], visit, &binning);
     }
 }
 
@@ -198,10 +160,11 @@ static ps_result reserve_indices(struct bins *bins, uint64_t pairs, struct error
     return PS_OK;
 }
 
-ps_result bins_sort(struct bins *bins, const struct pyramid *pyramid, const ps_splat *splats,
+ps_result bins_sort(struct bins *bins, const struct pyramid *pyramid,
+                    const struct kernel_variant *kernel, const struct kernel_splat *splats,
                     size_t n, uint32_t threads, struct error *error)
 {
-    struct sort sort = {bins, pyramid, splats, n};
+    struct sort sort = {bins, pyramid, kernel, splats, n};
     parallel_for(threads, CHUNKS, bin_part, &sort);
     for (int i = 0; i < CHUNKS; i++)
         if (bins->chunks[i].failed)

@@ -3,13 +3,21 @@
 #include "base/sample.h"
 #include <psplat/math.h>
 
-/* Automatic size, as a fraction of the scene's radius. */
-#define AUTOMATIC_SIZE 0.05
+/* Automatic size for 100,000 light paths, as a fraction of the scene's radius, and at most. */
+#define AUTOMATIC_SIZE 0.108
+#define LARGEST_AUTOMATIC_SIZE 0.2
 
 /* A size that follows the distance stops at this fraction of `size`. Without a floor, light that
  * crosses a corner from very near makes splats so small and bright that they rule the error
  * (Cornell box, 400,000 sources: 32 % without, 6.4 % with). */
 #define SMALLEST_SIZE 0.2f
+
+float box_automatic_size(float scene_radius, uint64_t paths, uint32_t pass)
+{
+    double by_paths = pow((double)(paths > 0 ? paths : 1) / 1e5, -0.25);
+    double share = fmin(AUTOMATIC_SIZE * by_paths, LARGEST_AUTOMATIC_SIZE);
+    return (float)(share * (double)scene_radius * pow(pass + 1.0, -1.0 / 6.0));
+}
 
 enum step_back_rule { STEP_BACK_NUMBER = -1, STEP_BACK_AUTO = 0, STEP_BACK_FULL = 1 };
 
@@ -38,6 +46,11 @@ static float slope_of(float cosine)
  * its own light. */
 #define CLEARANCE 0.125f
 
+float box_clearance(float surface_offset, float half_width)
+{
+    return fmaxf(surface_offset, CLEARANCE * half_width);
+}
+
 /* The start plane of a full beam: the tangent plane of the source, moved off the surface. */
 static void start_at_source(const struct box_scene *scene, const ps_source *source, float distance,
                             ps_splat *splat)
@@ -45,11 +58,10 @@ static void start_at_source(const struct box_scene *scene, const ps_source *sour
     float cosine = fmaxf(ps_dot(source->normal, splat->axis_w), 1.0f / BOX_STEEPEST);
     splat->start_slope_u = -ps_dot(source->normal, splat->axis_u) / cosine;
     splat->start_slope_v = -ps_dot(source->normal, splat->axis_v) / cosine;
-    float clearance = fmaxf(scene->surface_offset, CLEARANCE * splat->half_width) / cosine;
+    float clearance = box_clearance(scene->surface_offset, splat->half_width) / cosine;
     splat->start_depth = fminf(clearance, 0.5f * distance) - distance;
     float tilt = hypotf(splat->start_slope_u, splat->start_slope_v) * splat->half_width;
     splat->near_depth = fminf(splat->start_depth - tilt, 0.0f);
-    splat->two_sided = 1;
 }
 
 static float step_back(const ps_box_settings *settings, float half_width, float distance,
@@ -80,8 +92,7 @@ static float growth(const ps_box_settings *settings, const ps_source *source)
 static float half_width(const struct box_scene *scene, const ps_box_settings *settings,
                         const ps_source *source, float distance)
 {
-    float size =
-        settings->size > 0 ? bounded(scene, settings->size) : (float)AUTOMATIC_SIZE * scene->radius;
+    float size = settings->size > 0 ? bounded(scene, settings->size) : scene->automatic_size;
     size = bounded(scene, (double)size * (double)growth(settings, source));
     if (!(settings->follow > 0))
         return size;
@@ -118,17 +129,9 @@ void box_place(const struct box_scene *scene, const ps_box_settings *settings,
 
 void box_cut(ps_splat *splat, const float *depths, uint32_t resolution)
 {
-    float nearest = INFINITY, farthest = -INFINITY;
-    for (uint32_t i = 0; i < resolution * resolution; i++) {
-        /* A ray that met nothing lights nothing in a full beam, and all of its depth in a closed
-         * box. */
-        if (splat->two_sided && !(depths[i] < INFINITY))
-            continue;
-        nearest = fminf(nearest, depths[i]);
+    float farthest = -INFINITY;
+    for (uint32_t i = 0; i < resolution * resolution; i++)
         farthest = fmaxf(farthest, depths[i]);
-    }
     float tolerance = splat->bias_constant + splat->bias_slope * BOX_STEEPEST;
     splat->far_depth = fminf(splat->far_depth, farthest + tolerance);
-    if (splat->two_sided)
-        splat->near_depth = fmaxf(splat->near_depth, nearest - tolerance);
 }

@@ -10,25 +10,33 @@ struct inside {
     ps_vec3 points[PS_TILE_PIXELS]; /* off their surfaces */
 };
 
-static ps_vec3 normal_of(const ps_tile *tile, uint32_t lane)
+static ps_vec3 normal_of(const struct field_tile *tile, uint32_t lane)
 {
     return (ps_vec3){tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
 }
 
-static ps_vec3 position_of(const ps_tile *tile, uint32_t lane)
+static ps_vec3 position_of(const struct field_tile *tile, uint32_t lane)
 {
     return (ps_vec3){tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
 }
 
 static float weight_at(const struct kernel_splat *splat, const struct kernel_profile *profile,
-                       float r2)
+                       float u, float v)
 {
-    size_t entry = (size_t)(fminf(r2, 0.99999f) * (float)KERNEL_PROFILE_SIZE);
-    return profile->weights[entry] * splat->kernel_scale;
+    size_t entry = (size_t)(fminf(u * u + v * v, 0.99999f) * (float)KERNEL_PROFILE_SIZE);
+    float weight = profile->weights[entry] * splat->kernel_scale;
+    for (uint32_t k = 0; k < splat->wall_count; k++) {
+        const ps_wall *wall = &splat->walls[k];
+        float distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
+        float within = fminf(fmaxf(distance, 0.0f), 1.0f);
+        weight *= profile->boundary[(size_t)(within * (float)(KERNEL_BOUNDARY_SIZE - 1))];
+    }
+    return weight;
 }
 
-static void collect(const ps_tile *tile, const struct kernel_splat *splat, float surface_offset,
-                    const struct kernel_profile *profile, struct inside *inside)
+static void collect(const struct field_tile *tile, const struct kernel_splat *splat,
+                    float surface_offset, const struct kernel_profile *profile,
+                    struct inside *inside)
 {
     inside->count = 0;
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
@@ -44,13 +52,13 @@ static void collect(const ps_tile *tile, const struct kernel_splat *splat, float
             continue;
         size_t i = inside->count++;
         inside->lanes[i] = lane;
-        inside->weight[i] = weight_at(splat, profile, r2);
+        inside->weight[i] = weight_at(splat, profile, u, v);
         inside->cosine[i] = cosine;
         inside->points[i] = ps_add_scaled(position, surface_offset, normal);
     }
 }
 
-static void add(ps_tile *tile, uint32_t lane, ps_rgb power, float weight, float cosine)
+static void add(struct field_tile *tile, uint32_t lane, ps_rgb power, float weight, float cosine)
 {
     float projected = weight * cosine;
     tile->irradiance_r[lane] += projected * power.r;
@@ -59,12 +67,12 @@ static void add(ps_tile *tile, uint32_t lane, ps_rgb power, float weight, float 
     tile->weight[lane] += weight;
 }
 
-struct exact_count exact_accumulate(ps_tile *tile, const struct exact_test *test,
-                                    const ps_splat *splats, const struct kernel_splat *prepared,
-                                    const uint32_t *indices, size_t n,
-                                    const struct kernel_profile *profile)
+struct kernel_count exact_accumulate(struct field_tile *tile, const struct exact_test *test,
+                                     const ps_splat *splats, const struct kernel_splat *prepared,
+                                     const uint32_t *indices, size_t n,
+                                     const struct kernel_profile *profile)
 {
-    struct exact_count count = {0, 0};
+    struct kernel_count count = {0, 0};
     struct inside inside;
     uint8_t lit[PS_TILE_PIXELS];
     for (size_t i = 0; i < n; i++) {
@@ -74,7 +82,7 @@ struct exact_count exact_accumulate(ps_tile *tile, const struct exact_test *test
             continue;
         test->vtable->visible(test->state, test->host, &splats[indices[i]], inside.points,
                               inside.count, lit);
-        count.asked += inside.count;
+        count.tests += inside.count;
         for (size_t k = 0; k < inside.count; k++)
             if (lit[k]) {
                 add(tile, inside.lanes[k], splat->power, inside.weight[k], inside.cosine[k]);

@@ -17,16 +17,12 @@ struct exact_test {
     float surface_offset; /* see ps_pass */
 };
 
-struct exact_count {
-    uint64_t asked; /* points inside of a splat's box that face the light */
-    uint64_t lit;
-};
-
 /* Adds n splats, in order, to the tile. `splats` and `prepared` are the same splats, chosen by
- * `indices`. Any thread that owns the tile. */
-struct exact_count exact_accumulate(ps_tile *tile, const struct exact_test *test,
-                                    const ps_splat *splats, const struct kernel_splat *prepared,
-                                    const uint32_t *indices, size_t n,
-                                    const struct kernel_profile *profile);
+ * `indices`. Tests are of points inside of a splat's box that face the light. Any thread that owns
+ * the tile. */
+struct kernel_count exact_accumulate(struct field_tile *tile, const struct exact_test *test,
+                                     const ps_splat *splats, const struct kernel_splat *prepared,
+                                     const uint32_t *indices, size_t n,
+                                     const struct kernel_profile *profile);
 
 #endif

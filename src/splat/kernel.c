@@ -4,13 +4,18 @@
 #include <psplat/math.h>
 #include <string.h>
 
-uint64_t kernel_baseline(ps_tile *tile, const struct kernel_splat *splats, const uint32_t *indices,
-                         size_t n, uint32_t resolution, const struct kernel_profile *profile);
+#define KERNEL_DECLARE(name)                                                                       \
+    struct kernel_count kernel_accumulate_##name(                                                  \
+        struct field_tile *tile, const struct kernel_splat *splats, const uint32_t *indices,       \
+        size_t n, uint32_t resolution, const struct kernel_profile *profile);                      \
+    uint32_t kernel_touch_##name(const struct bounds *bounds, const struct kernel_splat *splat);   \
+    static const struct kernel_variant name = {#name, kernel_accumulate_##name,                    \
+                                               kernel_touch_##name};
+
+KERNEL_DECLARE(baseline)
 #if defined(PSPLAT_KERNEL_X86)
-uint64_t kernel_avx2(ps_tile *tile, const struct kernel_splat *splats, const uint32_t *indices,
-                     size_t n, uint32_t resolution, const struct kernel_profile *profile);
-uint64_t kernel_avx512(ps_tile *tile, const struct kernel_splat *splats, const uint32_t *indices,
-                       size_t n, uint32_t resolution, const struct kernel_profile *profile);
+KERNEL_DECLARE(avx2)
+KERNEL_DECLARE(avx512)
 #endif
 
 size_t kernel_variants(struct kernel_variant variants[4])
@@ -20,11 +25,11 @@ size_t kernel_variants(struct kernel_variant variants[4])
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
-        variants[count++] = (struct kernel_variant){"avx512", kernel_avx512};
+        variants[count++] = avx512;
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        variants[count++] = (struct kernel_variant){"avx2", kernel_avx2};
+        variants[count++] = avx2;
 #endif
-    variants[count++] = (struct kernel_variant){"baseline", kernel_baseline};
+    variants[count++] = baseline;
     return count;
 }
 
@@ -45,6 +50,19 @@ float kernel_profile_radius2(size_t i)
     return ((float)i + 0.5f) / (float)KERNEL_PROFILE_SIZE;
 }
 
+/* The part of the kernel on the near side of a straight border at `distance` from its middle: of the
+ * ring of radius r, 1 - acos(distance / r) / pi. */
+static double part_before(const struct kernel_profile *profile, double sum, double distance)
+{
+    double part = 0;
+    for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++) {
+        double radius = sqrt((double)kernel_profile_radius2(i));
+        double share = radius > distance ? 1 - acos(distance / radius) / 3.14159265358979323846 : 1;
+        part += share * (double)profile->weights[i];
+    }
+    return part / sum;
+}
+
 int kernel_profile_normalize(struct kernel_profile *profile)
 {
     /* The integral over the unit disc is pi times the mean over r^2 in [0, 1). */
@@ -56,7 +74,12 @@ int kernel_profile_normalize(struct kernel_profile *profile)
         sum += profile->weights[i];
     }
     profile->scale = sum > 0 ? (float)(KERNEL_PROFILE_SIZE / (3.14159265358979323846 * sum)) : 0;
-    return sum > 0;
+    if (!(sum > 0))
+        return 0;
+    for (size_t i = 0; i < KERNEL_BOUNDARY_SIZE; i++)
+        profile->boundary[i] =
+            (float)(1 / part_before(profile, sum, (double)i / (KERNEL_BOUNDARY_SIZE - 1)));
+    return 1;
 }
 
 void kernel_profile_count(struct kernel_profile *profile)
@@ -84,9 +107,10 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
         .start_v = splat->start_slope_v * splat->half_width,
         .bias_constant = splat->bias_constant,
         .bias_slope = splat->bias_slope,
-        .front = splat->two_sided ? 0.0f : INFINITY,
         .kernel_scale = profile->counting ? 1.0f : merged * profile->scale * inverse * inverse,
         .power = ps_rgb_scale(splat->power, 1.0f / merged),
         .depths = depths,
+        .wall_count = profile->counting ? 0 : splat->wall_count,
+        .walls = {splat->walls[0], splat->walls[1]},
     };
 }

@@ -1,4 +1,4 @@
-/* kernel.h: the inner loop: splats against the 256 pixels of a tile.
+/* kernel.h: the inner loop: splats against the pixels of a tile.
  *
  * For every splat and every pixel p of the tile, with d = p - centre:
  *
@@ -11,24 +11,32 @@
  * A splat that stands for several sources weighs as much as they would (Hoet 2014, section 3.2.1); the
  * loop has that as a larger k of a lesser power.
  *
- * The cosine is there because K lies in the plane across the beam. No branches: masks, one gather
- * from the depth map and one from the profile, so that compilers turn the loop into 8 or 16 lanes.
- * It is compiled once for each instruction set (kernel_variant.c) and chosen at run time; a pixel's
- * sum runs in splat order.
+ * Where the source has walls beside it (wall.h), k is divided by the part of the kernel on this side
+ * of each.
+ *
+ * The cosine is there because K lies in the plane across the beam. Blocks of 16 pixels whose bounds
+ * the box does not touch are left out. No branches within a block: masks, one gather from the depth
+ * map and one from the profile, so that compilers turn the loop into 8 or 16 lanes. It is compiled
+ * once for each instruction set (kernel_variant.c) and chosen at run time; a pixel's sum runs in
+ * splat order.
  */
 #ifndef SPLAT_KERNEL_H
 #define SPLAT_KERNEL_H
 
+#include "splat/field.h"
 #include <psplat/types.h>
 #include <stdbool.h>
 
 #define KERNEL_PROFILE_SIZE 1024
+#define KERNEL_BOUNDARY_SIZE 257
 
 /* A filter, tabulated over squared radius. */
 struct kernel_profile {
-    float weights[KERNEL_PROFILE_SIZE]; /* entry i stands for [i, i + 1) / KERNEL_PROFILE_SIZE */
-    float scale;                        /* 1 / integral of the weights over the unit disc */
-    bool counting;                      /* K is 1 all over the disc, whatever its size */
+    float weights[KERNEL_PROFILE_SIZE];   /* entry i stands for [i, i + 1) / KERNEL_PROFILE_SIZE */
+    float scale;                          /* 1 / integral of the weights over the unit disc */
+    bool counting;                        /* K is 1 all over the disc, whatever its size */
+    float boundary[KERNEL_BOUNDARY_SIZE]; /* 1 / the part of K on this side of a straight border at
+                                             distance i / (KERNEL_BOUNDARY_SIZE - 1) */
 };
 
 /* A splat with all that can be worked out once for all pixels. */
@@ -40,20 +48,28 @@ struct kernel_splat {
     float start_depth, start_u,
         start_v; /* depth of the start plane: start_depth + start_u * u + start_v * v */
     float bias_constant, bias_slope;
-    float front; /* added to the bias in front of the map: 0 for two-sided maps, or infinite */
-    float kernel_scale; /* with `merged` in it, by which the power is divided */
+    float kernel_scale; /* with `merged` in it, by which the power is divided; 0: the splat lights
+                           nothing, and has no other member set */
     ps_rgb power;
+    uint32_t subset;     /* of the field, whose pixels it lights */
     const float *depths; /* resolution^2 */
+    uint32_t wall_count;
+    ps_wall walls[PS_MOST_WALLS];
 };
 
-/* Adds n splats, in order, to the tile; returns how many pixel-splat pairs had weight. */
-typedef uint64_t (*kernel_function)(ps_tile *tile, const struct kernel_splat *splats,
-                                    const uint32_t *indices, size_t n, uint32_t resolution,
-                                    const struct kernel_profile *profile);
+struct kernel_count {
+    uint64_t tests; /* of pixels against splats */
+    uint64_t lit;   /* those with weight */
+};
 
 struct kernel_variant {
     const char *name; /* instruction set */
-    kernel_function accumulate;
+    /* Adds n splats, in order, to the tile. */
+    struct kernel_count (*accumulate)(struct field_tile *tile, const struct kernel_splat *splats,
+                                      const uint32_t *indices, size_t n, uint32_t resolution,
+                                      const struct kernel_profile *profile);
+    /* Which of sixteen boxes the splat's box may touch, as bits. */
+    uint32_t (*touch)(const struct bounds *bounds, const struct kernel_splat *splat);
 };
 
 /* The variants that this processor can run, best first; the last is the baseline. */
@@ -74,7 +90,7 @@ void kernel_profile_count(struct kernel_profile *profile);
 /* Squared radius of entry i. */
 float kernel_profile_radius2(size_t i);
 
-/* What the inner loop needs of a splat; `depths` must outlive it. */
+/* What the inner loop needs of a splat of half-width > 0; `depths` must outlive it. */
 struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_profile *profile,
                                    const float *depths);
 

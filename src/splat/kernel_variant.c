@@ -1,17 +1,28 @@
-/* kernel_variant.c: the loop of kernel.h, compiled once for each instruction set with
- * KERNEL_FUNCTION naming the result. Conditions are masks (0 or 1 joined by &), and indices are
- * clamped, so that every lane may run every step. Results go to small arrays of their own, so that
- * no store can alias a gather and any compiler sees it. A row of 16 pixels is the unit: most rows
- * lie outside of a splat, and are left early. */
+/* kernel_variant.c: the loops of kernel.h, compiled once for each instruction set with
+ * KERNEL_VARIANT naming it. Conditions are masks (0 or 1 joined by &), and indices are clamped, so
+ * that every lane may run every step. Results go to small arrays of their own, so that no store can
+ * alias a gather and any compiler sees it.
+ *
+ * Splats are taken a few at a time: first each is tried on the sixteen blocks' bounds, which gives
+ * every block a list; then block after block runs through its list, so that its pixels stay at hand.
+ */
 #include "splat/box.h"
 #include "splat/kernel.h"
 
 #include <math.h>
 
-uint64_t KERNEL_FUNCTION(ps_tile *tile, const struct kernel_splat *splats, const uint32_t *indices,
-                         size_t n, uint32_t resolution, const struct kernel_profile *profile);
+#define JOIN_NAMES(a, b) a##b
+#define NAME_OF(function, variant) JOIN_NAMES(function, variant)
+#define KERNEL_ACCUMULATE NAME_OF(kernel_accumulate_, KERNEL_VARIANT)
+#define KERNEL_TOUCH NAME_OF(kernel_touch_, KERNEL_VARIANT)
 
-#define ROW PS_TILE_SIZE
+struct kernel_count KERNEL_ACCUMULATE(struct field_tile *tile, const struct kernel_splat *splats,
+                                      const uint32_t *indices, size_t n, uint32_t resolution,
+                                      const struct kernel_profile *profile);
+uint32_t KERNEL_TOUCH(const struct bounds *bounds, const struct kernel_splat *splat);
+
+#define LANES FIELD_BLOCK
+#define AT_A_TIME 64 /* splats */
 
 /* Comparisons become vector minima and maxima; fminf's promise about NaN would cost a call. */
 static inline float least(float a, float b)
@@ -19,25 +30,93 @@ static inline float least(float a, float b)
     return a < b ? a : b;
 }
 
-static inline float clamp(float x, float low, float high)
+static inline float most(float a, float b)
 {
-    float raised = x < low ? low : x;
-    return least(raised, high);
+    return a > b ? a : b;
 }
 
-/* Where the pixels of one row of a tile lie in a splat's box. */
-struct row {
-    float u[ROW], v[ROW], t[ROW], r2[ROW], cosine[ROW];
-    int inside[ROW];
+static inline float clamp(float x, float low, float high)
+{
+    return least(most(x, low), high);
+}
+
+static inline float magnitude(float x)
+{
+    return x < 0.0f ? -x : x;
+}
+
+static inline int lowest_bit(uint32_t mask)
+{
+#if defined(__GNUC__)
+    return __builtin_ctz(mask);
+#else
+    int bit = 0;
+    while (!(mask >> bit & 1u))
+        bit++;
+    return bit;
+#endif
+}
+
+uint32_t KERNEL_TOUCH(const struct bounds *bounds, const struct kernel_splat *splat)
+{
+    const ps_vec3 u = splat->u, v = splat->v, w = splat->w;
+    uint32_t mask = 0;
+    for (int i = 0; i < BOUNDS_WIDTH; i++) {
+        float x = bounds->center_x[i] - splat->centre.x;
+        float y = bounds->center_y[i] - splat->centre.y;
+        float z = bounds->center_z[i] - splat->centre.z;
+        float ex = bounds->extent_x[i], ey = bounds->extent_y[i], ez = bounds->extent_z[i];
+        float along_u = magnitude(x * u.x + y * u.y + z * u.z) -
+                        (ex * magnitude(u.x) + ey * magnitude(u.y) + ez * magnitude(u.z));
+        float along_v = magnitude(x * v.x + y * v.y + z * v.z) -
+                        (ex * magnitude(v.x) + ey * magnitude(v.y) + ez * magnitude(v.z));
+        float depth = x * w.x + y * w.y + z * w.z;
+        float reach = ex * magnitude(w.x) + ey * magnitude(w.y) + ez * magnitude(w.z);
+        float off_u = most(along_u, 0.0f), off_v = most(along_v, 0.0f);
+        /* The lowest that n.W may be. */
+        float facing = least(bounds->normal_low_x[i] * w.x, bounds->normal_high_x[i] * w.x) +
+                       least(bounds->normal_low_y[i] * w.y, bounds->normal_high_y[i] * w.y) +
+                       least(bounds->normal_low_z[i] * w.z, bounds->normal_high_z[i] * w.z);
+        uint32_t touches = (off_u * off_u + off_v * off_v < 1.0f) & (facing < 0.0f) &
+                           (depth - reach <= splat->far_depth) &
+                           (depth + reach >= splat->near_depth);
+        mask |= touches << i;
+    }
+    return mask;
+}
+
+/* The splats, of AT_A_TIME, that may light each block. */
+struct block_lists {
+    uint32_t count[BOUNDS_WIDTH];
+    uint32_t splats[BOUNDS_WIDTH][AT_A_TIME];
 };
 
-/* Fills the row; 0 if no pixel of it is inside of the box and faces the light, which most rows are
- * not. */
-static inline int locate(const ps_tile *tile, int first, const struct kernel_splat *splat,
-                         struct row *row)
+static inline void list_by_block(const struct bounds *blocks, const struct kernel_splat *splats,
+                                 const uint32_t *indices, size_t n, struct block_lists *lists)
 {
-    int any = 0;
-    for (int i = 0; i < ROW; i++) {
+    for (int block = 0; block < BOUNDS_WIDTH; block++)
+        lists->count[block] = 0;
+    for (size_t i = 0; i < n; i++)
+        for (uint32_t mask = KERNEL_TOUCH(blocks, &splats[indices[i]]); mask; mask &= mask - 1) {
+            int block = lowest_bit(mask);
+            lists->splats[block][lists->count[block]++] = indices[i];
+        }
+}
+
+/* What a block's pixels get from one splat. */
+struct block_light {
+    float weight[LANES], projected[LANES]; /* K * V, and that times the cosine */
+};
+
+/* Returns how many pixels have weight. */
+static inline int weigh(const struct field_tile *tile, int first, const struct kernel_splat *splat,
+                        int resolution, const float *profile, struct block_light *light)
+{
+    const float half_resolution = 0.5f * (float)resolution;
+    const float last_texel = (float)resolution - 0.5f;
+    const float *depths = splat->depths;
+    int useful = 0;
+    for (int i = 0; i < LANES; i++) {
         float x = tile->position_x[first + i] - splat->centre.x;
         float y = tile->position_y[first + i] - splat->centre.y;
         float z = tile->position_z[first + i] - splat->centre.z;
@@ -45,74 +124,80 @@ static inline int locate(const ps_tile *tile, int first, const struct kernel_spl
         float v = x * splat->v.x + y * splat->v.y + z * splat->v.z;
         float t = x * splat->w.x + y * splat->w.y + z * splat->w.z;
         float r2 = u * u + v * v;
-        float cosine =
+        float facing =
             -(tile->normal_x[first + i] * splat->w.x + tile->normal_y[first + i] * splat->w.y +
               tile->normal_z[first + i] * splat->w.z);
         float start = splat->start_depth + u * splat->start_u + v * splat->start_v;
-        int inside = (r2 < 1.0f) & (cosine > 0.0f) & (t >= splat->near_depth) &
-                     (t <= splat->far_depth) & (t >= start);
-        row->u[i] = u;
-        row->v[i] = v;
-        row->t[i] = t;
-        row->r2[i] = r2;
-        row->cosine[i] = cosine;
-        row->inside[i] = inside;
-        any |= inside;
-    }
-    return any;
-}
-
-/* K * V of the row's pixels; returns how many have weight. */
-static inline int weigh(const struct row *row, const struct kernel_splat *splat, int resolution,
-                        const float *profile, float weight[ROW])
-{
-    const float half_resolution = 0.5f * (float)resolution;
-    const float last_texel = (float)resolution - 0.5f;
-    const float *depths = splat->depths;
-    int useful = 0;
-    for (int i = 0; i < ROW; i++) {
-        float cosine = clamp(row->cosine[i], 1e-3f, 1.0f);
+        float cosine = clamp(facing, 1e-3f, 1.0f);
         float slope = sqrtf(1.0f - cosine * cosine) / cosine;
         float bias = splat->bias_constant + splat->bias_slope * least(slope, BOX_STEEPEST);
-        int column = (int)clamp((row->u[i] + 1.0f) * half_resolution, 0.0f, last_texel);
-        int line = (int)clamp((row->v[i] + 1.0f) * half_resolution, 0.0f, last_texel);
-        float past = row->t[i] - depths[line * resolution + column];
-        int entry = (int)(clamp(row->r2[i], 0.0f, 0.99999f) * (float)KERNEL_PROFILE_SIZE);
-        int lit = row->inside[i] & (past <= bias) & (-past <= bias + splat->front);
+        int column = (int)clamp((u + 1.0f) * half_resolution, 0.0f, last_texel);
+        int line = (int)clamp((v + 1.0f) * half_resolution, 0.0f, last_texel);
+        float past = t - depths[line * resolution + column];
+        int entry = (int)(clamp(r2, 0.0f, 0.99999f) * (float)KERNEL_PROFILE_SIZE);
+        int lit = (r2 < 1.0f) & (facing > 0.0f) & (t >= splat->near_depth) &
+                  (t <= splat->far_depth) & (t >= start) & (past <= bias);
         /* A product, not a choice: compilers would make the load conditional and the loop scalar.
          */
-        weight[i] = (float)lit * profile[entry] * splat->kernel_scale;
+        float weight = (float)lit * profile[entry] * splat->kernel_scale;
+        light->weight[i] = weight;
+        light->projected[i] = weight * facing;
         useful += lit;
     }
     return useful;
 }
 
-static inline void add(ps_tile *tile, int first, ps_rgb power, const struct row *row,
-                       const float weight[ROW])
+/* Divides by the part of the kernel that lies before a wall beside the source. */
+static inline void make_up(const struct field_tile *tile, int first,
+                           const struct kernel_splat *splat, const ps_wall *wall,
+                           const float *boundary, struct block_light *light)
 {
-    for (int i = 0; i < ROW; i++) {
-        float projected = weight[i] * row->cosine[i];
-        tile->irradiance_r[first + i] += projected * power.r;
-        tile->irradiance_g[first + i] += projected * power.g;
-        tile->irradiance_b[first + i] += projected * power.b;
-        tile->weight[first + i] += weight[i];
+    for (int i = 0; i < LANES; i++) {
+        float x = tile->position_x[first + i] - splat->centre.x;
+        float y = tile->position_y[first + i] - splat->centre.y;
+        float z = tile->position_z[first + i] - splat->centre.z;
+        float u = x * splat->u.x + y * splat->u.y + z * splat->u.z;
+        float v = x * splat->v.x + y * splat->v.y + z * splat->v.z;
+        float distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
+        float share =
+            boundary[(int)(clamp(distance, 0.0f, 1.0f) * (float)(KERNEL_BOUNDARY_SIZE - 1))];
+        light->weight[i] *= share;
+        light->projected[i] *= share;
     }
 }
 
-uint64_t KERNEL_FUNCTION(ps_tile *tile, const struct kernel_splat *splats, const uint32_t *indices,
-                         size_t n, uint32_t resolution, const struct kernel_profile *profile)
+static inline void add(struct field_tile *tile, int first, ps_rgb power,
+                       const struct block_light *light)
 {
-    uint64_t useful = 0;
-    for (size_t i = 0; i < n; i++) {
-        const struct kernel_splat *splat = &splats[indices[i]];
-        for (int first = 0; first < PS_TILE_PIXELS; first += ROW) {
-            _Alignas(64) struct row row;
-            _Alignas(64) float weight[ROW];
-            if (!locate(tile, first, splat, &row))
-                continue;
-            useful += (uint64_t)weigh(&row, splat, (int)resolution, profile->weights, weight);
-            add(tile, first, splat->power, &row, weight);
+    for (int i = 0; i < LANES; i++) {
+        tile->irradiance_r[first + i] += light->projected[i] * power.r;
+        tile->irradiance_g[first + i] += light->projected[i] * power.g;
+        tile->irradiance_b[first + i] += light->projected[i] * power.b;
+        tile->weight[first + i] += light->weight[i];
+    }
+}
+
+struct kernel_count KERNEL_ACCUMULATE(struct field_tile *tile, const struct kernel_splat *splats,
+                                      const uint32_t *indices, size_t n, uint32_t resolution,
+                                      const struct kernel_profile *profile) {
+    struct kernel_count count = {0, 0};
+    struct block_lists lists;
+    for (size_t first = 0; first < n; first += AT_A_TIME) {
+        size_t some = n - first < AT_A_TIME ? n - first : AT_A_TIME;
+        list_by_block(&tile->blocks, splats, indices + first, some, &lists);
+        for (int block = 0; block < BOUNDS_WIDTH; block++) {
+            count.tests += (uint64_t)lists.count[block] * LANES;
+            for (uint32_t i = 0; i < lists.count[block]; i++) {
+                const struct kernel_splat *splat = &splats[lists.splats[block][i]];
+                _Alignas(64) struct block_light light;
+                count.lit += (uint64_t)weigh(tile, block * LANES, splat, (int)resolution,
+                                             profile->weights, &light);
+                for (uint32_t k = 0; k < splat->wall_count; k++)
+                    make_up(tile, block * LANES, splat, &splat->walls[k], profile->boundary,
+                            &light);
+                add(tile, block * LANES, splat->power, &light);
+            }
         }
     }
-    return useful;
+    return count;
 }

@@ -1,34 +1,25 @@
-/* pyramid.c: bounds of the tiles and of groups of 4x4 of them (see bin.h). */
-#include "splat/bin.h"
+#include "splat/pyramid.h"
 
 #include "base/parallel.h"
-#include <psplat/math.h>
 #include <stdlib.h>
 
-static const struct pyramid_node nothing = {
-    .extent = {-1, -1, -1},
-};
-
-ps_result pyramid_create(const struct gbuffer *gbuffer, struct pyramid *pyramid,
-                         struct error *error)
+ps_result pyramid_create(const struct field *field, struct pyramid *pyramid, struct error *error)
 {
-    *pyramid = (struct pyramid){.levels = 0};
-    uint32_t across = gbuffer->tiles_across, down = gbuffer->tiles_down;
-    size_t count = 0;
-    for (;;) {
-        int level = pyramid->levels++;
-        pyramid->first[level] = count;
-        pyramid->across[level] = across;
-        pyramid->down[level] = down;
-        count += (size_t)across * down;
-        if ((across == 1 && down == 1) || pyramid->levels == PYRAMID_LEVELS)
-            break;
+    *pyramid =
+        (struct pyramid){.tiles_across = field->tiles_across, .tiles_down = field->tiles_down};
+    uint32_t across = field->tiles_across, down = field->tiles_down;
+    do {
         across = (across + PYRAMID_GROUP - 1) / PYRAMID_GROUP;
         down = (down + PYRAMID_GROUP - 1) / PYRAMID_GROUP;
-    }
-    pyramid->nodes = malloc(count * sizeof *pyramid->nodes);
-    return pyramid->nodes ? PS_OK
-                          : error_memory(error, count * sizeof *pyramid->nodes, "tile bounds");
+        int level = pyramid->levels++;
+        pyramid->first[level] = pyramid->each;
+        pyramid->across[level] = across;
+        pyramid->down[level] = down;
+        pyramid->each += (size_t)across * down;
+    } while (pyramid->levels < PYRAMID_LEVELS && (across > 1 || down > 1));
+    size_t bytes = pyramid->each * field->subsets * sizeof *pyramid->nodes;
+    pyramid->nodes = aligned_alloc(64, bytes);
+    return pyramid->nodes ? PS_OK : error_memory(error, bytes, "tile bounds");
 }
 
 void pyramid_release(struct pyramid *pyramid)
@@ -37,89 +28,117 @@ void pyramid_release(struct pyramid *pyramid)
     *pyramid = (struct pyramid){.levels = 0};
 }
 
-static ps_vec3 minimum(ps_vec3 a, ps_vec3 b)
-{
-    return (ps_vec3){fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)};
-}
-
-static ps_vec3 maximum(ps_vec3 a, ps_vec3 b)
-{
-    return (ps_vec3){fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z)};
-}
-
-struct bounds {
-    ps_vec3 low, high, normal_low, normal_high;
-};
-
-static const struct bounds empty_bounds = {
-    {INFINITY, INFINITY, INFINITY},
-    {-INFINITY, -INFINITY, -INFINITY},
-    {INFINITY, INFINITY, INFINITY},
-    {-INFINITY, -INFINITY, -INFINITY},
-};
-
-static struct pyramid_node node_of(const struct bounds *bounds)
-{
-    if (!(bounds->low.x <= bounds->high.x))
-        return nothing;
-    return (struct pyramid_node){
-        .center = ps_scale(ps_add(bounds->low, bounds->high), 0.5f),
-        .extent = ps_scale(ps_subtract(bounds->high, bounds->low), 0.5f),
-        .normal_low = bounds->normal_low,
-        .normal_high = bounds->normal_high,
-    };
-}
-
 struct build {
     struct pyramid *pyramid;
-    const struct gbuffer *gbuffer;
+    const struct field *field;
 };
 
-static void bound_tile(void *user, uint64_t index, uint32_t worker)
+static void grow(const struct bounds *bounds, uint32_t i, struct bound *bound)
+{
+    if (!(bounds->center_x[i] < BOUNDS_NOWHERE))
+        return;
+    struct bound other = {
+        {bounds->center_x[i] - bounds->extent_x[i], bounds->center_y[i] - bounds->extent_y[i],
+         bounds->center_z[i] - bounds->extent_z[i]},
+        {bounds->center_x[i] + bounds->extent_x[i], bounds->center_y[i] + bounds->extent_y[i],
+         bounds->center_z[i] + bounds->extent_z[i]},
+        {bounds->normal_low_x[i], bounds->normal_low_y[i], bounds->normal_low_z[i]},
+        {bounds->normal_high_x[i], bounds->normal_high_y[i], bounds->normal_high_z[i]},
+    };
+    bound_add(bound, &other);
+}
+
+static struct bound bound_all(const struct bounds *bounds)
+{
+    struct bound bound = bound_empty();
+    for (uint32_t i = 0; i < BOUNDS_WIDTH; i++)
+        grow(bounds, i, &bound);
+    return bound;
+}
+
+/* What lies below a node: the blocks of a tile, or a node of the next level. */
+static const struct bounds *children_of(const struct build *build, uint32_t subset, int level,
+                                        uint32_t column, uint32_t row)
+{
+    const struct pyramid *pyramid = build->pyramid;
+    uint32_t across = level == 0 ? pyramid->tiles_across : pyramid->across[level - 1];
+    uint32_t down = level == 0 ? pyramid->tiles_down : pyramid->down[level - 1];
+    if (column >= across || row >= down)
+        return NULL;
+    size_t place = (size_t)row * across + column;
+    if (level == 0)
+        return &build->field->tiles[(size_t)subset * across * down + place].blocks;
+    return &pyramid->nodes[subset * pyramid->each + pyramid->first[level - 1] + place];
+}
+
+static void build_node(const struct build *build, uint32_t subset, int level, uint32_t column,
+                       uint32_t row)
+{
+    struct pyramid *pyramid = build->pyramid;
+    struct bounds *node = &pyramid->nodes[subset * pyramid->each + pyramid->first[level] +
+                                          (size_t)row * pyramid->across[level] + column];
+    for (uint32_t i = 0; i < BOUNDS_WIDTH; i++) {
+        const struct bounds *children =
+            children_of(build, subset, level, column * PYRAMID_GROUP + i % PYRAMID_GROUP,
+                        row * PYRAMID_GROUP + i / PYRAMID_GROUP);
+        struct bound bound = children ? bound_all(children) : bound_empty();
+        bounds_set(node, i, &bound);
+    }
+}
+
+static void build_subset(void *user, uint64_t subset, uint32_t worker)
 {
     (void)worker;
     const struct build *build = user;
-    const ps_tile *tile = &build->gbuffer->tiles[index];
-    struct bounds bounds = empty_bounds;
-    for (int i = 0; i < PS_TILE_PIXELS; i++) {
-        if (tile->object[i] == PS_NO_OBJECT)
-            continue;
-        ps_vec3 p = {tile->position_x[i], tile->position_y[i], tile->position_z[i]};
-        ps_vec3 n = {tile->normal_x[i], tile->normal_y[i], tile->normal_z[i]};
-        bounds.low = minimum(bounds.low, p);
-        bounds.high = maximum(bounds.high, p);
-        bounds.normal_low = minimum(bounds.normal_low, n);
-        bounds.normal_high = maximum(bounds.normal_high, n);
-    }
-    build->pyramid->nodes[index] = node_of(&bounds);
-}
-
-static void bound_group(struct pyramid *pyramid, int level, uint32_t column, uint32_t row)
-{
-    const struct pyramid_node *children = pyramid->nodes + pyramid->first[level - 1];
-    struct bounds bounds = empty_bounds;
-    for (uint32_t y = row * PYRAMID_GROUP;
-         y < (row + 1) * PYRAMID_GROUP && y < pyramid->down[level - 1]; y++)
-        for (uint32_t x = column * PYRAMID_GROUP;
-             x < (column + 1) * PYRAMID_GROUP && x < pyramid->across[level - 1]; x++) {
-            const struct pyramid_node *child = &children[y * pyramid->across[level - 1] + x];
-            if (child->extent.x < 0)
-                continue;
-            bounds.low = minimum(bounds.low, ps_subtract(child->center, child->extent));
-            bounds.high = maximum(bounds.high, ps_add(child->center, child->extent));
-            bounds.normal_low = minimum(bounds.normal_low, child->normal_low);
-            bounds.normal_high = maximum(bounds.normal_high, child->normal_high);
-        }
-    uint32_t index = row * pyramid->across[level] + column;
-    pyramid->nodes[pyramid->first[level] + index] = node_of(&bounds);
-}
-
-void pyramid_build(struct pyramid *pyramid, const struct gbuffer *gbuffer, uint32_t threads)
-{
-    struct build build = {pyramid, gbuffer};
-    parallel_for(threads, gbuffer->tile_count, bound_tile, &build);
-    for (int level = 1; level < pyramid->levels; level++)
+    const struct pyramid *pyramid = build->pyramid;
+    for (int level = 0; level < pyramid->levels; level++)
         for (uint32_t row = 0; row < pyramid->down[level]; row++)
             for (uint32_t column = 0; column < pyramid->across[level]; column++)
-                bound_group(pyramid, level, column, row);
+                build_node(build, (uint32_t)subset, level, column, row);
+}
+
+void pyramid_build(struct pyramid *pyramid, const struct field *field, uint32_t threads)
+{
+    struct build build = {pyramid, field};
+    parallel_for(threads, field->subsets, build_subset, &build);
+}
+
+struct walk {
+    const struct pyramid *pyramid;
+    const struct kernel_variant *kernel;
+    const struct kernel_splat *splat;
+    pyramid_visitor visitor;
+    void *user;
+};
+
+static bool walk_node(const struct walk *walk, int level, uint32_t column, uint32_t row)
+{
+    const struct pyramid *pyramid = walk->pyramid;
+    uint32_t subset = walk->splat->subset;
+    const struct bounds *node = &pyramid->nodes[subset * pyramid->each + pyramid->first[level] +
+                                                (size_t)row * pyramid->across[level] + column];
+    uint32_t mask = walk->kernel->touch(node, walk->splat);
+    for (uint32_t i = 0; mask >> i; i++) {
+        if (!(mask >> i & 1u))
+            continue;
+        uint32_t x = column * PYRAMID_GROUP + i % PYRAMID_GROUP;
+        uint32_t y = row * PYRAMID_GROUP + i / PYRAMID_GROUP;
+        uint32_t tile = (subset * pyramid->tiles_down + y) * pyramid->tiles_across + x;
+        bool on = level == 0 ? walk->visitor(walk->user, tile) : walk_node(walk, level - 1, x, y);
+        if (!on)
+            return false;
+    }
+    return true;
+}
+
+bool pyramid_visit(const struct pyramid *pyramid, const struct kernel_variant *kernel,
+                   const struct kernel_splat *splat, pyramid_visitor visitor, void *user)
+{
+    struct walk walk = {pyramid, kernel, splat, visitor, user};
+    int top = pyramid->levels - 1;
+    for (uint32_t row = 0; row < pyramid->down[top]; row++)
+        for (uint32_t column = 0; column < pyramid->across[top]; column++)
+            if (!walk_node(&walk, top, column, row))
+                return false;
+    return true;
 }

@@ -19,39 +19,35 @@ static size_t map_texels(const struct splatter *splatter)
     return (size_t)splatter->resolution * splatter->resolution;
 }
 
-static size_t batch_size(const struct splatter *splatter, size_t wanted)
+static size_t batch_size(const struct splatter *splatter)
 {
-    size_t texels = map_texels(splatter);
+    size_t texels = map_texels(splatter), wanted = splatter->settings.batch;
     size_t fits = texels ? MAP_BUDGET / (texels * sizeof(float)) : wanted;
     return wanted < fits ? wanted : fits;
 }
 
-ps_result splatter_create(struct splatter *splatter, struct gbuffer *gbuffer, const ps_host *host,
-                          struct splatter_visibility visibility,
-                          const struct kernel_profile *profile, kernel_function accumulate,
-                          uint32_t threads, size_t batch, struct error *error)
+ps_result splatter_create(struct splatter *splatter, const struct gbuffer *gbuffer,
+                          const struct splatter_settings *settings, struct error *error)
 {
+    const ps_visibility_vtable *visibility = settings->visibility;
     *splatter = (struct splatter){
-        .gbuffer = gbuffer,
-        .host = host,
-        .visibility = visibility,
-        .profile = *profile,
-        .accumulate = accumulate,
-        .resolution = visibility.vtable->resolution(visibility.state),
-        .threads = threads,
+        .settings = *settings,
+        .resolution = visibility->resolution(settings->visibility_state),
     };
-    if (splatter->resolution > 64 || (splatter->resolution && !visibility.vtable->depth_maps))
+    if (splatter->resolution > 64 || (splatter->resolution && !visibility->depth_maps))
         return error_set(error, PS_ERROR_INVALID,
                          "the visibility has no depth maps of resolution %u", splatter->resolution);
-    splatter->batch = batch_size(splatter, batch);
-    size_t map_bytes = splatter->batch * map_texels(splatter) * sizeof(float);
+    splatter->settings.batch = batch_size(splatter);
+    size_t map_bytes = splatter->settings.batch * map_texels(splatter) * sizeof(float);
     splatter->depths = malloc(map_bytes > 0 ? map_bytes : 1);
-    splatter->prepared = malloc(splatter->batch * sizeof *splatter->prepared);
+    splatter->prepared = malloc(splatter->settings.batch * sizeof *splatter->prepared);
     ps_result result = splatter->depths && splatter->prepared
-                           ? pyramid_create(gbuffer, &splatter->pyramid, error)
+                           ? field_create(gbuffer, settings->interleave, &splatter->field, error)
                            : error_memory(error, map_bytes, "depth maps");
     if (result == PS_OK)
-        result = bins_create(gbuffer->tile_count, &splatter->bins, error);
+        result = pyramid_create(&splatter->field, &splatter->pyramid, error);
+    if (result == PS_OK)
+        result = bins_create(splatter->field.tile_count, &splatter->bins, error);
     if (result != PS_OK)
         splatter_release(splatter);
     return result;
@@ -59,34 +55,69 @@ ps_result splatter_create(struct splatter *splatter, struct gbuffer *gbuffer, co
 
 void splatter_release(struct splatter *splatter)
 {
+    field_release(&splatter->field);
     pyramid_release(&splatter->pyramid);
     bins_release(&splatter->bins);
     free(splatter->depths);
     free(splatter->prepared);
-    *splatter = (struct splatter){.threads = 0};
+    *splatter = (struct splatter){.resolution = 0};
 }
 
 size_t splatter_bytes(const struct splatter *splatter)
 {
     size_t map = map_texels(splatter) * sizeof(float);
-    return splatter->batch * (map + sizeof *splatter->prepared) + bins_bytes(&splatter->bins);
+    return splatter->settings.batch * (map + sizeof *splatter->prepared) +
+           bins_bytes(&splatter->bins);
 }
 
-void splatter_begin_pass(struct splatter *splatter)
+void splatter_begin_pass(struct splatter *splatter, const struct gbuffer *gbuffer,
+                         struct splatter_pass pass)
 {
-    pyramid_build(&splatter->pyramid, splatter->gbuffer, splatter->threads);
+    splatter->pass = pass;
+    field_fill(&splatter->field, gbuffer, splatter->settings.threads);
+    pyramid_build(&splatter->pyramid, &splatter->field, splatter->settings.threads);
+}
+
+void splatter_end_pass(struct splatter *splatter, struct gbuffer *gbuffer)
+{
+    double start = clock_seconds();
+    field_join(&splatter->field, gbuffer, splatter->settings.threads);
+    splatter->join_seconds += clock_seconds() - start;
+}
+
+/* The subset that a path's splats light. Runs of paths that follow each other share one: any part of
+ * a low-discrepancy sequence without gaps is one itself, while every n-th point is not. Passes go
+ * round, so that no pixel always belongs to the same part. */
+static uint32_t subset_of(const struct splatter *splatter, uint64_t path)
+{
+    const struct splatter_pass *pass = &splatter->pass;
+    uint64_t subsets = splatter->field.subsets;
+    uint64_t index = path > pass->first_path ? path - pass->first_path : 0;
+    uint64_t count = pass->path_count > 0 ? pass->path_count : 1;
+    return (uint32_t)((index * subsets / count + pass->number) % subsets);
 }
 
 struct batch {
     struct splatter *splatter;
     ps_splat *splats;
     size_t n;
-    struct exact_count *counts; /* per tile; `asked` only where the visibility judges points */
+    struct kernel_count *counts; /* per tile */
 };
 
 static bool judges_points(const struct splatter *splatter)
 {
-    return splatter->visibility.vtable->visible && splatter->resolution == 0;
+    return splatter->settings.visibility->visible && splatter->resolution == 0;
+}
+
+static struct kernel_splat prepare(const struct splatter *splatter, const ps_splat *splat,
+                                   const float *map)
+{
+    if (!(splat->half_width > 0.0f))
+        return (struct kernel_splat){.kernel_scale = 0.0f};
+    struct kernel_splat prepared = kernel_prepare(splat, &splatter->settings.profile, map);
+    prepared.subset = subset_of(splatter, splat->path);
+    prepared.kernel_scale *= (float)splatter->field.subsets;
+    return prepared;
 }
 
 /* Fills the maps of up to MAP_CHUNK splats, cuts the splats to them, and prepares the kernel's
@@ -101,29 +132,27 @@ static void map_chunk(void *user, uint64_t index, uint32_t worker)
     size_t texels = map_texels(splatter);
     float *depths = splatter->depths + first * texels;
     if (texels)
-        splatter->visibility.vtable->depth_maps(splatter->visibility.state, splatter->host,
-                                                batch->splats + first, n, depths);
+        splatter->settings.visibility->depth_maps(splatter->settings.visibility_state,
+                                                  splatter->settings.host, batch->splats + first, n,
+                                                  depths);
     for (size_t i = 0; i < n; i++) {
         ps_splat *splat = &batch->splats[first + i];
         const float *map = texels ? depths + i * texels : open_map;
-        if (!(splat->half_width > 0.0f))
-            continue;
-        if (texels)
+        if (texels && splat->half_width > 0.0f)
             box_cut(splat, map, splatter->resolution);
-        else
-            splat->two_sided = 0;
-        splatter->prepared[first + i] = kernel_prepare(splat, &splatter->profile, map);
+        splatter->prepared[first + i] = prepare(splatter, splat, map);
     }
 }
 
-static struct exact_count splat_exactly(const struct batch *batch, ps_tile *tile,
-                                        const uint32_t *indices, size_t n)
+static struct kernel_count splat_exactly(const struct batch *batch, struct field_tile *tile,
+                                         const uint32_t *indices, size_t n)
 {
     const struct splatter *splatter = batch->splatter;
-    struct exact_test test = {splatter->visibility.vtable, splatter->visibility.state,
-                              splatter->host, splatter->visibility.surface_offset};
+    const struct splatter_settings *settings = &splatter->settings;
+    struct exact_test test = {settings->visibility, settings->visibility_state, settings->host,
+                              settings->surface_offset};
     return exact_accumulate(tile, &test, batch->splats, splatter->prepared, indices, n,
-                            &splatter->profile);
+                            &settings->profile);
 }
 
 static void splat_tile(void *user, uint64_t index, uint32_t worker)
@@ -134,57 +163,65 @@ static void splat_tile(void *user, uint64_t index, uint32_t worker)
     const struct bins *bins = &splatter->bins;
     const uint32_t *indices = bins->indices + bins->offsets[index];
     size_t n = bins->offsets[index + 1] - bins->offsets[index];
-    ps_tile *tile = &splatter->gbuffer->tiles[index];
-    struct exact_count count = {0, 0};
-    if (judges_points(splatter))
-        count = splat_exactly(batch, tile, indices, n);
-    else
-        count.lit = splatter->accumulate(tile, splatter->prepared, indices, n,
-                                         splatter->resolution ? splatter->resolution : 1,
-                                         &splatter->profile);
-    batch->counts[index].asked += count.asked;
+    struct field_tile *tile = &splatter->field.tiles[index];
+    if (n == 0)
+        return;
+    struct kernel_count count =
+        judges_points(splatter)
+            ? splat_exactly(batch, tile, indices, n)
+            : splatter->settings.kernel.accumulate(tile, splatter->prepared, indices, n,
+                                                   splatter->resolution ? splatter->resolution : 1,
+                                                   &splatter->settings.profile);
+    batch->counts[index].tests += count.tests;
     batch->counts[index].lit += count.lit;
 }
 
 static ps_result add_batch(const struct batch *batch, struct error *error)
 {
     struct splatter *splatter = batch->splatter;
+    const struct splatter_settings *settings = &splatter->settings;
     struct batch work = *batch;
     double start = clock_seconds();
-    parallel_for(splatter->threads, (work.n + MAP_CHUNK - 1) / MAP_CHUNK, map_chunk, &work);
+    parallel_for(settings->threads, (work.n + MAP_CHUNK - 1) / MAP_CHUNK, map_chunk, &work);
     double mapped = clock_seconds();
-    ps_result result = bins_sort(&splatter->bins, &splatter->pyramid, work.splats, work.n,
-                                 splatter->threads, error);
+    ps_result result = bins_sort(&splatter->bins, &splatter->pyramid, &settings->kernel,
+                                 splatter->prepared, work.n, settings->threads, error);
     double binned = clock_seconds();
     if (result != PS_OK)
         return result;
-    parallel_for(splatter->threads, splatter->gbuffer->tile_count, splat_tile, &work);
+    parallel_for(settings->threads, splatter->field.tile_count, splat_tile, &work);
     splatter->map_seconds += mapped - start;
     splatter->bin_seconds += binned - mapped;
     splatter->kernel_seconds += clock_seconds() - binned;
-    uint32_t pairs = splatter->bins.offsets[splatter->bins.tile_count];
-    splatter->tests += (uint64_t)pairs * PS_TILE_PIXELS;
     splatter->map_rays += (uint64_t)work.n * map_texels(splatter);
     splatter->splats += work.n;
     return PS_OK;
 }
 
+static void add_counts(struct splatter *splatter, const struct kernel_count *counts)
+{
+    for (uint32_t i = 0; i < splatter->field.tile_count; i++) {
+        splatter->useful_tests += counts[i].lit;
+        if (judges_points(splatter))
+            splatter->exact_tests += counts[i].tests;
+        else
+            splatter->tests += counts[i].tests;
+    }
+}
+
 ps_result splatter_add(struct splatter *splatter, ps_splat *splats, size_t n, struct error *error)
 {
-    size_t tiles = splatter->gbuffer->tile_count;
-    struct exact_count *counts = calloc(tiles, sizeof *counts);
+    size_t tiles = splatter->field.tile_count, most = splatter->settings.batch;
+    struct kernel_count *counts = calloc(tiles, sizeof *counts);
     if (!counts)
         return error_memory(error, tiles * sizeof *counts, "statistics");
     ps_result result = PS_OK;
-    for (size_t first = 0; first < n && result == PS_OK; first += splatter->batch) {
-        size_t count = n - first < splatter->batch ? n - first : splatter->batch;
+    for (size_t first = 0; first < n && result == PS_OK; first += most) {
+        size_t count = n - first < most ? n - first : most;
         struct batch batch = {splatter, splats + first, count, counts};
         result = add_batch(&batch, error);
     }
-    for (size_t i = 0; i < tiles; i++) {
-        splatter->useful_tests += counts[i].lit;
-        splatter->exact_tests += counts[i].asked;
-    }
+    add_counts(splatter, counts);
     free(counts);
     return result;
 }

@@ -12,42 +12,52 @@
 #include "splat/kernel.h"
 #include <psplat/strategy.h>
 
-struct splatter_visibility {
-    const ps_visibility_vtable *vtable;
-    const void *state;
+struct splatter_settings {
+    const ps_host *host;
+    const ps_visibility_vtable *visibility;
+    const void *visibility_state;
     float surface_offset; /* see ps_pass */
+    struct kernel_profile profile;
+    struct kernel_variant kernel;
+    uint32_t interleave; /* see field.h */
+    uint32_t threads;
+    size_t
+        batch; /* at most so many splats at a time; the budget for depth maps may ask for fewer */
+};
+
+/* Which light paths a pass has: they share the subsets of pixels out. */
+struct splatter_pass {
+    uint32_t number;
+    uint64_t first_path, path_count;
 };
 
 struct splatter {
-    struct gbuffer *gbuffer;
-    const ps_host *host;
-    struct splatter_visibility visibility;
-    struct kernel_profile profile;
-    kernel_function accumulate;
+    struct splatter_settings settings;
     uint32_t resolution; /* of depth maps; 0: none */
-    uint32_t threads;
-    size_t batch; /* splats at a time */
+    struct splatter_pass pass;
+    struct field field;
     struct pyramid pyramid;
     struct bins bins;
     float *depths;                 /* batch * resolution^2 */
     struct kernel_splat *prepared; /* batch */
     /* Statistics, summed over all calls. */
-    double map_seconds, bin_seconds, kernel_seconds;
+    double map_seconds, bin_seconds, kernel_seconds, join_seconds;
     uint64_t tests, useful_tests, map_rays, exact_tests, splats;
 };
 
-/* `batch`: at most so many splats at a time; the budget for depth maps may ask for fewer. */
-ps_result splatter_create(struct splatter *splatter, struct gbuffer *gbuffer, const ps_host *host,
-                          struct splatter_visibility visibility,
-                          const struct kernel_profile *profile, kernel_function accumulate,
-                          uint32_t threads, size_t batch, struct error *error);
+ps_result splatter_create(struct splatter *splatter, const struct gbuffer *gbuffer,
+                          const struct splatter_settings *settings, struct error *error);
 void splatter_release(struct splatter *splatter);
 size_t splatter_bytes(const struct splatter *splatter);
 
-/* To be called when the G-buffer was filled anew. */
-void splatter_begin_pass(struct splatter *splatter);
+/* Takes over what the G-buffer shows; to be called when it was filled anew. */
+void splatter_begin_pass(struct splatter *splatter, const struct gbuffer *gbuffer,
+                         struct splatter_pass pass);
 
 /* Adds n splats; cuts their depth ranges to their maps. */
 ps_result splatter_add(struct splatter *splatter, ps_splat *splats, size_t n, struct error *error);
+
+/* Adds what the pass's splats gave to the G-buffer's tiles. */
+void splatter_end_pass(struct splatter *splatter, struct gbuffer *gbuffer);
 
 #endif

@@ -86,14 +86,15 @@ static void test_visibilities_converge_to_raycast(void **state)
 {
     (void)state;
     static const struct approximation approximations[] = {
-        {{"visibility=raycast:size=30", PHOTONS, "stratification=none"},
-         {"visibility=shadowmap:size=30,resolution=2", "visibility=shadowmap:size=30,resolution=8",
-          "visibility=shadowmap:size=30,resolution=32"},
+        {{"visibility=raycast:size=30,walls=no", PHOTONS, "stratification=none"},
+         {"visibility=shadowmap:size=30,walls=no,resolution=2",
+          "visibility=shadowmap:size=30,walls=no,resolution=8",
+          "visibility=shadowmap:size=30,walls=no,resolution=32"},
          0.02},
-        {{"visibility=raycast:size=30", PHOTONS, "stratification=none"},
-         {"visibility=imperfect:size=30,points=1000,resolution=4",
-          "visibility=imperfect:size=30,points=20000,resolution=8",
-          "visibility=imperfect:size=30,points=200000,resolution=16"},
+        {{"visibility=raycast:size=30,walls=no", PHOTONS, "stratification=none"},
+         {"visibility=imperfect:size=30,walls=no,points=1000,resolution=4",
+          "visibility=imperfect:size=30,walls=no,points=20000,resolution=8",
+          "visibility=imperfect:size=30,walls=no,points=200000,resolution=16"},
          0.06},
     };
     for (size_t i = 0; i < sizeof approximations / sizeof approximations[0]; i++)

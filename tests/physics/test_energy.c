@@ -109,6 +109,20 @@ static void test_full_beams_keep_the_energy(void **state)
     free(text);
 }
 
+/* What walls beside the sources keep back is most of what large beams lose. */
+static void test_walls_give_back_what_creases_lose(void **state)
+{
+    (void)state;
+    char *text = cornell_text(WIDTH, HEIGHT);
+    double truth = splat_all(text, "visibility=shadowmap:size=8,resolution=4,follow=0");
+    double lost = splat_all(text, "visibility=shadowmap:size=50,walls=no") / truth - 1;
+    double left = splat_all(text, "visibility=shadowmap:size=50,walls=yes") / truth - 1;
+    print_message("beams of 50 mm against 8: %+.4f, making up for walls %+.4f\n", lost, left);
+    assert_true(lost < -0.02);
+    assert_true(fabs(left) < 0.4 * fabs(lost));
+    free(text);
+}
+
 /* The thesis's fixed step-back loses light that does not come back as the maps shrink: the finding
  * that made `auto`. */
 static void test_fixed_step_back_loses_energy(void **state)
@@ -131,6 +145,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_converges_to_the_gather),
         cmocka_unit_test(test_full_beams_keep_the_energy),
+        cmocka_unit_test(test_walls_give_back_what_creases_lose),
         cmocka_unit_test(test_fixed_step_back_loses_energy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,15 +12,19 @@
 
 #include <cmocka.h>
 
-#define WIDTH 300 /* 19 x 13 tiles: three levels of the pyramid */
+#define INTERLEAVE 2
+#define WIDTH 300 /* in each subset 10 x 7 tiles: two levels of the pyramid */
 #define HEIGHT 200
 #define SPLATS 400
 #define ALTITUDE 5.0f /* away from the origin, where no empty tile may seem to lie */
 
 struct bench {
     struct gbuffer gbuffer;
+    struct field field;
     struct pyramid pyramid;
+    struct kernel_variant kernel;
     ps_splat splats[SPLATS];
+    struct kernel_splat prepared[SPLATS];
 };
 
 static bool sees_surface(uint32_t x, uint32_t y)
@@ -61,6 +65,16 @@ static ps_splat random_splat(struct random *random)
     return splat;
 }
 
+static struct kernel_splat prepare(const ps_splat *splat, uint32_t subset)
+{
+    static const struct kernel_profile profile = {.scale = 1};
+    if (!(splat->half_width > 0))
+        return (struct kernel_splat){.kernel_scale = 0};
+    struct kernel_splat prepared = kernel_prepare(splat, &profile, NULL);
+    prepared.subset = subset;
+    return prepared;
+}
+
 static int open_bench(void **state)
 {
     struct bench *bench = malloc(sizeof *bench);
@@ -77,8 +91,14 @@ static int open_bench(void **state)
         }
     for (int i = 0; i < SPLATS; i++)
         bench->splats[i] = random_splat(&random);
-    assert_int_equal(pyramid_create(&bench->gbuffer, &bench->pyramid, &error), PS_OK);
-    pyramid_build(&bench->pyramid, &bench->gbuffer, 2);
+    for (int i = 0; i < SPLATS; i++)
+        bench->prepared[i] = prepare(&bench->splats[i], (uint32_t)i % (INTERLEAVE * INTERLEAVE));
+    assert_true(kernel_choose(NULL, &bench->kernel));
+    assert_int_equal(field_create(&bench->gbuffer, INTERLEAVE, &bench->field, &error), PS_OK);
+    assert_int_equal(bench->field.tile_count, 4 * 10 * 7);
+    field_fill(&bench->field, &bench->gbuffer, 2);
+    assert_int_equal(pyramid_create(&bench->field, &bench->pyramid, &error), PS_OK);
+    pyramid_build(&bench->pyramid, &bench->field, 2);
     *state = bench;
     return 0;
 }
@@ -87,6 +107,7 @@ static int close_bench(void **state)
 {
     struct bench *bench = *state;
     pyramid_release(&bench->pyramid);
+    field_release(&bench->field);
     gbuffer_release(&bench->gbuffer);
     free(bench);
     return 0;
@@ -94,12 +115,12 @@ static int close_bench(void **state)
 
 /* Whether some pixel of the tile is inside of the splat's disc and box, and faces it; `slack`
  * widens all limits. */
-static bool lights(const ps_tile *tile, const ps_splat *splat, float slack)
+static bool lights(const struct field_tile *tile, const ps_splat *splat, float slack)
 {
     if (!(splat->half_width > 0))
         return false;
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
-        if (tile->object[i] == PS_NO_OBJECT)
+        if (!(tile->position_x[i] < BOUNDS_NOWHERE))
             continue;
         ps_vec3 p = {tile->position_x[i], tile->position_y[i], tile->position_z[i]};
         ps_vec3 n = {tile->normal_x[i], tile->normal_y[i], tile->normal_z[i]};
@@ -117,8 +138,10 @@ static struct bins sort(const struct bench *bench, size_t n, uint32_t threads)
 {
     struct bins bins;
     struct error error;
-    assert_int_equal(bins_create(bench->gbuffer.tile_count, &bins, &error), PS_OK);
-    assert_int_equal(bins_sort(&bins, &bench->pyramid, bench->splats, n, threads, &error), PS_OK);
+    assert_int_equal(bins_create(bench->field.tile_count, &bins, &error), PS_OK);
+    assert_int_equal(
+        bins_sort(&bins, &bench->pyramid, &bench->kernel, bench->prepared, n, threads, &error),
+        PS_OK);
     return bins;
 }
 
@@ -136,14 +159,14 @@ static void test_holds_every_lit_pair(void **state)
     struct bins bins = sort(bench, SPLATS, 2);
     size_t lit = 0, pairs = bins.offsets[bins.tile_count];
     for (uint32_t tile = 0; tile < bins.tile_count; tile++)
-        for (uint32_t i = 0; i < SPLATS; i++)
-            if (lights(&bench->gbuffer.tiles[tile], &bench->splats[i], 0)) {
+        for (uint32_t i = tile / (10 * 7); i < SPLATS; i += INTERLEAVE * INTERLEAVE)
+            if (lights(&bench->field.tiles[tile], &bench->splats[i], 0)) {
                 lit++;
                 assert_true(holds(&bins, tile, i));
             }
     print_message("%zu pairs are lit, %zu in the bins, %d possible\n", lit, pairs,
                   (int)bins.tile_count * SPLATS);
-    assert_true(lit > 1000);
+    assert_true(lit > 500);
     assert_true(pairs < 4 * lit); /* bounds are tight enough to be of use */
     bins_release(&bins);
 }
@@ -157,6 +180,7 @@ static void test_is_sorted(void **state)
         assert_true(bins.offsets[tile] <= bins.offsets[tile + 1]);
         for (uint32_t i = bins.offsets[tile]; i < bins.offsets[tile + 1]; i++) {
             assert_true(bins.indices[i] < SPLATS);
+            assert_int_equal(bench->prepared[bins.indices[i]].subset, tile / (10 * 7));
             if (i > bins.offsets[tile])
                 assert_true(bins.indices[i - 1] < bins.indices[i]); /* each once, in order */
         }
@@ -178,12 +202,12 @@ static void test_leaves_out_what_lights_nothing(void **state)
     for (uint32_t tile = 0; tile < bins.tile_count; tile++) {
         bool empty = true;
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
-            empty = empty && bench->gbuffer.tiles[tile].object[lane] == PS_NO_OBJECT;
+            empty = empty && bench->field.tiles[tile].position_x[lane] >= BOUNDS_NOWHERE;
         empty_tiles += empty;
         if (empty)
             assert_int_equal(bins.offsets[tile], bins.offsets[tile + 1]);
     }
-    assert_int_equal(empty_tiles, 3 * 4);
+    assert_int_equal(empty_tiles, 4 * 2 * 2);
     bins_release(&bins);
 }
 
@@ -214,8 +238,9 @@ static void test_batches_do_not_disturb_each_other(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         struct bins fresh = sort(bench, sizes[i], 2);
         struct error error;
-        assert_int_equal(bins_sort(&bins, &bench->pyramid, bench->splats, sizes[i], 2, &error),
-                         PS_OK);
+        assert_int_equal(
+            bins_sort(&bins, &bench->pyramid, &bench->kernel, bench->prepared, sizes[i], 2, &error),
+            PS_OK);
         assert_int_equal(bins.offsets[bins.tile_count], fresh.offsets[fresh.tile_count]);
         if (sizes[i])
             expect_same(&bins, &fresh);
@@ -230,22 +255,46 @@ static void test_pyramid_bounds_its_tiles(void **state)
 {
     struct bench *bench = *state;
     const struct pyramid *pyramid = &bench->pyramid;
-    assert_int_equal(pyramid->levels, 4);
-    assert_int_equal(pyramid->across[pyramid->levels - 1], 1);
-    assert_int_equal(pyramid->down[pyramid->levels - 1], 1);
-    const struct pyramid_node *top = &pyramid->nodes[pyramid->first[pyramid->levels - 1]];
-    assert_true(fabsf(top->center.x - top->extent.x) < 0.011f);
-    assert_true(fabsf(top->center.x + top->extent.x - 2.99f) < 0.011f);
-    assert_true(fabsf(top->center.y + top->extent.y - 1.99f) < 0.011f);
-    assert_true(fabsf(top->center.z - ALTITUDE) < 0.05f && top->extent.z < 0.11f);
-    assert_true(top->normal_low.z > 0.5f);
-    for (uint32_t tile = 0; tile < bench->gbuffer.tile_count; tile++) {
-        const struct pyramid_node *node = &pyramid->nodes[tile];
-        if (node->extent.x < 0)
+    assert_int_equal(pyramid->levels, 2);
+    assert_int_equal(pyramid->across[1], 1);
+    assert_int_equal(pyramid->down[1], 1);
+    float left = INFINITY, right = -INFINITY;
+    const struct bounds *top = &pyramid->nodes[pyramid->first[1]];
+    for (uint32_t i = 0; i < BOUNDS_WIDTH; i++) {
+        if (!(top->center_x[i] < BOUNDS_NOWHERE))
             continue;
-        assert_true(node->extent.x < 0.08f && node->extent.y < 0.08f && node->extent.z < 0.1f);
-        assert_true(node->normal_low.z > 0.5f && node->normal_high.z <= 1.0001f);
+        left = fminf(left, top->center_x[i] - top->extent_x[i]);
+        right = fmaxf(right, top->center_x[i] + top->extent_x[i]);
+        assert_true(fabsf(top->center_z[i] - ALTITUDE) < 0.05f && top->extent_z[i] < 0.11f);
+        assert_true(top->normal_low_z[i] > 0.5f && top->normal_high_z[i] <= 1.0001f);
     }
+    assert_true(fabsf(left) < 0.011f && fabsf(right - 2.98f) < 0.011f);
+    for (size_t i = 0; i < pyramid->each; i++)
+        for (uint32_t k = 0; k < BOUNDS_WIDTH && i < pyramid->first[1]; k++)
+            assert_true(pyramid->nodes[i].extent_x[k] < 0.16f);
+}
+
+static bool stop_at_once(void *user, uint32_t tile)
+{
+    (void)tile;
+    ++*(int *)user;
+    return false;
+}
+
+static void test_a_visitor_can_stop(void **state)
+{
+    struct bench *bench = *state;
+    int met = 0, stopped = 0;
+    for (int i = 0; i < SPLATS; i++) {
+        int visits = 0;
+        if (bench->prepared[i].kernel_scale > 0)
+            stopped += !pyramid_visit(&bench->pyramid, &bench->kernel, &bench->prepared[i],
+                                      stop_at_once, &visits);
+        assert_true(visits <= 1);
+        met += visits;
+    }
+    assert_int_equal(met, stopped);
+    assert_true(met > SPLATS / 4);
 }
 
 static void test_smallest_picture(void **state)
@@ -258,8 +307,13 @@ static void test_smallest_picture(void **state)
     assert_int_equal(gbuffer_create(1, 1, &gbuffer, &error), PS_OK);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         fill_lane(&gbuffer.tiles[0], lane, lane ? WIDTH : 1, 0);
-    assert_int_equal(pyramid_create(&gbuffer, &pyramid, &error), PS_OK);
-    pyramid_build(&pyramid, &gbuffer, 1);
+    struct field field;
+    struct kernel_variant kernel;
+    assert_true(kernel_choose("baseline", &kernel));
+    assert_int_equal(field_create(&gbuffer, 1, &field, &error), PS_OK);
+    field_fill(&field, &gbuffer, 1);
+    assert_int_equal(pyramid_create(&field, &pyramid, &error), PS_OK);
+    pyramid_build(&pyramid, &field, 1);
     assert_int_equal(bins_create(1, &bins, &error), PS_OK);
     ps_splat splats[2] = {{.half_width = 0.1f, .near_depth = -1, .far_depth = 1}};
     splats[0].axis_u = (ps_vec3){1, 0, 0};
@@ -268,11 +322,13 @@ static void test_smallest_picture(void **state)
     splats[0].centre.z = ALTITUDE;
     splats[1] = splats[0];
     splats[0].centre.x = 1;
-    assert_int_equal(bins_sort(&bins, &pyramid, splats, 2, 1, &error), PS_OK);
+    const struct kernel_splat prepared[2] = {prepare(&splats[0], 0), prepare(&splats[1], 0)};
+    assert_int_equal(bins_sort(&bins, &pyramid, &kernel, prepared, 2, 1, &error), PS_OK);
     assert_int_equal(bins.offsets[1], 1);
     assert_int_equal(bins.indices[0], 1);
     bins_release(&bins);
     pyramid_release(&pyramid);
+    field_release(&field);
     gbuffer_release(&gbuffer);
 }
 
@@ -285,6 +341,7 @@ int main(void)
         cmocka_unit_test(test_same_for_any_threads),
         cmocka_unit_test(test_batches_do_not_disturb_each_other),
         cmocka_unit_test(test_pyramid_bounds_its_tiles),
+        cmocka_unit_test(test_a_visitor_can_stop),
         cmocka_unit_test(test_smallest_picture),
     };
     return cmocka_run_group_tests(tests, open_bench, close_bench);

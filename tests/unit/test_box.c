@@ -9,9 +9,10 @@
 
 #include <cmocka.h>
 
-#define RADIUS 40.0f /* of the scene: automatic half-width 2 */
+#define RADIUS 40.0f /* of the scene */
 
-static const struct box_scene scene = {.radius = RADIUS, .surface_offset = 0.001f, .seed = 7};
+static const struct box_scene scene = {
+    .radius = RADIUS, .surface_offset = 0.001f, .automatic_size = 2, .seed = 7};
 
 static void expect_near(double value, double expected)
 {
@@ -54,7 +55,20 @@ static void test_size(void **state)
 {
     (void)state;
     expect_near(place((ps_box_settings){.size = 3}, 10, 1).half_width, 3);
-    expect_near(place((ps_box_settings){.size = 0}, 10, 1).half_width, 0.05 * RADIUS);
+    expect_near(place((ps_box_settings){.size = 0}, 10, 1).half_width, 2);
+}
+
+/* By the fourth root of the paths, the sixth root of the passes; never a large part of the scene. */
+static void test_automatic_size(void **state)
+{
+    (void)state;
+    float size = box_automatic_size(RADIUS, 100000, 0);
+    assert_true(size > 0.1f * RADIUS && size < 0.12f * RADIUS);
+    expect_near(box_automatic_size(2 * RADIUS, 100000, 0), 2 * (double)size);
+    expect_near(box_automatic_size(RADIUS, 1600000, 0), (double)size / 2);
+    expect_near(box_automatic_size(RADIUS, 100000, 63), (double)size / 2);
+    expect_near(box_automatic_size(RADIUS, 1, 0), 0.2 * RADIUS);
+    expect_near(box_automatic_size(RADIUS, 0, 0), 0.2 * RADIUS);
 }
 
 /* R = min(size, follow * d), but no less than a fifth of size. */
@@ -116,7 +130,6 @@ static void test_automatic_step_back(void **state)
     expect_near(flat.far_depth, 2);
     expect_near(flat.start_depth, -1);
     assert_true(flat.start_slope_u == 0 && flat.start_slope_v == 0);
-    assert_int_equal(flat.two_sided, 0);
     ps_splat sloped = place(settings, 10, 0.6f); /* tan = 4/3 */
     expect_near(sloped.near_depth, -(2 * 4.0 / 3 + 1));
     expect_near(sloped.far_depth, 2 * 4.0 / 3 + 2);
@@ -144,7 +157,6 @@ static void test_numbers(void **state)
     expect_near(splat.near_depth, -3);
     expect_near(splat.start_depth, -3);
     expect_near(splat.far_depth, 7);
-    assert_int_equal(splat.two_sided, 0);
     expect_near(place(settings, 2, 0.6f).near_depth, -2); /* the source is nearer */
     const ps_box_settings none = {.size = 2, .step_back = 0, .step_back_rule = -1};
     expect_near(place(none, 10, 1).near_depth, 0);
@@ -156,7 +168,6 @@ static void test_full_beam_straight_up(void **state)
     (void)state;
     const ps_box_settings settings = {.size = 2, .step_back_rule = 1};
     ps_splat splat = place(settings, 10, 1);
-    assert_int_equal(splat.two_sided, 1);
     expect_near(splat.start_depth, 0.25 - 10);
     expect_near(splat.start_slope_u, 0);
     expect_near(splat.start_slope_v, 0);
@@ -250,53 +261,41 @@ static void test_frames_turn(void **state)
     assert_true(ps_dot(u, frame_of(1, 4, 1, up).axis_u) < 0.9999f);
 }
 
-static ps_splat uncut(uint32_t two_sided)
+static ps_splat uncut(void)
 {
     return (ps_splat){.half_width = 1,
                       .near_depth = -5,
                       .far_depth = 5,
                       .bias_constant = 0.1f,
-                      .bias_slope = 0.02f, /* up to 0.2 at the steepest */
-                      .two_sided = two_sided};
+                      .bias_slope = 0.02f}; /* up to 0.2 at the steepest */
 }
 
+/* What lies before the map is lit too: only the far end moves. */
 static void test_cut(void **state)
 {
     (void)state;
     const float depths[4] = {-1, 0.5f, 2, 0};
-    ps_splat splat = uncut(1);
-    box_cut(&splat, depths, 2);
-    expect_near(splat.near_depth, -1.3);
-    expect_near(splat.far_depth, 2.3);
-    splat = uncut(0); /* one-sided: what lies before the map is lit too */
+    ps_splat splat = uncut();
     box_cut(&splat, depths, 2);
     expect_near(splat.near_depth, -5);
     expect_near(splat.far_depth, 2.3);
-    splat = uncut(1); /* never grows */
-    splat.near_depth = -0.5f;
+    splat = uncut(); /* never grows */
     splat.far_depth = 1;
     box_cut(&splat, depths, 2);
-    expect_near(splat.near_depth, -0.5);
     expect_near(splat.far_depth, 1);
 }
 
+/* A box stays open to its end where nothing was hit. */
 static void test_cut_with_misses(void **state)
 {
     (void)state;
     const float some[4] = {-1, INFINITY, 2, 0}, none[1] = {INFINITY};
-    ps_splat splat = uncut(1);
-    box_cut(&splat, some, 2);
-    expect_near(splat.near_depth, -1.3);
-    expect_near(splat.far_depth, 2.3);
-    splat = uncut(0); /* a closed box stays open to its end where nothing was hit */
+    ps_splat splat = uncut();
     box_cut(&splat, some, 2);
     expect_near(splat.far_depth, 5);
-    splat = uncut(0);
+    splat = uncut();
     box_cut(&splat, none, 1);
     expect_near(splat.far_depth, 5);
-    splat = uncut(1);
-    box_cut(&splat, none, 1);
-    assert_true(splat.far_depth < splat.near_depth); /* empty */
 }
 
 int main(void)
@@ -304,6 +303,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_carries_the_source),
         cmocka_unit_test(test_size),
+        cmocka_unit_test(test_automatic_size),
         cmocka_unit_test(test_size_follows_distance),
         cmocka_unit_test(test_size_grows_with_what_was_merged),
         cmocka_unit_test(test_automatic_step_back),

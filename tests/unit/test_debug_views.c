@@ -96,9 +96,9 @@ static void test_overlap_is_the_weight_of_a_box(void **state)
 {
     (void)state;
     char *text = cornell_text(WIDTH, HEIGHT);
-    expect_weights(text, "visibility=none:size=50,follow=0,grow=1");
-    expect_weights(text, "visibility=shadowmap:size=50,follow=0,grow=1");
-    expect_weights(text, "visibility=raycast:size=50,follow=0,grow=1");
+    expect_weights(text, "visibility=none:size=50,follow=0,grow=1,walls=no");
+    expect_weights(text, "visibility=shadowmap:size=50,follow=0,grow=1,walls=no");
+    expect_weights(text, "visibility=raycast:size=50,follow=0,grow=1,walls=no");
     free(text);
 }
 

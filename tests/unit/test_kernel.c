@@ -22,7 +22,7 @@
 #define STEEPEST 10.0 /* slope to which the bias grows, see box.h */
 
 struct bench {
-    _Alignas(64) ps_tile tile;
+    _Alignas(64) struct field_tile tile;
     ps_splat splats[SPLATS];
     float depths[SPLATS][MOST_TEXELS];
     uint32_t indices[SPLATS];
@@ -42,22 +42,39 @@ static void gaussian_profile(struct kernel_profile *profile)
     assert_true(kernel_profile_normalize(profile));
 }
 
+static bool sees_surface(const struct field_tile *tile, uint32_t lane)
+{
+    return tile->position_x[lane] < BOUNDS_NOWHERE;
+}
+
+static void bound_block(struct field_tile *tile, uint32_t block)
+{
+    struct bound bound = bound_empty();
+    for (uint32_t i = FIELD_BLOCK * block; i < FIELD_BLOCK * (block + 1); i++)
+        if (sees_surface(tile, i))
+            bound_add_point(
+                &bound, (ps_vec3){tile->position_x[i], tile->position_y[i], tile->position_z[i]},
+                (ps_vec3){tile->normal_x[i], tile->normal_y[i], tile->normal_z[i]});
+    bounds_set(&tile->blocks, block, &bound);
+}
+
 /* A bumpy surface around the origin, some of whose pixels see nothing. */
-static void fill_tile(ps_tile *tile, struct random *random)
+static void fill_tile(struct field_tile *tile, struct random *random)
 {
     memset(tile, 0, sizeof *tile);
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
         ps_vec3 normal = random_direction(random);
         bool seen = random_unit(random) > 0.1f;
-        tile->position_x[i] = seen ? (float)(i % 16) / 8 - 1 : 1e18f;
-        tile->position_y[i] = seen ? (float)(i / 16) / 8 - 1 : 1e18f;
-        tile->position_z[i] = seen ? random_between(random, -0.5f, 0.5f) : 1e18f;
+        uint32_t column = i / 16 % 4 * 4 + i % 4, row = i / 64 * 4 + i / 4 % 4;
+        tile->position_x[i] = seen ? (float)column / 8 - 1 : BOUNDS_NOWHERE;
+        tile->position_y[i] = seen ? (float)row / 8 - 1 : BOUNDS_NOWHERE;
+        tile->position_z[i] = seen ? random_between(random, -0.5f, 0.5f) : BOUNDS_NOWHERE;
         tile->normal_x[i] = seen ? normal.x : 0;
         tile->normal_y[i] = seen ? normal.y : 0;
         tile->normal_z[i] = seen ? normal.z : 0;
-        tile->object[i] = seen ? 0 : PS_NO_OBJECT;
-        tile->depth[i] = seen ? 1 : INFINITY;
     }
+    for (uint32_t block = 0; block < BOUNDS_WIDTH; block++)
+        bound_block(tile, block);
 }
 
 static ps_splat random_splat(struct random *random)
@@ -73,7 +90,6 @@ static ps_splat random_splat(struct random *random)
         .start_slope_v = random_between(random, -1.0f, 1.0f),
         .bias_constant = random_between(random, 0.0f, 0.1f),
         .bias_slope = random_between(random, 0.0f, 0.1f),
-        .two_sided = random_unit(random) < 0.5f,
         .power = {random_unit(random), random_unit(random), random_unit(random)},
     };
     ps_frame(splat.axis_w, &splat.axis_u, &splat.axis_v);
@@ -121,7 +137,7 @@ static size_t texel(double across, uint32_t resolution, bool *borderline)
 static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel, struct sums *sums)
 {
     const ps_splat *splat = &bench->splats[s];
-    const ps_tile *tile = &bench->tile;
+    const struct field_tile *tile = &bench->tile;
     const double d[3] = {(double)tile->position_x[pixel] - splat->centre.x,
                          (double)tile->position_y[pixel] - splat->centre.y,
                          (double)tile->position_z[pixel] - splat->centre.z};
@@ -130,7 +146,7 @@ static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel,
     double v = dot(splat->axis_v, d) / splat->half_width;
     double t = dot(splat->axis_w, d), cosine = -dot(splat->axis_w, n), r2 = u * u + v * v;
     bool borderline = false;
-    if (tile->object[pixel] == PS_NO_OBJECT)
+    if (!sees_surface(tile, pixel))
         return;
     /* All of them, so that each notes its borderline. */
     bool inside = below(r2, 1, 1e-5, &borderline);
@@ -148,8 +164,7 @@ static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel,
     double bias = splat->bias_constant + splat->bias_slope * fmin(slope, STEEPEST);
     double map = bench->depths[s][texel(v, bench->resolution, &borderline) * bench->resolution +
                                   texel(u, bench->resolution, &borderline)];
-    bool lit = below(t - map, bias, 1e-4, &borderline) &&
-               (!splat->two_sided || below(map - t, bias, 1e-4, &borderline));
+    bool lit = below(t - map, bias, 1e-4, &borderline);
     sums->borderline |= borderline;
     if (!lit)
         return;
@@ -170,7 +185,7 @@ static void expect_close(double value, double expected)
         fail_msg("%.9g, expected %.9g", value, expected);
 }
 
-static void expect_pixel(const ps_tile *tile, uint32_t i, const struct sums *sums)
+static void expect_pixel(const struct field_tile *tile, uint32_t i, const struct sums *sums)
 {
     expect_close(tile->irradiance_r[i], sums->r);
     expect_close(tile->irradiance_g[i], sums->g);
@@ -178,20 +193,22 @@ static void expect_pixel(const ps_tile *tile, uint32_t i, const struct sums *sum
     expect_close(tile->weight[i], sums->weight);
 }
 
-static uint64_t run(kernel_function accumulate, struct bench *bench, ps_tile *tile)
+static struct kernel_count run(const struct kernel_variant *variant, struct bench *bench,
+                               struct field_tile *tile)
 {
     struct kernel_splat prepared[SPLATS];
     for (uint32_t s = 0; s < SPLATS; s++)
         prepared[s] = kernel_prepare(&bench->splats[s], &bench->profile, bench->depths[s]);
     *tile = bench->tile;
-    return accumulate(tile, prepared, bench->indices, SPLATS, bench->resolution, &bench->profile);
+    return variant->accumulate(tile, prepared, bench->indices, SPLATS, bench->resolution,
+                               &bench->profile);
 }
 
 /* Compares all pixels; returns how many were too close to a limit to tell. */
 static uint32_t compare(const struct kernel_variant *variant, struct bench *bench, double *lit)
 {
-    static _Alignas(64) ps_tile tile;
-    uint64_t useful = run(variant->accumulate, bench, &tile);
+    static _Alignas(64) struct field_tile tile;
+    struct kernel_count count = run(variant, bench, &tile);
     uint32_t borderline = 0;
     double expected_useful = 0;
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
@@ -203,7 +220,10 @@ static uint32_t compare(const struct kernel_variant *variant, struct bench *benc
         if (!sums.borderline)
             expect_pixel(&tile, i, &sums);
     }
-    assert_true(fabs((double)useful - expected_useful) <= 2.0 * borderline);
+    assert_true(fabs((double)count.lit - expected_useful) <= 2.0 * borderline);
+    /* Bounds leave something out, and keep whole blocks. */
+    assert_true(count.tests >= count.lit && count.tests < SPLATS * PS_TILE_PIXELS * 9 / 10);
+    assert_int_equal(count.tests % FIELD_BLOCK, 0);
     *lit += expected_useful;
     return borderline;
 }
@@ -233,7 +253,7 @@ static void test_variants_agree_with_the_formulas(void **state)
 static void test_pixels_without_surface_get_nothing(void **state)
 {
     (void)state;
-    static _Alignas(64) ps_tile tile;
+    static _Alignas(64) struct field_tile tile;
     struct kernel_variant variants[4];
     size_t count = kernel_variants(variants);
     for (size_t v = 0; v < count; v++) {
@@ -243,9 +263,9 @@ static void test_pixels_without_surface_get_nothing(void **state)
             bench->splats[s].near_depth = bench->splats[s].start_depth = -INFINITY;
             bench->splats[s].half_width = s % 2 ? 1e-6f : 1e6f;
         }
-        assert_true(run(variants[v].accumulate, bench, &tile) > 0);
+        assert_true(run(&variants[v], bench, &tile).lit > 0);
         for (uint32_t i = 0; i < PS_TILE_PIXELS; i++)
-            if (tile.object[i] == PS_NO_OBJECT)
+            if (!sees_surface(&tile, i))
                 assert_true(tile.weight[i] == 0 && tile.irradiance_r[i] == 0 &&
                             tile.irradiance_g[i] == 0 && tile.irradiance_b[i] == 0);
             else
@@ -257,7 +277,7 @@ static void test_pixels_without_surface_get_nothing(void **state)
 static void test_adds_to_what_is_there(void **state)
 {
     (void)state;
-    static _Alignas(64) ps_tile whole, halves;
+    static _Alignas(64) struct field_tile whole, halves;
     struct kernel_variant variants[4];
     size_t count = kernel_variants(variants);
     struct bench *bench = make_bench(3, 6);
@@ -265,14 +285,17 @@ static void test_adds_to_what_is_there(void **state)
     for (uint32_t s = 0; s < SPLATS; s++)
         prepared[s] = kernel_prepare(&bench->splats[s], &bench->profile, bench->depths[s]);
     for (size_t v = 0; v < count; v++) {
-        uint64_t useful = run(variants[v].accumulate, bench, &whole), parts = 0;
+        uint64_t useful = run(&variants[v], bench, &whole).lit, parts = 0;
         halves = bench->tile;
         for (uint32_t first = 0; first < SPLATS; first += SPLATS / 3)
-            parts += variants[v].accumulate(&halves, prepared, bench->indices + first, SPLATS / 3,
-                                            bench->resolution, &bench->profile);
+            parts += variants[v]
+                         .accumulate(&halves, prepared, bench->indices + first, SPLATS / 3,
+                                     bench->resolution, &bench->profile)
+                         .lit;
         assert_true(parts == useful);
         assert_memory_equal(&whole, &halves, sizeof whole);
-        assert_true(variants[v].accumulate(&halves, prepared, NULL, 0, 3, &bench->profile) == 0);
+        assert_true(variants[v].accumulate(&halves, prepared, NULL, 0, 3, &bench->profile).tests ==
+                    0);
         assert_memory_equal(&whole, &halves, sizeof whole);
     }
 }

@@ -274,8 +274,9 @@ static void test_edges_and_corners_keep_their_light(void **state)
 {
     (void)state;
     char *cornell = cornell_text(96, 54);
-    struct rendering exact = render(cornell, "visibility=raycast:size=50", PHOTONS);
-    struct rendering map = render(cornell, "visibility=shadowmap:size=50,resolution=4", PHOTONS);
+    struct rendering exact = render(cornell, "visibility=raycast:size=50,walls=no", PHOTONS);
+    struct rendering map =
+        render(cornell, "visibility=shadowmap:size=50,walls=no,resolution=4", PHOTONS);
     double ratio = mean_of_all(&map.image, "indirect.G") / mean_of_all(&exact.image, "indirect.G");
     double rms = relative_rms(&exact.image, &map.image, "indirect.G");
     print_message("Cornell box: 4x4 maps give %.4f of the light, RMS %.4f\n", ratio, rms);

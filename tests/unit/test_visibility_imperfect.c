@@ -49,12 +49,13 @@ static void test_converges_to_shadow_maps(void **state)
     (void)state;
     char *cornell = cornell_text(64, 36);
     static const char *const many = "injection=photon:count=40000";
-    const char *const exact[] = {many, "visibility=shadowmap:size=50", NULL};
+    const char *const exact[] = {many, "visibility=shadowmap:size=50,walls=no", NULL};
     struct rendering reference = render_text(cornell, 2, exact);
     double before = INFINITY, ratio = 0;
     for (int points = 1000; points <= 100000; points *= 10) {
         char visibility[96];
-        snprintf(visibility, sizeof visibility, "visibility=imperfect:size=50,points=%d", points);
+        snprintf(visibility, sizeof visibility, "visibility=imperfect:size=50,points=%d,walls=no",
+                 points);
         const char *const choices[] = {many, visibility, NULL};
         struct rendering rendering = render_text(cornell, 2, choices);
         double now = relative_rms(&reference.image, &rendering.image);

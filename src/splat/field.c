@@ -1,0 +1,256 @@
+#include "splat/field.h"
+
+#include "base/parallel.h"
+#include <psplat/host.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define BLOCK_SIDE 4
+#define BLOCKS_ACROSS (PS_TILE_SIZE / BLOCK_SIDE)
+
+ps_result field_create(const struct gbuffer *gbuffer, uint32_t interleave, struct field *field,
+                       struct error *error)
+{
+    uint32_t side = interleave * PS_TILE_SIZE;
+    *field = (struct field){
+        .interleave = interleave,
+        .subsets = interleave * interleave,
+        .tiles_across = (uint32_t)((gbuffer->width + side - 1) / side),
+        .tiles_down = (uint32_t)((gbuffer->height + side - 1) / side),
+        .width = gbuffer->width,
+        .height = gbuffer->height,
+    };
+    field->tile_count = field->subsets * field->tiles_across * field->tiles_down;
+    field->tiles = aligned_alloc(64, field_bytes(field));
+    return field->tiles ? PS_OK
+                        : error_memory(error, field_bytes(field), "the pixels that splats light");
+}
+
+void field_release(struct field *field)
+{
+    free(field->tiles);
+    *field = (struct field){.tiles = NULL};
+}
+
+size_t field_bytes(const struct field *field)
+{
+    return field->tile_count * sizeof(struct field_tile);
+}
+
+/* Lane of a tile's pixel (x, y), and back. */
+static uint32_t lane_of(uint32_t x, uint32_t y)
+{
+    uint32_t block = y / BLOCK_SIDE * BLOCKS_ACROSS + x / BLOCK_SIDE;
+    return block * FIELD_BLOCK + y % BLOCK_SIDE * BLOCK_SIDE + x % BLOCK_SIDE;
+}
+
+static void lane_place(uint32_t lane, uint32_t *x, uint32_t *y)
+{
+    uint32_t block = lane / FIELD_BLOCK, inside = lane % FIELD_BLOCK;
+    *x = block % BLOCKS_ACROSS * BLOCK_SIDE + inside % BLOCK_SIDE;
+    *y = block / BLOCKS_ACROSS * BLOCK_SIDE + inside / BLOCK_SIDE;
+}
+
+bool field_pixel(const struct field *field, uint32_t tile, uint32_t lane, uint32_t *x, uint32_t *y)
+{
+    uint32_t each = field->tiles_across * field->tiles_down;
+    uint32_t subset = tile / each, place = tile % each;
+    uint32_t column, row;
+    lane_place(lane, &column, &row);
+    column += place % field->tiles_across * PS_TILE_SIZE;
+    row += place / field->tiles_across * PS_TILE_SIZE;
+    *x = column * field->interleave + subset % field->interleave;
+    *y = row * field->interleave + subset / field->interleave;
+    return *x < field->width && *y < field->height;
+}
+
+/* Where the field keeps pixel (x, y) of the picture. */
+static const struct field_tile *find_pixel(const struct field *field, uint32_t x, uint32_t y,
+                                           uint32_t *lane)
+{
+    uint32_t n = field->interleave;
+    uint32_t subset = y % n * n + x % n, column = x / n, row = y / n;
+    *lane = lane_of(column % PS_TILE_SIZE, row % PS_TILE_SIZE);
+    return &field->tiles[(subset * field->tiles_down + row / PS_TILE_SIZE) * field->tiles_across +
+                         column / PS_TILE_SIZE];
+}
+
+struct work {
+    const struct field *field;
+    const struct gbuffer *gbuffer;
+};
+
+static void fill_lane(struct field_tile *tile, uint32_t lane, const ps_tile *from, uint32_t source)
+{
+    tile->position_x[lane] = from->position_x[source];
+    tile->position_y[lane] = from->position_y[source];
+    tile->position_z[lane] = from->position_z[source];
+    tile->normal_x[lane] = from->normal_x[source];
+    tile->normal_y[lane] = from->normal_y[source];
+    tile->normal_z[lane] = from->normal_z[source];
+}
+
+static void clear_lane(struct field_tile *tile, uint32_t lane)
+{
+    tile->position_x[lane] = tile->position_y[lane] = tile->position_z[lane] = BOUNDS_NOWHERE;
+    tile->normal_x[lane] = tile->normal_y[lane] = tile->normal_z[lane] = 0.0f;
+}
+
+static void bound_block(struct field_tile *tile, uint32_t block)
+{
+    struct bound bound = bound_empty();
+    for (uint32_t i = 0; i < FIELD_BLOCK; i++) {
+        uint32_t lane = block * FIELD_BLOCK + i;
+        ps_vec3 position = {tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
+        ps_vec3 normal = {tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
+        if (position.x < BOUNDS_NOWHERE)
+            bound_add_point(&bound, position, normal);
+    }
+    bounds_set(&tile->blocks, block, &bound);
+}
+
+static void fill_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    const struct gbuffer *gbuffer = work->gbuffer;
+    struct field_tile *tile = &work->field->tiles[index];
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        uint32_t x, y;
+        if (field_pixel(work->field, (uint32_t)index, lane, &x, &y))
+            fill_lane(tile, lane,
+                      &gbuffer->tiles[y / PS_TILE_SIZE * gbuffer->tiles_across + x / PS_TILE_SIZE],
+                      y % PS_TILE_SIZE * PS_TILE_SIZE + x % PS_TILE_SIZE);
+        else
+            clear_lane(tile, lane);
+    }
+    memset(tile->irradiance_r, 0, sizeof tile->irradiance_r);
+    memset(tile->irradiance_g, 0, sizeof tile->irradiance_g);
+    memset(tile->irradiance_b, 0, sizeof tile->irradiance_b);
+    memset(tile->weight, 0, sizeof tile->weight);
+    for (uint32_t block = 0; block < BOUNDS_WIDTH; block++)
+        bound_block(tile, block);
+}
+
+void field_fill(struct field *field, const struct gbuffer *gbuffer, uint32_t threads)
+{
+    struct work work = {field, gbuffer};
+    parallel_for(threads, field->tile_count, fill_tile, &work);
+}
+
+/* --- joining ------------------------------------------------------------------------------------ */
+
+#define MARGIN (PS_MOST_INTERLEAVE / 2)
+#define APRON (PS_TILE_SIZE + 2 * MARGIN)
+
+/* Neighbours count whose normal is no farther off than 25 degrees, and that lie no farther off the
+ * plane than a tenth of their distance. */
+#define LEAST_COSINE 0.9f
+#define MOST_SLOPE2 0.01f
+
+/* A tile of the G-buffer and what lies around it, row by row. */
+struct apron {
+    float position_x[APRON][APRON], position_y[APRON][APRON], position_z[APRON][APRON];
+    float normal_x[APRON][APRON], normal_y[APRON][APRON], normal_z[APRON][APRON];
+    float irradiance_r[APRON][APRON], irradiance_g[APRON][APRON], irradiance_b[APRON][APRON];
+    float weight[APRON][APRON];
+};
+
+static void load_pixel(const struct field *field, int64_t x, int64_t y, struct apron *apron,
+                       int column, int row)
+{
+    static const struct field_tile nothing = {.position_x = {BOUNDS_NOWHERE}};
+    const struct field_tile *tile = &nothing;
+    uint32_t lane = 0;
+    if (x >= 0 && y >= 0 && x < (int64_t)field->width && y < (int64_t)field->height)
+        tile = find_pixel(field, (uint32_t)x, (uint32_t)y, &lane);
+    apron->position_x[row][column] = tile->position_x[lane];
+    apron->position_y[row][column] = tile->position_y[lane];
+    apron->position_z[row][column] = tile->position_z[lane];
+    apron->normal_x[row][column] = tile->normal_x[lane];
+    apron->normal_y[row][column] = tile->normal_y[lane];
+    apron->normal_z[row][column] = tile->normal_z[lane];
+    apron->irradiance_r[row][column] = tile->irradiance_r[lane];
+    apron->irradiance_g[row][column] = tile->irradiance_g[lane];
+    apron->irradiance_b[row][column] = tile->irradiance_b[lane];
+    apron->weight[row][column] = tile->weight[lane];
+}
+
+/* What a row of pixels has gathered from its windows. */
+struct row_sums {
+    float total[PS_TILE_SIZE];
+    float r[PS_TILE_SIZE], g[PS_TILE_SIZE], b[PS_TILE_SIZE], weight[PS_TILE_SIZE];
+};
+
+/* Adds to each pixel of a row its neighbour at (dx, dy), `share` times, where that lies on the same
+ * surface. */
+static void add_neighbours(const struct apron *apron, int row, int dx, int dy, float share,
+                           struct row_sums *sums)
+{
+    int other = row + dy;
+    for (int i = 0; i < PS_TILE_SIZE; i++) {
+        int here = MARGIN + i, there = here + dx;
+        float nx = apron->normal_x[row][here], ny = apron->normal_y[row][here],
+              nz = apron->normal_z[row][here];
+        float x = apron->position_x[other][there] - apron->position_x[row][here];
+        float y = apron->position_y[other][there] - apron->position_y[row][here];
+        float z = apron->position_z[other][there] - apron->position_z[row][here];
+        float cosine = nx * apron->normal_x[other][there] + ny * apron->normal_y[other][there] +
+                       nz * apron->normal_z[other][there];
+        float off = nx * x + ny * y + nz * z;
+        int same = (cosine > LEAST_COSINE) & (off * off <= MOST_SLOPE2 * (x * x + y * y + z * z));
+        float weight = (float)same * share;
+        sums->total[i] += weight;
+        sums->r[i] += weight * apron->irradiance_r[other][there];
+        sums->g[i] += weight * apron->irradiance_g[other][there];
+        sums->b[i] += weight * apron->irradiance_b[other][there];
+        sums->weight[i] += weight * apron->weight[other][there];
+    }
+}
+
+static float border_share(int offset, int reach, uint32_t interleave)
+{
+    return interleave % 2 == 0 && abs(offset) == reach ? 0.5f : 1.0f;
+}
+
+static void join_row(const struct apron *apron, uint32_t interleave, int row, ps_tile *tile)
+{
+    struct row_sums sums = {0};
+    int reach = (int)interleave / 2;
+    for (int dy = -reach; dy <= reach; dy++)
+        for (int dx = -reach; dx <= reach; dx++)
+            add_neighbours(
+                apron, MARGIN + row, dx, dy,
+                border_share(dx, reach, interleave) * border_share(dy, reach, interleave), &sums);
+    for (int i = 0; i < PS_TILE_SIZE; i++) {
+        int lane = row * PS_TILE_SIZE + i;
+        float scale = sums.total[i] > 0.0f ? 1.0f / sums.total[i] : 0.0f;
+        tile->irradiance_r[lane] += scale * sums.r[i];
+        tile->irradiance_g[lane] += scale * sums.g[i];
+        tile->irradiance_b[lane] += scale * sums.b[i];
+        tile->weight[lane] += scale * sums.weight[i];
+    }
+}
+
+static void join_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    const struct field *field = work->field;
+    const struct gbuffer *gbuffer = work->gbuffer;
+    int64_t left = (int64_t)(index % gbuffer->tiles_across) * PS_TILE_SIZE;
+    int64_t top = (int64_t)(index / gbuffer->tiles_across) * PS_TILE_SIZE;
+    int reach = (int)field->interleave / 2;
+    struct apron apron;
+    for (int row = MARGIN - reach; row < MARGIN + PS_TILE_SIZE + reach; row++)
+        for (int column = MARGIN - reach; column < MARGIN + PS_TILE_SIZE + reach; column++)
+            load_pixel(field, left + column - MARGIN, top + row - MARGIN, &apron, column, row);
+    for (int row = 0; row < PS_TILE_SIZE; row++)
+        join_row(&apron, field->interleave, row, &gbuffer->tiles[index]);
+}
+
+void field_join(const struct field *field, struct gbuffer *gbuffer, uint32_t threads)
+{
+    struct work work = {field, gbuffer};
+    parallel_for(threads, gbuffer->tile_count, join_tile, &work);
+}

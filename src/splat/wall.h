@@ -1,0 +1,25 @@
+/* wall.h: walls beside a source, behind which part of its full beam would start.
+ *
+ * A kernel estimate loses what its kernel spreads past the border of its domain: at a straight border
+ * half of it (Jones 1993, "Simple boundary correction for kernel density estimation"). A full beam's
+ * domain is the lit surface that its disc starts on, and where a wall stands on that surface, the rays
+ * that start behind it light nothing: photon splatting darkens along creases, by a band as wide as
+ * the splats, and no finer map brings that light back.
+ *
+ * Sixteen short rays run from the source along its tangent plane to the rim of the disc. Their
+ * nearest hits give up to two straight walls; a pixel whose ray starts at distance d (in half-widths)
+ * in front of a wall then divides the kernel by the part of a disc around that start that lies on this
+ * side, which is the share of the sources around it that could exist at all. That is exact for even
+ * light on a plane, and not only in the mean: dividing by the part of the source's own disc would
+ * keep the energy, and put it into the wrong place.
+ */
+#ifndef SPLAT_WALL_H
+#define SPLAT_WALL_H
+
+#include <psplat/host.h>
+
+/* Finds the walls of n placed splats; those of half-width 0 are left out. Any thread. */
+void wall_find(const ps_host *host, float surface_offset, const ps_source *sources, size_t n,
+               ps_splat *splats);
+
+#endif

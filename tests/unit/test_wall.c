@@ -1,0 +1,159 @@
+/* test_wall.c: walls that short rays find beside a source. The ray tracer is one of planes, written
+ * here. */
+#include "splat/wall.h"
+
+#include <psplat/math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+/* A wall without end, or a pole: points x with x.normal = distance, within `half_width` of the
+ * origin sideways. */
+struct plane {
+    ps_vec3 normal;
+    float distance, half_width;
+};
+
+struct room {
+    struct plane planes[3];
+    size_t count;
+};
+
+static float meet(const struct plane *plane, ps_vec3 origin, ps_vec3 direction, float before)
+{
+    float toward = ps_dot(direction, plane->normal);
+    float t = (plane->distance - ps_dot(origin, plane->normal)) / toward;
+    if (!(t > 0 && t < before))
+        return before;
+    ps_vec3 point = ps_add_scaled(origin, t, direction);
+    ps_vec3 sideways = ps_add_scaled(point, -ps_dot(point, plane->normal), plane->normal);
+    return ps_dot(sideways, sideways) < plane->half_width * plane->half_width ? t : before;
+}
+
+static void trace(const ps_host *host, ps_packet *packets, size_t n)
+{
+    const struct room *room = host->core;
+    for (size_t k = 0; k < n; k++)
+        for (int i = 0; i < 16; i++) {
+            ps_packet *p = &packets[k];
+            ps_vec3 origin = {p->origin_x[i], p->origin_y[i], p->origin_z[i]};
+            ps_vec3 direction = {p->direction_x[i], p->direction_y[i], p->direction_z[i]};
+            for (size_t w = 0; w < room->count; w++)
+                p->tfar[i] = meet(&room->planes[w], origin, direction, p->tfar[i]);
+        }
+}
+
+/* Light from the origin of a floor (y = 0), as much to the side as up, in beams of half-width 2. */
+static ps_splat beam_in(struct room *room)
+{
+    static const float half = 0.70710678f;
+    const ps_source source = {.normal = {0, 1, 0}, .direction = {half, half, 0}};
+    ps_splat splat = {
+        .half_width = 2,
+        .axis_u = {half, -half, 0},
+        .axis_v = {0, 0, 1},
+        .axis_w = source.direction,
+        .start_slope_u = 1, /* points of the floor have y = 0 */
+    };
+    ps_host host = {.core = room, .intersect_packets = trace};
+    wall_find(&host, 0.001f, &source, 1, &splat);
+    return splat;
+}
+
+static void expect_near(float value, double expected)
+{
+    if (fabs((double)value - expected) > 1e-4)
+        fail_msg("%.9g, expected %.9g", (double)value, expected);
+}
+
+static void test_no_wall(void **state)
+{
+    (void)state;
+    struct room empty = {.count = 0};
+    assert_int_equal(beam_in(&empty).wall_count, 0);
+    /* Past the rim, which lies at z = 2. */
+    struct room far = {{{{0, 0, 1}, 2.1f, 1e9f}}, 1};
+    assert_int_equal(beam_in(&far).wall_count, 0);
+}
+
+/* Across the beam a distance is what it is on the floor. */
+static void test_wall_beside_the_beam(void **state)
+{
+    (void)state;
+    struct room room = {{{{0, 0, 1}, 0.5f, 1e9f}}, 1};
+    ps_splat splat = beam_in(&room);
+    assert_int_equal(splat.wall_count, 1);
+    expect_near(splat.walls[0].normal_u, 0);
+    expect_near(splat.walls[0].normal_v, 1);
+    expect_near(splat.walls[0].distance, 0.25);
+}
+
+/* Along the beam's slope the disc covers sqrt(2) times as much floor. */
+static void test_wall_behind_the_beam(void **state)
+{
+    (void)state;
+    struct room room = {{{{-1, 0, 0}, 1, 1e9f}}, 1};
+    ps_splat splat = beam_in(&room);
+    assert_int_equal(splat.wall_count, 1);
+    expect_near(splat.walls[0].normal_u, -1);
+    expect_near(splat.walls[0].normal_v, 0);
+    expect_near(splat.walls[0].distance, 0.5 / sqrt(2));
+}
+
+static void test_corner(void **state)
+{
+    (void)state;
+    struct room room = {{{{0, 0, 1}, 0.5f, 1e9f}, {{-1, 0, 0}, 1, 1e9f}}, 2};
+    ps_splat splat = beam_in(&room);
+    assert_int_equal(splat.wall_count, 2);
+    expect_near(splat.walls[0].distance, 0.25);
+    expect_near(splat.walls[1].normal_u, -1);
+    expect_near(splat.walls[1].distance, 0.5 / sqrt(2));
+}
+
+/* Three walls leave a niche: two of them are taken. */
+static void test_niche(void **state)
+{
+    (void)state;
+    struct room room = {{{{0, 0, 1}, 0.5f, 1e9f}, {{0, 0, -1}, 0.6f, 1e9f}, {{-1, 0, 0}, 1, 1e9f}},
+                        3};
+    ps_splat splat = beam_in(&room);
+    assert_int_equal(splat.wall_count, PS_MOST_WALLS);
+    expect_near(splat.walls[0].normal_v, 1);
+    expect_near(splat.walls[1].normal_v, -1);
+    expect_near(splat.walls[1].distance, 0.3);
+}
+
+static void test_a_pole_is_no_wall(void **state)
+{
+    (void)state;
+    struct room room = {{{{0, 0, 1}, 0.5f, 0.3f}}, 1};
+    assert_int_equal(beam_in(&room).wall_count, 0);
+}
+
+static void test_leaves_out_splats_that_light_nothing(void **state)
+{
+    (void)state;
+    struct room room = {{{{0, 0, 1}, 0.5f, 1e9f}}, 1};
+    ps_host host = {.core = &room, .intersect_packets = trace};
+    const ps_source source = {.normal = {0, 1, 0}, .direction = {0, 1, 0}};
+    ps_splat nothing = {.half_width = 0};
+    wall_find(&host, 0.001f, &source, 1, &nothing);
+    assert_int_equal(nothing.wall_count, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_no_wall),
+        cmocka_unit_test(test_wall_beside_the_beam),
+        cmocka_unit_test(test_wall_behind_the_beam),
+        cmocka_unit_test(test_corner),
+        cmocka_unit_test(test_niche),
+        cmocka_unit_test(test_a_pole_is_no_wall),
+        cmocka_unit_test(test_leaves_out_splats_that_light_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
