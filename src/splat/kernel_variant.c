@@ -40,11 +40,6 @@ static inline float clamp(float x, float low, float high)
     return least(most(x, low), high);
 }
 
-static inline float magnitude(float x)
-{
-    return x < 0.0f ? -x : x;
-}
-
 static inline int lowest_bit(uint32_t mask)
 {
 #if defined(__GNUC__)
@@ -66,12 +61,12 @@ uint32_t KERNEL_TOUCH(const struct bounds *bounds, const struct kernel_splat *sp
         float y = bounds->center_y[i] - splat->centre.y;
         float z = bounds->center_z[i] - splat->centre.z;
         float ex = bounds->extent_x[i], ey = bounds->extent_y[i], ez = bounds->extent_z[i];
-        float along_u = magnitude(x * u.x + y * u.y + z * u.z) -
-                        (ex * magnitude(u.x) + ey * magnitude(u.y) + ez * magnitude(u.z));
-        float along_v = magnitude(x * v.x + y * v.y + z * v.z) -
-                        (ex * magnitude(v.x) + ey * magnitude(v.y) + ez * magnitude(v.z));
+        float along_u = fabsf(x * u.x + y * u.y + z * u.z) -
+                        (ex * fabsf(u.x) + ey * fabsf(u.y) + ez * fabsf(u.z));
+        float along_v = fabsf(x * v.x + y * v.y + z * v.z) -
+                        (ex * fabsf(v.x) + ey * fabsf(v.y) + ez * fabsf(v.z));
         float depth = x * w.x + y * w.y + z * w.z;
-        float reach = ex * magnitude(w.x) + ey * magnitude(w.y) + ez * magnitude(w.z);
+        float reach = ex * fabsf(w.x) + ey * fabsf(w.y) + ez * fabsf(w.z);
         float off_u = most(along_u, 0.0f), off_v = most(along_v, 0.0f);
         /* The lowest that n.W may be. */
         float facing = least(bounds->normal_low_x[i] * w.x, bounds->normal_high_x[i] * w.x) +
@@ -107,6 +102,28 @@ static inline void list_by_block(const struct bounds *blocks, const struct kerne
 struct block_light {
     float weight[LANES], projected[LANES]; /* K * V, and that times the cosine */
 };
+
+/* Whether some pixel of the block lies inside of the box and faces the light: half of the blocks
+ * whose bounds a box touches have none. */
+static inline int any_inside(const struct field_tile *tile, int first,
+                             const struct kernel_splat *splat)
+{
+    int any = 0;
+    for (int i = 0; i < LANES; i++) {
+        float x = tile->position_x[first + i] - splat->centre.x;
+        float y = tile->position_y[first + i] - splat->centre.y;
+        float z = tile->position_z[first + i] - splat->centre.z;
+        float u = x * splat->u.x + y * splat->u.y + z * splat->u.z;
+        float v = x * splat->v.x + y * splat->v.y + z * splat->v.z;
+        float t = x * splat->w.x + y * splat->w.y + z * splat->w.z;
+        float facing =
+            -(tile->normal_x[first + i] * splat->w.x + tile->normal_y[first + i] * splat->w.y +
+              tile->normal_z[first + i] * splat->w.z);
+        float start = splat->start_depth + u * splat->start_u + v * splat->start_v;
+        any |= (u * u + v * v < 1.0f) & (facing > 0.0f) & (t <= splat->far_depth) & (t >= start);
+    }
+    return any;
+}
 
 /* Returns how many pixels have weight. */
 static inline int weigh(const struct field_tile *tile, int first, const struct kernel_splat *splat,
@@ -190,6 +207,8 @@ struct kernel_count KERNEL_ACCUMULATE(struct field_tile *tile, const struct kern
             for (uint32_t i = 0; i < lists.count[block]; i++) {
                 const struct kernel_splat *splat = &splats[lists.splats[block][i]];
                 _Alignas(64) struct block_light light;
+                if (!any_inside(tile, block * LANES, splat))
+                    continue;
                 count.lit += (uint64_t)weigh(tile, block * LANES, splat, (int)resolution,
                                              profile->weights, &light);
                 for (uint32_t k = 0; k < splat->wall_count; k++)
