@@ -13,11 +13,11 @@ statistic() {
 }
 
 # own_bytes FILE: the memory that belongs to the estimator of that --stats file: sources, strata, splats, maps, bins,
-# photons and their tree. The scene, the G-buffer and the film, which all estimators have, do not count.
+# photons and their tree. The scene, the film and the G-buffer with its copy for splats, which go by the picture, do not count.
 own_bytes() {
     awk '
         $1 ~ /^"/ && $NF == "{" { inside = ($1 == "\"bytes\":") }
-        /"photon tree bytes":/ || (inside && /": / && !/"ray tracer":|"G-buffer":|"film":/) {
+        /"photon tree bytes":/ || (inside && /": / && !/"ray tracer":|"G-buffer":|"film":|"splatted pixels":/) {
             gsub(/,/, "", $NF)
             sum += $NF
         }

@@ -1,11 +1,9 @@
 /* host.c: the services of psplat/host.h, on top of a render. */
-#include "base/clock.h"
 #include "base/parallel.h"
 #include "base/sample.h"
 #include "pipeline/host_light.h"
+#include "pipeline/host_splat.h"
 #include "pipeline/render_state.h"
-#include "splat/box.h"
-#include "splat/wall.h"
 #include <psplat/math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -115,23 +113,6 @@ static void host_camera(const ps_host *host, ps_vec3 *position, ps_vec3 *directi
     *direction = render_of(host)->scene->camera.forward;
 }
 
-static void host_place_boxes(const ps_host *host, const ps_box_settings *settings,
-                             const ps_source *sources, const ps_hit *hits, size_t n,
-                             ps_splat *splats)
-{
-    const struct render *render = render_of(host);
-    struct box_scene scene = {
-        .radius = render->scene->radius,
-        .surface_offset = render->scene->surface_offset,
-        .automatic_size = box_automatic_size(render->scene->radius, render->sources.path_count,
-                                             render->pass.number),
-        .seed = render->settings->seed,
-    };
-    box_place(&scene, settings, sources, hits, n, splats);
-    if (settings->walls && settings->step_back_rule == 1)
-        wall_find(host, render->scene->surface_offset, sources, n, splats);
-}
-
 static ps_result host_next_sources(const ps_host *host, const ps_source **sources, size_t *n,
                                    double *progress)
 {
@@ -140,112 +121,6 @@ static ps_result host_next_sources(const ps_host *host, const ps_source **source
         return PS_CANCELLED;
     ps_result result = source_stream_next(&render->sources, sources, n, &render->error);
     *progress = source_stream_progress(&render->sources);
-    return result;
-}
-
-struct placement {
-    struct render *render;
-    const ps_source *sources;
-    size_t n;
-    ps_splat *splats;
-};
-
-static void place_chunk(void *user, uint64_t index, uint32_t worker)
-{
-    (void)worker;
-    const struct placement *placement = user;
-    struct render *render = placement->render;
-    ps_ray rays[PS_PATH_CHUNK];
-    ps_hit hits[PS_PATH_CHUNK];
-    size_t first = index * PS_PATH_CHUNK, left = placement->n - first;
-    size_t n = left < PS_PATH_CHUNK ? left : PS_PATH_CHUNK;
-    const ps_source *sources = placement->sources + first;
-    for (size_t i = 0; i < n; i++)
-        rays[i] = ps_leave_surface(sources[i].position, sources[i].normal, sources[i].direction,
-                                   render->scene->surface_offset);
-    trace_intersect(render->trace, RAYS_INCOHERENT, rays, n, hits);
-    const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
-    const ps_visibility_vtable *vtable = visibility->descriptor->vtable;
-    vtable->place(visibility->state, &render->host, sources, hits, n, placement->splats + first);
-}
-
-static ps_result host_place_splats(const ps_host *host, const ps_source *sources, size_t n,
-                                   ps_splat *splats)
-{
-    struct render *render = render_of(host);
-    struct placement placement = {render, sources, n, splats};
-    double start = clock_seconds();
-    uint64_t chunks = (n + PS_PATH_CHUNK - 1) / PS_PATH_CHUNK;
-    parallel_for(render->settings->threads, chunks, place_chunk, &placement);
-    statistics_add_seconds(render->statistics, "place", clock_seconds() - start);
-    return PS_OK;
-}
-
-static ps_result tabulate_filter(struct render *render, struct kernel_profile *profile)
-{
-    const struct strategy *filter = &render->settings->strategies[PS_FILTER];
-    const ps_filter_vtable *vtable = filter->descriptor->vtable;
-    float radius2[KERNEL_PROFILE_SIZE];
-    for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++)
-        radius2[i] = kernel_profile_radius2(i);
-    vtable->weigh(filter->state, radius2, profile->weights, KERNEL_PROFILE_SIZE);
-    if (kernel_profile_normalize(profile))
-        return PS_OK;
-    return error_set(&render->error, PS_ERROR_INVALID,
-                     "filter %s: weights must not be negative, nor zero everywhere",
-                     filter->descriptor->name);
-}
-
-static void host_interleave(const ps_host *host, uint32_t n)
-{
-    render_of(host)->interleave = n < 1 ? 1 : n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
-}
-
-static ps_result create_splatter(struct render *render)
-{
-    const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
-    struct splatter_settings settings = {
-        .host = &render->host,
-        .visibility = visibility->descriptor->vtable,
-        .visibility_state = visibility->state,
-        .surface_offset = render->scene->surface_offset,
-        .kernel = render->kernel,
-        .interleave = render->counts_splats ? 1 : render->interleave,
-        .threads = render->settings->threads,
-        .batch = render->settings->batch,
-    };
-    ps_result result = PS_OK;
-    if (render->counts_splats)
-        kernel_profile_count(&settings.profile);
-    else
-        result = tabulate_filter(render, &settings.profile);
-    if (result == PS_OK)
-        result = splatter_create(&render->splatter, &render->gbuffer, &settings, &render->error);
-    render->has_splatter = result == PS_OK;
-    return result;
-}
-
-static ps_result begin_splatting(struct render *render)
-{
-    ps_result result = render->has_splatter ? PS_OK : create_splatter(render);
-    if (result != PS_OK)
-        return result;
-    uint64_t paths = render->sources.path_count;
-    struct splatter_pass pass = {render->pass.number, paths * render->pass.number, paths};
-    splatter_begin_pass(&render->splatter, &render->gbuffer, pass);
-    render->splatting = true;
-    return PS_OK;
-}
-
-static ps_result host_splat(const ps_host *host, ps_splat *splats, size_t n)
-{
-    struct render *render = render_of(host);
-    ps_result result = render->splatting ? PS_OK : begin_splatting(render);
-    if (result == PS_OK)
-        result = splatter_add(&render->splatter, splats, n, &render->error);
-    if (result == PS_OK)
-        statistics_set_bytes(render->statistics, "splats",
-                             (double)splatter_bytes(&render->splatter));
     return result;
 }
 
@@ -284,11 +159,7 @@ void host_create(struct render *render)
         .for_each_tile = host_for_each_tile,
         .samples = host_samples,
         .scene_bounds = host_scene_bounds,
-        .place_boxes = host_place_boxes,
         .next_sources = host_next_sources,
-        .place_splats = host_place_splats,
-        .interleave = host_interleave,
-        .splat = host_splat,
         .tile = host_tile,
         .pixel = host_pixel,
         .log = host_log,
@@ -298,22 +169,5 @@ void host_create(struct render *render)
         .camera = host_camera,
     };
     host_add_light_transport(&render->host);
-}
-
-void host_report_splatter(struct render *render)
-{
-    if (!render->has_splatter)
-        return;
-    struct statistics *statistics = render->statistics;
-    const struct splatter *splatter = &render->splatter;
-    statistics_add_seconds(statistics, "maps", splatter->map_seconds);
-    statistics_add_seconds(statistics, "bin", splatter->bin_seconds);
-    statistics_add_seconds(statistics, "splat", splatter->kernel_seconds);
-    statistics_add_seconds(statistics, "join", splatter->join_seconds);
-    statistics_set_bytes(statistics, "splatted pixels", (double)field_bytes(&splatter->field));
-    statistics_count(statistics, "splats", (double)splatter->splats);
-    statistics_count(statistics, "map rays", (double)splatter->map_rays);
-    statistics_count(statistics, "visibility rays", (double)splatter->exact_tests);
-    statistics_count(statistics, "pixel-splat tests", (double)splatter->tests);
-    statistics_count(statistics, "pixel-splat tests with weight", (double)splatter->useful_tests);
+    host_add_splatting(&render->host);
 }

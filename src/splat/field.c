@@ -241,7 +241,7 @@ static void join_tile(void *user, uint64_t index, uint32_t worker)
     int64_t left = (int64_t)(index % gbuffer->tiles_across) * PS_TILE_SIZE;
     int64_t top = (int64_t)(index / gbuffer->tiles_across) * PS_TILE_SIZE;
     int reach = (int)field->interleave / 2;
-    struct apron apron;
+    struct apron apron = {0};
     for (int row = MARGIN - reach; row < MARGIN + PS_TILE_SIZE + reach; row++)
         for (int column = MARGIN - reach; column < MARGIN + PS_TILE_SIZE + reach; column++)
             load_pixel(field, left + column - MARGIN, top + row - MARGIN, &apron, column, row);
