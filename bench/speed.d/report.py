@@ -4,7 +4,7 @@ from curve import ratio_text, reach_text, time_to
 
 # What splatting aims at: times as fast as the peer, at an error.
 AIMS = {"pathtrace": {0.06: 20, 0.03: 10}, "photonmap": {0.06: 50}}
-STAGES = ("inject", "stratify", "place", "maps", "bin", "splat")
+STAGES = ("inject", "stratify", "place", "maps", "bin", "splat", "join")
 
 
 def markdown_table(head, rows):

@@ -124,11 +124,14 @@ struct ps_host {
     void (*scene_bounds)(const ps_host *host, ps_vec3 *center, float *radius);
 
     /* Boxes around the first hits of sources: the geometry that every visibility shares (frame,
-     * size that follows distance, step-back). A hit at INFINITY gives half_width 0. [any thread] */
+     * size that follows distance, step-back, walls beside the source). Automatic sizes go by the
+     * pass's number of paths, which next_sources finds out. A hit at INFINITY gives half_width 0.
+     * [any thread] */
     void (*place_boxes)(const ps_host *host, const ps_box_settings *settings,
                         const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats);
 
-    /* The pass's next batch of sources, injected and stratified, in path order; n is 0 after the
+    /* The pass's next batch of sources, injected and stratified, in the order
+     * of emission; n is 0 after the
      * last. `progress` becomes the share of the pass's paths that are done, 0..1. Borrowed until
      * the next call. [main thread, inside accumulate] */
     ps_result (*next_sources)(const ps_host *host, const ps_source **sources, size_t *n,
@@ -141,8 +144,8 @@ struct ps_host {
 
     /* Lets a splat light only the pixels of one of n x n interleaved subsets, n^2 times as strongly,
      * and joins what neighbouring pixels learned at the end of the pass; 1 <= n <=
-     * PS_MOST_INTERLEAVE, and 1 unless called. Before the render's first splat. [main thread, inside
-     * accumulate] */
+     * PS_MOST_INTERLEAVE, and 1 unless called. Before the render's first splat: later calls change
+     * nothing. [main thread, inside accumulate] */
     void (*interleave)(const ps_host *host, uint32_t n);
 
     /* Adds the light of splats to the tiles: depth maps by the chosen visibility, weights by the

@@ -24,10 +24,11 @@ typedef struct ps_source_sink {
 typedef struct ps_injection_vtable {
     uint32_t size;
     uint32_t reserved;
-    /* Light paths in a pass. [main thread] */
+    /* Light paths in a pass; automatic sizes go by it. [main thread] */
     uint64_t (*path_count)(const void *state);
     /* Makes the sources of paths [first, first + n), n <= PS_PATH_CHUNK, of the pass, in an order
-     * that depends on these alone. [worker] */
+     * that depends on these alone. Any run of paths has to be a fair part of the pass: runs share
+     * out the pixels (host->interleave). [worker] */
     ps_result (*emit)(const void *state, const ps_host *host, const ps_pass *pass, uint64_t first,
                       size_t n, const ps_source_sink *sink);
     /* Makes what emit needs in this pass and keeps it in the state, which no other callback uses

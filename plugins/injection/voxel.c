@@ -394,6 +394,26 @@ static void find_places(const struct state *state, const ps_host *host, uint64_t
     host->intersect(host, rays, n, hits);
 }
 
+static uint64_t greatest_common_divisor(uint64_t a, uint64_t b)
+{
+    while (b > 0) {
+        uint64_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+/* The path number of a voxel. Voxels are sorted by place, but any run of paths has to be a fair part of
+ * all: steps of about the golden section, prime to their number, spread neighbours evenly. */
+static uint64_t fair_path(const struct state *state, const ps_pass *pass, uint64_t voxel)
+{
+    uint64_t count = state->count, step = (uint64_t)(0.6180339887 * (double)count) + 1;
+    while (greatest_common_divisor(step, count) > 1)
+        step++;
+    return pass->number * count + voxel * step % count;
+}
+
 static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pass, uint64_t first,
                       size_t n, const ps_source_sink *sink)
 {
@@ -421,7 +441,7 @@ static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pa
             .bounce = 1,
             .lobe = PS_DIFFUSE,
             .merged = 1.0f,
-            .path = indices[i],
+            .path = fair_path(state, pass, first + i),
         };
     }
     return sink->append(sink->core, sources, count);

@@ -215,6 +215,7 @@ static ps_result draw_picture(struct render *render, ps_splat *splats, size_t n,
     ps_result result = render->host.splat(&render->host, splats, n);
     if (result != PS_OK)
         return error_set(error, result, "%s", render->error.text);
+    splatter_end_pass(&render->splatter, &render->gbuffer);
     backdrop_draw(render, exposure, canvas);
     draw_light(render, scale_of(splats, n), exposure, canvas);
     number_splats(render, splats, n, canvas);

@@ -117,7 +117,7 @@ static ps_result begin_splatting(struct render *render)
     if (result != PS_OK)
         return result;
     uint64_t paths = render->sources.path_count;
-    struct splatter_pass pass = {render->pass.number, paths * render->pass.number, paths};
+    struct splatter_pass pass = {render->pass.number, paths};
     splatter_begin_pass(&render->splatter, &render->gbuffer, pass);
     render->splatting = true;
     return PS_OK;

@@ -1,8 +1,8 @@
 /* memory.c: whether a picture of some size can be rendered here at all.
  *
  * A system that lends more memory than it has lets a render of a mistyped size begin and kills it
- * later, with others. So what grows with the picture (G-buffer, film and the picture itself, which
- * are there together at the end) is compared with the machine's physical memory beforehand. What
+ * later, with others. So what grows with the picture (G-buffer, its copy for splats, film and
+ * the picture itself, which are there together at the end) is compared with the machine's physical memory beforehand. What
  * else the system runs is not known, and not asked for.
  */
 #include "film/film.h"
@@ -17,8 +17,9 @@ double render_bytes(size_t width, size_t height)
 {
     struct gbuffer gbuffer = gbuffer_layout(width, height);
     struct film film = {.width = width, .height = height};
-    return (double)gbuffer_bytes(&gbuffer) + (double)film_bytes(&film) +
-           (double)picture_bytes(width, height);
+    struct field field = field_layout(&gbuffer, 1);
+    return (double)gbuffer_bytes(&gbuffer) + (double)field_bytes(&field) +
+           (double)film_bytes(&film) + (double)picture_bytes(width, height);
 }
 
 /* Infinite where the system does not tell. */

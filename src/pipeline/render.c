@@ -149,12 +149,10 @@ ps_result render_estimate(struct render *render, struct error *error)
     const struct strategy *estimator = &render->settings->strategies[PS_ESTIMATOR];
     const ps_estimator_vtable *vtable = estimator->descriptor->vtable;
     source_stream_rewind(&render->sources);
-    render->splatting = false;
-    render->interleave = 1;
     render->error.text[0] = '\0';
     double start = clock_seconds();
     ps_result result = vtable->accumulate(estimator->state, &render->host, &render->pass);
-    if (render->splatting)
+    if (result == PS_OK && render->splatting)
         splatter_end_pass(&render->splatter, &render->gbuffer);
     statistics_add_seconds(render->statistics, "estimate", clock_seconds() - start);
     if (result == PS_OK && render->host.cancelled(&render->host))
@@ -177,6 +175,8 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
         .surface_offset = render->scene->surface_offset,
         .specular = render->scene->microfacets != NULL,
     };
+    render->splatting = false;
+    render->interleave = 1;
     report_progress(render, "direct light", (double)number / render->settings->passes);
     struct tile_work work = {
         render,

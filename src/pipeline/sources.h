@@ -1,4 +1,5 @@
-/* sources.h: the stream of a pass's indirect light sources: injected, stratified, in path order.
+/* sources.h: the stream of a pass's indirect light sources: injected, stratified, in the
+ * order of emission.
  *
  * Paths go through in batches, so memory does not grow with their number, unless the stratification
  * wants to see all sources of a pass at once.

@@ -8,11 +8,10 @@
 #define BLOCK_SIDE 4
 #define BLOCKS_ACROSS (PS_TILE_SIZE / BLOCK_SIDE)
 
-ps_result field_create(const struct gbuffer *gbuffer, uint32_t interleave, struct field *field,
-                       struct error *error)
+struct field field_layout(const struct gbuffer *gbuffer, uint32_t interleave)
 {
     uint32_t side = interleave * PS_TILE_SIZE;
-    *field = (struct field){
+    struct field field = {
         .interleave = interleave,
         .subsets = interleave * interleave,
         .tiles_across = (uint32_t)((gbuffer->width + side - 1) / side),
@@ -20,7 +19,14 @@ ps_result field_create(const struct gbuffer *gbuffer, uint32_t interleave, struc
         .width = gbuffer->width,
         .height = gbuffer->height,
     };
-    field->tile_count = field->subsets * field->tiles_across * field->tiles_down;
+    field.tile_count = field.subsets * field.tiles_across * field.tiles_down;
+    return field;
+}
+
+ps_result field_create(const struct gbuffer *gbuffer, uint32_t interleave, struct field *field,
+                       struct error *error)
+{
+    *field = field_layout(gbuffer, interleave);
     field->tiles = aligned_alloc(64, field_bytes(field));
     return field->tiles ? PS_OK
                         : error_memory(error, field_bytes(field), "the pixels that splats light");

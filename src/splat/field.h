@@ -35,6 +35,9 @@ struct field {
     struct field_tile *tiles;          /* owned */
 };
 
+/* A field for a G-buffer of this size, and no memory for it. */
+struct field field_layout(const struct gbuffer *gbuffer, uint32_t interleave);
+
 /* A field for a G-buffer of this size; `interleave` 1..PS_MOST_INTERLEAVE. */
 ps_result field_create(const struct gbuffer *gbuffer, uint32_t interleave, struct field *field,
                        struct error *error);
@@ -48,8 +51,8 @@ bool field_pixel(const struct field *field, uint32_t tile, uint32_t lane, uint32
 void field_fill(struct field *field, const struct gbuffer *gbuffer, uint32_t threads);
 
 /* Gives each pixel of the G-buffer the mean of what the subsets learned around it: over a window of
- * n + 1 pixels across and down whose border weighs half where n is even, so that each subset weighs
- * the same, and whose pixels lie on about the same plane. */
+ * n pixels across and down, or n + 1 whose border weighs half where n is even, so that each subset
+ * weighs the same inside of a surface; pixels off the same plane do not count. */
 void field_join(const struct field *field, struct gbuffer *gbuffer, uint32_t threads);
 
 #endif

@@ -90,6 +90,12 @@ void kernel_profile_count(struct kernel_profile *profile)
     profile->counting = true;
 }
 
+/* A plugin's own splats may claim anything. */
+static uint32_t wall_count(const ps_splat *splat)
+{
+    return splat->wall_count < PS_MOST_WALLS ? splat->wall_count : PS_MOST_WALLS;
+}
+
 struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_profile *profile,
                                    const float *depths)
 {
@@ -110,7 +116,7 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
         .kernel_scale = profile->counting ? 1.0f : merged * profile->scale * inverse * inverse,
         .power = ps_rgb_scale(splat->power, 1.0f / merged),
         .depths = depths,
-        .wall_count = profile->counting ? 0 : splat->wall_count,
+        .wall_count = profile->counting ? 0 : wall_count(splat),
         .walls = {splat->walls[0], splat->walls[1]},
     };
 }

@@ -48,7 +48,8 @@ struct kernel_splat {
     float start_depth, start_u,
         start_v; /* depth of the start plane: start_depth + start_u * u + start_v * v */
     float bias_constant, bias_slope;
-    float kernel_scale; /* with `merged` in it, by which the power is divided; 0: the splat lights
+    float kernel_scale; /* with `merged` in it, by which the power is divided, and the number of
+                           subsets of the field; 0: the splat lights
                            nothing, and has no other member set */
     ps_rgb power;
     uint32_t subset;     /* of the field, whose pixels it lights */

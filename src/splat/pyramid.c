@@ -3,10 +3,18 @@
 #include "base/parallel.h"
 #include <stdlib.h>
 
+size_t pyramid_bytes(const struct pyramid *pyramid)
+{
+    return pyramid->each * pyramid->subsets * sizeof *pyramid->nodes;
+}
+
 ps_result pyramid_create(const struct field *field, struct pyramid *pyramid, struct error *error)
 {
-    *pyramid =
-        (struct pyramid){.tiles_across = field->tiles_across, .tiles_down = field->tiles_down};
+    *pyramid = (struct pyramid){
+        .subsets = field->subsets,
+        .tiles_across = field->tiles_across,
+        .tiles_down = field->tiles_down,
+    };
     uint32_t across = field->tiles_across, down = field->tiles_down;
     do {
         across = (across + PYRAMID_GROUP - 1) / PYRAMID_GROUP;
@@ -17,7 +25,7 @@ ps_result pyramid_create(const struct field *field, struct pyramid *pyramid, str
         pyramid->down[level] = down;
         pyramid->each += (size_t)across * down;
     } while (pyramid->levels < PYRAMID_LEVELS && (across > 1 || down > 1));
-    size_t bytes = pyramid->each * field->subsets * sizeof *pyramid->nodes;
+    size_t bytes = pyramid_bytes(pyramid);
     pyramid->nodes = aligned_alloc(64, bytes);
     return pyramid->nodes ? PS_OK : error_memory(error, bytes, "tile bounds");
 }

@@ -13,8 +13,9 @@
 #define PYRAMID_GROUP 4 /* children of a node, across and down */
 
 struct pyramid {
-    struct bounds *nodes;         /* of one subset after the other, all levels of each; owned */
-    size_t each;                  /* nodes of one subset */
+    struct bounds *nodes; /* of one subset after the other, all levels of each; owned */
+    size_t each;          /* nodes of one subset */
+    uint32_t subsets;
     size_t first[PYRAMID_LEVELS]; /* of each level, among a subset's nodes */
     uint32_t across[PYRAMID_LEVELS], down[PYRAMID_LEVELS];
     int levels;
@@ -24,6 +25,7 @@ struct pyramid {
 /* Room for the pyramid of a field. */
 ps_result pyramid_create(const struct field *field, struct pyramid *pyramid, struct error *error);
 void pyramid_release(struct pyramid *pyramid);
+size_t pyramid_bytes(const struct pyramid *pyramid);
 
 /* Bounds of what the tiles see now. */
 void pyramid_build(struct pyramid *pyramid, const struct field *field, uint32_t threads);

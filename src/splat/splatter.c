@@ -67,7 +67,7 @@ size_t splatter_bytes(const struct splatter *splatter)
 {
     size_t map = map_texels(splatter) * sizeof(float);
     return splatter->settings.batch * (map + sizeof *splatter->prepared) +
-           bins_bytes(&splatter->bins);
+           bins_bytes(&splatter->bins) + pyramid_bytes(&splatter->pyramid);
 }
 
 void splatter_begin_pass(struct splatter *splatter, const struct gbuffer *gbuffer,
@@ -92,9 +92,8 @@ static uint32_t subset_of(const struct splatter *splatter, uint64_t path)
 {
     const struct splatter_pass *pass = &splatter->pass;
     uint64_t subsets = splatter->field.subsets;
-    uint64_t index = path > pass->first_path ? path - pass->first_path : 0;
     uint64_t count = pass->path_count > 0 ? pass->path_count : 1;
-    return (uint32_t)((index * subsets / count + pass->number) % subsets);
+    return (uint32_t)((path % count * subsets / count + pass->number) % subsets);
 }
 
 struct batch {

@@ -25,10 +25,10 @@ struct splatter_settings {
         batch; /* at most so many splats at a time; the budget for depth maps may ask for fewer */
 };
 
-/* Which light paths a pass has: they share the subsets of pixels out. */
+/* How many light paths a pass has: they share the subsets of pixels out. */
 struct splatter_pass {
     uint32_t number;
-    uint64_t first_path, path_count;
+    uint64_t path_count;
 };
 
 struct splatter {

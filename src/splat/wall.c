@@ -78,7 +78,7 @@ static bool stands(const struct wall *wall, const struct free_way *way)
         expected += reach < 0.9f;
         met += reach < 0.9f && way->reach[i] < 1.1f * reach;
     }
-    return 4 * met >= 3 * expected;
+    return met >= 2 && 4 * met >= 3 * expected;
 }
 
 /* The ray that is stopped most clearly before the walls found so far; -1: none. */
