@@ -109,16 +109,18 @@ static void test_other_injections_keep_the_brightness(void **state)
                          indirect(cornell, injections[i], 1), 0.04);
 }
 
-/* It does interleave: fewer tests of pixels, and another picture. */
+/* It does interleave: a splat lights the sixteenth part of its pixels, and fewer are tested. */
 static void test_interleaving_saves_tests(void **state)
 {
     (void)state;
-    struct rendering all = render(cornell, "injection=photon:count=5000", 1);
-    struct rendering some = render(cornell, "injection=photon:count=5000", 4);
-    double lit = statistics_counter(&all.statistics, "pixel-splat tests");
-    double fewer = statistics_counter(&some.statistics, "pixel-splat tests");
-    print_message("%.0f tests of splats against pixels, interleaved %.0f\n", lit, fewer);
-    assert_true(fewer > 0 && fewer < lit / 4);
+    struct rendering all = render(cornell, PHOTONS, 1), some = render(cornell, PHOTONS, 4);
+    double tests = statistics_counter(&some.statistics, "pixel-splat tests") /
+                   statistics_counter(&all.statistics, "pixel-splat tests");
+    double lit = statistics_counter(&some.statistics, "pixel-splat tests with weight") /
+                 statistics_counter(&all.statistics, "pixel-splat tests with weight");
+    print_message("interleave 4: %.4f of the tests, %.4f of them with weight\n", tests, lit);
+    assert_true(fabs(16 * lit - 1) < 0.03);
+    assert_true(tests >= lit && tests < 0.5);
     rendering_release(&all);
     rendering_release(&some);
 }
