@@ -117,6 +117,18 @@ double mean_of_all(const struct image *image, const char *channel)
     return mean_of(image, channel, 0, 0, image->width, image->height);
 }
 
+void expect_same_image(const struct image *a, const struct image *b)
+{
+    assert_int_equal(a->width, b->width);
+    assert_int_equal(a->height, b->height);
+    assert_int_equal(a->channel_count, b->channel_count);
+    for (size_t i = 0; i < a->channel_count; i++) {
+        assert_string_equal(a->channels[i].name, b->channels[i].name);
+        assert_memory_equal(a->channels[i].samples, b->channels[i].samples,
+                            a->width * a->height * sizeof(float));
+    }
+}
+
 char *cornell_text(int width, int height)
 {
     const char *source = getenv("PSPLAT_SOURCE");

@@ -77,6 +77,18 @@ static void fill_tile(struct field_tile *tile, struct random *random)
         bound_block(tile, block);
 }
 
+/* No wall, one or two; some beside the disc's middle, some past its rim. */
+static void add_walls(ps_splat *splat, struct random *random)
+{
+    splat->wall_count = (uint32_t)random_between(random, 0, 2.999f);
+    for (uint32_t i = 0; i < splat->wall_count; i++) {
+        ps_vec3 direction = random_direction(random);
+        float length = sqrtf(direction.x * direction.x + direction.y * direction.y);
+        splat->walls[i] = (ps_wall){direction.x / length, direction.y / length,
+                                    random_between(random, 0.0f, 1.2f)};
+    }
+}
+
 static ps_splat random_splat(struct random *random)
 {
     ps_splat splat = {
@@ -93,6 +105,7 @@ static ps_splat random_splat(struct random *random)
         .power = {random_unit(random), random_unit(random), random_unit(random)},
     };
     ps_frame(splat.axis_w, &splat.axis_u, &splat.axis_v);
+    add_walls(&splat, random);
     return splat;
 }
 
@@ -133,6 +146,21 @@ static size_t texel(double across, uint32_t resolution, bool *borderline)
     return (size_t)fmin(fmax(place, 0), resolution - 1);
 }
 
+/* What the walls beside a splat make of its weight. */
+static double made_up(const struct bench *bench, const ps_splat *splat, double u, double v,
+                      bool *borderline)
+{
+    double factor = 1;
+    for (uint32_t i = 0; i < splat->wall_count; i++) {
+        const ps_wall *wall = &splat->walls[i];
+        double distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
+        double place = distance * (KERNEL_BOUNDARY_SIZE - 1);
+        *borderline |= fabs(place - floor(place + 0.5)) < 1e-3;
+        factor *= bench->profile.boundary[(size_t)fmin(fmax(place, 0), KERNEL_BOUNDARY_SIZE - 1)];
+    }
+    return factor;
+}
+
 /* One splat's light on one pixel. */
 static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel, struct sums *sums)
 {
@@ -171,6 +199,7 @@ static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel,
     double entry = fmin(r2 * KERNEL_PROFILE_SIZE, KERNEL_PROFILE_SIZE - 1);
     double k = bench->profile.weights[(size_t)entry] * (double)bench->profile.scale /
                ((double)splat->half_width * splat->half_width);
+    k *= made_up(bench, splat, u, v, &sums->borderline);
     sums->borderline |= fabs(entry - floor(entry + 0.5)) < 2e-3;
     sums->weight += k;
     sums->r += splat->power.r * k * cosine;

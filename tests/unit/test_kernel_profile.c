@@ -1,4 +1,5 @@
-/* test_kernel_profile.c: tabulated filters integrate to 1 over their disc; bad ones are refused. */
+/* test_kernel_profile.c: tabulated filters integrate to 1 over their disc, and know which part of it
+ * lies before a straight border; bad ones are refused. */
 #include "splat/kernel.h"
 
 #include <math.h>
@@ -67,10 +68,62 @@ static void test_bad_profiles_are_refused(void **state)
     assert_true(kernel_profile_normalize(&profile));
 }
 
+/* Half of every round kernel lies on each side of a border through its middle, and all of it before
+ * one at its rim. */
+static void expect_boundary(const struct kernel_profile *profile)
+{
+    const float *boundary = profile->boundary;
+    assert_true(fabsf(boundary[0] - 2) < 1e-4f);
+    assert_true(fabsf(boundary[KERNEL_BOUNDARY_SIZE - 1] - 1) < 1e-6f);
+    for (size_t i = 1; i < KERNEL_BOUNDARY_SIZE; i++)
+        assert_true(boundary[i] <= boundary[i - 1] && boundary[i] >= 1);
+    /* Strictly, but for the last bits near the rim. */
+    for (size_t i = 1; i < KERNEL_BOUNDARY_SIZE * 9 / 10; i++)
+        assert_true(boundary[i] < boundary[i - 1]);
+}
+
+static void test_borders_cut_every_profile_by_its_part(void **state)
+{
+    (void)state;
+    struct kernel_profile profile;
+    for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++)
+        profile.weights[i] = 1 - sqrtf(kernel_profile_radius2(i));
+    assert_true(kernel_profile_normalize(&profile));
+    expect_boundary(&profile);
+    for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++)
+        profile.weights[i] = 1 - kernel_profile_radius2(i);
+    assert_true(kernel_profile_normalize(&profile));
+    expect_boundary(&profile);
+    gaussian_profile(&profile);
+    expect_boundary(&profile);
+}
+
+/* Of an even disc, a border cuts off a segment. */
+static void test_borders_cut_segments_off_a_disc(void **state)
+{
+    (void)state;
+    const double pi = 3.14159265358979;
+    struct kernel_profile profile;
+    double worst = 0;
+    for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++)
+        profile.weights[i] = 3; /* whatever the scale */
+    assert_true(kernel_profile_normalize(&profile));
+    expect_boundary(&profile);
+    for (size_t i = 0; i < KERNEL_BOUNDARY_SIZE; i++) {
+        double d = (double)i / (KERNEL_BOUNDARY_SIZE - 1);
+        double expected = 1 / (1 - (acos(d) - d * sqrt(1 - d * d)) / pi);
+        worst = fmax(worst, fabs(profile.boundary[i] / expected - 1));
+    }
+    print_message("an even disc's borders: at most %.2g off\n", worst);
+    assert_true(worst < 0.01);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_profiles_integrate_to_one),
+        cmocka_unit_test(test_borders_cut_every_profile_by_its_part),
+        cmocka_unit_test(test_borders_cut_segments_off_a_disc),
         cmocka_unit_test(test_bad_profiles_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

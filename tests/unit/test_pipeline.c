@@ -152,16 +152,6 @@ static void test_seeds_make_other_noise(void **state)
     free(text);
 }
 
-static void expect_same(const struct image *a, const struct image *b)
-{
-    assert_int_equal(a->channel_count, b->channel_count);
-    for (size_t i = 0; i < a->channel_count; i++) {
-        assert_string_equal(a->channels[i].name, b->channels[i].name);
-        assert_memory_equal(a->channels[i].samples, b->channels[i].samples,
-                            a->width * a->height * sizeof(float));
-    }
-}
-
 /* Bitwise the same channels for any number of threads and any size of batches. */
 static void expect_determined(const char *const choices[])
 {
@@ -174,7 +164,7 @@ static void expect_determined(const char *const choices[])
             if (batches[i] < 100 && threads != 2)
                 continue; /* slow */
             struct rendering other = render_text_in_batches(text, threads, batches[i], choices);
-            expect_same(&first.image, &other.image);
+            expect_same_image(&first.image, &other.image);
             rendering_release(&other);
         }
     rendering_release(&first);
