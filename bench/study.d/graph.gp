@@ -10,7 +10,6 @@ set format y '%g'
 set key outside below horizontal autotitle columnhead samplen 3 maxrows 4
 set style data linespoints
 set pointsize 0.6
-set bmargin 7
 # Own methods have the same line in every graph.
 line(name) = name eq 'path' ? 8 : name eq 'own' ? 7 : name eq 'pm' ? 4 : \
     name[1:5] eq 'small' ? 1 : name[1:5] eq 'large' ? 2 : 6
