@@ -129,7 +129,7 @@ render:
   filter: {gaussian: {sigma: 0.7}}
   normalization: weight
 END
-shadowmap="follow=0.25,depth=auto,step_back=full,grow=1.5"
+shadowmap="follow=0.25,depth=auto,step_back=full,grow=1.5,walls=yes"
 # What the scene says.
 chosen visibility "shadowmap:size=30,$shadowmap,resolution=4,bias=slope" $scene
 chosen filter "gaussian:sigma=0.7" $scene
