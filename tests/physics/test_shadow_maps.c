@@ -92,9 +92,11 @@ static void test_converges_to_rays(void **state)
 static void test_slopes_do_not_shadow_themselves(void **state)
 {
     (void)state;
+    static const char steep_spotlight[] =
+        "spotlight: {location: [1.9, 0.3, 0], point_at: [-1, 0, 0], "
+        "radius: 60, falloff: 60, intensity: 5}";
     static const char *const lights[] = {
-        "spotlight: {location: [1.9, 0.3, 0], point_at: [-1, 0, 0], radius: 60, falloff: 60,"
-        " intensity: 5}",
+        steep_spotlight,
         "point: {location: [0.4, 0.2, -0.3], intensity: 5}",
         "sun: {direction: [9, -1, 3], irradiance: 5, angle: 0}",
     };

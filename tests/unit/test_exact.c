@@ -61,7 +61,8 @@ static struct bench *make_bench(void)
         float angle = random_between(&random, 0, 6), other = random_between(&random, 0, 6);
         bench.indices[s] = s;
         bench.splats[s] = (ps_splat){
-            .centre = {random_between(&random, -0.5f, 0.5f), random_between(&random, -0.5f, 0.5f)},
+            .centre = {random_between(&random, -0.5f, 0.5f), random_between(&random, -0.5f, 0.5f),
+                       0},
             .half_width = random_between(&random, 0.3f, 1.0f),
             .axis_w = ps_normalize(random_direction(&random)),
             .near_depth = -0.7f,
