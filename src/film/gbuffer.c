@@ -4,9 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Outside of any scene, yet its square is finite. */
-#define NOWHERE 1e18f
-
 struct gbuffer gbuffer_layout(size_t width, size_t height)
 {
     uint32_t across = (uint32_t)((width + PS_TILE_SIZE - 1) / PS_TILE_SIZE);
@@ -80,7 +77,7 @@ void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t index)
     memset(tile, 0, sizeof *tile);
     memset(&gbuffer->emitted[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(ps_rgb));
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-        tile->position_x[lane] = tile->position_y[lane] = tile->position_z[lane] = NOWHERE;
+        tile->position_x[lane] = tile->position_y[lane] = tile->position_z[lane] = GBUFFER_NOWHERE;
         tile->depth[lane] = INFINITY;
         tile->object[lane] = tile->material[lane] = PS_NO_OBJECT;
     }

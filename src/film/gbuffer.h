@@ -10,6 +10,9 @@
 #include "trace/trace.h"
 #include <stdbool.h>
 
+/* Where lanes that see no surface lie: outside of any scene, yet its square is finite. */
+#define GBUFFER_NOWHERE 1e18f
+
 struct gbuffer {
     size_t width, height;
     uint32_t tiles_across, tiles_down, tile_count;

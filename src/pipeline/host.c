@@ -8,11 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static struct render *render_of(const ps_host *host)
-{
-    return host->core;
-}
-
 /* In front of what allocate gives; 64 bytes, so that the memory behind it stays aligned. */
 struct allocation {
     _Alignas(64) size_t bytes;

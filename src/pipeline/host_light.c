@@ -3,11 +3,6 @@
 #include "pipeline/direct.h"
 #include "pipeline/render_state.h"
 
-static const struct render *render_of(const ps_host *host)
-{
-    return host->core;
-}
-
 static void host_intersect(const ps_host *host, const ps_ray *rays, size_t n, ps_hit *hits)
 {
     trace_intersect(render_of(host)->trace, RAYS_INCOHERENT, rays, n, hits);

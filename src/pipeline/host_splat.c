@@ -7,11 +7,6 @@
 #include "splat/wall.h"
 #include <psplat/math.h>
 
-static struct render *render_of(const ps_host *host)
-{
-    return host->core;
-}
-
 static void host_place_boxes(const ps_host *host, const ps_box_settings *settings,
                              const ps_source *sources, const ps_hit *hits, size_t n,
                              ps_splat *splats)

@@ -31,6 +31,12 @@ struct render {
     struct error error; /* why a host function failed in this pass */
 };
 
+/* The render that a host serves. */
+static inline struct render *render_of(const ps_host *host)
+{
+    return host->core;
+}
+
 /* Fills render->host with the services of host.c. */
 void host_create(struct render *render);
 

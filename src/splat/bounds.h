@@ -8,7 +8,7 @@
 #ifndef SPLAT_BOUNDS_H
 #define SPLAT_BOUNDS_H
 
-#include <psplat/types.h>
+#include "film/gbuffer.h"
 
 #define BOUNDS_WIDTH 16
 
@@ -21,8 +21,7 @@ struct bounds {
     float normal_high_x[BOUNDS_WIDTH], normal_high_y[BOUNDS_WIDTH], normal_high_z[BOUNDS_WIDTH];
 };
 
-/* Outside of any scene, yet its square is finite. */
-#define BOUNDS_NOWHERE 1e18f
+#define BOUNDS_NOWHERE GBUFFER_NOWHERE
 
 /* One box while it grows. */
 struct bound {

@@ -52,9 +52,9 @@ static uint32_t lane_of(uint32_t x, uint32_t y)
 
 static void lane_place(uint32_t lane, uint32_t *x, uint32_t *y)
 {
-    uint32_t block = lane / FIELD_BLOCK, inside = lane % FIELD_BLOCK;
-    *x = block % BLOCKS_ACROSS * BLOCK_SIDE + inside % BLOCK_SIDE;
-    *y = block / BLOCKS_ACROSS * BLOCK_SIDE + inside / BLOCK_SIDE;
+    uint32_t by_rows = gbuffer_block_lane(lane);
+    *x = by_rows % PS_TILE_SIZE;
+    *y = by_rows / PS_TILE_SIZE;
 }
 
 bool field_pixel(const struct field *field, uint32_t tile, uint32_t lane, uint32_t *x, uint32_t *y)

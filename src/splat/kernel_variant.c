@@ -103,6 +103,32 @@ struct block_light {
     float weight[LANES], projected[LANES]; /* K * V, and that times the cosine */
 };
 
+/* Where a pixel lies in a splat's box: across it in half-widths, along it in scene units. */
+struct placed {
+    float u, v, t;
+};
+
+static inline struct placed place_pixel(const struct field_tile *tile, int lane,
+                                        const struct kernel_splat *splat)
+{
+    float x = tile->position_x[lane] - splat->centre.x;
+    float y = tile->position_y[lane] - splat->centre.y;
+    float z = tile->position_z[lane] - splat->centre.z;
+    return (struct placed){
+        x * splat->u.x + y * splat->u.y + z * splat->u.z,
+        x * splat->v.x + y * splat->v.y + z * splat->v.z,
+        x * splat->w.x + y * splat->w.y + z * splat->w.z,
+    };
+}
+
+/* The cosine under which the light meets a pixel's surface; negative from behind. */
+static inline float facing_of(const struct field_tile *tile, int lane,
+                              const struct kernel_splat *splat)
+{
+    return -(tile->normal_x[lane] * splat->w.x + tile->normal_y[lane] * splat->w.y +
+             tile->normal_z[lane] * splat->w.z);
+}
+
 /* Whether some pixel of the block lies inside of the box and faces the light: half of the blocks
  * whose bounds a box touches have none. */
 static inline int any_inside(const struct field_tile *tile, int first,
@@ -110,17 +136,11 @@ static inline int any_inside(const struct field_tile *tile, int first,
 {
     int any = 0;
     for (int i = 0; i < LANES; i++) {
-        float x = tile->position_x[first + i] - splat->centre.x;
-        float y = tile->position_y[first + i] - splat->centre.y;
-        float z = tile->position_z[first + i] - splat->centre.z;
-        float u = x * splat->u.x + y * splat->u.y + z * splat->u.z;
-        float v = x * splat->v.x + y * splat->v.y + z * splat->v.z;
-        float t = x * splat->w.x + y * splat->w.y + z * splat->w.z;
-        float facing =
-            -(tile->normal_x[first + i] * splat->w.x + tile->normal_y[first + i] * splat->w.y +
-              tile->normal_z[first + i] * splat->w.z);
-        float start = splat->start_depth + u * splat->start_u + v * splat->start_v;
-        any |= (u * u + v * v < 1.0f) & (facing > 0.0f) & (t <= splat->far_depth) & (t >= start);
+        struct placed p = place_pixel(tile, first + i, splat);
+        float facing = facing_of(tile, first + i, splat);
+        float start = splat->start_depth + p.u * splat->start_u + p.v * splat->start_v;
+        any |= (p.u * p.u + p.v * p.v < 1.0f) & (facing > 0.0f) & (p.t <= splat->far_depth) &
+               (p.t >= start);
     }
     return any;
 }
@@ -134,26 +154,19 @@ static inline int weigh(const struct field_tile *tile, int first, const struct k
     const float *depths = splat->depths;
     int useful = 0;
     for (int i = 0; i < LANES; i++) {
-        float x = tile->position_x[first + i] - splat->centre.x;
-        float y = tile->position_y[first + i] - splat->centre.y;
-        float z = tile->position_z[first + i] - splat->centre.z;
-        float u = x * splat->u.x + y * splat->u.y + z * splat->u.z;
-        float v = x * splat->v.x + y * splat->v.y + z * splat->v.z;
-        float t = x * splat->w.x + y * splat->w.y + z * splat->w.z;
-        float r2 = u * u + v * v;
-        float facing =
-            -(tile->normal_x[first + i] * splat->w.x + tile->normal_y[first + i] * splat->w.y +
-              tile->normal_z[first + i] * splat->w.z);
-        float start = splat->start_depth + u * splat->start_u + v * splat->start_v;
+        struct placed p = place_pixel(tile, first + i, splat);
+        float r2 = p.u * p.u + p.v * p.v;
+        float facing = facing_of(tile, first + i, splat);
+        float start = splat->start_depth + p.u * splat->start_u + p.v * splat->start_v;
         float cosine = clamp(facing, 1e-3f, 1.0f);
         float slope = sqrtf(1.0f - cosine * cosine) / cosine;
         float bias = splat->bias_constant + splat->bias_slope * least(slope, BOX_STEEPEST);
-        int column = (int)clamp((u + 1.0f) * half_resolution, 0.0f, last_texel);
-        int line = (int)clamp((v + 1.0f) * half_resolution, 0.0f, last_texel);
-        float past = t - depths[line * resolution + column];
+        int column = (int)clamp((p.u + 1.0f) * half_resolution, 0.0f, last_texel);
+        int line = (int)clamp((p.v + 1.0f) * half_resolution, 0.0f, last_texel);
+        float past = p.t - depths[line * resolution + column];
         int entry = (int)(clamp(r2, 0.0f, 0.99999f) * (float)KERNEL_PROFILE_SIZE);
-        int lit = (r2 < 1.0f) & (facing > 0.0f) & (t >= splat->near_depth) &
-                  (t <= splat->far_depth) & (t >= start) & (past <= bias);
+        int lit = (r2 < 1.0f) & (facing > 0.0f) & (p.t >= splat->near_depth) &
+                  (p.t <= splat->far_depth) & (p.t >= start) & (past <= bias);
         /* A product, not a choice: compilers would make the load conditional and the loop scalar.
          */
         float weight = (float)lit * profile[entry] * splat->kernel_scale;
@@ -170,12 +183,8 @@ static inline void make_up(const struct field_tile *tile, int first,
                            const float *boundary, struct block_light *light)
 {
     for (int i = 0; i < LANES; i++) {
-        float x = tile->position_x[first + i] - splat->centre.x;
-        float y = tile->position_y[first + i] - splat->centre.y;
-        float z = tile->position_z[first + i] - splat->centre.z;
-        float u = x * splat->u.x + y * splat->u.y + z * splat->u.z;
-        float v = x * splat->v.x + y * splat->v.y + z * splat->v.z;
-        float distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
+        struct placed p = place_pixel(tile, first + i, splat);
+        float distance = wall->distance - (p.u * wall->normal_u + p.v * wall->normal_v);
         float share =
             boundary[(int)(clamp(distance, 0.0f, 1.0f) * (float)(KERNEL_BOUNDARY_SIZE - 1))];
         light->weight[i] *= share;
