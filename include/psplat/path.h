@@ -1,7 +1,8 @@
-/* path.h: how random walks end. Russian roulette: Arvo and Kirk 1990. */
+/* path.h: how random walks go on and end. Russian roulette: Arvo and Kirk 1990. */
 #ifndef PSPLAT_PATH_H
 #define PSPLAT_PATH_H
 
+#include <psplat/host.h>
 #include <psplat/math.h>
 #include <stdio.h>
 
@@ -21,6 +22,23 @@ static inline int ps_survives(float probability, float number, ps_rgb *carried)
         return 0;
     *carried = ps_rgb_scale(*carried, 1.0f / survival);
     return 1;
+}
+
+/* Traces n rays, and moves those that meet something to the front, with their hits; returns how many.
+ * kept[i] >= i becomes the place that number i came from. Any thread. */
+static inline size_t ps_trace_kept(const ps_host *host, ps_ray *rays, size_t n, ps_hit *hits,
+                                   size_t *kept)
+{
+    size_t met = 0;
+    host->intersect(host, rays, n, hits);
+    for (size_t i = 0; i < n; i++) {
+        if (!(hits[i].distance < INFINITY))
+            continue;
+        kept[met] = i;
+        rays[met] = rays[i];
+        hits[met++] = hits[i];
+    }
+    return met;
 }
 
 /* For init: bounces without a limit (0) end only by roulette (0: never). Non-zero, and a message, if

@@ -271,15 +271,10 @@ static size_t trace_paths(const ps_host *host, struct path *paths, size_t n, ps_
 {
     for (size_t i = 0; i < n; i++)
         rays[i] = paths[i].ray;
-    host->intersect(host, rays, n, hits);
-    size_t met = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (!(hits[i].distance < INFINITY))
-            continue;
-        paths[met] = paths[i];
-        rays[met] = rays[i];
-        hits[met++] = hits[i];
-    }
+    size_t kept[PS_PATH_CHUNK];
+    size_t met = ps_trace_kept(host, rays, n, hits, kept);
+    for (size_t i = 0; i < met; i++)
+        paths[i] = paths[kept[i]];
     return met;
 }
 
