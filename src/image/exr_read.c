@@ -19,6 +19,11 @@
 #define PART 0                  /* the file's only part */
 #define SAMPLE_SIZE ((int32_t)sizeof(float))
 
+/* At most so many bytes come out of one: what deflate can do, by the quarter that PXR24 drops of a
+ * float (runs and PIZ reach less); and, for DWA, deflate on one half of a block of 64. */
+#define DEFLATE_EXPANSION 1376
+#define BLOCK_EXPANSION (1032 * 64)
+
 struct exr_source {
     exr_context_t context;
     const char *path;
@@ -86,6 +91,28 @@ static ps_result check_compression(const struct exr_source *source)
         return refuse(source, "B44 compression cannot be read (convert the file to ZIP)");
     }
     return explain(source, code);
+}
+
+/* A header of a few hundred bytes may claim gigabytes, which nobody should have to allocate first. */
+static ps_result check_expansion(const struct exr_source *source)
+{
+    exr_compression_t compression = EXR_COMPRESSION_NONE;
+    const exr_attr_chlist_t *list = NULL;
+    exr_result_t code = exr_get_compression(source->context, PART, &compression);
+    if (code == EXR_ERR_SUCCESS) {
+        code = exr_get_channels(source->context, PART, &list);
+    }
+    if (code != EXR_ERR_SUCCESS) {
+        return explain(source, code);
+    }
+    uint64_t pixel_bytes = 0;
+    for (int i = 0; i < list->num_channels; i++) {
+        pixel_bytes += list->entries[i].pixel_type == EXR_PIXEL_HALF ? 2 : 4;
+    }
+    bool blocks = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
+    return raster_check_expansion(
+        source->memory, (uint64_t)source->image.width * source->image.height * pixel_bytes,
+        blocks ? BLOCK_EXPANSION : DEFLATE_EXPANSION, source->error);
 }
 
 static ps_result check_form(const struct exr_source *source, exr_storage_t *storage)
@@ -310,6 +337,9 @@ static ps_result read_picture(struct exr_source *source)
     ps_result result = check_form(source, &storage);
     if (result == PS_OK) {
         result = read_size(source);
+    }
+    if (result == PS_OK && source->memory) {
+        result = check_expansion(source);
     }
     if (result == PS_OK) {
         result = add_channels(source);

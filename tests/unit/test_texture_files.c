@@ -460,6 +460,9 @@ static void test_exr_sizes(void **state)
         memcpy(window + 17 + 4 + 8, &last, 4);
         assert_bytes_refused(bytes, size, PS_ERROR_INVALID, "limit");
     }
+    int32_t corner[] = {32767, 32767};
+    memcpy(window + 17 + 4 + 8, corner, sizeof corner);
+    assert_bytes_refused(bytes, size, PS_ERROR_IO, "too early");
     free(bytes);
 }
 
