@@ -125,14 +125,14 @@ struct ps_host {
 
     /* Boxes around the first hits of sources: the geometry that every visibility shares (frame,
      * size that follows distance, step-back, walls beside the source). Automatic sizes go by the
-     * pass's number of paths, which next_sources finds out. A hit at INFINITY gives half_width 0.
-     * [any thread] */
+     * pass's number of paths, which next_sources finds out. A hit at INFINITY gives half_width 0,
+     * unless a full beam meets something beside its axis. After begin_splats, those that may light
+     * nothing in view get half_width 0 too. [any thread] */
     void (*place_boxes)(const ps_host *host, const ps_box_settings *settings,
                         const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats);
 
-    /* The pass's next batch of sources, injected and stratified, in the order
-     * of emission; n is 0 after the
-     * last. `progress` becomes the share of the pass's paths that are done, 0..1. Borrowed until
+    /* The pass's next batch of sources, injected and stratified, in the order of emission; n is 0 after
+     * the last. `progress` becomes the share of the pass's paths that are done, 0..1. Borrowed until
      * the next call. [main thread, inside accumulate] */
     ps_result (*next_sources)(const ps_host *host, const ps_source **sources, size_t *n,
                               double *progress);
@@ -142,13 +142,13 @@ struct ps_host {
     ps_result (*place_splats)(const ps_host *host, const ps_source *sources, size_t n,
                               ps_splat *splats);
 
-    /* Lets a splat light only the pixels of one of n x n interleaved subsets, n^2 times as strongly,
-     * and joins what neighbouring pixels learned at the end of the pass; 1 <= n <=
-     * PS_MOST_INTERLEAVE, and 1 unless called. Before the render's first splat: later calls change
-     * nothing. [main thread, inside accumulate] */
-    void (*interleave)(const ps_host *host, uint32_t n);
+    /* Prepares the pass's splatting; before its first place_splats. A splat will light only the pixels
+     * of one of n x n interleaved subsets, n^2 times as strongly, and what neighbouring pixels learned
+     * is joined at the end of the pass; 1 <= n <= PS_MOST_INTERLEAVE. The n of the render's first pass
+     * holds for all. [main thread, inside accumulate] */
+    ps_result (*begin_splats)(const ps_host *host, uint32_t n);
 
-    /* Adds the light of splats to the tiles: depth maps by the chosen visibility, weights by the
+    /* After begin_splats: adds the light of splats to the tiles: depth maps by the chosen visibility, weights by the
      * chosen filter. Irradiance += power * K * V * max(0, -n.w), weight += merged * K *
      * V, which the tiles have when the pass ends; bitwise the same for any number of threads and any
      * batching. Cuts the splats' depth ranges. [main thread, inside accumulate] */

@@ -28,7 +28,7 @@ typedef struct ps_injection_vtable {
     uint64_t (*path_count)(const void *state);
     /* Makes the sources of paths [first, first + n), n <= PS_PATH_CHUNK, of the pass, in an order
      * that depends on these alone. Any run of paths has to be a fair part of the pass: runs share
-     * out the pixels (host->interleave). [worker] */
+     * out the pixels (host->begin_splats). [worker] */
     ps_result (*emit)(const void *state, const ps_host *host, const ps_pass *pass, uint64_t first,
                       size_t n, const ps_source_sink *sink);
     /* Makes what emit needs in this pass and keeps it in the state, which no other callback uses
@@ -149,9 +149,10 @@ typedef struct ps_denoiser_vtable {
     PS_NUMBER_OR(                                                                                  \
         state, size, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",              \
         "half-width of the box; auto: by the scene's radius and the number of light paths"),       \
-        PS_NUMBER(                                                                                 \
-            state, follow, "0.25", 0, INFINITY, 0, "",                                             \
-            "limit of size, down to a fifth, as a fraction of the distance travelled; 0: none"),   \
+        PS_NUMBER(state, follow, "0.25", 0, INFINITY, 0, "",                                       \
+                  "limit of size, down to a fifth or to the interleaved pixels, as a fraction of " \
+                  "the distance "                                                                  \
+                  "travelled; 0: none"),                                                           \
         PS_NUMBER_OR(state, depth, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto,               \
                      "scene units",                                                                \
                      "reach of the box past the first hit; auto: what the hit's slope needs"),     \

@@ -53,17 +53,16 @@ static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pa
     if (!splats)
         return PS_ERROR_MEMORY;
     const struct state *state = opaque;
-    host->interleave(host, interleave_of(state, pass));
     const ps_source *sources;
-    size_t n;
+    size_t n = 1;
     double progress;
-    ps_result result;
-    do {
+    ps_result result = host->begin_splats(host, interleave_of(state, pass));
+    while (result == PS_OK && n > 0) {
         result = host->next_sources(host, &sources, &n, &progress);
         if (result == PS_OK)
             result = splat_batches(host, sources, n, splats);
         host->progress(host, progress);
-    } while (result == PS_OK && n > 0);
+    }
     host->release(host, splats);
     return result;
 }

@@ -212,7 +212,9 @@ static ps_result draw_picture(struct render *render, ps_splat *splats, size_t n,
                               struct canvas *canvas, struct error *error)
 {
     render->counts_splats = true;
-    ps_result result = render->host.splat(&render->host, splats, n);
+    ps_result result = render->host.begin_splats(&render->host, 1);
+    if (result == PS_OK)
+        result = render->host.splat(&render->host, splats, n);
     if (result != PS_OK)
         return error_set(error, result, "%s", render->error.text);
     splatter_end_pass(&render->splatter, &render->gbuffer);

@@ -4,24 +4,62 @@
 #include "base/parallel.h"
 #include "pipeline/render_state.h"
 #include "splat/box.h"
+#include "splat/escape.h"
 #include "splat/wall.h"
 #include <psplat/math.h>
+#include <string.h>
 
-static void host_place_boxes(const ps_host *host, const ps_box_settings *settings,
-                             const ps_source *sources, const ps_hit *hits, size_t n,
-                             ps_splat *splats)
+/* Before more is done for them: of a large scene little is in view. What lies past the first hit counts,
+ * since part of a beam may pass beside it. */
+static void drop_unseen(const struct splatter *splatter, ps_splat *splats, size_t n)
 {
-    const struct render *render = render_of(host);
-    struct box_scene scene = {
+    for (size_t i = 0; i < n; i++) {
+        ps_splat open = splats[i];
+        open.far_depth = INFINITY;
+        if (!splatter_touches(splatter, &open))
+            splats[i].half_width = 0.0f;
+    }
+}
+
+static struct box_scene box_scene_of(const struct render *render)
+{
+    return (struct box_scene){
         .radius = render->scene->radius,
         .surface_offset = render->scene->surface_offset,
         .automatic_size = box_automatic_size(render->scene->radius, render->sources.path_count,
                                              render->pass.number),
         .seed = render->settings->seed,
+        .camera = &render->scene->camera,
+        .interleave = render->has_splatter ? render->splatter.settings.interleave : 1,
     };
-    box_place(&scene, settings, sources, hits, n, splats);
-    if (settings->walls && settings->step_back_rule == 1)
-        wall_find(host, render->scene->surface_offset, sources, n, splats);
+}
+
+/* At most PS_PATH_CHUNK. */
+static void place_some(const struct render *render, const ps_box_settings *settings,
+                       const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats)
+{
+    const ps_host *host = &render->host;
+    struct box_scene scene = box_scene_of(render);
+    bool full = settings->step_back_rule == 1;
+    ps_hit met[PS_PATH_CHUNK];
+    memcpy(met, hits, n * sizeof *hits);
+    if (full)
+        escape_find(host, &scene, settings, sources, n, met);
+    box_place(&scene, settings, sources, met, n, splats);
+    if (render->splatting)
+        drop_unseen(&render->splatter, splats, n);
+    if (full && settings->walls)
+        wall_find(host, scene.surface_offset, sources, n, splats);
+}
+
+static void host_place_boxes(const ps_host *host, const ps_box_settings *settings,
+                             const ps_source *sources, const ps_hit *hits, size_t n,
+                             ps_splat *splats)
+{
+    for (size_t first = 0; first < n; first += PS_PATH_CHUNK) {
+        size_t some = n - first < PS_PATH_CHUNK ? n - first : PS_PATH_CHUNK;
+        place_some(render_of(host), settings, sources + first, hits + first, some, splats + first);
+    }
 }
 
 struct placement {
@@ -77,12 +115,7 @@ static ps_result tabulate_filter(struct render *render, struct kernel_profile *p
                      filter->descriptor->name);
 }
 
-static void host_interleave(const ps_host *host, uint32_t n)
-{
-    render_of(host)->interleave = n < 1 ? 1 : n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
-}
-
-static ps_result create_splatter(struct render *render)
+static ps_result create_splatter(struct render *render, uint32_t interleave)
 {
     const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
     struct splatter_settings settings = {
@@ -91,7 +124,7 @@ static ps_result create_splatter(struct render *render)
         .visibility_state = visibility->state,
         .surface_offset = render->scene->surface_offset,
         .kernel = render->kernel,
-        .interleave = render->counts_splats ? 1 : render->interleave,
+        .interleave = render->counts_splats ? 1 : interleave,
         .threads = render->settings->threads,
         .batch = render->settings->batch,
     };
@@ -106,13 +139,16 @@ static ps_result create_splatter(struct render *render)
     return result;
 }
 
-static ps_result begin_splatting(struct render *render)
+static ps_result host_begin_splats(const ps_host *host, uint32_t n)
 {
-    ps_result result = render->has_splatter ? PS_OK : create_splatter(render);
+    struct render *render = render_of(host);
+    uint32_t interleave = n < 1 ? 1 : n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
+    ps_result result = source_stream_prepare(&render->sources, &render->error);
+    if (result == PS_OK && !render->has_splatter)
+        result = create_splatter(render, interleave);
     if (result != PS_OK)
         return result;
-    uint64_t paths = render->sources.path_count;
-    struct splatter_pass pass = {render->pass.number, paths};
+    struct splatter_pass pass = {render->pass.number, render->sources.path_count};
     splatter_begin_pass(&render->splatter, &render->gbuffer, pass);
     render->splatting = true;
     return PS_OK;
@@ -121,9 +157,9 @@ static ps_result begin_splatting(struct render *render)
 static ps_result host_splat(const ps_host *host, ps_splat *splats, size_t n)
 {
     struct render *render = render_of(host);
-    ps_result result = render->splatting ? PS_OK : begin_splatting(render);
-    if (result == PS_OK)
-        result = splatter_add(&render->splatter, splats, n, &render->error);
+    if (!render->splatting)
+        return error_set(&render->error, PS_ERROR_INVALID, "splat was called before begin_splats");
+    ps_result result = splatter_add(&render->splatter, splats, n, &render->error);
     if (result == PS_OK)
         statistics_set_bytes(render->statistics, "splats",
                              (double)splatter_bytes(&render->splatter));
@@ -134,7 +170,7 @@ void host_add_splatting(ps_host *host)
 {
     host->place_boxes = host_place_boxes;
     host->place_splats = host_place_splats;
-    host->interleave = host_interleave;
+    host->begin_splats = host_begin_splats;
     host->splat = host_splat;
 }
 

@@ -4,7 +4,7 @@
 
 #include <psplat/host.h>
 
-/* Fills in the functions place_boxes, place_splats, interleave and splat. */
+/* Fills in the functions place_boxes, begin_splats, place_splats and splat. */
 void host_add_splatting(ps_host *host);
 
 #endif

@@ -176,7 +176,6 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
         .specular = render->scene->microfacets != NULL,
     };
     render->splatting = false;
-    render->interleave = 1;
     report_progress(render, "direct light", (double)number / render->settings->passes);
     struct tile_work work = {
         render,

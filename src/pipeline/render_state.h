@@ -23,7 +23,6 @@ struct render {
     struct splatter splatter; /* made when an estimator first splats */
     bool has_splatter;
     bool splatting; /* in this pass */
-    uint32_t interleave;
     bool
         counts_splats; /* in place of the filter: tiles' weights count the splats that light them */
     ps_pass pass;

@@ -66,8 +66,10 @@ void source_stream_rewind(struct source_stream *stream)
 }
 
 /* Not before sources are asked for: not all estimators do. */
-static ps_result prepare(struct source_stream *stream, struct error *error)
+ps_result source_stream_prepare(struct source_stream *stream, struct error *error)
 {
+    if (stream->prepared)
+        return PS_OK;
     const struct strategy *injection = &stream->settings->strategies[PS_INJECTION];
     const ps_injection_vtable *vtable = injection->descriptor->vtable;
     ps_result result = PS_OK;
@@ -162,7 +164,7 @@ static ps_result inject_more(struct source_stream *stream, struct error *error)
 ps_result source_stream_injected(struct source_stream *stream, const ps_source **sources, size_t *n,
                                  struct error *error)
 {
-    ps_result result = stream->prepared ? PS_OK : prepare(stream, error);
+    ps_result result = source_stream_prepare(stream, error);
     stream->batch.count = 0;
     while (stream->next_path < stream->path_count && result == PS_OK)
         result = inject_more(stream, error);
@@ -176,7 +178,7 @@ ps_result source_stream_next(struct source_stream *stream, const ps_source **sou
 {
     const ps_stratification_vtable *stratification =
         stream->settings->strategies[PS_STRATIFICATION].descriptor->vtable;
-    ps_result result = stream->prepared ? PS_OK : prepare(stream, error);
+    ps_result result = source_stream_prepare(stream, error);
     stream->batch.count = 0;
     while (stream->next_path < stream->path_count && stream->batch.count == 0 && result == PS_OK) {
         do

@@ -34,6 +34,9 @@ void source_stream_release(struct source_stream *stream);
 /* Starts over with the pass that `pass` now describes. */
 void source_stream_rewind(struct source_stream *stream);
 
+/* Makes the injection ready for the pass, which tells path_count; does so once a pass. */
+ps_result source_stream_prepare(struct source_stream *stream, struct error *error);
+
 /* The next sources; 0 of them after the last. Valid until the next call. */
 ps_result source_stream_next(struct source_stream *stream, const ps_source **sources, size_t *n,
                              struct error *error);

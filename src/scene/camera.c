@@ -80,3 +80,12 @@ bool camera_project(const struct camera *camera, ps_vec3 point, float *x, float 
     *y = ps_dot(inside, camera->down) / ps_dot(camera->down, camera->down);
     return true;
 }
+
+float camera_pixel_size(const struct camera *camera, ps_vec3 point)
+{
+    float side = ps_length(camera->across);
+    float depth = ps_dot(ps_subtract(point, camera->location), camera->forward);
+    if (!(depth > 0.0f))
+        return 0.0f;
+    return camera->orthographic ? side : side * depth;
+}

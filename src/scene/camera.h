@@ -29,4 +29,7 @@ ps_ray camera_ray(const struct camera *camera, float x, float y, const float len
  * outside of the picture. False behind the camera. */
 bool camera_project(const struct camera *camera, ps_vec3 point, float *x, float *y);
 
+/* How long one pixel's side is at a point before the camera; 0 behind it. */
+float camera_pixel_size(const struct camera *camera, ps_vec3 point);
+
 #endif

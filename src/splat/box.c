@@ -89,14 +89,26 @@ static float growth(const ps_box_settings *settings, const ps_source *source)
     return fminf(sqrtf(source->merged), (float)fmin(settings->grow, 1e9));
 }
 
-static float half_width(const struct box_scene *scene, const ps_box_settings *settings,
-                        const ps_source *source, float distance)
+/* What a size that follows the distance may not fall below. Smaller ones than n pixels, of which every
+ * n-th is lit, are noise that averaging them takes back in part. */
+static float smallest(const struct box_scene *scene, const ps_source *source, float distance,
+                      float size)
+{
+    ps_vec3 lit =
+        ps_add_scaled(source->position, fminf(distance, 4.0f * scene->radius), source->direction);
+    float pixels = (float)scene->interleave * camera_pixel_size(scene->camera, lit);
+    return fmaxf(SMALLEST_SIZE * size, fminf(pixels, size));
+}
+
+float box_half_width(const struct box_scene *scene, const ps_box_settings *settings,
+                     const ps_source *source, float distance)
 {
     float size = settings->size > 0 ? bounded(scene, settings->size) : scene->automatic_size;
     size = bounded(scene, (double)size * (double)growth(settings, source));
     if (!(settings->follow > 0))
         return size;
-    return fmaxf(fminf(size, (float)fmin(settings->follow, 1e9) * distance), SMALLEST_SIZE * size);
+    return fmaxf(fminf(size, (float)fmin(settings->follow, 1e9) * distance),
+                 smallest(scene, source, distance, size));
 }
 
 static ps_splat place_one(const struct box_scene *scene, const ps_box_settings *settings,
@@ -105,7 +117,7 @@ static ps_splat place_one(const struct box_scene *scene, const ps_box_settings *
     ps_splat splat = {.power = source->power, .merged = source->merged, .path = source->path};
     if (!(hit->distance < INFINITY))
         return splat;
-    float size = half_width(scene, settings, source, hit->distance);
+    float size = box_half_width(scene, settings, source, hit->distance);
     float slope = slope_of(-ps_dot(source->direction, hit->normal));
     set_frame(scene, source, &splat);
     splat.centre = hit->position;

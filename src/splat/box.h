@@ -13,12 +13,14 @@
  *             splatting").
  *
  * The size follows the distance d travelled, R = min(size, follow * d) but no less than size / 5,
- * as a photon differential would: light from close by, in a corner, makes small splats. Where
+ * as a photon differential would: light from close by, in a corner, makes small splats. Nor does it
+ * follow below the n x n pixels that interleaved splats are averaged over in the end. Where
  * sources were merged, `size` grows with the square root of their number (see grow).
  */
 #ifndef SPLAT_BOX_H
 #define SPLAT_BOX_H
 
+#include "scene/camera.h"
 #include <psplat/host.h>
 
 /* Slopes (tangents) past this are treated as this: 84 degrees, where 1 % of the energy arrives. */
@@ -29,6 +31,8 @@ struct box_scene {
     float surface_offset; /* see ps_pass */
     float automatic_size; /* half-width where the settings leave it open */
     uint64_t seed;        /* rotates the frames */
+    const struct camera *camera;
+    uint32_t interleave; /* see field.h */
 };
 
 /* How far above its source's tangent plane a full beam of that half-width starts. */
@@ -40,6 +44,10 @@ float box_clearance(float surface_offset, float half_width);
  * p^((alpha - 1) / 2), alpha = 2/3, so that the mean of more and more passes loses noise and blur alike
  * (Knaus and Zwicker 2011, "Progressive photon mapping: a probabilistic approach"). */
 float box_automatic_size(float scene_radius, uint64_t paths, uint32_t pass);
+
+/* Half-width of the box of a source whose light travels so far. */
+float box_half_width(const struct box_scene *scene, const ps_box_settings *settings,
+                     const ps_source *source, float distance);
 
 /* Places the boxes of n sources whose rays met `hits`; see ps_host.place_boxes. */
 void box_place(const struct box_scene *scene, const ps_box_settings *settings,

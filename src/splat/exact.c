@@ -28,7 +28,9 @@ static float weight_at(const struct kernel_splat *splat, const struct kernel_pro
     for (uint32_t k = 0; k < splat->wall_count; k++) {
         const ps_wall *wall = &splat->walls[k];
         float distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
-        float within = fminf(fmaxf(distance, 0.0f), 1.0f);
+        if (!(distance > 0.0f))
+            return 0.0f;
+        float within = fminf(distance, 1.0f);
         weight *= profile->boundary[(size_t)(within * (float)(KERNEL_BOUNDARY_SIZE - 1))];
     }
     return weight;

@@ -177,7 +177,8 @@ static inline int weigh(const struct field_tile *tile, int first, const struct k
     return useful;
 }
 
-/* Divides by the part of the kernel that lies before a wall beside the source. */
+/* Divides by the part of the kernel that lies before a wall beside the source; behind it there is no
+ * such source. */
 static inline void make_up(const struct field_tile *tile, int first,
                            const struct kernel_splat *splat, const ps_wall *wall,
                            const float *boundary, struct block_light *light)
@@ -187,6 +188,7 @@ static inline void make_up(const struct field_tile *tile, int first,
         float distance = wall->distance - (p.u * wall->normal_u + p.v * wall->normal_v);
         float share =
             boundary[(int)(clamp(distance, 0.0f, 1.0f) * (float)(KERNEL_BOUNDARY_SIZE - 1))];
+        share *= (float)(distance > 0.0f);
         light->weight[i] *= share;
         light->projected[i] *= share;
     }

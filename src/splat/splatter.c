@@ -119,6 +119,27 @@ static struct kernel_splat prepare(const struct splatter *splatter, const ps_spl
     return prepared;
 }
 
+struct touch {
+    const struct splatter *splatter;
+    struct kernel_splat splat;
+};
+
+/* Goes on while nothing was touched. */
+static bool touches_none(void *user, uint32_t tile)
+{
+    const struct touch *touch = user;
+    const struct splatter *splatter = touch->splatter;
+    return !splatter->settings.kernel.touch(&splatter->field.tiles[tile].blocks, &touch->splat);
+}
+
+bool splatter_touches(const struct splatter *splatter, const ps_splat *splat)
+{
+    struct touch touch = {splatter, prepare(splatter, splat, open_map)};
+    return touch.splat.kernel_scale > 0.0f &&
+           !pyramid_visit(&splatter->pyramid, &splatter->settings.kernel, &touch.splat,
+                          touches_none, &touch);
+}
+
 /* Fills the maps of up to MAP_CHUNK splats, cuts the splats to them, and prepares the kernel's
  * input. */
 static void map_chunk(void *user, uint64_t index, uint32_t worker)

@@ -54,6 +54,9 @@ size_t splatter_bytes(const struct splatter *splatter);
 void splatter_begin_pass(struct splatter *splatter, const struct gbuffer *gbuffer,
                          struct splatter_pass pass);
 
+/* Whether a splat of this pass may light any pixel. Any thread. */
+bool splatter_touches(const struct splatter *splatter, const ps_splat *splat);
+
 /* Adds n splats; cuts their depth ranges to their maps. */
 ps_result splatter_add(struct splatter *splatter, ps_splat *splats, size_t n, struct error *error);
 

@@ -11,8 +11,15 @@
 
 #define RADIUS 40.0f /* of the scene */
 
-static const struct box_scene scene = {
-    .radius = RADIUS, .surface_offset = 0.001f, .automatic_size = 2, .seed = 7};
+/* Pixels of no size, unless a test says otherwise. */
+static struct camera camera = {.orthographic = true, .location = {0, 0, -99}, .forward = {0, 0, 1}};
+
+static const struct box_scene scene = {.radius = RADIUS,
+                                       .surface_offset = 0.001f,
+                                       .automatic_size = 2,
+                                       .seed = 7,
+                                       .camera = &camera,
+                                       .interleave = 4};
 
 static void expect_near(double value, double expected)
 {
@@ -87,6 +94,23 @@ static void test_size_follows_distance(void **state)
     expect_near(place(automatic, 0.1f, 1).half_width, 0.4);
     const ps_box_settings unlimited = {.size = 3};
     expect_near(place(unlimited, 0.001f, 1).half_width, 3);
+}
+
+/* Nor less than the pixels that are averaged in the end, of which these settings have 4x4. */
+static void test_size_follows_no_further_than_pixels(void **state)
+{
+    (void)state;
+    const ps_box_settings settings = {.size = 3, .follow = 0.25};
+    camera.across = (ps_vec3){0.3f, 0, 0};
+    expect_near(place(settings, 8, 1).half_width, 2);
+    expect_near(place(settings, 0.001f, 1).half_width, 1.2);
+    camera.across = (ps_vec3){5, 0, 0};
+    expect_near(place(settings, 0.001f, 1).half_width, 3);
+    camera.orthographic = false;
+    camera.across = (ps_vec3){0.003f, 0, 0};
+    expect_near(place(settings, 0.001f, 1).half_width, 0.003 * 99 * 4);
+    camera.orthographic = true;
+    camera.across = (ps_vec3){0, 0, 0};
 }
 
 static double half_width_of(float merged, ps_box_settings settings, float distance)
@@ -212,7 +236,8 @@ static void test_a_miss_lights_nothing(void **state)
 
 static ps_splat frame_of(uint64_t seed, uint64_t path, uint32_t bounce, ps_vec3 w)
 {
-    const struct box_scene own = {.radius = RADIUS, .surface_offset = 0.001f, .seed = seed};
+    const struct box_scene own = {
+        .radius = RADIUS, .surface_offset = 0.001f, .seed = seed, .camera = &camera};
     const ps_box_settings settings = {.size = 2};
     ps_source source = {.normal = w, .direction = w, .bounce = bounce, .path = path};
     ps_hit hit = {.position = w, .distance = 1, .normal = ps_scale(w, -1)};
@@ -305,6 +330,7 @@ int main(void)
         cmocka_unit_test(test_size),
         cmocka_unit_test(test_automatic_size),
         cmocka_unit_test(test_size_follows_distance),
+        cmocka_unit_test(test_size_follows_no_further_than_pixels),
         cmocka_unit_test(test_size_grows_with_what_was_merged),
         cmocka_unit_test(test_automatic_step_back),
         cmocka_unit_test(test_steep_slopes_are_limited),

@@ -147,8 +147,8 @@ static void test_agrees_with_the_kernel_where_all_is_seen(void **state)
     assert_true(differing(&exact, &kernel) <= 4);
 }
 
-/* Or else the agreement would say nothing of walls. */
-static void test_walls_make_splats_weigh_more(void **state)
+/* Or else the agreement would say nothing of walls: before one splats weigh more, behind it nothing. */
+static void test_walls_move_weight_before_them(void **state)
 {
     (void)state;
     static _Alignas(64) struct field_tile with, without;
@@ -158,9 +158,13 @@ static void test_walls_make_splats_weigh_more(void **state)
         bench->splats[s].wall_count = 0;
     prepare(bench);
     run(bench, see_all, &without);
-    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++)
-        assert_true(with.weight[i] >= without.weight[i] * 0.9999f);
-    assert_true(differing(&with, &without) > PS_TILE_PIXELS / 4);
+    uint32_t more = 0, less = 0;
+    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
+        more += with.weight[i] > without.weight[i] * 1.01f;
+        less += with.weight[i] < without.weight[i] * 0.99f;
+    }
+    print_message("%u pixels weigh more, %u less\n", more, less);
+    assert_true(more > 0 && less > 0 && more + less > PS_TILE_PIXELS / 4);
 }
 
 static void test_points_that_are_not_seen_get_nothing(void **state)
@@ -179,7 +183,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_agrees_with_the_kernel_where_all_is_seen),
-        cmocka_unit_test(test_walls_make_splats_weigh_more),
+        cmocka_unit_test(test_walls_move_weight_before_them),
         cmocka_unit_test(test_points_that_are_not_seen_get_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

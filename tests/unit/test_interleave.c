@@ -109,7 +109,8 @@ static void test_other_injections_keep_the_brightness(void **state)
                          indirect(cornell, injections[i], 1), 0.04);
 }
 
-/* It does interleave: a splat lights the sixteenth part of its pixels, and fewer are tested. */
+/* It does interleave: a splat lights the sixteenth part of its pixels, and fewer are tested. Somewhat
+ * more than that: splats in corners are no smaller than 4 pixels. */
 static void test_interleaving_saves_tests(void **state)
 {
     (void)state;
@@ -119,7 +120,7 @@ static void test_interleaving_saves_tests(void **state)
     double lit = statistics_counter(&some.statistics, "pixel-splat tests with weight") /
                  statistics_counter(&all.statistics, "pixel-splat tests with weight");
     print_message("interleave 4: %.4f of the tests, %.4f of them with weight\n", tests, lit);
-    assert_true(fabs(16 * lit - 1) < 0.03);
+    assert_true(fabs(16 * lit - 1) < 0.1);
     assert_true(tests >= lit && tests < 0.5);
     rendering_release(&all);
     rendering_release(&some);

@@ -154,6 +154,8 @@ static double made_up(const struct bench *bench, const ps_splat *splat, double u
     for (uint32_t i = 0; i < splat->wall_count; i++) {
         const ps_wall *wall = &splat->walls[i];
         double distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
+        if (!(distance > 0))
+            return 0;
         double place = distance * (KERNEL_BOUNDARY_SIZE - 1);
         *borderline |= fabs(place - floor(place + 0.5)) < 1e-3;
         factor *= bench->profile.boundary[(size_t)fmin(fmax(place, 0), KERNEL_BOUNDARY_SIZE - 1)];
