@@ -2,6 +2,7 @@
 #include "base/clock.h"
 #include "cli/command.h"
 #include "cli/output.h"
+#include "cli/preview.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
 
@@ -15,6 +16,7 @@
 static const struct option options[] = {
     {'o', "output", "FILE", "write FILE (.exr or .png); may be given several times"},
     RENDER_OPTIONS,
+    {0, "preview", NULL, "a quick look: small, few light paths, coarse shadows"},
     {0, "passes", "N", "number of passes; more smooth edges and lessen noise"},
     {0, "stats", "FILE.json", "write what each stage took in time and memory"},
 };
@@ -227,7 +229,7 @@ static int load_and_render(struct job *job)
     return status;
 }
 
-static int run(const struct argument *arguments, size_t count)
+static int run_arguments(const struct argument *arguments, size_t count)
 {
     struct job job = {.passes = -1};
     int status = STATUS_USAGE;
@@ -241,6 +243,15 @@ static int run(const struct argument *arguments, size_t count)
     render_options_release(&job.options);
     free(job.default_outputs[0]);
     free(job.default_outputs[1]);
+    return status;
+}
+
+static int run(const struct argument *arguments, size_t count)
+{
+    size_t expanded_count;
+    struct argument *expanded = preview_expand(arguments, count, &expanded_count);
+    int status = expanded ? run_arguments(expanded, expanded_count) : STATUS_FAILED;
+    free(expanded);
     return status;
 }
 

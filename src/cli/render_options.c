@@ -2,6 +2,8 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
+#include "cli/preview.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -12,6 +14,8 @@ static bool take_option(struct render_options *options, const struct argument *a
     const char *name = argument->option->name, *value = argument->value;
     if (strcmp(name, "quiet") == 0)
         options->quiet = true;
+    else if (strcmp(name, "preview") == 0)
+        options->preview = true;
     else if (strcmp(name, "isa") == 0)
         options->isa = value;
     else if (strcmp(name, "size") == 0)
@@ -70,6 +74,16 @@ static bool override_size(const char *text, struct image_description *image)
     return true;
 }
 
+static void shrink_to_preview(struct image_description *image)
+{
+    double scale = fmin((double)PREVIEW_WIDTH / (double)image->width,
+                        (double)PREVIEW_HEIGHT / (double)image->height);
+    if (scale >= 1.0)
+        return;
+    image->width = (int64_t)fmax(1.0, round((double)image->width * scale));
+    image->height = (int64_t)fmax(1.0, round((double)image->height * scale));
+}
+
 static bool override_exposure(const char *text, double *exposure)
 {
     double stops;
@@ -106,6 +120,8 @@ static bool override(const struct render_options *options, struct scene_input *i
         description->render.seed = (int64_t)options->seed;
     if (options->direct_resolution > 0)
         description->render.direct_resolution = (int64_t)options->direct_resolution;
+    if (options->preview)
+        shrink_to_preview(&description->image);
     return (!options->size || override_size(options->size, &description->image)) &&
            (!options->exposure ||
             override_exposure(options->exposure, &description->image.exposure)) &&

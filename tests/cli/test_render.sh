@@ -131,6 +131,27 @@ for key in seconds counters bytes load scene build gbuffer direct inject stratif
 done
 expect_match stats.json '"passes": 2,?$'
 
+# --- --preview: the options that psplat(1) lists, and before them what else is given ---
+
+preview_options() {
+    sed -n '/^\.It Fl Fl preview$/,/^\.Ed$/{/^--/p}' "$PSPLAT_SOURCE/man/psplat.1"
+}
+[ "$(preview_options | wc -l)" -ge 5 ] || fail "psplat(1) does not list what --preview stands for"
+run 0 --preview -o preview.exr "$cornell"
+run 0 info preview.exr
+expect_text out "640x360"
+# shellcheck disable=SC2046
+run 0 $(preview_options) --size 640x360 -o listed.exr "$cornell"
+expect_same_pixels preview.exr listed.exr
+run 0 --preview --set image.width=90 --set image.height=900 -o tall.exr "$cornell"
+run 0 info tall.exr
+expect_text out "36x360"
+run 0 --preview $small -p injection=photon:count=70 --passes 2 -o other.exr "$cornell"
+run 0 info other.exr
+expect_text out "photon:count=70,bounces=1"
+expect_text out "psplat.passes: 2"
+expect_no_text out "640x360"
+
 # Pixels that no light reached are told of where there are any, with the same number.
 run 0 --size 48x27 -p injection=photon:count=8 --stats dark.json -o dark.exr "$cornell"
 dark=$(sed -n 's/.*"pixels without weight": \([0-9]*\).*/\1/p' dark.json)

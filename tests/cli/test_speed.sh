@@ -1,4 +1,4 @@
-# The measurements of bench/speed, bench/marks and bench/scaling run, at small sizes, and say what they should
+# The measurements of bench/speed, bench/marks, bench/preview and bench/scaling run, at small sizes, and say what they should
 # of times that are made up. No time is asserted.
 . "$PSPLAT_SOURCE/tests/cli/lib.sh"
 
@@ -131,6 +131,12 @@ expect_no_text out "no mark"
 python3 -m json.tool results/marks.json >/dev/null || fail "marks.json is no JSON"
 measure 0 marks --quick --reference nowhere
 expect_match out '^skipped: there is no .*A_full.exr'
+
+# --- bench/preview ---
+
+measure 0 preview --quick
+expect_match out '^\| cornell \| [0-9.]+ \| [0-9.]+ \| [0-9.]+ \| [0-9.]+ \|$'
+true_of "preview.json" "$(number results/preview.json "d['scenes'][0]['picture'] > 0 < d['scenes'][0]['loading']")"
 
 # --- bench/scaling ---
 

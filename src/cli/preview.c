@@ -1,0 +1,43 @@
+#include "cli/preview.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const struct option passes = {.name = "passes"}, set = {.name = "set"},
+                           plugin = {.name = "plugin"};
+
+static const struct argument stands_for[] = {
+    {&passes, "1"},
+    {&set, "render.light_samples=4"},
+    {&plugin, "injection=photon:count=10000"},
+    {&plugin, "stratification=none"},
+    {&plugin, "visibility=shadowmap:size=auto,resolution=4"},
+    {&plugin, "estimator=splat"},
+};
+
+#define STANDS_FOR (sizeof stands_for / sizeof stands_for[0])
+
+static bool is_among(const struct argument *arguments, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (arguments[i].option && strcmp(arguments[i].option->name, "preview") == 0)
+            return true;
+    return false;
+}
+
+struct argument *preview_expand(const struct argument *arguments, size_t count,
+                                size_t *expanded_count)
+{
+    struct argument *expanded = calloc(count + STANDS_FOR, sizeof *expanded);
+    if (!expanded) {
+        print_error("out of memory");
+        return NULL;
+    }
+    size_t added = is_among(arguments, count) ? STANDS_FOR : 0;
+    for (size_t i = 0; i < added; i++)
+        expanded[i] = stands_for[i];
+    for (size_t i = 0; i < count; i++)
+        expanded[added + i] = arguments[i];
+    *expanded_count = added + count;
+    return expanded;
+}
