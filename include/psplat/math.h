@@ -110,6 +110,19 @@ static inline ps_ray ps_leave_surface(ps_vec3 position, ps_vec3 normal, ps_vec3 
     return (ps_ray){ps_add_scaled(position, offset, normal), 0.0f, direction, INFINITY};
 }
 
+/* The packet's lane becomes that ray. */
+static inline void ps_packet_set(ps_packet *packet, size_t lane, ps_ray ray)
+{
+    packet->origin_x[lane] = ray.origin.x;
+    packet->origin_y[lane] = ray.origin.y;
+    packet->origin_z[lane] = ray.origin.z;
+    packet->tnear[lane] = ray.tnear;
+    packet->direction_x[lane] = ray.direction.x;
+    packet->direction_y[lane] = ray.direction.y;
+    packet->direction_z[lane] = ray.direction.z;
+    packet->tfar[lane] = ray.tfar;
+}
+
 /* Direction uniform over the cone around unit vector axis whose half angle has cosine cos_limit. */
 static inline ps_vec3 ps_cone_direction(ps_vec3 axis, float cos_limit, float u1, float u2)
 {

@@ -40,14 +40,8 @@ static float load_ray(const ps_splat *splat, float u, float v, ps_packet *packet
 {
     float start = ps_bundle_start(splat, u, v);
     ps_vec3 origin = ps_bundle_point(splat, u, v, start);
-    packet->origin_x[lane] = origin.x;
-    packet->origin_y[lane] = origin.y;
-    packet->origin_z[lane] = origin.z;
-    packet->direction_x[lane] = splat->axis_w.x;
-    packet->direction_y[lane] = splat->axis_w.y;
-    packet->direction_z[lane] = splat->axis_w.z;
-    packet->tnear[lane] = 0.0f;
-    packet->tfar[lane] = fmaxf(splat->far_depth - start, 0.0f);
+    float length = fmaxf(splat->far_depth - start, 0.0f);
+    ps_packet_set(packet, (size_t)lane, (ps_ray){origin, 0.0f, splat->axis_w, length});
     return start;
 }
 

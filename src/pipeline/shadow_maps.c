@@ -12,6 +12,7 @@
 
 #include "base/parallel.h"
 #include <psplat/light_map.h>
+#include <psplat/math.h>
 #include <stdlib.h>
 
 #define BLOCK 4 /* pixels along the side of a packet */
@@ -66,18 +67,6 @@ struct tracing {
     float offset;
 };
 
-static void load_ray(const ps_ray *ray, ps_packet *packet, uint32_t lane)
-{
-    packet->origin_x[lane] = ray->origin.x;
-    packet->origin_y[lane] = ray->origin.y;
-    packet->origin_z[lane] = ray->origin.z;
-    packet->direction_x[lane] = ray->direction.x;
-    packet->direction_y[lane] = ray->direction.y;
-    packet->direction_z[lane] = ray->direction.z;
-    packet->tnear[lane] = ray->tnear;
-    packet->tfar[lane] = ray->tfar;
-}
-
 /* Pixels (left .. left + 3, top .. top + 3) of a map; rays past the border go to waste. */
 static void trace_block(const struct tracing *tracing, size_t map, uint32_t left, uint32_t top)
 {
@@ -88,7 +77,7 @@ static void trace_block(const struct tracing *tracing, size_t map, uint32_t left
         uint32_t column = left + lane % BLOCK, row = top + lane / BLOCK;
         ps_ray ray = ps_light_view_ray(&maps->views[map], ((float)column + 0.5f) / side,
                                        ((float)row + 0.5f) / side, tracing->offset);
-        load_ray(&ray, &packet, lane);
+        ps_packet_set(&packet, lane, ray);
     }
     trace_packets(tracing->trace, &packet, 1);
     for (uint32_t lane = 0; lane < BLOCK * BLOCK; lane++) {

@@ -108,7 +108,9 @@ static void bin_part(void *user, uint64_t index, uint32_t worker)
     struct bin_chunk *chunk = &sort->bins->chunks[index];
     chunk->count = 0;
     chunk->failed = false;
-    memset(chunk->counts, 0, sort->bins->tile_count * sizeof *chunk->counts);
+    const struct bins *bins = sort->bins;
+    memset(chunk->counts + bins->first_tile, 0,
+           (bins->end_tile - bins->first_tile) * sizeof *chunk->counts);
     size_t first = sort->n * index / CHUNKS, last = sort->n * (index + 1) / CHUNKS;
     for (size_t i = first; i < last; i++) {
         struct binning binning = {chunk, (uint32_t)i};
@@ -122,7 +124,7 @@ static void bin_part(void *user, uint64_t index, uint32_t worker)
 static uint64_t place_counts(struct bins *bins)
 {
     uint64_t place = 0;
-    for (uint32_t tile = 0; tile < bins->tile_count; tile++) {
+    for (uint32_t tile = bins->first_tile; tile < bins->end_tile; tile++) {
         bins->offsets[tile] = (uint32_t)place;
         for (int part = 0; part < CHUNKS; part++) {
             uint32_t count = bins->chunks[part].counts[tile];
@@ -130,7 +132,7 @@ static uint64_t place_counts(struct bins *bins)
             place += count;
         }
     }
-    bins->offsets[bins->tile_count] = (uint32_t)place;
+    bins->offsets[bins->end_tile] = (uint32_t)place;
     return place;
 }
 
@@ -160,11 +162,27 @@ static ps_result reserve_indices(struct bins *bins, uint64_t pairs, struct error
     return PS_OK;
 }
 
+static void find_range(const struct sort *sort)
+{
+    uint32_t each = sort->pyramid->tiles_across * sort->pyramid->tiles_down;
+    uint32_t first = sort->pyramid->subsets, end = 0;
+    for (size_t i = 0; i < sort->n; i++) {
+        const struct kernel_splat *splat = &sort->splats[i];
+        if (!(splat->kernel_scale > 0.0f))
+            continue;
+        first = splat->subset < first ? splat->subset : first;
+        end = splat->subset >= end ? splat->subset + 1 : end;
+    }
+    sort->bins->first_tile = first < end ? first * each : 0;
+    sort->bins->end_tile = end * each;
+}
+
 ps_result bins_sort(struct bins *bins, const struct pyramid *pyramid,
                     const struct kernel_variant *kernel, const struct kernel_splat *splats,
                     size_t n, uint32_t threads, struct error *error)
 {
     struct sort sort = {bins, pyramid, kernel, splats, n};
+    find_range(&sort);
     parallel_for(threads, CHUNKS, bin_part, &sort);
     for (int i = 0; i < CHUNKS; i++)
         if (bins->chunks[i].failed)

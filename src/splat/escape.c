@@ -29,14 +29,7 @@ static float nearest_beside(const ps_host *host, const struct box_scene *scene,
             ps_add(ps_scale(u, half_width * place_u[i]), ps_scale(v, half_width * place_v[i]));
         ahead[i] = fmaxf(-ps_dot(source->normal, offset) / ps_dot(source->normal, w), 0.0f);
         ps_vec3 origin = ps_add(start, ps_add_scaled(offset, ahead[i], w));
-        packet.origin_x[i] = origin.x;
-        packet.origin_y[i] = origin.y;
-        packet.origin_z[i] = origin.z;
-        packet.direction_x[i] = w.x;
-        packet.direction_y[i] = w.y;
-        packet.direction_z[i] = w.z;
-        packet.tnear[i] = 0.0f;
-        packet.tfar[i] = INFINITY;
+        ps_packet_set(&packet, (size_t)i, (ps_ray){origin, 0.0f, w, INFINITY});
     }
     host->intersect_packets(host, &packet, 1);
     for (int i = 0; i < RAYS; i++)
@@ -44,7 +37,8 @@ static float nearest_beside(const ps_host *host, const struct box_scene *scene,
     return nearest;
 }
 
-/* None for beams that graze their source, parts of which start below its surface. A second look where the beam turned out to be narrower than the first took it for. */
+/* A second look where the beam turned out to be narrower than the first took it for. INFINITY for beams
+ * that graze their source, parts of which start below its surface. */
 static float find_distance(const ps_host *host, const struct box_scene *scene,
                            const ps_box_settings *settings, const ps_source *source)
 {

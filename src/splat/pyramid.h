@@ -22,12 +22,14 @@ struct pyramid {
     uint32_t tiles_across, tiles_down; /* of each subset */
 };
 
-/* Room for the pyramid of a field. */
+/* Room for the pyramid of a field, which has to be built before it is visited. PS_ERROR_MEMORY: nothing
+ * is left to release. Main thread. */
 ps_result pyramid_create(const struct field *field, struct pyramid *pyramid, struct error *error);
 void pyramid_release(struct pyramid *pyramid);
 size_t pyramid_bytes(const struct pyramid *pyramid);
 
-/* Bounds of what the tiles see now. */
+/* Bounds of what the tiles of `field`, the one that it was created for, see now. Main thread; works on
+ * `threads`. */
 void pyramid_build(struct pyramid *pyramid, const struct field *field, uint32_t threads);
 
 /* Called with each tile that a splat may touch; returns whether to go on. */

@@ -181,9 +181,10 @@ static void splat_tile(void *user, uint64_t index, uint32_t worker)
     const struct batch *batch = user;
     const struct splatter *splatter = batch->splatter;
     const struct bins *bins = &splatter->bins;
-    const uint32_t *indices = bins->indices + bins->offsets[index];
-    size_t n = bins->offsets[index + 1] - bins->offsets[index];
-    struct field_tile *tile = &splatter->field.tiles[index];
+    size_t number = bins->first_tile + index;
+    const uint32_t *indices = bins->indices + bins->offsets[number];
+    size_t n = bins->offsets[number + 1] - bins->offsets[number];
+    struct field_tile *tile = &splatter->field.tiles[number];
     if (n == 0)
         return;
     struct kernel_count count =
@@ -192,8 +193,8 @@ static void splat_tile(void *user, uint64_t index, uint32_t worker)
             : splatter->settings.kernel.accumulate(tile, splatter->prepared, indices, n,
                                                    splatter->resolution ? splatter->resolution : 1,
                                                    &splatter->settings.profile);
-    batch->counts[index].tests += count.tests;
-    batch->counts[index].lit += count.lit;
+    batch->counts[number].tests += count.tests;
+    batch->counts[number].lit += count.lit;
 }
 
 static ps_result add_batch(const struct batch *batch, struct error *error)
@@ -209,7 +210,8 @@ static ps_result add_batch(const struct batch *batch, struct error *error)
     double binned = clock_seconds();
     if (result != PS_OK)
         return result;
-    parallel_for(settings->threads, splatter->field.tile_count, splat_tile, &work);
+    parallel_for(settings->threads, splatter->bins.end_tile - splatter->bins.first_tile, splat_tile,
+                 &work);
     splatter->map_seconds += mapped - start;
     splatter->bin_seconds += binned - mapped;
     splatter->kernel_seconds += clock_seconds() - binned;

@@ -37,14 +37,7 @@ static void load_rays(const ps_splat *splat, const ps_source *source, float surf
         ps_vec3 rim = ps_add(ps_scale(splat->axis_u, u), ps_scale(splat->axis_v, v));
         rim =
             ps_add_scaled(rim, u * splat->start_slope_u + v * splat->start_slope_v, splat->axis_w);
-        packet->origin_x[i] = origin.x;
-        packet->origin_y[i] = origin.y;
-        packet->origin_z[i] = origin.z;
-        packet->direction_x[i] = rim.x;
-        packet->direction_y[i] = rim.y;
-        packet->direction_z[i] = rim.z;
-        packet->tnear[i] = 0.0f;
-        packet->tfar[i] = 1.0f;
+        ps_packet_set(packet, (size_t)i, (ps_ray){origin, 0.0f, rim, 1.0f});
     }
 }
 

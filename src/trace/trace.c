@@ -13,6 +13,7 @@
 
 #include "trace/embree_shim.h"
 #include "trace/surface.h"
+#include <psplat/math.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -252,18 +253,6 @@ size_t trace_bytes(const struct trace *trace)
     return bytes > 0 ? (size_t)bytes : 0;
 }
 
-static void load_ray(ps_packet *packet, size_t lane, const ps_ray *ray)
-{
-    packet->origin_x[lane] = ray->origin.x;
-    packet->origin_y[lane] = ray->origin.y;
-    packet->origin_z[lane] = ray->origin.z;
-    packet->tnear[lane] = ray->tnear;
-    packet->direction_x[lane] = ray->direction.x;
-    packet->direction_y[lane] = ray->direction.y;
-    packet->direction_z[lane] = ray->direction.z;
-    packet->tfar[lane] = ray->tfar;
-}
-
 /* Fills up to 16 lanes; the rest are marked invalid. */
 static void load_rays(ps_packet *packet, int valid[PACKET], const ps_ray *rays, size_t n,
                       uint32_t mask)
@@ -275,7 +264,7 @@ static void load_rays(ps_packet *packet, int valid[PACKET], const ps_ray *rays, 
     for (size_t lane = 0; lane < PACKET; lane++) {
         valid[lane] = lane < n ? -1 : 0;
         packet->mask[lane] = mask;
-        load_ray(packet, lane, &rays[lane < n ? lane : 0]);
+        ps_packet_set(packet, lane, rays[lane < n ? lane : 0]);
     }
 }
 

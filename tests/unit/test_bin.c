@@ -213,8 +213,11 @@ static void test_leaves_out_what_lights_nothing(void **state)
 
 static void expect_same(const struct bins *a, const struct bins *b)
 {
-    assert_memory_equal(a->offsets, b->offsets, (a->tile_count + 1) * sizeof *a->offsets);
-    assert_memory_equal(a->indices, b->indices, a->offsets[a->tile_count] * sizeof *a->indices);
+    size_t first = a->first_tile, count = a->end_tile - first;
+    assert_int_equal(b->first_tile, first);
+    assert_int_equal(b->end_tile, a->end_tile);
+    assert_memory_equal(a->offsets + first, b->offsets + first, (count + 1) * sizeof *a->offsets);
+    assert_memory_equal(a->indices, b->indices, a->offsets[a->end_tile] * sizeof *a->indices);
 }
 
 static void test_same_for_any_threads(void **state)
@@ -241,11 +244,33 @@ static void test_batches_do_not_disturb_each_other(void **state)
         assert_int_equal(
             bins_sort(&bins, &bench->pyramid, &bench->kernel, bench->prepared, sizes[i], 2, &error),
             PS_OK);
-        assert_int_equal(bins.offsets[bins.tile_count], fresh.offsets[fresh.tile_count]);
         if (sizes[i])
             expect_same(&bins, &fresh);
+        else
+            assert_int_equal(bins.offsets[bins.end_tile], 0);
         bins_release(&fresh);
     }
+    bins_release(&bins);
+}
+
+/* Splats that light few subsets fall into the tiles of these. */
+static void test_range_of_the_subsets(void **state)
+{
+    const struct bench *bench = *state;
+    static struct kernel_splat splats[SPLATS];
+    for (uint32_t i = 0; i < SPLATS; i++) {
+        splats[i] = bench->prepared[i];
+        splats[i].subset = 1 + i % 2;
+    }
+    struct bins bins;
+    struct error error;
+    assert_int_equal(bins_create(bench->field.tile_count, &bins, &error), PS_OK);
+    assert_int_equal(bins_sort(&bins, &bench->pyramid, &bench->kernel, splats, SPLATS, 2, &error),
+                     PS_OK);
+    assert_int_equal(bins.first_tile, 10 * 7);
+    assert_int_equal(bins.end_tile, 3 * 10 * 7);
+    assert_int_equal(bins.offsets[bins.first_tile], 0);
+    assert_true(bins.offsets[bins.end_tile] > SPLATS);
     bins_release(&bins);
 }
 
@@ -341,6 +366,7 @@ int main(void)
         cmocka_unit_test(test_same_for_any_threads),
         cmocka_unit_test(test_batches_do_not_disturb_each_other),
         cmocka_unit_test(test_pyramid_bounds_its_tiles),
+        cmocka_unit_test(test_range_of_the_subsets),
         cmocka_unit_test(test_a_visitor_can_stop),
         cmocka_unit_test(test_smallest_picture),
     };
