@@ -31,7 +31,8 @@ typedef enum ps_stream {
  * (PS_BOX_PARAMS in strategy.h gives the rows). Scene units. */
 typedef struct ps_box_settings {
     double size;      /* half-width R; 0: automatic, by the scene's radius and the light paths */
-    double follow;    /* R is at most follow * distance travelled, or size / 5; 0: no limit */
+    double follow;    /* R is at most follow * distance travelled, or size / 5, or the
+                      interleaved pixels; 0: no limit */
     double depth;     /* how far the box reaches past the first hit; 0: R tan(theta) + R */
     double step_back; /* see step_back_rule */
     int32_t step_back_rule; /* 0: auto, min(d, R tan(theta) + R/2); 1: full, from the source; -1:
@@ -125,7 +126,7 @@ struct ps_host {
 
     /* Boxes around the first hits of sources: the geometry that every visibility shares (frame,
      * size that follows distance, step-back, walls beside the source). Automatic sizes go by the
-     * pass's number of paths, which next_sources finds out. A hit at INFINITY gives half_width 0,
+     * pass's number of paths, which begin_splats or next_sources finds out. A hit at INFINITY gives half_width 0,
      * unless a full beam meets something beside its axis. After begin_splats, those that may light
      * nothing in view get half_width 0 too. [any thread] */
     void (*place_boxes)(const ps_host *host, const ps_box_settings *settings,
@@ -148,8 +149,8 @@ struct ps_host {
      * holds for all. [main thread, inside accumulate] */
     ps_result (*begin_splats)(const ps_host *host, uint32_t n);
 
-    /* After begin_splats: adds the light of splats to the tiles: depth maps by the chosen visibility, weights by the
-     * chosen filter. Irradiance += power * K * V * max(0, -n.w), weight += merged * K *
+    /* After begin_splats: adds the light of splats to the tiles: depth maps by the chosen visibility,
+     * weights by the chosen filter. Irradiance += power * K * V * max(0, -n.w), weight += merged * K *
      * V, which the tiles have when the pass ends; bitwise the same for any number of threads and any
      * batching. Cuts the splats' depth ranges. [main thread, inside accumulate] */
     ps_result (*splat)(const ps_host *host, ps_splat *splats, size_t n);

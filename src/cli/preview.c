@@ -1,7 +1,11 @@
 #include "cli/preview.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define WIDTH 640.0
+#define HEIGHT 360.0
 
 static const struct option passes = {.name = "passes"}, set = {.name = "set"},
                            plugin = {.name = "plugin"};
@@ -40,4 +44,13 @@ struct argument *preview_expand(const struct argument *arguments, size_t count,
         expanded[added + i] = arguments[i];
     *expanded_count = added + count;
     return expanded;
+}
+
+void preview_shrink(struct image_description *image)
+{
+    double scale = fmin(WIDTH / (double)image->width, HEIGHT / (double)image->height);
+    if (scale >= 1.0)
+        return;
+    image->width = (int64_t)fmax(1.0, round((double)image->width * scale));
+    image->height = (int64_t)fmax(1.0, round((double)image->height * scale));
 }

@@ -7,14 +7,14 @@
 #define CLI_PREVIEW_H
 
 #include "cli/command.h"
-
-/* The picture is made no larger than that, in its own proportions, unless its size is given. */
-#define PREVIEW_WIDTH 640
-#define PREVIEW_HEIGHT 360
+#include "scene/description.h"
 
 /* The arguments, and before them those that --preview stands for, if it is among them. NULL, printed,
  * when out of memory; the caller frees it. */
 struct argument *preview_expand(const struct argument *arguments, size_t count,
                                 size_t *expanded_count);
+
+/* Makes a picture that is larger fit into 640x360 pixels, in its own proportions. */
+void preview_shrink(struct image_description *image);
 
 #endif

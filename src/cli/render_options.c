@@ -3,7 +3,6 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "cli/preview.h"
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -74,16 +73,6 @@ static bool override_size(const char *text, struct image_description *image)
     return true;
 }
 
-static void shrink_to_preview(struct image_description *image)
-{
-    double scale = fmin((double)PREVIEW_WIDTH / (double)image->width,
-                        (double)PREVIEW_HEIGHT / (double)image->height);
-    if (scale >= 1.0)
-        return;
-    image->width = (int64_t)fmax(1.0, round((double)image->width * scale));
-    image->height = (int64_t)fmax(1.0, round((double)image->height * scale));
-}
-
 static bool override_exposure(const char *text, double *exposure)
 {
     double stops;
@@ -121,7 +110,7 @@ static bool override(const struct render_options *options, struct scene_input *i
     if (options->direct_resolution > 0)
         description->render.direct_resolution = (int64_t)options->direct_resolution;
     if (options->preview)
-        shrink_to_preview(&description->image);
+        preview_shrink(&description->image);
     return (!options->size || override_size(options->size, &description->image)) &&
            (!options->exposure ||
             override_exposure(options->exposure, &description->image.exposure)) &&

@@ -28,7 +28,7 @@ struct render_options {
     const char *size, *exposure, *isa, *direct;
     double seed, threads, batch, direct_resolution; /* negative: not given */
     bool quiet;
-    bool preview; /* no larger than PREVIEW_WIDTH x PREVIEW_HEIGHT, unless `size` says so */
+    bool preview;                     /* see preview_shrink; `size` goes before it */
     const struct argument *arguments; /* borrowed; --plugin waits for the scene */
     size_t argument_count;
 };

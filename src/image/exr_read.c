@@ -21,8 +21,8 @@
 
 /* At most so many bytes come out of one: what deflate can do, by the quarter that PXR24 drops of a
  * float (runs and PIZ reach less); and, for DWA, deflate on one half of a block of 64. */
-#define DEFLATE_EXPANSION 1376
-#define BLOCK_EXPANSION (1032 * 64)
+#define FLOAT_EXPANSION (RASTER_DEFLATE_EXPANSION * 4 / 3)
+#define BLOCK_EXPANSION (RASTER_DEFLATE_EXPANSION * 64)
 
 struct exr_source {
     exr_context_t context;
@@ -112,7 +112,7 @@ static ps_result check_expansion(const struct exr_source *source)
     bool blocks = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
     return raster_check_expansion(
         source->memory, (uint64_t)source->image.width * source->image.height * pixel_bytes,
-        blocks ? BLOCK_EXPANSION : DEFLATE_EXPANSION, source->error);
+        blocks ? BLOCK_EXPANSION : FLOAT_EXPANSION, source->error);
 }
 
 static ps_result check_form(const struct exr_source *source, exr_storage_t *storage)

@@ -30,6 +30,9 @@ ps_result exr_read_channels(const struct raster_source *source, const char *cons
 ps_result raster_check_size(const char *path, int64_t width, int64_t height, size_t bytes_per_pixel,
                             struct error *error);
 
+/* No stream of deflate unpacks to more than this times its size. */
+#define RASTER_DEFLATE_EXPANSION 1032
+
 /* Refuses a picture that the file is too short for: one that even at `expansion` decoded bytes for
  * each of its own would end too early. Keeps a small hostile file from taking gigabytes. */
 ps_result raster_check_expansion(const struct raster_source *source, uint64_t decoded,

@@ -9,9 +9,6 @@
 #include <png.h>
 #include <string.h>
 
-/* No stream of deflate, which PNG packs pixels in, unpacks to more than this times its size. */
-#define DEFLATE_EXPANSION 1032
-
 struct png_job {
     const struct raster_source *source;
     size_t position; /* of the next byte to read */
@@ -75,7 +72,7 @@ static void read_header(struct png_job *job)
     size_t packed_pixel = (packed_row + width - 1) / width;
     expect(job, raster_check_size(job->source->path, width, height, packed_pixel, job->error));
     expect(job, raster_check_expansion(job->source, (uint64_t)packed_row * height,
-                                       DEFLATE_EXPANSION, job->error));
+                                       RASTER_DEFLATE_EXPANSION, job->error));
     job->raster->width = width;
     job->raster->height = height;
 }
