@@ -32,7 +32,7 @@ typedef enum ps_stream {
 typedef struct ps_box_settings {
     double size;      /* half-width R; 0: automatic, by the scene's radius and the light paths */
     double follow;    /* R is at most follow * distance travelled, or size / 5, or the
-                      interleaved pixels; 0: no limit */
+                         interleaved pixels; 0: no limit */
     double depth;     /* how far the box reaches past the first hit; 0: R tan(theta) + R */
     double step_back; /* see step_back_rule */
     int32_t step_back_rule; /* 0: auto, min(d, R tan(theta) + R/2); 1: full, from the source; -1:
@@ -126,9 +126,9 @@ struct ps_host {
 
     /* Boxes around the first hits of sources: the geometry that every visibility shares (frame,
      * size that follows distance, step-back, walls beside the source). Automatic sizes go by the
-     * pass's number of paths, which begin_splats or next_sources finds out. A hit at INFINITY gives half_width 0,
-     * unless a full beam meets something beside its axis. After begin_splats, those that may light
-     * nothing in view get half_width 0 too. [any thread] */
+     * pass's number of paths, which begin_splats or next_sources finds out. A hit at INFINITY gives
+     * half_width 0, unless a full beam meets something beside its axis. After begin_splats, those that
+     * may light nothing in view get half_width 0 too. [any thread] */
     void (*place_boxes)(const ps_host *host, const ps_box_settings *settings,
                         const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats);
 
