@@ -26,6 +26,7 @@ struct mesh_job {
     enum mesh_format format;
     struct mesh_files files;
     struct mesh_file *main_file;
+    bool main_is_open;         /* by assimp, which reads it */
     struct mesh_file *library; /* OBJ: the last MTL file read, or NULL */
     struct gltf gltf;
     const struct aiScene *scene;

@@ -101,21 +101,33 @@ static struct mesh_file *find_companion(struct mesh_job *job, char *path)
     return mesh_files_read(&job->files, path, &file, &ignored) == PS_OK ? file : NULL;
 }
 
+static struct mesh_file *find_file(struct mesh_job *job, const char *path)
+{
+    char clean[LONGEST_PATH];
+    if (strcmp(path, job->main_file->path) == 0)
+        return job->main_file;
+    return clean_path(path, clean) ? find_companion(job, clean) : NULL;
+}
+
+/* What assimp opens while it reads an OBJ is a library of materials. False for the OBJ itself:
+ * assimp would write through a null pointer at the first property without a material. */
+static bool admit_library(struct mesh_job *job, struct mesh_file *file)
+{
+    if (file == job->main_file)
+        return false;
+    mtl_blank_preamble(file);
+    job->library = file;
+    return true;
+}
+
 static struct aiFile *open_stream(struct aiFileIO *io, const char *path, const char *mode)
 {
     struct mesh_job *job = (struct mesh_job *)(void *)io->UserData;
-    struct mesh_file *file = strcmp(path, job->main_file->path) == 0 ? job->main_file : NULL;
-    char clean[LONGEST_PATH];
-    if (mode[0] != 'r' || (!file && !clean_path(path, clean)))
-        return NULL;
-    if (!file)
-        file = find_companion(job, clean);
+    struct mesh_file *file = mode[0] == 'r' ? find_file(job, path) : NULL;
     if (!file)
         return NULL;
-    if (file != job->main_file && job->format == FORMAT_OBJ) {
-        mtl_blank_preamble(file);
-        job->library = file;
-    }
+    if (job->format == FORMAT_OBJ && job->main_is_open && !admit_library(job, file))
+        return NULL;
     struct stream *stream = calloc(1, sizeof *stream);
     if (!stream)
         return NULL;
@@ -129,12 +141,15 @@ static struct aiFile *open_stream(struct aiFileIO *io, const char *path, const c
                       .UserData = (aiUserData)(void *)stream},
         .file = file,
     };
+    job->main_is_open = job->main_is_open || file == job->main_file;
     return &stream->functions;
 }
 
 static void close_stream(struct aiFileIO *io, struct aiFile *file)
 {
-    (void)io;
+    struct mesh_job *job = (struct mesh_job *)(void *)io->UserData;
+    if (stream_of(file)->file == job->main_file)
+        job->main_is_open = false;
     free(stream_of(file));
 }
 

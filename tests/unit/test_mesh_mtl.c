@@ -233,6 +233,19 @@ static void statements_before_the_first_material_are_harmless(void **state)
     release_imported(&imported);
 }
 
+/* Here too. */
+static void a_mesh_is_not_its_own_library(void **state)
+{
+    (void)state;
+    struct mesh_request request = request_all("m.obj");
+    const struct mesh_memory_file file = text_file(
+        "m.obj", "mtllib m.obj\nv 0 0 0\nv 1 0 0\nv 0 1 0\nmap_Kd a.png\nusemtl m\nf 1 2 3\n");
+    struct imported imported = import_files(&request, &file, 1);
+    expect_success(&imported);
+    assert_non_null(strstr(imported.report.notes, "no library"));
+    release_imported(&imported);
+}
+
 static struct imported import_shared(const char *name, bool *there)
 {
     static char path[4096];
@@ -304,6 +317,7 @@ int main(void)
         cmocka_unit_test(missing_texture_is_reported),
         cmocka_unit_test(absent_material_has_but_a_name),
         cmocka_unit_test(statements_before_the_first_material_are_harmless),
+        cmocka_unit_test(a_mesh_is_not_its_own_library),
         cmocka_unit_test(cornell_boxes_come_out_right),
         cmocka_unit_test(conference_room_is_whole),
     };
