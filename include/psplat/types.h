@@ -121,6 +121,10 @@ typedef struct ps_splat {
     /* Depth at which rays of the bundle start (what lies before stays dark), at the centre, and its
      * change along u and v (a tilted start plane). */
     float start_depth, start_slope_u, start_slope_v;
+    /* Of full beams: where the source's tangent plane, parallel to the start plane, crosses the axis. A
+     * pixel takes the part of the disc around its own ray that is follow * its distance from that plane
+     * wide, between `narrowest` and `widest`. follow 0: all of it. */
+    float source_depth, follow, narrowest, widest;
     /* Lit where t <= map + constant + slope * tan(theta), theta between the light and the receiver's
      * normal. */
     float bias_constant, bias_slope;

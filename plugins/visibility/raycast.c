@@ -41,8 +41,8 @@ static void visible_tile(const ps_host *host, const ps_splat *splat, const ps_ve
     for (size_t i = 0; i < n; i++) {
         ps_vec3 place = ps_bundle_place(splat, points[i]);
         float length = place.z - ps_bundle_start(splat, place.x, place.y);
-        lit[i] = 0;
-        if (!(length > 0.0f))
+        lit[i] = 1;
+        if (!(length > 0.0f)) /* the core lets points below the start plane take their part */
             continue;
         rays[count] = (ps_ray){points[i], 0.0f, back, length};
         owners[count++] = i;

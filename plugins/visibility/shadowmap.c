@@ -90,7 +90,7 @@ static const ps_param params[] = {
     PS_BOX_PARAMS(struct state, "full", "yes"),
     PS_INT(struct state, resolution, "8", 1, 64, "texels", "side of a depth map"),
     PS_NUMBER_OR(struct state, bias, "slope", 0, INFINITY, 0, bias_choices, "scene units",
-                 "depth tolerance; slope: 1.5 texels times the receiver's slope"),
+                 "depth tolerance; slope: 0.75 texels times the receiver's slope"),
 };
 
 static const ps_visibility_vtable vtable = {

@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "pipeline/render_state.h"
 #include "splat/box.h"
-#include "splat/escape.h"
+#include "splat/reach.h"
 #include "splat/wall.h"
 #include <psplat/math.h>
 #include <string.h>
@@ -34,22 +34,76 @@ static struct box_scene box_scene_of(const struct render *render)
     };
 }
 
+/* What places up to PS_PATH_CHUNK boxes. */
+struct placing {
+    const struct render *render;
+    struct box_scene scene;
+    const ps_box_settings *settings;
+    const ps_source *sources;
+    size_t n;
+    ps_hit *hits;
+    float *half_widths; /* 0: no box */
+};
+
+static void place(const struct placing *placing, ps_splat *splats)
+{
+    box_place(&placing->scene, placing->settings, placing->sources, placing->hits,
+              placing->half_widths, placing->n, splats);
+}
+
+static void drop(struct placing *placing, ps_splat *splats)
+{
+    if (placing->render->splatting)
+        drop_unseen(&placing->render->splatter, splats, placing->n);
+    for (size_t i = 0; i < placing->n; i++)
+        placing->half_widths[i] = splats[i].half_width;
+}
+
+/* Beams that start at their sources. The widest that they may be shows whether they are seen at all. */
+static void place_full(struct placing *placing, ps_splat *splats)
+{
+    const ps_host *host = &placing->render->host;
+    ps_hit stand_ins[PS_PATH_CHUNK];
+    memcpy(stand_ins, placing->hits, placing->n * sizeof *stand_ins);
+    for (size_t i = 0; i < placing->n; i++) {
+        placing->half_widths[i] =
+            box_widest(&placing->scene, placing->settings, &placing->sources[i]);
+        if (!(placing->hits[i].distance < INFINITY))
+            box_stand_in(&placing->sources[i], placing->half_widths[i], &stand_ins[i]);
+    }
+    box_place(&placing->scene, placing->settings, placing->sources, stand_ins, placing->half_widths,
+              placing->n, splats);
+    drop(placing, splats);
+    reach_find(host, &placing->scene, placing->settings, placing->sources, placing->n,
+               placing->hits, placing->half_widths);
+    place(placing, splats);
+    if (placing->settings->walls)
+        wall_find(host, placing->scene.surface_offset, placing->sources, placing->n, splats);
+}
+
+static void place_others(struct placing *placing, ps_splat *splats)
+{
+    for (size_t i = 0; i < placing->n; i++)
+        placing->half_widths[i] = box_half_width(&placing->scene, placing->settings,
+                                                 &placing->sources[i], placing->hits[i].distance);
+    place(placing, splats);
+    drop(placing, splats);
+}
+
 /* At most PS_PATH_CHUNK. */
 static void place_some(const struct render *render, const ps_box_settings *settings,
                        const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats)
 {
-    const ps_host *host = &render->host;
-    struct box_scene scene = box_scene_of(render);
-    bool full = settings->step_back_rule == 1;
     ps_hit met[PS_PATH_CHUNK];
+    float half_widths[PS_PATH_CHUNK];
+    struct placing placing = {
+        render, box_scene_of(render), settings, sources, n, met, half_widths,
+    };
     memcpy(met, hits, n * sizeof *hits);
-    if (full)
-        escape_find(host, &scene, settings, sources, n, met);
-    box_place(&scene, settings, sources, met, n, splats);
-    if (render->splatting)
-        drop_unseen(&render->splatter, splats, n);
-    if (full && settings->walls)
-        wall_find(host, scene.surface_offset, sources, n, splats);
+    if (settings->step_back_rule == 1)
+        place_full(&placing, splats);
+    else
+        place_others(&placing, splats);
 }
 
 static void host_place_boxes(const ps_host *host, const ps_box_settings *settings,

@@ -22,9 +22,13 @@
 
 #include "scene/camera.h"
 #include <psplat/host.h>
+#include <stdbool.h>
 
 /* Slopes (tangents) past this are treated as this: 84 degrees, where 1 % of the energy arrives. */
 #define BOX_STEEPEST 10.0f
+
+/* Light that leaves its source under less than this (cosine) is taken to leave under it. */
+#define BOX_LEAST_COSINE 0.015625f
 
 struct box_scene {
     float radius;         /* of the scene */
@@ -36,7 +40,7 @@ struct box_scene {
 };
 
 /* How far above its source's tangent plane a full beam of that half-width starts. */
-float box_clearance(float surface_offset, float half_width);
+float box_clearance(float surface_offset, float half_width, bool hollow);
 
 /* The half-width that light paths so many in a pass deserve. Noise grows as splats shrink and blur as
  * they grow; measured on the Cornell box the error is least at a size that falls by the fourth root of
@@ -45,13 +49,25 @@ float box_clearance(float surface_offset, float half_width);
  * (Knaus and Zwicker 2011, "Progressive photon mapping: a probabilistic approach"). */
 float box_automatic_size(float scene_radius, uint64_t paths, uint32_t pass);
 
-/* Half-width of the box of a source whose light travels so far. */
+/* Half-width of the disc that a source's light may fill. */
+float box_widest(const struct box_scene *scene, const ps_box_settings *settings,
+                 const ps_source *source);
+
+/* The same where the light travels so far. */
 float box_half_width(const struct box_scene *scene, const ps_box_settings *settings,
                      const ps_source *source, float distance);
 
-/* Places the boxes of n sources whose rays met `hits`; see ps_host.place_boxes. */
+/* In place of the hit of a beam that meets nothing: a point of its axis, with a normal of 0. */
+void box_stand_in(const ps_source *source, float distance, ps_hit *hit);
+
+/* Places the boxes of n sources whose rays met `hits`; see ps_host.place_boxes. A half-width of 0 makes a
+ * splat that lights nothing. */
 void box_place(const struct box_scene *scene, const ps_box_settings *settings,
-               const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats);
+               const ps_source *sources, const ps_hit *hits, const float *half_widths, size_t n,
+               ps_splat *splats);
+
+/* Lets a full beam start so far above its source's tangent plane. */
+void box_start(const ps_source *source, float clearance, ps_splat *splat);
 
 /* Cuts the far end of a splat to what its map holds (resolution^2 depths). */
 void box_cut(ps_splat *splat, const float *depths, uint32_t resolution);

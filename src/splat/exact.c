@@ -20,17 +20,19 @@ static ps_vec3 position_of(const struct field_tile *tile, uint32_t lane)
     return (ps_vec3){tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
 }
 
+/* At (u, v), of which the pixel takes a part so wide; 0 behind a wall. */
 static float weight_at(const struct kernel_splat *splat, const struct kernel_profile *profile,
-                       float u, float v)
+                       float u, float v, float width)
 {
-    size_t entry = (size_t)(fminf(u * u + v * v, 0.99999f) * (float)KERNEL_PROFILE_SIZE);
-    float weight = profile->weights[entry] * splat->kernel_scale;
+    float r2 = fminf((u * u + v * v) / (width * width), 0.99999f);
+    size_t entry = (size_t)(r2 * (float)KERNEL_PROFILE_SIZE);
+    float weight = profile->weights[entry] * splat->kernel_scale / (width * width);
     for (uint32_t k = 0; k < splat->wall_count; k++) {
         const ps_wall *wall = &splat->walls[k];
         float distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
         if (!(distance > 0.0f))
             return 0.0f;
-        float within = fminf(distance, 1.0f);
+        float within = fminf(distance / width, 1.0f);
         weight *= profile->boundary[(size_t)(within * (float)(KERNEL_BOUNDARY_SIZE - 1))];
     }
     return weight;
@@ -52,9 +54,14 @@ static void collect(const struct field_tile *tile, const struct kernel_splat *sp
         float cosine = -ps_dot(normal, splat->w);
         if (!(cosine > 0.0f))
             continue;
+        float above = t - (splat->source_depth + u * splat->start_u + v * splat->start_v);
+        float width = width_at(&splat->width, above, fmaxf(cosine, 1e-3f), ps_dot(normal, splat->u),
+                               ps_dot(normal, splat->v));
+        if (!(r2 < width * width && above >= splat->clearance * fminf(width, 1.0f)))
+            continue;
         size_t i = inside->count++;
         inside->lanes[i] = lane;
-        inside->weight[i] = weight_at(splat, profile, u, v);
+        inside->weight[i] = weight_at(splat, profile, u, v, width);
         inside->cosine[i] = cosine;
         inside->points[i] = ps_add_scaled(position, surface_offset, normal);
     }

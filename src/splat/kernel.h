@@ -3,9 +3,14 @@
  * For every splat and every pixel p of the tile, with d = p - centre:
  *
  *     u = d.U / R, v = d.V / R, t = d.W         position in the box
- *     k = profile(u^2 + v^2) * scale / R^2      the kernel K, 1/m^2, integrates to 1 over its disc
- *     lit where u^2 + v^2 < 1, near <= t <= far, n.W < 0, t lies past the plane that the bundle
- *     starts on, and not past the map by more than the bias
+ *     h                                         the part of the disc that the pixel takes (width.h), of R
+ *     r^2 = (u^2 + v^2) / h^2
+ *     k = profile(r^2) * scale / (h R)^2        the kernel K, 1/m^2, integrates to 1 over its disc
+ *     lit where u^2 + v^2 < 1, r^2 < 1, near <= t <= far, n.W < 0, t lies past the plane that the
+ *     bundle starts on, and not past the map by more than the bias
+ *
+ * A bundle starts a little above its source's surface, by an eighth of R where that is hollow (box.h); for
+ * a pixel that takes less of the disc, by as much less. Where two walls meet, light reaches the crease.
  *     irradiance += power * k * max(0, -n.W), weight += merged * k
  *
  * A splat that stands for several sources weighs as much as they would (Hoet 2014, section 3.2.1); the
@@ -24,6 +29,7 @@
 #define SPLAT_KERNEL_H
 
 #include "splat/field.h"
+#include "splat/width.h"
 #include <psplat/types.h>
 #include <stdbool.h>
 
@@ -34,7 +40,7 @@
 struct kernel_profile {
     float weights[KERNEL_PROFILE_SIZE];   /* entry i stands for [i, i + 1) / KERNEL_PROFILE_SIZE */
     float scale;                          /* 1 / integral of the weights over the unit disc */
-    bool counting;                        /* K is 1 all over the disc, whatever its size */
+    bool counting;                        /* K is 1 all over the box, whatever its size */
     float boundary[KERNEL_BOUNDARY_SIZE]; /* 1 / the part of K on this side of a straight border at
                                              distance i / (KERNEL_BOUNDARY_SIZE - 1) */
 };
@@ -46,7 +52,10 @@ struct kernel_splat {
     ps_vec3 w;
     float near_depth, far_depth;
     float start_depth, start_u,
-        start_v; /* depth of the start plane: start_depth + start_u * u + start_v * v */
+        start_v;        /* depth of the start plane: start_depth + start_u * u + start_v * v */
+    float source_depth; /* the same of the source's plane */
+    float clearance;    /* from there to the start plane */
+    struct width width;
     float bias_constant, bias_slope;
     float kernel_scale; /* with `merged` in it, by which the power is divided, and the number of
                            subsets of the field; 0: the splat lights

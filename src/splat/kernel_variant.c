@@ -101,6 +101,7 @@ static inline void list_by_block(const struct bounds *blocks, const struct kerne
 /* What a block's pixels get from one splat. */
 struct block_light {
     float weight[LANES], projected[LANES]; /* K * V, and that times the cosine */
+    float inverse_width[LANES];            /* 1 / h */
 };
 
 /* Where a pixel lies in a splat's box: across it in half-widths, along it in scene units. */
@@ -129,6 +130,16 @@ static inline float facing_of(const struct field_tile *tile, int lane,
              tile->normal_z[lane] * splat->w.z);
 }
 
+/* The part of the disc that a pixel takes at that distance from the source's plane. */
+static inline float width_of(const struct field_tile *tile, int lane,
+                             const struct kernel_splat *splat, float distance, float facing)
+{
+    float x = tile->normal_x[lane], y = tile->normal_y[lane], z = tile->normal_z[lane];
+    return width_at(&splat->width, distance, most(facing, 1e-3f),
+                    x * splat->u.x + y * splat->u.y + z * splat->u.z,
+                    x * splat->v.x + y * splat->v.y + z * splat->v.z);
+}
+
 /* Whether some pixel of the block lies inside of the box and faces the light: half of the blocks
  * whose bounds a box touches have none. */
 static inline int any_inside(const struct field_tile *tile, int first,
@@ -138,9 +149,9 @@ static inline int any_inside(const struct field_tile *tile, int first,
     for (int i = 0; i < LANES; i++) {
         struct placed p = place_pixel(tile, first + i, splat);
         float facing = facing_of(tile, first + i, splat);
-        float start = splat->start_depth + p.u * splat->start_u + p.v * splat->start_v;
+        float plane = splat->source_depth + p.u * splat->start_u + p.v * splat->start_v;
         any |= (p.u * p.u + p.v * p.v < 1.0f) & (facing > 0.0f) & (p.t <= splat->far_depth) &
-               (p.t >= start);
+               (p.t >= plane);
     }
     return any;
 }
@@ -157,19 +168,25 @@ static inline int weigh(const struct field_tile *tile, int first, const struct k
         struct placed p = place_pixel(tile, first + i, splat);
         float r2 = p.u * p.u + p.v * p.v;
         float facing = facing_of(tile, first + i, splat);
-        float start = splat->start_depth + p.u * splat->start_u + p.v * splat->start_v;
+        float above = p.t - (splat->source_depth + p.u * splat->start_u + p.v * splat->start_v);
+        float width = width_of(tile, first + i, splat, above, facing);
+        float inverse_width = 1.0f / width;
+        float in_width2 = r2 * inverse_width * inverse_width;
         float cosine = clamp(facing, 1e-3f, 1.0f);
         float slope = sqrtf(1.0f - cosine * cosine) / cosine;
         float bias = splat->bias_constant + splat->bias_slope * least(slope, BOX_STEEPEST);
         int column = (int)clamp((p.u + 1.0f) * half_resolution, 0.0f, last_texel);
         int line = (int)clamp((p.v + 1.0f) * half_resolution, 0.0f, last_texel);
         float past = p.t - depths[line * resolution + column];
-        int entry = (int)(clamp(r2, 0.0f, 0.99999f) * (float)KERNEL_PROFILE_SIZE);
-        int lit = (r2 < 1.0f) & (facing > 0.0f) & (p.t >= splat->near_depth) &
-                  (p.t <= splat->far_depth) & (p.t >= start) & (past <= bias);
+        int entry = (int)(clamp(in_width2, 0.0f, 0.99999f) * (float)KERNEL_PROFILE_SIZE);
+        int lit = (r2 < 1.0f) & (in_width2 < 1.0f) & (facing > 0.0f) & (p.t >= splat->near_depth) &
+                  (p.t <= splat->far_depth) & (above >= splat->clearance * least(width, 1.0f)) &
+                  (past <= bias);
         /* A product, not a choice: compilers would make the load conditional and the loop scalar.
          */
-        float weight = (float)lit * profile[entry] * splat->kernel_scale;
+        float weight =
+            (float)lit * profile[entry] * splat->kernel_scale * inverse_width * inverse_width;
+        light->inverse_width[i] = inverse_width;
         light->weight[i] = weight;
         light->projected[i] = weight * facing;
         useful += lit;
@@ -186,8 +203,8 @@ static inline void make_up(const struct field_tile *tile, int first,
     for (int i = 0; i < LANES; i++) {
         struct placed p = place_pixel(tile, first + i, splat);
         float distance = wall->distance - (p.u * wall->normal_u + p.v * wall->normal_v);
-        float share =
-            boundary[(int)(clamp(distance, 0.0f, 1.0f) * (float)(KERNEL_BOUNDARY_SIZE - 1))];
+        float share = boundary[(int)(clamp(distance * light->inverse_width[i], 0.0f, 1.0f) *
+                                     (float)(KERNEL_BOUNDARY_SIZE - 1))];
         share *= (float)(distance > 0.0f);
         light->weight[i] *= share;
         light->projected[i] *= share;

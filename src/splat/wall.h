@@ -6,7 +6,8 @@
  * that start behind it light nothing: photon splatting darkens along creases, by a band as wide as
  * the splats, and no finer map brings that light back.
  *
- * Sixteen short rays run from the source along its tangent plane to the rim of the disc. Their
+ * Sixteen short rays run from the source along its tangent plane, to twice the rim of the disc: a pixel's
+ * ray may start at the rim, and half of the disc around that start lies past it. Their
  * nearest hits give up to two straight walls; a pixel whose ray starts at distance d (in half-widths)
  * in front of a wall then divides the kernel by the part of a disc around that start that lies on this
  * side, which is the share of the sources around it that could exist at all. That is exact for even
@@ -14,13 +15,17 @@
  * keep the energy, and put it into the wrong place. A pixel whose ray starts behind a wall gets nothing
  * of the splat: sources there are others, or none. The wall itself does not always see to that, since
  * it may be a chair's back, which ends.
+ *
+ * Rays near the ground that are stopped all around, where higher ones go on, tell a hollow surface (the
+ * inside of a sphere), which has no walls; its beams start higher, so as not to be stopped by itself.
  */
 #ifndef SPLAT_WALL_H
 #define SPLAT_WALL_H
 
 #include <psplat/host.h>
 
-/* Finds the walls of n placed splats; those of half-width 0 are left out. Any thread. */
+/* Finds the walls of n placed full beams, and where they start; those of half-width 0 are left out. Any
+ * thread. */
 void wall_find(const ps_host *host, float surface_offset, const ps_source *sources, size_t n,
                ps_splat *splats);
 

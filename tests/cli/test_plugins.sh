@@ -129,7 +129,7 @@ render:
   filter: {gaussian: {sigma: 0.7}}
   normalization: weight
 END
-shadowmap="follow=0.25,depth=auto,step_back=full,grow=1.5,walls=yes"
+shadowmap="follow=0.6,depth=auto,step_back=full,grow=1.5,walls=yes"
 # What the scene says.
 chosen visibility "shadowmap:size=30,$shadowmap,resolution=4,bias=slope" $scene
 chosen filter "gaussian:sigma=0.7" $scene
@@ -140,7 +140,7 @@ chosen visibility "shadowmap:size=30,$shadowmap,resolution=4,bias=2" -p visibili
 chosen visibility "shadowmap:size=30,$shadowmap,resolution=4,bias=slope" -p visibility=shadowmap $scene
 chosen normalization "weight:exposure=2" -p normalization=weight:exposure=2 $scene
 # Another strategy: nothing of the scene's choice stays.
-chosen visibility "none:size=auto,follow=0.25,depth=auto,step_back=auto,grow=1.5,walls=no" -p visibility=none $scene
+chosen visibility "none:size=auto,follow=0.6,depth=auto,step_back=auto,grow=1.5,walls=no" -p visibility=none $scene
 chosen filter "box" -p filter=box $scene
 # There and back again: the scene's parameters are gone.
 chosen filter "gaussian:sigma=0.5" -p filter=box -p filter=gaussian $scene

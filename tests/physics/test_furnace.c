@@ -1,4 +1,4 @@
-/* test_furnace.c: a closed form: a lamp in the middle of a diffuse sphere.
+/* test_furnace.c: closed forms: a lamp in the middle of a diffuse sphere, and a box that shines.
  *
  * A point light of intensity I at the centre of a sphere of radius r and albedo a gives every point
  * the same irradiance E0 = I / r^2. A diffuse sphere spreads what it reflects evenly over itself,
@@ -76,6 +76,29 @@ static void test_russian_roulette_keeps_the_mean(void **state)
     expect_mean("0.6", "injection=photon:count=200000,bounces=3,roulette=1", 0.6 + 0.36 + 0.216);
 }
 
+/* A closed box whose walls all shine alike, of albedo 1/2 and radiance 1: after one bounce each point of it
+ * sends back 1/4, whatever the size of splats beside it. */
+static void test_even_light_in_a_box(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "psd: 1\n"
+        "camera: {location: [1, 1, 0.1], look_at: [1, 1, 2], angle: 100}\n"
+        "image: {width: 96, height: 54}\n"
+        "materials: {wall: {diffuse: 0.5, emission: 1, emission_both: yes}}\n"
+        "objects: [{box: {corners: [[0, 0, 0], [2, 2, 2]], material: wall}}]\n";
+    static const char *const sizes[] = {"visibility=shadowmap:size=0.15",
+                                        "visibility=shadowmap:size=0.3"};
+    for (size_t i = 0; i < 2; i++) {
+        const char *const choices[] = {"injection=photon:count=400000", sizes[i], NULL};
+        struct rendering rendering = render_text(text, 2, choices);
+        double ratio = mean_of_all(&rendering.image, "indirect.G") / 0.25;
+        print_message("%s: %.4f of an even light\n", sizes[i], ratio);
+        assert_true(fabs(ratio - 1) < 0.01);
+        rendering_release(&rendering);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -83,6 +106,7 @@ int main(void)
         cmocka_unit_test(test_two_bounces),
         cmocka_unit_test(test_all_bounces),
         cmocka_unit_test(test_russian_roulette_keeps_the_mean),
+        cmocka_unit_test(test_even_light_in_a_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

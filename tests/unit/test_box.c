@@ -27,6 +27,15 @@ static void expect_near(double value, double expected)
         fail_msg("%.7g, expected %.7g", value, expected);
 }
 
+static ps_splat place_one(const struct box_scene *own, const ps_box_settings *settings,
+                          const ps_source *source, const ps_hit *hit)
+{
+    ps_splat splat;
+    float half_width = box_half_width(own, settings, source, hit->distance);
+    box_place(own, settings, source, hit, &half_width, 1, &splat);
+    return splat;
+}
+
 /* A source at the origin on a surface that faces up, whose light goes along w and arrives after
  * `distance` where the cosine is `cosine`. */
 static ps_splat place_along(ps_vec3 w, ps_box_settings settings, float distance, float cosine)
@@ -38,9 +47,7 @@ static ps_splat place_along(ps_vec3 w, ps_box_settings settings, float distance,
     ps_source source = {
         .normal = {0, 1, 0}, .direction = w, .power = {1, 2, 3}, .bounce = 1, .path = 55};
     ps_hit hit = {.position = ps_scale(w, distance), .distance = distance, .normal = normal};
-    ps_splat splat;
-    box_place(&scene, &settings, &source, &hit, 1, &splat);
-    return splat;
+    return place_one(&scene, &settings, &source, &hit);
 }
 
 static ps_splat place(ps_box_settings settings, float distance, float cosine)
@@ -70,12 +77,12 @@ static void test_automatic_size(void **state)
 {
     (void)state;
     float size = box_automatic_size(RADIUS, 100000, 0);
-    assert_true(size > 0.1f * RADIUS && size < 0.12f * RADIUS);
+    assert_true(size > 0.15f * RADIUS && size < 0.17f * RADIUS);
     expect_near(box_automatic_size(2 * RADIUS, 100000, 0), 2 * (double)size);
     expect_near(box_automatic_size(RADIUS, 1600000, 0), (double)size / 2);
     expect_near(box_automatic_size(RADIUS, 100000, 63), (double)size / 2);
-    expect_near(box_automatic_size(RADIUS, 1, 0), 0.2 * RADIUS);
-    expect_near(box_automatic_size(RADIUS, 0, 0), 0.2 * RADIUS);
+    expect_near(box_automatic_size(RADIUS, 1, 0), 0.25 * RADIUS);
+    expect_near(box_automatic_size(RADIUS, 0, 0), 0.25 * RADIUS);
 }
 
 /* R = min(size, follow * d), but no less than a fifth of size. */
@@ -118,9 +125,7 @@ static double half_width_of(float merged, ps_box_settings settings, float distan
     ps_source source = {
         .normal = {0, 1, 0}, .direction = {0, 1, 0}, .merged = merged, .power = {1, 1, 1}};
     ps_hit hit = {.position = {0, distance, 0}, .distance = distance, .normal = {0, -1, 0}};
-    ps_splat splat;
-    box_place(&scene, &settings, &source, &hit, 1, &splat);
-    return splat.half_width;
+    return place_one(&scene, &settings, &source, &hit).half_width;
 }
 
 /* By the square root of what was merged, up to a limit; then the distance limits as ever. */
@@ -195,7 +200,8 @@ static void test_full_beam_straight_up(void **state)
     expect_near(splat.start_depth, 0.25 - 10);
     expect_near(splat.start_slope_u, 0);
     expect_near(splat.start_slope_v, 0);
-    expect_near(splat.near_depth, 0.25 - 10);
+    expect_near(splat.near_depth, -10);
+    expect_near(splat.source_depth, -10);
     expect_near(splat.far_depth, 2);
     /* Never past half of the way. */
     expect_near(place(settings, 0.2f, 1).start_depth, -0.1);
@@ -217,7 +223,7 @@ static void test_full_beam_starts_along_the_surface(void **state)
         expect_near(origin.y, 0.25); /* R / 8 above the surface */
         earliest = fminf(earliest, start);
     }
-    assert_true(splat.near_depth <= earliest && splat.near_depth > earliest - 0.1f);
+    assert_true(splat.near_depth <= earliest && splat.near_depth > earliest - 0.5f);
     expect_near(splat.start_depth, 0.25 / 0.6 - 10);
 }
 
@@ -228,9 +234,7 @@ static void test_a_miss_lights_nothing(void **state)
         const ps_box_settings settings = {.size = 2, .step_back = 1, .step_back_rule = rule};
         ps_source source = {.normal = {0, 1, 0}, .direction = {0, 1, 0}, .power = {1, 1, 1}};
         ps_hit hit = {.distance = INFINITY, .object = PS_NO_OBJECT};
-        ps_splat splat = {.half_width = 99};
-        box_place(&scene, &settings, &source, &hit, 1, &splat);
-        assert_true(splat.half_width == 0);
+        assert_true(place_one(&scene, &settings, &source, &hit).half_width == 0);
     }
 }
 
@@ -241,9 +245,7 @@ static ps_splat frame_of(uint64_t seed, uint64_t path, uint32_t bounce, ps_vec3 
     const ps_box_settings settings = {.size = 2};
     ps_source source = {.normal = w, .direction = w, .bounce = bounce, .path = path};
     ps_hit hit = {.position = w, .distance = 1, .normal = ps_scale(w, -1)};
-    ps_splat splat;
-    box_place(&own, &settings, &source, &hit, 1, &splat);
-    return splat;
+    return place_one(&own, &settings, &source, &hit);
 }
 
 static void test_frames_are_orthonormal(void **state)

@@ -89,6 +89,17 @@ static void add_walls(ps_splat *splat, struct random *random)
     }
 }
 
+/* Every other splat's pixels choose how much of the disc they take. */
+static void add_width(ps_splat *splat, struct random *random)
+{
+    if (random_unit(random) < 0.5f)
+        return;
+    splat->source_depth = splat->start_depth - random_between(random, 0.01f, 0.3f);
+    splat->follow = random_between(random, 0.2f, 2.0f);
+    splat->narrowest = random_between(random, 0.1f, 0.5f) * splat->half_width;
+    splat->widest = random_between(random, 0.5f, 1.5f) * splat->half_width;
+}
+
 static ps_splat random_splat(struct random *random)
 {
     ps_splat splat = {
@@ -106,6 +117,7 @@ static ps_splat random_splat(struct random *random)
     };
     ps_frame(splat.axis_w, &splat.axis_u, &splat.axis_v);
     add_walls(&splat, random);
+    add_width(&splat, random);
     return splat;
 }
 
@@ -146,9 +158,21 @@ static size_t texel(double across, uint32_t resolution, bool *borderline)
     return (size_t)fmin(fmax(place, 0), resolution - 1);
 }
 
+/* The half-width of the disc that a pixel takes, in those of the splat; see width.h. n: its normal;
+ * `above`: its distance from the source's plane. */
+static double width_of(const ps_splat *splat, const double n[3], double cosine, double above)
+{
+    if (!(splat->follow > 0))
+        return 1;
+    double across = dot(splat->axis_u, n) / cosine - splat->start_slope_u;
+    double down = dot(splat->axis_v, n) / cosine - splat->start_slope_v;
+    double h = splat->follow * above / (1 + splat->follow * hypot(across, down));
+    return fmax(splat->narrowest, fmin(h, splat->widest)) / splat->half_width;
+}
+
 /* What the walls beside a splat make of its weight. */
 static double made_up(const struct bench *bench, const ps_splat *splat, double u, double v,
-                      bool *borderline)
+                      double width, bool *borderline)
 {
     double factor = 1;
     for (uint32_t i = 0; i < splat->wall_count; i++) {
@@ -156,7 +180,7 @@ static double made_up(const struct bench *bench, const ps_splat *splat, double u
         double distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
         if (!(distance > 0))
             return 0;
-        double place = distance * (KERNEL_BOUNDARY_SIZE - 1);
+        double place = distance / width * (KERNEL_BOUNDARY_SIZE - 1);
         *borderline |= fabs(place - floor(place + 0.5)) < 1e-3;
         factor *= bench->profile.boundary[(size_t)fmin(fmax(place, 0), KERNEL_BOUNDARY_SIZE - 1)];
     }
@@ -183,9 +207,13 @@ static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel,
     inside = below(0, cosine, 1e-6, &borderline) && inside;
     inside = below(splat->near_depth, t, 1e-5, &borderline) && inside;
     inside = below(t, splat->far_depth, 1e-5, &borderline) && inside;
-    double start = splat->start_depth +
-                   splat->half_width * (u * splat->start_slope_u + v * splat->start_slope_v);
-    inside = below(start, t, 1e-5, &borderline) && inside;
+    double before = splat->follow > 0 ? splat->source_depth : splat->start_depth;
+    double above =
+        t - before - splat->half_width * (u * splat->start_slope_u + v * splat->start_slope_v);
+    double width = width_of(splat, n, cosine, above);
+    inside = below(r2, width * width, 1e-5, &borderline) && inside;
+    inside =
+        below((splat->start_depth - before) * fmin(width, 1), above, 1e-5, &borderline) && inside;
     if (!inside) {
         sums->borderline |= borderline;
         return;
@@ -198,10 +226,10 @@ static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel,
     sums->borderline |= borderline;
     if (!lit)
         return;
-    double entry = fmin(r2 * KERNEL_PROFILE_SIZE, KERNEL_PROFILE_SIZE - 1);
-    double k = bench->profile.weights[(size_t)entry] * (double)bench->profile.scale /
-               ((double)splat->half_width * splat->half_width);
-    k *= made_up(bench, splat, u, v, &sums->borderline);
+    double disc = width * splat->half_width;
+    double entry = fmin(r2 / (width * width) * KERNEL_PROFILE_SIZE, KERNEL_PROFILE_SIZE - 1);
+    double k = bench->profile.weights[(size_t)entry] * (double)bench->profile.scale / (disc * disc);
+    k *= made_up(bench, splat, u, v, width, &sums->borderline);
     sums->borderline |= fabs(entry - floor(entry + 0.5)) < 2e-3;
     sums->weight += k;
     sums->r += splat->power.r * k * cosine;

@@ -17,7 +17,7 @@ struct plane {
 };
 
 struct room {
-    struct plane planes[3];
+    struct plane planes[4];
     size_t count;
 };
 
@@ -56,6 +56,8 @@ static ps_splat beam_in(struct room *room)
         .axis_v = {0, 0, 1},
         .axis_w = source.direction,
         .start_slope_u = 1, /* points of the floor have y = 0 */
+        .source_depth = -10,
+        .start_depth = 2.0f / 8 / half - 10,
     };
     ps_host host = {.core = room, .intersect_packets = trace};
     wall_find(&host, 0.001f, &source, 1, &splat);
@@ -73,9 +75,34 @@ static void test_no_wall(void **state)
     (void)state;
     struct room empty = {.count = 0};
     assert_int_equal(beam_in(&empty).wall_count, 0);
-    /* Past the rim, which lies at z = 2. */
-    struct room far = {{{{0, 0, 1}, 2.1f, 1e9f}}, 1};
+    /* Past twice the way to the rim, which lies at z = 2. */
+    struct room far = {{{{0, 0, 1}, 4.1f, 1e9f}}, 1};
     assert_int_equal(beam_in(&far).wall_count, 0);
+}
+
+/* Pixels that take in the source may start as far out as the rim, and look as far again. */
+static void test_wall_past_the_rim(void **state)
+{
+    (void)state;
+    struct room room = {{{{0, 0, 1}, 3.5f, 1e9f}}, 1};
+    ps_splat splat = beam_in(&room);
+    assert_int_equal(splat.wall_count, 1);
+    expect_near(splat.walls[0].distance, 1.75);
+}
+
+/* A well whose walls lean outwards, as a hollow surface does: the beam starts an eighth of its half-width
+ * above the ground, on flat ground a thirty-second. */
+static void test_hollows_raise_the_start(void **state)
+{
+    (void)state;
+    static const float half = 0.70710678f;
+    struct room flat = {.count = 0}, hollow = {.count = 4};
+    const ps_vec3 leaning[4] = {
+        {half, -half, 0}, {-half, -half, 0}, {0, -half, half}, {0, -half, -half}};
+    for (size_t i = 0; i < 4; i++)
+        hollow.planes[i] = (struct plane){leaning[i], 0.1f, 1e9f};
+    expect_near(beam_in(&flat).start_depth, 2.0 / 32 / (double)half - 10);
+    expect_near(beam_in(&hollow).start_depth, 2.0 / 8 / (double)half - 10);
 }
 
 /* Across the beam a distance is what it is on the floor. */
@@ -148,6 +175,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_no_wall),
+        cmocka_unit_test(test_wall_past_the_rim),
+        cmocka_unit_test(test_hollows_raise_the_start),
         cmocka_unit_test(test_wall_beside_the_beam),
         cmocka_unit_test(test_wall_behind_the_beam),
         cmocka_unit_test(test_corner),

@@ -1,0 +1,84 @@
+#include "splat/reach.h"
+
+#include <psplat/math.h>
+
+#define RAYS 16
+
+/* A ray stands for what lies around it: this much farther from the axis. */
+#define MARGIN 1.3f
+
+/* Where the rays run, in half-widths: a golden-angle spiral, even over the disc. */
+static const float place_u[RAYS] = {0.1768f,  -0.2258f, 0.0346f,  0.2846f,  -0.5222f, 0.4947f,
+                                    -0.1655f, -0.3156f, 0.6846f,  -0.7123f, 0.3434f,  0.2537f,
+                                    -0.7647f, 0.8971f,  -0.5475f, -0.1265f};
+static const float place_v[RAYS] = {0.0000f,  0.2068f,  -0.3938f, 0.3712f, -0.0924f, -0.3147f,
+                                    0.6155f,  -0.6076f, 0.2500f,  0.2940f, -0.7337f, 0.8089f,
+                                    -0.4432f, -0.1972f, 0.7788f,  -0.9761f};
+
+/* Rays beside the axis, which start on the source's tangent plane. */
+static void trace_disc(const ps_host *host, const struct box_scene *scene, const ps_source *source,
+                       float half_width, ps_packet *packet)
+{
+    ps_vec3 u, v, w = source->direction;
+    ps_frame(w, &u, &v);
+    ps_vec3 start = ps_add_scaled(source->position, scene->surface_offset, source->normal);
+    float cosine = fmaxf(ps_dot(source->normal, w), BOX_LEAST_COSINE);
+    for (int i = 0; i < RAYS; i++) {
+        ps_vec3 offset =
+            ps_add(ps_scale(u, half_width * place_u[i]), ps_scale(v, half_width * place_v[i]));
+        float ahead = -ps_dot(source->normal, offset) / cosine;
+        ps_vec3 origin = ps_add(start, ps_add_scaled(offset, ahead, w));
+        ps_packet_set(packet, (size_t)i, (ps_ray){origin, 0.0f, w, INFINITY});
+    }
+    host->intersect_packets(host, packet, 1);
+}
+
+/* How wide the box must be for what the rays met: as far out as the outermost of them whose pixels would
+ * take in the axis, and no narrower than `least`; 0 where they met nothing. */
+static float width_for(const struct box_scene *scene, const ps_box_settings *settings,
+                       const ps_source *source, const ps_packet *packet, float widest, float least)
+{
+    float width = least;
+    for (int i = 0; i < RAYS; i++) {
+        if (!(packet->tfar[i] < INFINITY))
+            continue;
+        float aside = widest * hypotf(place_u[i], place_v[i]);
+        float wanted = box_half_width(scene, settings, source, packet->tfar[i]);
+        width = fmaxf(width, wanted > aside ? fminf(MARGIN * aside, widest) : 0.0f);
+    }
+    return width;
+}
+
+static float nearest_of(const ps_packet *packet)
+{
+    float nearest = INFINITY;
+    for (int i = 0; i < RAYS; i++)
+        nearest = fminf(nearest, packet->tfar[i]);
+    return nearest;
+}
+
+static void find_one(const ps_host *host, const struct box_scene *scene,
+                     const ps_box_settings *settings, const ps_source *source, ps_hit *hit,
+                     float *half_width)
+{
+    _Alignas(64) ps_packet packet;
+    float widest = *half_width, least = box_half_width(scene, settings, source, hit->distance);
+    bool met = hit->distance < INFINITY;
+    if (met && !(least < widest))
+        return;
+    trace_disc(host, scene, source, widest, &packet);
+    if (!met) {
+        float nearest = nearest_of(&packet);
+        least = nearest < INFINITY ? box_half_width(scene, settings, source, nearest) : 0.0f;
+        box_stand_in(source, widest, hit);
+    }
+    *half_width = width_for(scene, settings, source, &packet, widest, least);
+}
+
+void reach_find(const ps_host *host, const struct box_scene *scene, const ps_box_settings *settings,
+                const ps_source *sources, size_t n, ps_hit *hits, float *half_widths)
+{
+    for (size_t i = 0; i < n; i++)
+        if (half_widths[i] > 0.0f)
+            find_one(host, scene, settings, &sources[i], &hits[i], &half_widths[i]);
+}

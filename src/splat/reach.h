@@ -1,0 +1,22 @@
+/* reach.h: how wide the box of a full beam must be.
+ *
+ * Each pixel takes its own part of a beam's disc, which is as wide as its distance from the source allows
+ * (width.h). The box must hold all these parts. Where the axis meets something near, a part of the beam
+ * may go by and light what lies far behind with the whole disc; where the axis meets nothing, what stands
+ * beside it may be lit all the same. Rays over the widest disc find both. Without them, what is seen past
+ * chairs and blocks loses the light of all sources whose own ray these stop: in the Cornell box the front
+ * of the ceiling was 6 % too dark with splats of 100 mm.
+ */
+#ifndef SPLAT_REACH_H
+#define SPLAT_REACH_H
+
+#include "splat/box.h"
+#include <psplat/host.h>
+
+/* Narrows the half-widths of n full beams, which hold the widest (or 0: left out), to what the pixels of
+ * anything that the beam meets may ask for. A beam that meets nothing gets a hit on its axis, its normal
+ * 0, as its slope is anything; one whose disc meets nothing either, a half-width of 0. Any thread. */
+void reach_find(const ps_host *host, const struct box_scene *scene, const ps_box_settings *settings,
+                const ps_source *sources, size_t n, ps_hit *hits, float *half_widths);
+
+#endif

@@ -1,0 +1,114 @@
+/* test_reach.c: how wide the boxes of full beams must be. The ray tracer is one of a single upright board,
+ * written here. */
+#include "splat/reach.h"
+
+#include <psplat/math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+/* A board at x = distance, which ends at height `top`. */
+struct board {
+    float distance, top;
+    size_t packets; /* traced */
+};
+
+static void trace(const ps_host *host, ps_packet *packets, size_t n)
+{
+    struct board *board = host->core;
+    board->packets += n;
+    for (size_t k = 0; k < n; k++)
+        for (int i = 0; i < 16; i++) {
+            ps_packet *p = &packets[k];
+            float t = (board->distance - p->origin_x[i]) / p->direction_x[i];
+            float y = p->origin_y[i] + t * p->direction_y[i];
+            if (t > p->tnear[i] && t < p->tfar[i] && y < board->top)
+                p->tfar[i] = t;
+        }
+}
+
+static const struct camera camera = {.orthographic = true};
+static const struct box_scene scene = {.radius = 100, .camera = &camera, .interleave = 1};
+
+/* A beam from the origin of a floor, a slope of 1 upwards to the right. */
+struct beam {
+    ps_hit hit;
+    float half_width;
+};
+
+static struct beam find(struct board *board, ps_box_settings settings, ps_hit hit)
+{
+    const ps_source source = {.normal = {0, 1, 0}, .direction = {0.70710678f, 0.70710678f, 0}};
+    ps_host host = {.core = board, .intersect_packets = trace};
+    struct beam beam = {hit, box_widest(&scene, &settings, &source)};
+    reach_find(&host, &scene, &settings, &source, 1, &beam.hit, &beam.half_width);
+    return beam;
+}
+
+static const ps_hit nothing = {.distance = INFINITY};
+
+/* The axis passes the board at height 10. */
+static void test_a_board_beside_the_axis(void **state)
+{
+    (void)state;
+    struct board board = {.distance = 10, .top = 9};
+    struct beam beam = find(&board, (ps_box_settings){.size = 2}, nothing);
+    assert_true(beam.half_width == 2 && beam.hit.distance < INFINITY);
+    assert_true(fabsf(beam.hit.position.x - beam.hit.distance * 0.70710678f) < 1e-4f);
+    assert_true(fabsf(beam.hit.position.y - beam.hit.distance * 0.70710678f) < 1e-4f);
+    assert_true(ps_length(beam.hit.normal) == 0);
+}
+
+static void test_a_board_too_far_from_the_axis(void **state)
+{
+    (void)state;
+    struct board board = {.distance = 10, .top = 6};
+    assert_true(find(&board, (ps_box_settings){.size = 2}, nothing).half_width == 0);
+    assert_true(board.packets == 1);
+}
+
+/* The axis meets something at 3; rays to its side meet a board 14 away, whose pixels take in a disc of
+ * half-width 2.8 and thus the axis, or one of 0.7, and thus only rays near the axis. */
+static void test_something_near_before_something_far(void **state)
+{
+    (void)state;
+    struct board board = {.distance = 10, .top = 1e9f};
+    const ps_hit near = {.distance = 3, .position = {1, 2, 3}, .normal = {0, 0, 1}};
+    const ps_box_settings wide = {.size = 2, .follow = 0.2}, narrow = {.size = 2, .follow = 0.05};
+    struct beam beam = find(&board, wide, near);
+    assert_true(beam.half_width == 2);
+    assert_true(beam.hit.distance == 3 && ps_same(beam.hit.position, near.position));
+    beam = find(&board, narrow, near);
+    assert_true(beam.half_width >= 0.4f && beam.half_width < 1.0f);
+}
+
+/* One that meets something far away needs no rays, nor one that was left out. */
+static void test_leaves_wide_beams_and_none(void **state)
+{
+    (void)state;
+    struct board board = {.distance = 10, .top = 9};
+    const ps_hit far = {.distance = 30};
+    const ps_box_settings settings = {.size = 2, .follow = 0.2};
+    assert_true(find(&board, settings, far).half_width == 2);
+    assert_true(find(&board, (ps_box_settings){.size = 2}, (ps_hit){.distance = 0.1f}).half_width ==
+                2);
+    ps_host host = {.core = &board, .intersect_packets = trace};
+    const ps_source source = {.normal = {0, 1, 0}, .direction = {0, 1, 0}};
+    ps_hit hit = nothing;
+    float none = 0;
+    reach_find(&host, &scene, &settings, &source, 1, &hit, &none);
+    assert_true(none == 0 && board.packets == 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_board_beside_the_axis),
+        cmocka_unit_test(test_a_board_too_far_from_the_axis),
+        cmocka_unit_test(test_something_near_before_something_far),
+        cmocka_unit_test(test_leaves_wide_beams_and_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
