@@ -41,8 +41,8 @@ static inline float ps_texel_centre(const ps_splat *splat, uint32_t side, uint32
  * automatic. Maps are one-sided (a pixel before the map's depth is lit), since a ray that went on past
  * a point before it met anything must have passed it: where surfaces end within a texel (edges seen
  * against what lies farther away, walls that the beam sticks through, Hoet 2014, section 3.3), a
- * two-sided test would shadow them falsely, half a texel wide. The start plane keeps what lies behind
- * the source dark. */
+ * two-sided test would shadow them falsely, half a texel wide. The plane of the source keeps what lies
+ * behind it dark. */
 static inline void ps_open_full_beams(const ps_box_settings *settings, ps_splat *splats, size_t n)
 {
     if (settings->step_back_rule != 1 || settings->depth > 0)

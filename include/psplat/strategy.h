@@ -74,6 +74,7 @@ typedef struct ps_visibility_vtable {
     /* For a visibility of resolution 0: whether the bundle lights each of n points inside of the
      * splat's box that face the light; lit[i] becomes 1 or 0. The points were moved off their
      * surfaces like origins of rays that leave them, so nothing at the point itself is in the way.
+     * What lies before the start plane, but was not left out by the core, is lit.
      * NULL where depth maps decide, or everything inside a box is lit. [worker] */
     void (*visible)(const void *state, const ps_host *host, const ps_splat *splat,
                     const ps_vec3 *points, size_t n, uint8_t *lit);

@@ -110,7 +110,8 @@ typedef struct ps_wall {
 
 #define PS_MOST_WALLS 2
 
-/* A source carried to the surface that it lights: an orthographic box around the first hit.
+/* A source carried to the surface that it lights: an orthographic box around the first hit, or around a
+ * point of the axis beside which something is met.
  * A point p lies at depth t = (p - centre).axis_w, and is inside where
  * |(p - centre).axis_u|, |(p - centre).axis_v| <= half_width and near_depth <= t <= far_depth. */
 typedef struct ps_splat {
@@ -118,12 +119,14 @@ typedef struct ps_splat {
     float half_width;               /* > 0; a splat with half_width 0 lights nothing */
     ps_vec3 axis_u, axis_v, axis_w; /* orthonormal; axis_w is the direction of the light */
     float near_depth, far_depth; /* relative to the centre; near <= 0 <= far until cut to a map */
-    /* Depth at which rays of the bundle start (what lies before stays dark), at the centre, and its
-     * change along u and v (a tilted start plane). */
+    /* Depth at which rays of the bundle start (what lies before stays dark, but see below), at the
+     * centre, and its change along u and v (a tilted start plane). */
     float start_depth, start_slope_u, start_slope_v;
-    /* Of full beams: where the source's tangent plane, parallel to the start plane, crosses the axis. A
-     * pixel takes the part of the disc around its own ray that is follow * its distance from that plane
-     * wide, between `narrowest` and `widest`. follow 0: all of it. */
+    /* Of full beams: where the source's tangent plane, parallel to the start plane, crosses the axis. At
+     * distance t from it a pixel takes the part of the disc around its own ray of half-width follow * t /
+     * (1 + follow * s), s the change of t across the bundle over its surface, between `narrowest` > 0
+     * and `widest`; and where that is less than the box's, the bundle starts as much nearer to the
+     * source's plane. follow 0: all pixels take all of it, and source_depth says nothing. */
     float source_depth, follow, narrowest, widest;
     /* Lit where t <= map + constant + slope * tan(theta), theta between the light and the receiver's
      * normal. */

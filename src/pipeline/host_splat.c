@@ -51,16 +51,8 @@ static void place(const struct placing *placing, ps_splat *splats)
               placing->half_widths, placing->n, splats);
 }
 
-static void drop(struct placing *placing, ps_splat *splats)
-{
-    if (placing->render->splatting)
-        drop_unseen(&placing->render->splatter, splats, placing->n);
-    for (size_t i = 0; i < placing->n; i++)
-        placing->half_widths[i] = splats[i].half_width;
-}
-
 /* Beams that start at their sources. The widest that they may be shows whether they are seen at all. */
-static void place_full(struct placing *placing, ps_splat *splats)
+static void place_full(const struct placing *placing, ps_splat *splats)
 {
     const ps_host *host = &placing->render->host;
     ps_hit stand_ins[PS_PATH_CHUNK];
@@ -73,7 +65,10 @@ static void place_full(struct placing *placing, ps_splat *splats)
     }
     box_place(&placing->scene, placing->settings, placing->sources, stand_ins, placing->half_widths,
               placing->n, splats);
-    drop(placing, splats);
+    if (placing->render->splatting)
+        drop_unseen(&placing->render->splatter, splats, placing->n);
+    for (size_t i = 0; i < placing->n; i++)
+        placing->half_widths[i] = splats[i].half_width;
     reach_find(host, &placing->scene, placing->settings, placing->sources, placing->n,
                placing->hits, placing->half_widths);
     place(placing, splats);
@@ -81,13 +76,14 @@ static void place_full(struct placing *placing, ps_splat *splats)
         wall_find(host, placing->scene.surface_offset, placing->sources, placing->n, splats);
 }
 
-static void place_others(struct placing *placing, ps_splat *splats)
+static void place_others(const struct placing *placing, ps_splat *splats)
 {
     for (size_t i = 0; i < placing->n; i++)
         placing->half_widths[i] = box_half_width(&placing->scene, placing->settings,
                                                  &placing->sources[i], placing->hits[i].distance);
     place(placing, splats);
-    drop(placing, splats);
+    if (placing->render->splatting)
+        drop_unseen(&placing->render->splatter, splats, placing->n);
 }
 
 /* At most PS_PATH_CHUNK. */
@@ -96,7 +92,7 @@ static void place_some(const struct render *render, const ps_box_settings *setti
 {
     ps_hit met[PS_PATH_CHUNK];
     float half_widths[PS_PATH_CHUNK];
-    struct placing placing = {
+    const struct placing placing = {
         render, box_scene_of(render), settings, sources, n, met, half_widths,
     };
     memcpy(met, hits, n * sizeof *hits);

@@ -8,8 +8,8 @@
 #define LARGEST_AUTOMATIC_SIZE 0.25
 
 /* A size that follows the distance stops at this fraction of `size`. Without a floor, light that
- * crosses a corner from very near makes splats so small and bright that they rule the error
- * (Cornell box, 400,000 sources: 32 % without, 6.4 % with). */
+ * crosses a corner from very near makes splats so small and bright that they rule the error (at a tenth
+ * of `size` the noise of 400,000 paths in the Cornell box is 3.1 % in place of 2.3 %). */
 #define SMALLEST_SIZE 0.2f
 
 float box_automatic_size(float scene_radius, uint64_t paths, uint32_t pass)

@@ -26,7 +26,8 @@ static float weight_at(const struct kernel_splat *splat, const struct kernel_pro
 {
     float r2 = fminf((u * u + v * v) / (width * width), 0.99999f);
     size_t entry = (size_t)(r2 * (float)KERNEL_PROFILE_SIZE);
-    float weight = profile->weights[entry] * splat->kernel_scale / (width * width);
+    float narrowing = 1.0f + splat->by_width * (1.0f / (width * width) - 1.0f);
+    float weight = profile->weights[entry] * splat->kernel_scale * narrowing;
     for (uint32_t k = 0; k < splat->wall_count; k++) {
         const ps_wall *wall = &splat->walls[k];
         float distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);

@@ -96,20 +96,24 @@ static uint32_t wall_count(const ps_splat *splat)
     return splat->wall_count < PS_MOST_WALLS ? splat->wall_count : PS_MOST_WALLS;
 }
 
+/* A plugin's own splats may claim anything; 1 / 0 would make NaN of what is not lit. */
+#define LEAST_WIDTH 1e-3f
+
 /* One width for all pixels, but for full beams that follow the distance. Pixels that would take more than
  * the box holds all take part, with the weight of a wider disc. */
-static struct width width_of(const ps_splat *splat, const struct kernel_profile *profile)
+static struct width prepare_width(const ps_splat *splat)
 {
     float inverse = 1.0f / splat->half_width;
-    if (!(splat->follow > 0.0f) || profile->counting)
+    float narrowest = fmaxf(splat->narrowest * inverse, LEAST_WIDTH);
+    if (!(splat->follow > 0.0f))
         return (struct width){.narrowest = 1.0f, .widest = 1.0f};
     return (struct width){
         .by_distance = splat->follow * inverse,
         .spread = splat->follow * splat->half_width,
         .tilt_u = splat->follow * splat->start_slope_u,
         .tilt_v = splat->follow * splat->start_slope_v,
-        .narrowest = splat->narrowest * inverse,
-        .widest = fmaxf(splat->widest, splat->narrowest) * inverse,
+        .narrowest = narrowest,
+        .widest = fmaxf(splat->widest * inverse, narrowest),
     };
 }
 
@@ -125,15 +129,15 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
         .w = splat->axis_w,
         .near_depth = splat->near_depth,
         .far_depth = splat->far_depth,
-        .start_depth = splat->start_depth,
         .start_u = splat->start_slope_u * splat->half_width,
         .start_v = splat->start_slope_v * splat->half_width,
         .source_depth = splat->follow > 0.0f ? splat->source_depth : splat->start_depth,
         .clearance =
             splat->follow > 0.0f ? fmaxf(splat->start_depth - splat->source_depth, 0.0f) : 0.0f,
-        .width = width_of(splat, profile),
+        .width = prepare_width(splat),
         .bias_constant = splat->bias_constant,
         .bias_slope = splat->bias_slope,
+        .by_width = profile->counting ? 0.0f : 1.0f,
         .kernel_scale = profile->counting ? 1.0f : merged * profile->scale * inverse * inverse,
         .power = ps_rgb_scale(splat->power, 1.0f / merged),
         .depths = depths,

@@ -8,10 +8,10 @@
  *     k = profile(r^2) * scale / (h R)^2        the kernel K, 1/m^2, integrates to 1 over its disc
  *     lit where u^2 + v^2 < 1, r^2 < 1, near <= t <= far, n.W < 0, t lies past the plane that the
  *     bundle starts on, and not past the map by more than the bias
- *
- * A bundle starts a little above its source's surface, by an eighth of R where that is hollow (box.h); for
- * a pixel that takes less of the disc, by as much less. Where two walls meet, light reaches the crease.
  *     irradiance += power * k * max(0, -n.W), weight += merged * k
+ *
+ * A bundle starts a little above its source's surface (box_clearance); for a pixel that takes less of the
+ * disc, by as much less, so that where two walls meet light reaches the crease.
  *
  * A splat that stands for several sources weighs as much as they would (Hoet 2014, section 3.2.1); the
  * loop has that as a larger k of a lesser power.
@@ -40,7 +40,7 @@
 struct kernel_profile {
     float weights[KERNEL_PROFILE_SIZE];   /* entry i stands for [i, i + 1) / KERNEL_PROFILE_SIZE */
     float scale;                          /* 1 / integral of the weights over the unit disc */
-    bool counting;                        /* K is 1 all over the box, whatever its size */
+    bool counting;                        /* K is 1 all over the disc, whatever its size */
     float boundary[KERNEL_BOUNDARY_SIZE]; /* 1 / the part of K on this side of a straight border at
                                              distance i / (KERNEL_BOUNDARY_SIZE - 1) */
 };
@@ -51,12 +51,12 @@ struct kernel_splat {
     ps_vec3 u, v; /* axes divided by the half-width */
     ps_vec3 w;
     float near_depth, far_depth;
-    float start_depth, start_u,
-        start_v;        /* depth of the start plane: start_depth + start_u * u + start_v * v */
-    float source_depth; /* the same of the source's plane */
-    float clearance;    /* from there to the start plane */
+    float source_depth, start_u,
+        start_v;     /* depth of the source's plane: source_depth + start_u * u + start_v * v */
+    float clearance; /* from there to the start plane */
     struct width width;
     float bias_constant, bias_slope;
+    float by_width;     /* 1: k goes by 1 / h^2; 0: it is the same for all pixels (counting) */
     float kernel_scale; /* with `merged` in it, by which the power is divided, and the number of
                            subsets of the field; 0: the splat lights
                            nothing, and has no other member set */

@@ -184,8 +184,8 @@ static inline int weigh(const struct field_tile *tile, int first, const struct k
                   (past <= bias);
         /* A product, not a choice: compilers would make the load conditional and the loop scalar.
          */
-        float weight =
-            (float)lit * profile[entry] * splat->kernel_scale * inverse_width * inverse_width;
+        float narrowing = 1.0f + splat->by_width * (inverse_width * inverse_width - 1.0f);
+        float weight = (float)lit * profile[entry] * splat->kernel_scale * narrowing;
         light->inverse_width[i] = inverse_width;
         light->weight[i] = weight;
         light->projected[i] = weight * facing;

@@ -15,13 +15,14 @@ static const float place_v[RAYS] = {0.0000f,  0.2068f,  -0.3938f, 0.3712f, -0.09
                                     0.6155f,  -0.6076f, 0.2500f,  0.2940f, -0.7337f, 0.8089f,
                                     -0.4432f, -0.1972f, 0.7788f,  -0.9761f};
 
-/* Rays beside the axis, which start on the source's tangent plane. */
+/* Rays beside the axis, which start where the beam's do on even ground. */
 static void trace_disc(const ps_host *host, const struct box_scene *scene, const ps_source *source,
                        float half_width, ps_packet *packet)
 {
     ps_vec3 u, v, w = source->direction;
     ps_frame(w, &u, &v);
-    ps_vec3 start = ps_add_scaled(source->position, scene->surface_offset, source->normal);
+    float clearance = box_clearance(scene->surface_offset, half_width, false);
+    ps_vec3 start = ps_add_scaled(source->position, clearance, source->normal);
     float cosine = fmaxf(ps_dot(source->normal, w), BOX_LEAST_COSINE);
     for (int i = 0; i < RAYS; i++) {
         ps_vec3 offset =
@@ -49,12 +50,16 @@ static float width_for(const struct box_scene *scene, const ps_box_settings *set
     return width;
 }
 
-static float nearest_of(const ps_packet *packet)
+/* How far away along the axis the nearest thing lies that the rays met; INFINITY: they met nothing. */
+static float nearest_of(const ps_packet *packet, const ps_source *source)
 {
     float nearest = INFINITY;
-    for (int i = 0; i < RAYS; i++)
-        nearest = fminf(nearest, packet->tfar[i]);
-    return nearest;
+    for (size_t i = 0; i < RAYS; i++) {
+        ps_vec3 origin = {packet->origin_x[i], packet->origin_y[i], packet->origin_z[i]};
+        ps_vec3 ahead = ps_subtract(origin, source->position);
+        nearest = fminf(nearest, ps_dot(ahead, source->direction) + packet->tfar[i]);
+    }
+    return fmaxf(nearest, 0.0f);
 }
 
 static void find_one(const ps_host *host, const struct box_scene *scene,
@@ -68,9 +73,10 @@ static void find_one(const ps_host *host, const struct box_scene *scene,
         return;
     trace_disc(host, scene, source, widest, &packet);
     if (!met) {
-        float nearest = nearest_of(&packet);
+        float nearest = nearest_of(&packet, source);
         least = nearest < INFINITY ? box_half_width(scene, settings, source, nearest) : 0.0f;
-        box_stand_in(source, widest, hit);
+        if (nearest < INFINITY)
+            box_stand_in(source, nearest, hit);
     }
     *half_width = width_for(scene, settings, source, &packet, widest, least);
 }

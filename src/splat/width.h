@@ -10,7 +10,7 @@
  *     h = follow * t / (1 + follow * s)        and  narrowest <= h <= widest
  *
  * with s the change of t across the beam, over the pixel's own surface. All sources of that plane then
- * agree about h, and even light comes out even. As `follow` grows h tends to t / s: a disc that just
+ * agree about h (but for the limits, which go by the splat), and even light comes out even. As `follow` grows h tends to t / s: a disc that just
  * touches the crease where both planes meet. A box of half-width follow * d around a hit at distance d
  * holds all pixels of a plane that take in the axis, since from t = d + s |x| and |x| < h follows
  * |x| < follow * d.
