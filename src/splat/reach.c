@@ -76,7 +76,7 @@ static void find_one(const ps_host *host, const struct box_scene *scene,
         float nearest = nearest_of(&packet, source);
         least = nearest < INFINITY ? box_half_width(scene, settings, source, nearest) : 0.0f;
         if (nearest < INFINITY)
-            box_stand_in(source, nearest, hit);
+            box_stand_in(source, fmaxf(nearest, widest), hit); /* beams start before half of that */
     }
     *half_width = width_for(scene, settings, source, &packet, widest, least);
 }
