@@ -55,8 +55,9 @@ static inline void ps_open_full_beams(const ps_box_settings *settings, ps_splat 
  * falls into, so its depth may differ by the slope of its surface times its distance to the texel's
  * centre, half a diagonal at most. A bias by slope (choice 0) grants that and little more: 0.75 texels *
  * tan(theta), theta between the light and the pixel's normal. Twice as much gives back 0.3 % of the
- * light in creases, and loses the shadow of a plate 10 cm before a wall. A constant bias either shadows slopes (acne, and energy lost) or
- * leaks at contacts; it stays selectable, for comparison with the thesis. */
+ * light in creases, and loses the shadow of a plate 10 cm before a wall. A constant bias either shadows
+ * slopes (acne, and energy lost) or leaks at contacts; it stays selectable, for comparison with the
+ * thesis. */
 static inline void ps_set_bias(ps_number_or_choice bias, uint32_t side, ps_splat *splats, size_t n)
 {
     static const float slope_texels = 0.75f;

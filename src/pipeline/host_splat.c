@@ -11,12 +11,14 @@
 
 /* Before more is done for them: of a large scene little is in view. What lies past the first hit counts,
  * since part of a beam may pass beside it. */
-static void drop_unseen(const struct splatter *splatter, ps_splat *splats, size_t n)
+static void drop_unseen(const struct render *render, ps_splat *splats, size_t n)
 {
+    if (!render->splatting)
+        return;
     for (size_t i = 0; i < n; i++) {
         ps_splat open = splats[i];
         open.far_depth = INFINITY;
-        if (!splatter_touches(splatter, &open))
+        if (!splatter_touches(&render->splatter, &open))
             splats[i].half_width = 0.0f;
     }
 }
@@ -65,8 +67,7 @@ static void place_full(const struct placing *placing, ps_splat *splats)
     }
     box_place(&placing->scene, placing->settings, placing->sources, stand_ins, placing->half_widths,
               placing->n, splats);
-    if (placing->render->splatting)
-        drop_unseen(&placing->render->splatter, splats, placing->n);
+    drop_unseen(placing->render, splats, placing->n);
     for (size_t i = 0; i < placing->n; i++)
         placing->half_widths[i] = splats[i].half_width;
     reach_find(host, &placing->scene, placing->settings, placing->sources, placing->n,
@@ -82,8 +83,7 @@ static void place_others(const struct placing *placing, ps_splat *splats)
         placing->half_widths[i] = box_half_width(&placing->scene, placing->settings,
                                                  &placing->sources[i], placing->hits[i].distance);
     place(placing, splats);
-    if (placing->render->splatting)
-        drop_unseen(&placing->render->splatter, splats, placing->n);
+    drop_unseen(placing->render, splats, placing->n);
 }
 
 /* At most PS_PATH_CHUNK. */

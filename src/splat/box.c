@@ -53,9 +53,16 @@ float box_clearance(float surface_offset, float half_width, bool hollow)
     return fmaxf(surface_offset, (hollow ? HOLLOW_CLEARANCE : CLEARANCE) * half_width);
 }
 
+#define LEAST_COSINE 0.015625f
+
+float box_cosine(const ps_source *source)
+{
+    return fmaxf(ps_dot(source->normal, source->direction), LEAST_COSINE);
+}
+
 void box_start(const ps_source *source, float clearance, ps_splat *splat)
 {
-    float cosine = fmaxf(ps_dot(source->normal, splat->axis_w), BOX_LEAST_COSINE);
+    float cosine = box_cosine(source);
     splat->start_depth =
         splat->source_depth + fminf(clearance / cosine, -0.5f * splat->source_depth);
 }
@@ -125,7 +132,7 @@ void box_stand_in(const ps_source *source, float distance, ps_hit *hit)
 static void place_full(const struct box_scene *scene, const ps_box_settings *settings,
                        const ps_source *source, float distance, ps_splat *splat)
 {
-    float cosine = fmaxf(ps_dot(source->normal, splat->axis_w), BOX_LEAST_COSINE);
+    float cosine = box_cosine(source);
     splat->start_slope_u = -ps_dot(source->normal, splat->axis_u) / cosine;
     splat->start_slope_v = -ps_dot(source->normal, splat->axis_v) / cosine;
     splat->source_depth = -distance;

@@ -28,8 +28,8 @@
 /* Slopes (tangents) past this are treated as this: 84 degrees, where 1 % of the energy arrives. */
 #define BOX_STEEPEST 10.0f
 
-/* Light that leaves its source under less than this (cosine) is taken to leave under it. */
-#define BOX_LEAST_COSINE 0.015625f
+/* The cosine under which a source's light leaves; no less than a 64th, under which 0.02 % of it does. */
+float box_cosine(const ps_source *source);
 
 struct box_scene {
     float radius;         /* of the scene */

@@ -55,8 +55,8 @@ static void collect(const struct field_tile *tile, const struct kernel_splat *sp
         float cosine = -ps_dot(normal, splat->w);
         if (!(cosine > 0.0f))
             continue;
-        float above = t - (splat->source_depth + u * splat->start_u + v * splat->start_v);
-        float width = width_at(&splat->width, above, fmaxf(cosine, 1e-3f), ps_dot(normal, splat->u),
+        float above = kernel_above(splat, u, v, t);
+        float width = width_at(&splat->width, above, cosine, ps_dot(normal, splat->u),
                                ps_dot(normal, splat->v));
         if (!(r2 < width * width && above >= splat->clearance * fminf(width, 1.0f)))
             continue;

@@ -1,7 +1,8 @@
 /* exact.h: the inner loop for visibilities that judge every point by itself.
  *
- * The same sums as kernel.h, with V(p) from the visibility's test of the point instead of a depth map. A loop of its own: the rays cost a hundred times what the weights do, and the vector kernel
- * stays as it is.
+ * The same sums as kernel.h, with V(p) from the visibility's test of the point instead of a depth map.
+ * A loop of its own: the rays cost a hundred times what the weights do, and the vector kernel stays as
+ * it is.
  */
 #ifndef SPLAT_EXACT_H
 #define SPLAT_EXACT_H

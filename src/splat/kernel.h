@@ -67,6 +67,12 @@ struct kernel_splat {
     ps_wall walls[PS_MOST_WALLS];
 };
 
+/* How far past the source's plane a point lies, along the beam. */
+static inline float kernel_above(const struct kernel_splat *splat, float u, float v, float t)
+{
+    return t - (splat->source_depth + u * splat->start_u + v * splat->start_v);
+}
+
 struct kernel_count {
     uint64_t tests; /* of pixels against splats */
     uint64_t lit;   /* those with weight */

@@ -135,7 +135,7 @@ static inline float width_of(const struct field_tile *tile, int lane,
                              const struct kernel_splat *splat, float distance, float facing)
 {
     float x = tile->normal_x[lane], y = tile->normal_y[lane], z = tile->normal_z[lane];
-    return width_at(&splat->width, distance, most(facing, 1e-3f),
+    return width_at(&splat->width, distance, facing,
                     x * splat->u.x + y * splat->u.y + z * splat->u.z,
                     x * splat->v.x + y * splat->v.y + z * splat->v.z);
 }
@@ -149,9 +149,8 @@ static inline int any_inside(const struct field_tile *tile, int first,
     for (int i = 0; i < LANES; i++) {
         struct placed p = place_pixel(tile, first + i, splat);
         float facing = facing_of(tile, first + i, splat);
-        float plane = splat->source_depth + p.u * splat->start_u + p.v * splat->start_v;
         any |= (p.u * p.u + p.v * p.v < 1.0f) & (facing > 0.0f) & (p.t <= splat->far_depth) &
-               (p.t >= plane);
+               (kernel_above(splat, p.u, p.v, p.t) >= 0.0f);
     }
     return any;
 }
@@ -168,7 +167,7 @@ static inline int weigh(const struct field_tile *tile, int first, const struct k
         struct placed p = place_pixel(tile, first + i, splat);
         float r2 = p.u * p.u + p.v * p.v;
         float facing = facing_of(tile, first + i, splat);
-        float above = p.t - (splat->source_depth + p.u * splat->start_u + p.v * splat->start_v);
+        float above = kernel_above(splat, p.u, p.v, p.t);
         float width = width_of(tile, first + i, splat, above, facing);
         float inverse_width = 1.0f / width;
         float in_width2 = r2 * inverse_width * inverse_width;

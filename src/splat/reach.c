@@ -23,7 +23,7 @@ static void trace_disc(const ps_host *host, const struct box_scene *scene, const
     ps_frame(w, &u, &v);
     float clearance = box_clearance(scene->surface_offset, half_width, false);
     ps_vec3 start = ps_add_scaled(source->position, clearance, source->normal);
-    float cosine = fmaxf(ps_dot(source->normal, w), BOX_LEAST_COSINE);
+    float cosine = box_cosine(source);
     for (int i = 0; i < RAYS; i++) {
         ps_vec3 offset =
             ps_add(ps_scale(u, half_width * place_u[i]), ps_scale(v, half_width * place_v[i]));

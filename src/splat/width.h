@@ -10,16 +10,19 @@
  *     h = follow * t / (1 + follow * s)        and  narrowest <= h <= widest
  *
  * with s the change of t across the beam, over the pixel's own surface. All sources of that plane then
- * agree about h (but for the limits, which go by the splat), and even light comes out even. As `follow` grows h tends to t / s: a disc that just
- * touches the crease where both planes meet. A box of half-width follow * d around a hit at distance d
- * holds all pixels of a plane that take in the axis, since from t = d + s |x| and |x| < h follows
- * |x| < follow * d.
+ * agree about h (but for the limits, which go by the splat), and even light comes out even. As `follow`
+ * grows h tends to t / s: a disc that just touches the crease where both planes meet. A box of
+ * half-width follow * d around a hit at distance d holds all pixels of a plane that take in the axis,
+ * since from t = d + s |x| and |x| < h follows |x| < follow * d.
  */
 #ifndef SPLAT_WIDTH_H
 #define SPLAT_WIDTH_H
 
 #include <math.h>
 #include <psplat/types.h>
+
+/* Steeper surfaces are taken to be no steeper; those that face away are not lit, whatever comes out. */
+#define LEAST_FACING 1e-3f
 
 /* h in half-widths of the box, with all that can be worked out once for all pixels. */
 struct width {
@@ -29,11 +32,12 @@ struct width {
     float narrowest, widest;
 };
 
-/* Compilers make vectors of it: no calls, no branches. `facing` > 0: the cosine at the pixel; normal_u,
+/* Compilers make vectors of it: no calls, no branches. `facing`: the cosine at the pixel; normal_u,
  * normal_v: its normal along the axes divided by R; `distance`: t. */
 static inline float width_at(const struct width *width, float distance, float facing,
                              float normal_u, float normal_v)
 {
+    facing = facing > LEAST_FACING ? facing : LEAST_FACING;
     float a = normal_u * width->spread - width->tilt_u * facing;
     float b = normal_v * width->spread - width->tilt_v * facing;
     float h = width->by_distance * distance * facing / (facing + sqrtf(a * a + b * b));
