@@ -85,9 +85,10 @@ struct ps_host {
     /* Whether something lies on each ray between tnear and tfar: 1 or 0. [any thread] */
     void (*occluded)(const ps_host *host, const ps_ray *rays, size_t n, uint8_t *blocked);
 
-    /* Traces coherent packets; see ps_packet. The fastest way where 16 rays run close together, in
-     * 4x4 blocks rather than rows. [any thread] */
-    void (*intersect_packets)(const ps_host *host, ps_packet *packets, size_t n);
+    /* Traces packets; see ps_packet. The fastest way where 16 rays run close together and side by side, in
+     * 4x4 blocks rather than rows: `coherent` then is 1. Where they run apart, 0 is as much faster; either
+     * gives the same. [any thread] */
+    void (*intersect_packets)(const ps_host *host, ps_packet *packets, size_t n, int coherent);
 
     /* Four numbers in [0,1) for each index, from the Owen-scrambled Sobol sequence of `stream`
      * (values of ps_stream); `set` chooses independent groups of four dimensions, for example the

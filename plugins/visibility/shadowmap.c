@@ -64,7 +64,7 @@ static void trace_block(const ps_host *host, const ps_splat *splat, int side, in
                      ps_texel_centre(splat, (uint32_t)side, (uint32_t)row), &packet, lane);
         reach[lane] = packet.tfar[lane];
     }
-    host->intersect_packets(host, &packet, 1);
+    host->intersect_packets(host, &packet, 1, 1);
     for (int lane = 0; lane < BLOCK * BLOCK; lane++) {
         int column = left + lane % BLOCK, row = top + lane / BLOCK;
         if (column < side && row < side)

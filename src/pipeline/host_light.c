@@ -13,9 +13,9 @@ static void host_occluded(const ps_host *host, const ps_ray *rays, size_t n, uin
     trace_occluded(render_of(host)->trace, rays, n, blocked);
 }
 
-static void host_intersect_packets(const ps_host *host, ps_packet *packets, size_t n)
+static void host_intersect_packets(const ps_host *host, ps_packet *packets, size_t n, int coherent)
 {
-    trace_packets(render_of(host)->trace, packets, n);
+    trace_packets(render_of(host)->trace, packets, n, coherent);
 }
 
 /* A ray of a light, moved off what the light may lie on. */

@@ -79,7 +79,7 @@ static void trace_block(const struct tracing *tracing, size_t map, uint32_t left
                                        ((float)row + 0.5f) / side, tracing->offset);
         ps_packet_set(&packet, lane, ray);
     }
-    trace_packets(tracing->trace, &packet, 1);
+    trace_packets(tracing->trace, &packet, 1, true);
     for (uint32_t lane = 0; lane < BLOCK * BLOCK; lane++) {
         uint32_t column = left + lane % BLOCK, row = top + lane / BLOCK;
         if (column < maps->side && row < maps->side)

@@ -50,14 +50,14 @@ float kernel_profile_radius2(size_t i)
     return ((float)i + 0.5f) / (float)KERNEL_PROFILE_SIZE;
 }
 
-/* The part of the kernel on the near side of a straight border at `distance` from its middle: of the
- * ring of radius r, 1 - acos(distance / r) / pi. */
-static double part_before(const struct kernel_profile *profile, double sum, double distance)
+/* The part of the kernel beyond a straight border at `distance` from its middle: of the ring of radius r,
+ * acos(distance / r) / pi. */
+static double part_beyond(const struct kernel_profile *profile, double sum, double distance)
 {
     double part = 0;
     for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++) {
         double radius = sqrt((double)kernel_profile_radius2(i));
-        double share = radius > distance ? 1 - acos(distance / radius) / 3.14159265358979323846 : 1;
+        double share = radius > distance ? acos(distance / radius) / 3.14159265358979323846 : 0;
         part += share * (double)profile->weights[i];
     }
     return part / sum;
@@ -77,8 +77,8 @@ int kernel_profile_normalize(struct kernel_profile *profile)
     if (!(sum > 0))
         return 0;
     for (size_t i = 0; i < KERNEL_BOUNDARY_SIZE; i++)
-        profile->boundary[i] =
-            (float)(1 / part_before(profile, sum, (double)i / (KERNEL_BOUNDARY_SIZE - 1)));
+        profile->beyond[i] =
+            (float)part_beyond(profile, sum, (double)i / (KERNEL_BOUNDARY_SIZE - 1));
     return 1;
 }
 
@@ -94,6 +94,15 @@ void kernel_profile_count(struct kernel_profile *profile)
 static uint32_t wall_count(const ps_splat *splat)
 {
     return splat->wall_count < PS_MOST_WALLS ? splat->wall_count : PS_MOST_WALLS;
+}
+
+static float walls_likeness(const ps_splat *splat)
+{
+    const ps_wall *walls = splat->walls;
+    if (wall_count(splat) < 2)
+        return 0.0f;
+    float cosine = walls[0].normal_u * walls[1].normal_u + walls[0].normal_v * walls[1].normal_v;
+    return 2.0f / PS_PI * asinf(fmaxf(-1.0f, fminf(cosine, 1.0f)));
 }
 
 /* A plugin's own splats may claim anything; 1 / 0 would make NaN of what is not lit. */
@@ -143,5 +152,6 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
         .depths = depths,
         .wall_count = profile->counting ? 0 : wall_count(splat),
         .walls = {splat->walls[0], splat->walls[1]},
+        .walls_likeness = walls_likeness(splat),
     };
 }

@@ -16,8 +16,7 @@
  * A splat that stands for several sources weighs as much as they would (Hoet 2014, section 3.2.1); the
  * loop has that as a larger k of a lesser power.
  *
- * Where the source has walls beside it (wall.h), k is divided by the part of the kernel on this side
- * of each.
+ * Where the source has walls beside it (wall.h), k is divided by the part of the kernel that they leave.
  *
  * The cosine is there because K lies in the plane across the beam. Blocks of 16 pixels whose bounds
  * the box does not touch are left out. No branches within a block: masks, one gather from the depth
@@ -35,14 +34,15 @@
 
 #define KERNEL_PROFILE_SIZE 1024
 #define KERNEL_BOUNDARY_SIZE 257
+#define KERNEL_LEAST_LEFT 0.0625f
 
 /* A filter, tabulated over squared radius. */
 struct kernel_profile {
-    float weights[KERNEL_PROFILE_SIZE];   /* entry i stands for [i, i + 1) / KERNEL_PROFILE_SIZE */
-    float scale;                          /* 1 / integral of the weights over the unit disc */
-    bool counting;                        /* K is 1 all over the disc, whatever its size */
-    float boundary[KERNEL_BOUNDARY_SIZE]; /* 1 / the part of K on this side of a straight border at
-                                             distance i / (KERNEL_BOUNDARY_SIZE - 1) */
+    float weights[KERNEL_PROFILE_SIZE]; /* entry i stands for [i, i + 1) / KERNEL_PROFILE_SIZE */
+    float scale;                        /* 1 / integral of the weights over the unit disc */
+    bool counting;                      /* K is 1 all over the disc, whatever its size */
+    float beyond[KERNEL_BOUNDARY_SIZE]; /* the part of K beyond a straight border at distance
+                                             i / (KERNEL_BOUNDARY_SIZE - 1) */
 };
 
 /* A splat with all that can be worked out once for all pixels. */
@@ -65,12 +65,26 @@ struct kernel_splat {
     const float *depths; /* resolution^2 */
     uint32_t wall_count;
     ps_wall walls[PS_MOST_WALLS];
+    float walls_likeness; /* of two walls: 2 / pi * asin of their normals' cosine */
 };
 
 /* How far past the source's plane a point lies, along the beam. */
 static inline float kernel_above(const struct kernel_splat *splat, float u, float v, float t)
 {
     return t - (splat->source_depth + u * splat->start_u + v * splat->start_v);
+}
+
+/* The part of a kernel that two straight borders leave, of which `one` and `other` lie beyond each;
+ * `likeness` as kernel_splat.walls_likeness. Beyond both lies nothing where the borders face each other
+ * (-1), the product where they stand at right angles (0; exact for a Gaussian), the lesser part where they
+ * are parallel (1); in between, what lies in between, exact for any round kernel whose middle lies on both.
+ * No more is made up for than KERNEL_LEAST_LEFT asks. */
+static inline float kernel_left(float one, float other, float likeness)
+{
+    float product = one * other, lesser = one < other ? one : other;
+    float more = likeness < 0.0f ? product : lesser - product;
+    float left = 1.0f - one - other + product + likeness * more;
+    return left > KERNEL_LEAST_LEFT ? left : KERNEL_LEAST_LEFT;
 }
 
 struct kernel_count {

@@ -98,65 +98,65 @@ static inline void list_by_block(const struct bounds *blocks, const struct kerne
         }
 }
 
+/* Where the pixels of a block lie in a splat's box. */
+struct placed_block {
+    float u[LANES], v[LANES];     /* across it, in half-widths */
+    float t[LANES], above[LANES]; /* along it, from the centre and from the source's plane */
+    float facing[LANES]; /* cosine under which the light meets the surface; negative from behind */
+    float inverse_width[LANES]; /* 1 / h; set by choose_widths */
+};
+
 /* What a block's pixels get from one splat. */
 struct block_light {
     float weight[LANES], projected[LANES]; /* K * V, and that times the cosine */
-    float inverse_width[LANES];            /* 1 / h */
 };
-
-/* Where a pixel lies in a splat's box: across it in half-widths, along it in scene units. */
-struct placed {
-    float u, v, t;
-};
-
-static inline struct placed place_pixel(const struct field_tile *tile, int lane,
-                                        const struct kernel_splat *splat)
-{
-    float x = tile->position_x[lane] - splat->centre.x;
-    float y = tile->position_y[lane] - splat->centre.y;
-    float z = tile->position_z[lane] - splat->centre.z;
-    return (struct placed){
-        x * splat->u.x + y * splat->u.y + z * splat->u.z,
-        x * splat->v.x + y * splat->v.y + z * splat->v.z,
-        x * splat->w.x + y * splat->w.y + z * splat->w.z,
-    };
-}
-
-/* The cosine under which the light meets a pixel's surface; negative from behind. */
-static inline float facing_of(const struct field_tile *tile, int lane,
-                              const struct kernel_splat *splat)
-{
-    return -(tile->normal_x[lane] * splat->w.x + tile->normal_y[lane] * splat->w.y +
-             tile->normal_z[lane] * splat->w.z);
-}
-
-/* The part of the disc that a pixel takes at that distance from the source's plane. */
-static inline float width_of(const struct field_tile *tile, int lane,
-                             const struct kernel_splat *splat, float distance, float facing)
-{
-    float x = tile->normal_x[lane], y = tile->normal_y[lane], z = tile->normal_z[lane];
-    return width_at(&splat->width, distance, facing,
-                    x * splat->u.x + y * splat->u.y + z * splat->u.z,
-                    x * splat->v.x + y * splat->v.y + z * splat->v.z);
-}
 
 /* Whether some pixel of the block lies inside of the box and faces the light: half of the blocks
  * whose bounds a box touches have none. */
-static inline int any_inside(const struct field_tile *tile, int first,
-                             const struct kernel_splat *splat)
+static inline int place_block(const struct field_tile *tile, int first,
+                              const struct kernel_splat *splat, struct placed_block *placed)
 {
     int any = 0;
     for (int i = 0; i < LANES; i++) {
-        struct placed p = place_pixel(tile, first + i, splat);
-        float facing = facing_of(tile, first + i, splat);
-        any |= (p.u * p.u + p.v * p.v < 1.0f) & (facing > 0.0f) & (p.t <= splat->far_depth) &
-               (kernel_above(splat, p.u, p.v, p.t) >= 0.0f);
+        float x = tile->position_x[first + i] - splat->centre.x;
+        float y = tile->position_y[first + i] - splat->centre.y;
+        float z = tile->position_z[first + i] - splat->centre.z;
+        float u = x * splat->u.x + y * splat->u.y + z * splat->u.z;
+        float v = x * splat->v.x + y * splat->v.y + z * splat->v.z;
+        float t = x * splat->w.x + y * splat->w.y + z * splat->w.z;
+        float above = kernel_above(splat, u, v, t);
+        float facing =
+            -(tile->normal_x[first + i] * splat->w.x + tile->normal_y[first + i] * splat->w.y +
+              tile->normal_z[first + i] * splat->w.z);
+        placed->u[i] = u;
+        placed->v[i] = v;
+        placed->t[i] = t;
+        placed->above[i] = above;
+        placed->facing[i] = facing;
+        any |= (u * u + v * v < 1.0f) & (facing > 0.0f) & (t <= splat->far_depth) & (above >= 0.0f);
+    }
+    return any;
+}
+
+/* The parts of the disc that pixels take; whether some pixel lies in its own. */
+static inline int choose_widths(const struct field_tile *tile, int first,
+                                const struct kernel_splat *splat, struct placed_block *placed)
+{
+    int any = 0;
+    for (int i = 0; i < LANES; i++) {
+        float x = tile->normal_x[first + i], y = tile->normal_y[first + i],
+              z = tile->normal_z[first + i];
+        float width = width_at(&splat->width, placed->above[i], placed->facing[i],
+                               x * splat->u.x + y * splat->u.y + z * splat->u.z,
+                               x * splat->v.x + y * splat->v.y + z * splat->v.z);
+        placed->inverse_width[i] = 1.0f / width;
+        any |= placed->u[i] * placed->u[i] + placed->v[i] * placed->v[i] < width * width;
     }
     return any;
 }
 
 /* Returns how many pixels have weight. */
-static inline int weigh(const struct field_tile *tile, int first, const struct kernel_splat *splat,
+static inline int weigh(const struct placed_block *placed, const struct kernel_splat *splat,
                         int resolution, const float *profile, struct block_light *light)
 {
     const float half_resolution = 0.5f * (float)resolution;
@@ -164,28 +164,24 @@ static inline int weigh(const struct field_tile *tile, int first, const struct k
     const float *depths = splat->depths;
     int useful = 0;
     for (int i = 0; i < LANES; i++) {
-        struct placed p = place_pixel(tile, first + i, splat);
-        float r2 = p.u * p.u + p.v * p.v;
-        float facing = facing_of(tile, first + i, splat);
-        float above = kernel_above(splat, p.u, p.v, p.t);
-        float width = width_of(tile, first + i, splat, above, facing);
-        float inverse_width = 1.0f / width;
+        float u = placed->u[i], v = placed->v[i], t = placed->t[i], facing = placed->facing[i];
+        float r2 = u * u + v * v;
+        float inverse_width = placed->inverse_width[i];
         float in_width2 = r2 * inverse_width * inverse_width;
+        float least_above = splat->clearance * least(1.0f, 1.0f / inverse_width);
         float cosine = clamp(facing, 1e-3f, 1.0f);
         float slope = sqrtf(1.0f - cosine * cosine) / cosine;
         float bias = splat->bias_constant + splat->bias_slope * least(slope, BOX_STEEPEST);
-        int column = (int)clamp((p.u + 1.0f) * half_resolution, 0.0f, last_texel);
-        int line = (int)clamp((p.v + 1.0f) * half_resolution, 0.0f, last_texel);
-        float past = p.t - depths[line * resolution + column];
+        int column = (int)clamp((u + 1.0f) * half_resolution, 0.0f, last_texel);
+        int line = (int)clamp((v + 1.0f) * half_resolution, 0.0f, last_texel);
+        float past = t - depths[line * resolution + column];
         int entry = (int)(clamp(in_width2, 0.0f, 0.99999f) * (float)KERNEL_PROFILE_SIZE);
-        int lit = (r2 < 1.0f) & (in_width2 < 1.0f) & (facing > 0.0f) & (p.t >= splat->near_depth) &
-                  (p.t <= splat->far_depth) & (above >= splat->clearance * least(width, 1.0f)) &
-                  (past <= bias);
+        int lit = (r2 < 1.0f) & (in_width2 < 1.0f) & (facing > 0.0f) & (t >= splat->near_depth) &
+                  (t <= splat->far_depth) & (placed->above[i] >= least_above) & (past <= bias);
         /* A product, not a choice: compilers would make the load conditional and the loop scalar.
          */
         float narrowing = 1.0f + splat->by_width * (inverse_width * inverse_width - 1.0f);
         float weight = (float)lit * profile[entry] * splat->kernel_scale * narrowing;
-        light->inverse_width[i] = inverse_width;
         light->weight[i] = weight;
         light->projected[i] = weight * facing;
         useful += lit;
@@ -193,18 +189,33 @@ static inline int weigh(const struct field_tile *tile, int first, const struct k
     return useful;
 }
 
-/* Divides by the part of the kernel that lies before a wall beside the source; behind it there is no
- * such source. */
-static inline void make_up(const struct field_tile *tile, int first,
-                           const struct kernel_splat *splat, const ps_wall *wall,
-                           const float *boundary, struct block_light *light)
+#define BEHIND 1.0f /* in front of a wall, half of the kernel at most lies beyond it */
+
+/* The parts of the kernel around each pixel's start beyond a wall; BEHIND where that lies behind it. */
+static inline void look_beyond(const struct placed_block *placed, const ps_wall *wall,
+                               const float *beyond, float *parts)
 {
     for (int i = 0; i < LANES; i++) {
-        struct placed p = place_pixel(tile, first + i, splat);
-        float distance = wall->distance - (p.u * wall->normal_u + p.v * wall->normal_v);
-        float share = boundary[(int)(clamp(distance * light->inverse_width[i], 0.0f, 1.0f) *
-                                     (float)(KERNEL_BOUNDARY_SIZE - 1))];
-        share *= (float)(distance > 0.0f);
+        float distance =
+            wall->distance - (placed->u[i] * wall->normal_u + placed->v[i] * wall->normal_v);
+        float part = beyond[(int)(clamp(distance * placed->inverse_width[i], 0.0f, 1.0f) *
+                                  (float)(KERNEL_BOUNDARY_SIZE - 1))];
+        parts[i] = distance > 0.0f ? part : BEHIND;
+    }
+}
+
+/* Divides by the part of the kernel that the walls beside the source leave; behind them there is no such
+ * source. */
+static inline void make_up(const struct placed_block *placed, const struct kernel_splat *splat,
+                           const float *beyond, struct block_light *light)
+{
+    _Alignas(64) float one[LANES], other[LANES] = {0};
+    look_beyond(placed, &splat->walls[0], beyond, one);
+    if (splat->wall_count > 1)
+        look_beyond(placed, &splat->walls[1], beyond, other);
+    for (int i = 0; i < LANES; i++) {
+        float in_front = (float)((one[i] < BEHIND) & (other[i] < BEHIND));
+        float share = in_front / kernel_left(one[i], other[i], splat->walls_likeness);
         light->weight[i] *= share;
         light->projected[i] *= share;
     }
@@ -221,6 +232,23 @@ static inline void add(struct field_tile *tile, int first, ps_rgb power,
     }
 }
 
+/* Adds a splat to a block; returns how many pixels got something. */
+static inline int light_block(struct field_tile *tile, int first, const struct kernel_splat *splat,
+                              int resolution, const struct kernel_profile *profile)
+{
+    _Alignas(64) struct placed_block placed;
+    _Alignas(64) struct block_light light;
+    if (!place_block(tile, first, splat, &placed) || !choose_widths(tile, first, splat, &placed))
+        return 0;
+    int lit = weigh(&placed, splat, resolution, profile->weights, &light);
+    if (lit == 0)
+        return 0;
+    if (splat->wall_count > 0)
+        make_up(&placed, splat, profile->beyond, &light);
+    add(tile, first, splat->power, &light);
+    return lit;
+}
+
 struct kernel_count KERNEL_ACCUMULATE(struct field_tile *tile, const struct kernel_splat *splats,
                                       const uint32_t *indices, size_t n, uint32_t resolution,
                                       const struct kernel_profile *profile) {
@@ -231,18 +259,9 @@ struct kernel_count KERNEL_ACCUMULATE(struct field_tile *tile, const struct kern
         list_by_block(&tile->blocks, splats, indices + first, some, &lists);
         for (int block = 0; block < BOUNDS_WIDTH; block++) {
             count.tests += (uint64_t)lists.count[block] * LANES;
-            for (uint32_t i = 0; i < lists.count[block]; i++) {
-                const struct kernel_splat *splat = &splats[lists.splats[block][i]];
-                _Alignas(64) struct block_light light;
-                if (!any_inside(tile, block * LANES, splat))
-                    continue;
-                count.lit += (uint64_t)weigh(tile, block * LANES, splat, (int)resolution,
-                                             profile->weights, &light);
-                for (uint32_t k = 0; k < splat->wall_count; k++)
-                    make_up(tile, block * LANES, splat, &splat->walls[k], profile->boundary,
-                            &light);
-                add(tile, block * LANES, splat->power, &light);
-            }
+            for (uint32_t i = 0; i < lists.count[block]; i++)
+                count.lit += (uint64_t)light_block(
+                    tile, block * LANES, &splats[lists.splats[block][i]], (int)resolution, profile);
         }
     }
     return count;

@@ -31,7 +31,7 @@ static void trace_disc(const ps_host *host, const struct box_scene *scene, const
         ps_vec3 origin = ps_add(start, ps_add_scaled(offset, ahead, w));
         ps_packet_set(packet, (size_t)i, (ps_ray){origin, 0.0f, w, INFINITY});
     }
-    host->intersect_packets(host, packet, 1);
+    host->intersect_packets(host, packet, 1, 1);
 }
 
 /* How wide the box must be for what the rays met: as far out as the outermost of them whose pixels would

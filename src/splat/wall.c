@@ -50,7 +50,7 @@ static struct free_way look_around(const ps_host *host, const ps_splat *splat,
             ps_add_scaled(rim, u * splat->start_slope_u + v * splat->start_slope_v, splat->axis_w);
         ps_packet_set(&packet, (size_t)i, (ps_ray){origin, 0.0f, rim, 1.0f});
     }
-    host->intersect_packets(host, &packet, 1);
+    host->intersect_packets(host, &packet, 1, 0);
     for (int i = 0; i < AZIMUTHS; i++)
         way.reach[i] = fmaxf(packet.tfar[i], 1e-3f);
     return way;

@@ -313,7 +313,7 @@ void trace_occluded(const struct trace *trace, const ps_ray *rays, size_t n, uin
     }
 }
 
-void trace_packets(const struct trace *trace, ps_packet *packets, size_t n)
+void trace_packets(const struct trace *trace, ps_packet *packets, size_t n, bool coherent)
 {
     _Alignas(64) static const int valid[PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1,
                                                    -1, -1, -1, -1, -1, -1, -1, -1};
@@ -325,6 +325,6 @@ void trace_packets(const struct trace *trace, ps_packet *packets, size_t n)
         memset(packets[i].flags, 0, sizeof packets[i].flags);
         memset(embree->hit.geomID, 0xff, sizeof embree->hit.geomID);
         memset(embree->hit.instID, 0xff, sizeof embree->hit.instID);
-        shim_intersect16(valid, trace->embree, embree, 1);
+        shim_intersect16(valid, trace->embree, embree, coherent);
     }
 }

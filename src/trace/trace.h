@@ -30,7 +30,8 @@ void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray
 /* 1 where something lies between tnear and tfar. */
 void trace_occluded(const struct trace *trace, const ps_ray *rays, size_t n, uint8_t *blocked);
 
-/* Shortens tfar of each ray of n coherent packets to its first hit. */
-void trace_packets(const struct trace *trace, ps_packet *packets, size_t n);
+/* Shortens tfar of each ray of n packets to its first hit. `coherent`: whether rays of a packet run close
+ * together. */
+void trace_packets(const struct trace *trace, ps_packet *packets, size_t n, bool coherent);
 
 #endif

@@ -77,7 +77,7 @@ static void test_automatic_size(void **state)
 {
     (void)state;
     float size = box_automatic_size(RADIUS, 100000, 0);
-    assert_true(size > 0.15f * RADIUS && size < 0.17f * RADIUS);
+    assert_true(size > 0.13f * RADIUS && size < 0.15f * RADIUS);
     expect_near(box_automatic_size(2 * RADIUS, 100000, 0), 2 * (double)size);
     expect_near(box_automatic_size(RADIUS, 1600000, 0), (double)size / 2);
     expect_near(box_automatic_size(RADIUS, 100000, 63), (double)size / 2);
@@ -85,7 +85,7 @@ static void test_automatic_size(void **state)
     expect_near(box_automatic_size(RADIUS, 0, 0), 0.25 * RADIUS);
 }
 
-/* R = min(size, follow * d), but no less than a fifth of size. */
+/* R = min(size, follow * d), but no less than three tenths of size. */
 static void test_size_follows_distance(void **state)
 {
     (void)state;
@@ -94,13 +94,27 @@ static void test_size_follows_distance(void **state)
     expect_near(place(settings, 12.1f, 1).half_width, 3);
     expect_near(place(settings, 8, 1).half_width, 2);
     expect_near(place(settings, 4, 1).half_width, 1);
-    expect_near(place(settings, 2, 1).half_width, 0.6);
-    expect_near(place(settings, 0.001f, 1).half_width, 0.6);
+    expect_near(place(settings, 2, 1).half_width, 0.9);
+    expect_near(place(settings, 0.001f, 1).half_width, 0.9);
     const ps_box_settings automatic = {.follow = 0.25};
     expect_near(place(automatic, 4, 1).half_width, 1);
-    expect_near(place(automatic, 0.1f, 1).half_width, 0.4);
+    expect_near(place(automatic, 0.1f, 1).half_width, 0.6);
     const ps_box_settings unlimited = {.size = 3};
     expect_near(place(unlimited, 0.001f, 1).half_width, 3);
+}
+
+/* Surfaces that others light have no shadows' edges to keep sharp. */
+static void test_size_follows_less_far_after_the_first_bounce(void **state)
+{
+    (void)state;
+    const ps_box_settings settings = {.size = 3, .follow = 0.25};
+    ps_source source = {.normal = {0, 1, 0}, .direction = {0, 1, 0}, .power = {1, 1, 1}};
+    ps_hit hit = {.position = {0, 2, 0}, .distance = 2, .normal = {0, -1, 0}};
+    const double half_widths[3] = {0.9, 1.8, 1.8}; /* of bounce 1, 2, 3 */
+    for (uint16_t i = 0; i < 3; i++) {
+        source.bounce = (uint16_t)(i + 1);
+        expect_near(place_one(&scene, &settings, &source, &hit).half_width, half_widths[i]);
+    }
 }
 
 /* Nor less than the pixels that are averaged in the end, of which these settings have 4x4. */
@@ -144,7 +158,7 @@ static void test_size_grows_with_what_was_merged(void **state)
     const ps_box_settings follows = {.size = 2, .grow = 3, .follow = 0.25};
     expect_near(half_width_of(9, follows, 100), 6);
     expect_near(half_width_of(9, follows, 16), 4);
-    expect_near(half_width_of(9, follows, 0.1f), 1.2);
+    expect_near(half_width_of(9, follows, 0.1f), 1.8);
     const ps_box_settings vast = {.size = 2, .grow = INFINITY};
     expect_near(half_width_of(1e12f, vast, 100), 4 * RADIUS);
 }
@@ -332,6 +346,7 @@ int main(void)
         cmocka_unit_test(test_size),
         cmocka_unit_test(test_automatic_size),
         cmocka_unit_test(test_size_follows_distance),
+        cmocka_unit_test(test_size_follows_less_far_after_the_first_bounce),
         cmocka_unit_test(test_size_follows_no_further_than_pixels),
         cmocka_unit_test(test_size_grows_with_what_was_merged),
         cmocka_unit_test(test_automatic_step_back),

@@ -174,7 +174,7 @@ static double width_of(const ps_splat *splat, const double n[3], double cosine, 
 static double made_up(const struct bench *bench, const ps_splat *splat, double u, double v,
                       double width, bool *borderline)
 {
-    double factor = 1;
+    double beyond[2] = {0, 0};
     for (uint32_t i = 0; i < splat->wall_count; i++) {
         const ps_wall *wall = &splat->walls[i];
         double distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
@@ -182,9 +182,15 @@ static double made_up(const struct bench *bench, const ps_splat *splat, double u
             return 0;
         double place = distance / width * (KERNEL_BOUNDARY_SIZE - 1);
         *borderline |= fabs(place - floor(place + 0.5)) < 1e-3;
-        factor *= bench->profile.boundary[(size_t)fmin(fmax(place, 0), KERNEL_BOUNDARY_SIZE - 1)];
+        beyond[i] = bench->profile.beyond[(size_t)fmin(fmax(place, 0), KERNEL_BOUNDARY_SIZE - 1)];
     }
-    return factor;
+    const ps_wall *walls = splat->walls;
+    double cosine = walls[0].normal_u * walls[1].normal_u + walls[0].normal_v * walls[1].normal_v;
+    double likeness = 2 / 3.14159265358979 * asin(fmax(-1, fmin(cosine, 1)));
+    double product = beyond[0] * beyond[1];
+    double both =
+        product + likeness * (likeness < 0 ? product : fmin(beyond[0], beyond[1]) - product);
+    return 1 / fmax(1 - beyond[0] - beyond[1] + both, KERNEL_LEAST_LEFT);
 }
 
 /* One splat's light on one pixel. */

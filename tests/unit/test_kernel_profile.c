@@ -68,18 +68,18 @@ static void test_bad_profiles_are_refused(void **state)
     assert_true(kernel_profile_normalize(&profile));
 }
 
-/* Half of every round kernel lies on each side of a border through its middle, and all of it before
+/* Half of every round kernel lies on each side of a border through its middle, and none of it beyond
  * one at its rim. */
 static void expect_boundary(const struct kernel_profile *profile)
 {
-    const float *boundary = profile->boundary;
-    assert_true(fabsf(boundary[0] - 2) < 1e-4f);
-    assert_true(fabsf(boundary[KERNEL_BOUNDARY_SIZE - 1] - 1) < 1e-6f);
+    const float *beyond = profile->beyond;
+    assert_true(fabsf(beyond[0] - 0.5f) < 1e-4f);
+    assert_true(fabsf(beyond[KERNEL_BOUNDARY_SIZE - 1]) < 1e-6f);
     for (size_t i = 1; i < KERNEL_BOUNDARY_SIZE; i++)
-        assert_true(boundary[i] <= boundary[i - 1] && boundary[i] >= 1);
+        assert_true(beyond[i] <= beyond[i - 1] && beyond[i] >= 0);
     /* Strictly, but for the last bits near the rim. */
     for (size_t i = 1; i < KERNEL_BOUNDARY_SIZE * 9 / 10; i++)
-        assert_true(boundary[i] < boundary[i - 1]);
+        assert_true(beyond[i] < beyond[i - 1]);
 }
 
 static void test_borders_cut_every_profile_by_its_part(void **state)
@@ -111,11 +111,25 @@ static void test_borders_cut_segments_off_a_disc(void **state)
     expect_boundary(&profile);
     for (size_t i = 0; i < KERNEL_BOUNDARY_SIZE; i++) {
         double d = (double)i / (KERNEL_BOUNDARY_SIZE - 1);
-        double expected = 1 / (1 - (acos(d) - d * sqrt(1 - d * d)) / pi);
-        worst = fmax(worst, fabs(profile.boundary[i] / expected - 1));
+        double expected = (acos(d) - d * sqrt(1 - d * d)) / pi;
+        worst = fmax(worst, fabs(profile.beyond[i] - expected));
     }
     print_message("an even disc's borders: at most %.2g off\n", worst);
-    assert_true(worst < 0.01);
+    assert_true(worst < 0.005);
+}
+
+/* A quarter of the kernel lies beyond each border. */
+static void test_two_borders_leave_what_lies_before_both(void **state)
+{
+    (void)state;
+    assert_float_equal(kernel_left(0.25f, 0.25f, -1), 0.5, 1e-6f);   /* a strip */
+    assert_float_equal(kernel_left(0.25f, 0.25f, 0), 0.5625, 1e-6f); /* a corner */
+    assert_float_equal(kernel_left(0.25f, 0.25f, 1), 0.75, 1e-6f);   /* one border, twice */
+    assert_float_equal(kernel_left(0.25f, 0.1f, 1), 0.75,
+                       1e-6f); /* the nearer one hides the other */
+    assert_float_equal(kernel_left(0.25f, 0, -0.3f), 0.75, 1e-6f); /* no other */
+    assert_float_equal(kernel_left(0.5f, 0.5f, -1), 0.0625,
+                       1e-6f); /* no more than sixteen times as bright */
 }
 
 int main(void)
@@ -124,6 +138,7 @@ int main(void)
         cmocka_unit_test(test_profiles_integrate_to_one),
         cmocka_unit_test(test_borders_cut_every_profile_by_its_part),
         cmocka_unit_test(test_borders_cut_segments_off_a_disc),
+        cmocka_unit_test(test_two_borders_leave_what_lies_before_both),
         cmocka_unit_test(test_bad_profiles_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,8 +15,9 @@ struct board {
     size_t packets; /* traced */
 };
 
-static void trace(const ps_host *host, ps_packet *packets, size_t n)
+static void trace(const ps_host *host, ps_packet *packets, size_t n, int coherent)
 {
+    (void)coherent;
     struct board *board = host->core;
     board->packets += n;
     for (size_t k = 0; k < n; k++)

@@ -32,8 +32,9 @@ static float meet(const struct plane *plane, ps_vec3 origin, ps_vec3 direction, 
     return ps_dot(sideways, sideways) < plane->half_width * plane->half_width ? t : before;
 }
 
-static void trace(const ps_host *host, ps_packet *packets, size_t n)
+static void trace(const ps_host *host, ps_packet *packets, size_t n, int coherent)
 {
+    (void)coherent;
     const struct room *room = host->core;
     for (size_t k = 0; k < n; k++)
         for (int i = 0; i < 16; i++) {
