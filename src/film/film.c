@@ -46,6 +46,7 @@ struct tile_row {
     const ps_rgb *direct, *emitted; /* of the row's pixels */
     size_t lane, pixel;             /* its first, in the tile and in the film */
     size_t count;
+    float shares[PS_TILE_SIZE]; /* of what each gathered, that is added */
 };
 
 /* Adds to a plane what the pixels of a row see; where they see no surface, nothing. */
@@ -54,15 +55,15 @@ static void add_seen(struct film *film, int plane, const struct tile_row *row, c
     const uint32_t *object = row->tile->object + row->lane;
     float *sums = film->planes[plane] + row->pixel;
     for (size_t i = 0; i < row->count; i++)
-        sums[i] += object[i] == PS_NO_OBJECT ? 0.0f : values[i];
+        sums[i] += object[i] == PS_NO_OBJECT ? 0.0f : row->shares[i] * values[i];
 }
 
 static void add_emitted(struct film *film, const struct tile_row *row)
 {
     for (size_t i = 0; i < row->count; i++) {
-        film->planes[FILM_DIRECT_R][row->pixel + i] += row->emitted[i].r;
-        film->planes[FILM_DIRECT_G][row->pixel + i] += row->emitted[i].g;
-        film->planes[FILM_DIRECT_B][row->pixel + i] += row->emitted[i].b;
+        film->planes[FILM_DIRECT_R][row->pixel + i] += row->shares[i] * row->emitted[i].r;
+        film->planes[FILM_DIRECT_G][row->pixel + i] += row->shares[i] * row->emitted[i].g;
+        film->planes[FILM_DIRECT_B][row->pixel + i] += row->shares[i] * row->emitted[i].b;
     }
 }
 
@@ -132,29 +133,48 @@ static void add_geometry(struct film *film, const struct tile_row *row)
     add_seen(film, FILM_COVERAGE, row, ones);
 }
 
+static struct tile_row row_of(const struct gbuffer *gbuffer, uint32_t tile, size_t lane,
+                              size_t pixel, size_t count)
+{
+    size_t first = (size_t)tile * PS_TILE_PIXELS + lane;
+    return (struct tile_row){
+        .tile = &gbuffer->tiles[tile],
+        .direct = &gbuffer->direct[first],
+        .emitted = &gbuffer->emitted[first],
+        .lane = lane,
+        .pixel = pixel,
+        .count = count,
+    };
+}
+
 static size_t at_most_a_tile(size_t pixels)
 {
     return pixels < PS_TILE_SIZE ? pixels : PS_TILE_SIZE;
 }
 
-void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t index)
+void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t index,
+                   const bool left_out[PS_TILE_PIXELS])
 {
     size_t x = (size_t)(index % gbuffer->tiles_across) * PS_TILE_SIZE;
     size_t y = (size_t)(index / gbuffer->tiles_across) * PS_TILE_SIZE;
-    size_t rows = at_most_a_tile(film->height - y);
+    size_t rows = at_most_a_tile(film->height - y), columns = at_most_a_tile(film->width - x);
     for (size_t i = 0; i < rows; i++) {
-        size_t lane = i * PS_TILE_SIZE, first = (size_t)index * PS_TILE_PIXELS + lane;
-        struct tile_row row = {
-            .tile = &gbuffer->tiles[index],
-            .direct = &gbuffer->direct[first],
-            .emitted = &gbuffer->emitted[first],
-            .lane = lane,
-            .pixel = (y + i) * film->width + x,
-            .count = at_most_a_tile(film->width - x),
-        };
+        size_t lane = i * PS_TILE_SIZE;
+        struct tile_row row = row_of(gbuffer, index, lane, (y + i) * film->width + x, columns);
+        for (size_t k = 0; k < columns; k++)
+            row.shares[k] = left_out && left_out[lane + k] ? 0.0f : 1.0f;
         add_light(film, &row);
         add_geometry(film, &row);
     }
+}
+
+void film_add_sample(struct film *film, const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane,
+                     float share, size_t x, size_t y)
+{
+    struct tile_row row = row_of(gbuffer, tile, lane, y * film->width + x, 1);
+    row.shares[0] = share;
+    add_light(film, &row);
+    add_geometry(film, &row);
 }
 
 void film_count_pass(struct film *film)

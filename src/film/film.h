@@ -41,9 +41,15 @@ ps_result film_create(size_t width, size_t height, struct film *film, struct err
 void film_release(struct film *film);
 size_t film_bytes(const struct film *film);
 
-/* Adds what one tile of a finished pass gathered; call for every tile, then count the pass. Tiles
- * may be added by different threads at once: they touch different pixels. */
-void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t tile);
+/* Adds what one tile of a finished pass gathered, but for the lanes that are `left_out` (NULL: none);
+ * call for every tile, then count the pass. Tiles may be added by different threads at once: they touch
+ * different pixels. */
+void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t tile,
+                   const bool left_out[PS_TILE_PIXELS]);
+
+/* Adds `share` of what a lane of a tile gathered to pixel (x, y), whose own lane was left out. */
+void film_add_sample(struct film *film, const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane,
+                     float share, size_t x, size_t y);
 void film_count_pass(struct film *film);
 
 /* Turns the sums of geometry and direct light into means: per pass for light, per covered pass for

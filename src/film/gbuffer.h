@@ -45,6 +45,13 @@ void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throu
 /* Lane of number i when a tile is walked in 4x4 blocks. */
 uint32_t gbuffer_block_lane(uint32_t i);
 
+/* Whether two points may be taken for points of one surface: normals no farther apart (`cosine`) than 25
+ * degrees, and one no farther off the other's plane than a tenth of their distance (squared: `distance2`). */
+static inline int gbuffer_same_surface(float cosine, float off_plane, float distance2)
+{
+    return (cosine > 0.9f) & (off_plane * off_plane <= 0.01f * distance2);
+}
+
 /* Forgets the indirect light of an unfinished pass. */
 void gbuffer_clear_indirect(struct gbuffer *gbuffer);
 

@@ -187,14 +187,15 @@ void emitted_radiance(const struct scene *scene, const ps_ray *rays, const ps_hi
 }
 
 void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer, uint32_t index,
-                       uint64_t seed, uint32_t pass)
+                       uint64_t seed, const uint64_t first_indices[PS_TILE_PIXELS],
+                       uint32_t samples)
 {
     const struct scene *scene = lighting->scene;
     ps_rgb *direct = &gbuffer->direct[(size_t)index * PS_TILE_PIXELS];
     ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}};
     uint64_t indices[PS_TILE_PIXELS];
     float room[PS_TILE_PIXELS][4];
-    uint32_t samples = scene->has_sized_lights ? scene->light_samples : 1;
+    samples = scene->has_sized_lights ? samples : 1;
     ps_points points;
     ps_collect_points(&gbuffer->tiles[index], &points);
     struct light_numbers numbers = {seed, PS_STREAM_LIGHT, 0, indices};
@@ -204,8 +205,7 @@ void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer,
                            .normals = points.normals};
     for (uint32_t sample = 0; sample < samples; sample++) {
         for (size_t i = 0; i < points.count; i++)
-            indices[i] =
-                ps_sample_block(index, points.lanes[i]) + (uint64_t)pass * samples + sample;
+            indices[i] = first_indices[points.lanes[i]] + sample;
         to.numbers = draw(scene, &numbers, 0, points.count, room);
         add_lights(&to, irradiance);
     }

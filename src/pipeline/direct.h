@@ -32,9 +32,10 @@ void direct_radiance(const struct lighting *lighting, const ps_ray *rays, const 
 void emitted_radiance(const struct scene *scene, const ps_ray *rays, const ps_hit *hits,
                       const float *pdfs, size_t n, ps_rgb *radiance);
 
-/* Fills in the direct irradiance of a tile's pixels: the mean of scene->light_samples shadow rays for
- * each light that has a size. */
+/* Fills in the direct irradiance of a tile's lanes: the mean of `samples` shadow rays for each light that
+ * has a size. `first_indices`: of each lane's random numbers, of which it takes as many. */
 void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer, uint32_t tile,
-                       uint64_t seed, uint32_t pass);
+                       uint64_t seed, const uint64_t first_indices[PS_TILE_PIXELS],
+                       uint32_t samples);
 
 #endif

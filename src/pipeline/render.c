@@ -4,9 +4,11 @@
 #include "base/parallel.h"
 #include "base/sample.h"
 #include "pipeline/direct.h"
+#include "pipeline/edges.h"
 #include "pipeline/pixel_filter.h"
 #include "pipeline/render_state.h"
 #include "pipeline/view.h"
+#include <psplat/tile.h>
 #include <string.h>
 
 static void report_progress(const struct render *render, const char *stage, double fraction)
@@ -94,29 +96,36 @@ static void destroy(struct render *render)
 /* Where in its pixels a pass looks: the first at their centres, later ones at points spread over
  * them, the same in all pixels so that a pass stays coherent. Not a matter of how many passes there
  * will be: a pass depends on its own number alone. */
-static void set_jitter(const struct render *render, struct view_pass *view)
+static void set_jitter(const struct render *render, float jitter[2])
 {
-    view->jitter_x = view->jitter_y = 0.5f;
+    jitter[0] = jitter[1] = 0.5f;
     if (render->pass.number == 0)
         return;
-    float numbers[4], point[2];
+    float numbers[4];
     sample_point(sample_key(render->settings->seed, PS_STREAM_PIXEL, 0), render->pass.number,
                  numbers);
-    pixel_filter_point(render->scene->pixel_filter, numbers, point);
-    view->jitter_x = point[0];
-    view->jitter_y = point[1];
+    pixel_filter_point(render->scene->pixel_filter, numbers, jitter);
 }
 
 struct tile_work {
     struct render *render;
     struct view_pass view;
+    float jitter[2];
 };
+
+static struct lighting lighting_of(const struct render *render)
+{
+    return (struct lighting){render->scene, render->trace, render->shadow_maps};
+}
 
 static void trace_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct tile_work *work = user;
-    view_trace_tile(&work->view, (uint32_t)index);
+    struct view_points points;
+    view_pixels(&work->render->gbuffer, (uint32_t)index, work->render->pass.number, work->jitter[0],
+                work->jitter[1], &points);
+    view_trace(&work->view, &points, (uint32_t)index);
 }
 
 static void light_tile(void *user, uint64_t index, uint32_t worker)
@@ -124,16 +133,36 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct tile_work *work = user;
     struct render *render = work->render;
-    struct lighting lighting = {render->scene, render->trace, render->shadow_maps};
-    direct_light_tile(&lighting, &render->gbuffer, (uint32_t)index, render->settings->seed,
-                      render->pass.number);
+    struct lighting lighting = lighting_of(render);
+    uint32_t samples = render->scene->light_samples;
+    uint64_t indices[PS_TILE_PIXELS];
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
+        indices[lane] = ps_sample_block(index, lane) + (uint64_t)render->pass.number * samples;
+    direct_light_tile(&lighting, &render->gbuffer, (uint32_t)index, render->settings->seed, indices,
+                      samples);
 }
 
 static void add_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct tile_work *work = user;
-    film_add_tile(&work->render->film, &work->render->gbuffer, (uint32_t)index);
+    film_add_tile(&work->render->film, &work->render->gbuffer, (uint32_t)index, NULL);
+}
+
+static void smooth_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct tile_work *work = user;
+    struct render *render = work->render;
+    struct lighting lighting = lighting_of(render);
+    struct edge_pass pass = {
+        .lighting = &lighting,
+        .gbuffer = &render->gbuffer,
+        .seed = render->settings->seed,
+        .number = render->pass.number,
+        .samples = render->settings->edge_samples,
+    };
+    edges_add_tile(&pass, (uint32_t)index, &render->film);
 }
 
 static void over_tiles(struct tile_work *work, const char *stage, parallel_body body)
@@ -183,10 +212,10 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
          .trace = render->trace,
          .maps = render->shadow_maps,
          .gbuffer = &render->gbuffer,
-         .seed = render->settings->seed,
-         .number = number},
+         .seed = render->settings->seed},
+        {0, 0},
     };
-    set_jitter(render, &work.view);
+    set_jitter(render, work.jitter);
     over_tiles(&work, "gbuffer", trace_tile);
     over_tiles(&work, "direct", light_tile);
     return work;
@@ -194,7 +223,8 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
 
 static void end_pass(struct tile_work *work)
 {
-    over_tiles(work, "film", add_tile);
+    bool smooth = work->render->settings->edge_samples > 1;
+    over_tiles(work, smooth ? "edges" : "film", smooth ? smooth_tile : add_tile);
     film_count_pass(&work->render->film);
 }
 

@@ -17,39 +17,29 @@ struct sight {
     ps_rgb throughput[PS_TILE_PIXELS];
     float travelled[PS_TILE_PIXELS];
     float pdfs[PS_TILE_PIXELS]; /* of the last scattering; 0 from the camera */
+    const uint64_t *indices;    /* of each lane's random numbers */
 };
 
-static uint64_t pixel_index(const struct view_pass *pass, uint32_t tile, uint32_t lane)
+static ps_ray look(const struct view_pass *pass, const struct view_points *points, uint32_t lane)
 {
-    return ps_sample_block(tile, lane) + pass->number;
-}
-
-static ps_ray look(const struct view_pass *pass, uint32_t tile, uint32_t lane)
-{
-    uint32_t x, y;
     const struct camera *camera = &pass->scene->camera;
-    gbuffer_pixel(pass->gbuffer, tile, lane, &x, &y);
     float lens[4] = {0, 0, 0, 0};
     if (camera->aperture > 0.0f)
-        sample_point(sample_key(pass->seed, PS_STREAM_VIEW, LENS_SET),
-                     pixel_index(pass, tile, lane), lens);
-    return camera_ray(camera, (float)x + pass->jitter_x, (float)y + pass->jitter_y, lens);
+        sample_point(sample_key(pass->seed, PS_STREAM_VIEW, LENS_SET), points->indices[lane], lens);
+    return camera_ray(camera, points->x[lane], points->y[lane], lens);
 }
 
-/* Lanes in 4x4 blocks, so that each packet of 16 rays is compact. */
-static void start(const struct view_pass *pass, uint32_t tile, struct sight *sight)
+static void start(const struct view_pass *pass, const struct view_points *points,
+                  struct sight *sight)
 {
-    sight->count = 0;
-    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
-        uint32_t x, y, lane = gbuffer_block_lane(i);
-        if (!gbuffer_pixel(pass->gbuffer, tile, lane, &x, &y))
-            continue;
-        size_t to = sight->count++;
-        sight->lanes[to] = lane;
-        sight->rays[to] = look(pass, tile, lane);
-        sight->throughput[to] = (ps_rgb){1, 1, 1};
-        sight->travelled[to] = 0.0f;
-        sight->pdfs[to] = 0.0f;
+    sight->count = points->count;
+    sight->indices = points->indices;
+    for (size_t i = 0; i < points->count; i++) {
+        sight->lanes[i] = points->lanes[i];
+        sight->rays[i] = look(pass, points, points->lanes[i]);
+        sight->throughput[i] = (ps_rgb){1, 1, 1};
+        sight->travelled[i] = 0.0f;
+        sight->pdfs[i] = 0.0f;
     }
 }
 
@@ -106,7 +96,7 @@ static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t 
     for (size_t i = 0; i < sight->count; i++) {
         glossy[i] = hits[i];
         glossy[i].albedo = (ps_rgb){0, 0, 0};
-        indices[i] = pixel_index(pass, tile, sight->lanes[i]);
+        indices[i] = sight->indices[sight->lanes[i]];
     }
     struct light_numbers numbers = {pass->seed, PS_STREAM_LIGHT, depth + 1, indices};
     struct lighting lighting = {pass->scene, pass->trace, pass->maps};
@@ -126,7 +116,7 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
     size_t left = 0;
     for (size_t i = 0; i < sight->count; i++) {
         float numbers[4];
-        sample_point(key, pixel_index(pass, tile, sight->lanes[i]), numbers);
+        sample_point(key, sight->indices[sight->lanes[i]], numbers);
         ps_scatter on = material_scatter(&scene->materials[hits[i].material], scene->microfacets,
                                          PS_FROM_CAMERA, &sight->rays[i], &hits[i], numbers);
         if (on.lobe == PS_DIFFUSE) {
@@ -147,12 +137,28 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
     sight->count = left;
 }
 
-void view_trace_tile(const struct view_pass *pass, uint32_t index)
+/* Lanes in 4x4 blocks, so that each packet of 16 rays is compact. */
+void view_pixels(const struct gbuffer *gbuffer, uint32_t tile, uint32_t number, float jitter_x,
+                 float jitter_y, struct view_points *points)
+{
+    points->count = 0;
+    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
+        uint32_t x, y, lane = gbuffer_block_lane(i);
+        if (!gbuffer_pixel(gbuffer, tile, lane, &x, &y))
+            continue;
+        points->lanes[points->count++] = lane;
+        points->x[lane] = (float)x + jitter_x;
+        points->y[lane] = (float)y + jitter_y;
+        points->indices[lane] = ps_sample_block(tile, lane) + number;
+    }
+}
+
+void view_trace(const struct view_pass *pass, const struct view_points *points, uint32_t index)
 {
     struct sight sight;
     ps_hit hits[PS_TILE_PIXELS];
     gbuffer_clear_tile(pass->gbuffer, index);
-    start(pass, index, &sight);
+    start(pass, points, &sight);
     for (uint32_t depth = 0; sight.count > 0 && depth <= PS_LONGEST_CHAIN; depth++) {
         trace_intersect(pass->trace, depth == 0 ? RAYS_CAMERA : RAYS_INCOHERENT, sight.rays,
                         sight.count, hits);

@@ -16,11 +16,22 @@ struct view_pass {
     const struct shadow_maps *maps; /* for what gloss reflects of the lights; NULL: shadow rays */
     struct gbuffer *gbuffer;
     uint64_t seed;
-    uint32_t number;          /* of the pass */
-    float jitter_x, jitter_y; /* from the pixels' corners to where the pass looks, in pixels */
 };
 
+/* Where lanes of a tile look. */
+struct view_points {
+    size_t count;                               /* of lanes that look anywhere */
+    uint32_t lanes[PS_TILE_PIXELS];             /* these, compact ones next to each other */
+    float x[PS_TILE_PIXELS], y[PS_TILE_PIXELS]; /* of each lane, in pixels of the picture */
+    uint64_t indices[PS_TILE_PIXELS];           /* of each lane's random numbers */
+};
+
+/* The pixels of a tile of the picture, all at the same place (jitter_x, jitter_y) from their upper left
+ * corners, in pass `number`. */
+void view_pixels(const struct gbuffer *gbuffer, uint32_t tile, uint32_t number, float jitter_x,
+                 float jitter_y, struct view_points *points);
+
 /* Fills tile `index`, and zeroes its accumulators. */
-void view_trace_tile(const struct view_pass *pass, uint32_t index);
+void view_trace(const struct view_pass *pass, const struct view_points *points, uint32_t index);
 
 #endif

@@ -149,11 +149,6 @@ void field_fill(struct field *field, const struct gbuffer *gbuffer, uint32_t thr
 #define MARGIN (PS_MOST_INTERLEAVE / 2)
 #define APRON (PS_TILE_SIZE + 2 * MARGIN)
 
-/* Neighbours count whose normal is no farther off than 25 degrees, and that lie no farther off the
- * plane than a tenth of their distance. */
-#define LEAST_COSINE 0.9f
-#define MOST_SLOPE2 0.01f
-
 /* A tile of the G-buffer and what lies around it, row by row. */
 struct apron {
     float position_x[APRON][APRON], position_y[APRON][APRON], position_z[APRON][APRON];
@@ -204,7 +199,7 @@ static void add_neighbours(const struct apron *apron, int row, int dx, int dy, f
         float cosine = nx * apron->normal_x[other][there] + ny * apron->normal_y[other][there] +
                        nz * apron->normal_z[other][there];
         float off = nx * x + ny * y + nz * z;
-        int same = (cosine > LEAST_COSINE) & (off * off <= MOST_SLOPE2 * (x * x + y * y + z * z));
+        int same = gbuffer_same_surface(cosine, off, x * x + y * y + z * z);
         float weight = (float)same * share;
         sums->total[i] += weight;
         sums->r[i] += weight * apron->irradiance_r[other][there];

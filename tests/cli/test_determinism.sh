@@ -25,6 +25,12 @@ same batch17 --threads 3 --batch 17
 same batch_large --threads 2 --batch 4096
 same quiet --quiet
 
+# With more samples at edges, which read what other threads' tiles hold.
+run 0 $scene --set render.edge_samples=5 --threads 1 -o edges.exr
+run 0 $scene --set render.edge_samples=5 --threads 3 -o edges3.exr
+expect_same edges3.exr edges.exr
+run 1 compare edges.exr one.exr --fail 'rel_rmse>0.001'
+
 # Of one instruction set, that is: others round otherwise, and that little.
 run 0 $scene --isa baseline --threads 1 -o baseline.exr
 run 0 $scene --isa=baseline --threads 3 --batch 100 -o baseline3.exr

@@ -87,7 +87,7 @@ static void add_pass(uint32_t first, float factor)
             else
                 see_nothing(&bench.gbuffer.tiles[tile], lane);
         }
-        film_add_tile(&bench.film, &bench.gbuffer, tile);
+        film_add_tile(&bench.film, &bench.gbuffer, tile, NULL);
     }
     film_count_pass(&bench.film);
 }
@@ -99,6 +99,31 @@ static void expect(enum film_plane plane, uint32_t x, uint32_t y, double expecte
         fail_msg("plane %d at (%u, %u): %.8g, expected %.8g", (int)plane, x, y, value, expected);
 }
 
+/* A pixel that is left out gets what its samples hold instead, by their shares. */
+static void test_samples_take_the_place_of_a_lane(void **state)
+{
+    (void)state;
+    bool left_out[PS_TILE_PIXELS] = {false};
+    left_out[1] = true;
+    gbuffer_clear_tile(&bench.gbuffer, 0);
+    for (uint32_t lane = 0; lane < 3; lane++) {
+        bench.gbuffer.emitted[lane] = (ps_rgb){1, 1, 1};
+        see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[lane], lane, 1);
+    }
+    film_add_tile(&bench.film, &bench.gbuffer, 0, left_out);
+    expect(FILM_DIRECT_R, 0, 0, 1 + 5 * 0.5 / PI);
+    expect(FILM_DIRECT_R, 1, 0, 0);
+    expect(FILM_COVERAGE, 1, 0, 0);
+    see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[2], 2, 9);
+    film_add_sample(&bench.film, &bench.gbuffer, 0, 0, 0.75f, 1, 0);
+    film_add_sample(&bench.film, &bench.gbuffer, 0, 2, 0.25f, 1, 0);
+    expect(FILM_DIRECT_R, 1, 0, 1 + 5 * 0.5 / PI * (0.75 + 0.25 * 9));
+    expect(FILM_COLOR_G, 1, 0, 2 * 0.25 / PI * (0.75 + 0.25 * 9));
+    expect(FILM_POSITION_X, 1, 0, 0.75 + 0.25 * 9);
+    expect(FILM_COVERAGE, 1, 0, 1);
+    expect(FILM_COVERAGE, 0, 0, 1);
+}
+
 /* What is emitted joins the direct light, also where no surface is seen. */
 static void test_emission_is_added(void **state)
 {
@@ -108,7 +133,7 @@ static void test_emission_is_added(void **state)
     bench.gbuffer.emitted[1] = (ps_rgb){4, 5, 6};
     bench.gbuffer.direct[0] = bench.gbuffer.direct[1] = (ps_rgb){0, 0, 0};
     see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[1], 1, 1);
-    film_add_tile(&bench.film, &bench.gbuffer, 0);
+    film_add_tile(&bench.film, &bench.gbuffer, 0, NULL);
     expect(FILM_DIRECT_B, 0, 0, 3);
     expect(FILM_COVERAGE, 0, 0, 0);
     expect(FILM_DIRECT_R, 1, 0, 4 + 5 * 0.5 / PI);
@@ -238,10 +263,15 @@ static void test_clear_indirect(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        FILM_TEST(test_lanes_are_pixels),      FILM_TEST(test_new_film_is_empty),
-        FILM_TEST(test_passes_add_up),         FILM_TEST(test_average),
-        FILM_TEST(test_partly_covered_pixels), FILM_TEST(test_uncovered_pixels),
-        FILM_TEST(test_emission_is_added),     FILM_TEST(test_clear_indirect),
+        FILM_TEST(test_lanes_are_pixels),
+        FILM_TEST(test_new_film_is_empty),
+        FILM_TEST(test_passes_add_up),
+        FILM_TEST(test_average),
+        FILM_TEST(test_partly_covered_pixels),
+        FILM_TEST(test_uncovered_pixels),
+        FILM_TEST(test_emission_is_added),
+        FILM_TEST(test_clear_indirect),
+        FILM_TEST(test_samples_take_the_place_of_a_lane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

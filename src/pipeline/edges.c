@@ -1,0 +1,244 @@
+#include "pipeline/edges.h"
+
+#include "base/sample.h"
+#include "pipeline/pixel_filter.h"
+#include "pipeline/view.h"
+#include <psplat/host.h>
+#include <psplat/tile.h>
+
+/* Radiance and albedo differ where they do by more than this share of the larger one. */
+#define CONTRAST 0.25f
+
+/* Pixels up to so far to each side know of the indirect light at a sample. */
+#define NEIGHBOURHOOD 2
+
+/* Random numbers of samples at edges come from the upper half of a pixel's own. */
+#define EDGE_NUMBERS ((uint64_t)1 << 23)
+
+/* --- finding them ------------------------------------------------------------------------------- */
+
+/* A pixel of the G-buffer. */
+struct place {
+    const ps_tile *tile;
+    uint32_t lane;
+    ps_rgb direct, emitted;
+};
+
+/* False outside of the picture. */
+static bool place_of(const struct gbuffer *gbuffer, int64_t x, int64_t y, struct place *place)
+{
+    if (x < 0 || y < 0 || x >= (int64_t)gbuffer->width || y >= (int64_t)gbuffer->height)
+        return false;
+    size_t tile = (size_t)y / PS_TILE_SIZE * gbuffer->tiles_across + (size_t)x / PS_TILE_SIZE;
+    uint32_t lane = (uint32_t)y % PS_TILE_SIZE * PS_TILE_SIZE + (uint32_t)x % PS_TILE_SIZE;
+    size_t pixel = tile * PS_TILE_PIXELS + lane;
+    *place = (struct place){&gbuffer->tiles[tile], lane, gbuffer->direct[pixel],
+                            gbuffer->emitted[pixel]};
+    return true;
+}
+
+static bool sees_surface(const struct place *place)
+{
+    return place->tile->object[place->lane] != PS_NO_OBJECT;
+}
+
+static ps_vec3 position_of(const ps_tile *tile, uint32_t lane)
+{
+    return (ps_vec3){tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
+}
+
+static ps_vec3 normal_of(const ps_tile *tile, uint32_t lane)
+{
+    return (ps_vec3){tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
+}
+
+static bool same_surface(const ps_tile *tile, uint32_t lane, const ps_tile *other,
+                         uint32_t other_lane)
+{
+    ps_vec3 normal = normal_of(tile, lane);
+    ps_vec3 way = ps_subtract(position_of(other, other_lane), position_of(tile, lane));
+    return tile->object[lane] == other->object[other_lane] &&
+           gbuffer_same_surface(ps_dot(normal, normal_of(other, other_lane)), ps_dot(normal, way),
+                                ps_dot(way, way));
+}
+
+static ps_rgb albedo_of(const struct place *place)
+{
+    const ps_tile *tile = place->tile;
+    uint32_t lane = place->lane;
+    return (ps_rgb){tile->albedo_r[lane] * tile->throughput_r[lane],
+                    tile->albedo_g[lane] * tile->throughput_g[lane],
+                    tile->albedo_b[lane] * tile->throughput_b[lane]};
+}
+
+static ps_rgb radiance_of(const struct place *place)
+{
+    ps_rgb reflected = ps_rgb_multiply(albedo_of(place), place->direct);
+    return ps_rgb_add(place->emitted, ps_rgb_scale(reflected, 1.0f / PS_PI));
+}
+
+static bool numbers_differ(float a, float b)
+{
+    return fabsf(a - b) > CONTRAST * fmaxf(a, b);
+}
+
+static bool colors_differ(ps_rgb a, ps_rgb b)
+{
+    return numbers_differ(a.r, b.r) || numbers_differ(a.g, b.g) || numbers_differ(a.b, b.b);
+}
+
+static bool places_differ(const struct place *a, const struct place *b)
+{
+    if (sees_surface(a) != sees_surface(b))
+        return true;
+    if (sees_surface(a) && !same_surface(a->tile, a->lane, b->tile, b->lane))
+        return true;
+    return colors_differ(albedo_of(a), albedo_of(b)) ||
+           colors_differ(radiance_of(a), radiance_of(b));
+}
+
+static bool is_edge(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane)
+{
+    static const int steps[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    uint32_t x, y;
+    struct place here, there;
+    if (!gbuffer_pixel(gbuffer, tile, lane, &x, &y) || !place_of(gbuffer, x, y, &here))
+        return false;
+    for (int i = 0; i < 4; i++)
+        if (place_of(gbuffer, (int64_t)x + steps[i][0], (int64_t)y + steps[i][1], &there) &&
+            places_differ(&here, &there))
+            return true;
+    return false;
+}
+
+uint32_t edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE_PIXELS])
+{
+    uint32_t count = 0;
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        edges[lane] = is_edge(gbuffer, tile, lane);
+        count += edges[lane];
+    }
+    return count;
+}
+
+/* --- looking again ------------------------------------------------------------------------------ */
+
+/* Samples under way: one tile of a picture of its own. */
+struct looks {
+    struct view_points points;
+    uint32_t x[PS_TILE_PIXELS], y[PS_TILE_PIXELS]; /* their pixels */
+    uint64_t light_numbers[PS_TILE_PIXELS];
+    ps_tile tile;
+    ps_rgb direct[PS_TILE_PIXELS], emitted[PS_TILE_PIXELS];
+};
+
+/* Shadow rays of a sample: all samples together have no fewer than a pixel elsewhere. */
+static uint32_t light_samples_of(const struct edge_pass *pass)
+{
+    return (pass->lighting->scene->light_samples + pass->samples - 1) / pass->samples;
+}
+
+static void add_look(const struct edge_pass *pass, uint32_t tile, uint32_t lane, uint32_t sample,
+                     struct looks *looks)
+{
+    uint32_t to = (uint32_t)looks->points.count++;
+    uint64_t block = ps_sample_block(tile, lane);
+    uint64_t number = (uint64_t)pass->number * pass->samples + sample;
+    float numbers[4], point[2];
+    sample_point(sample_key(pass->seed, PS_STREAM_PIXEL, 1), block + number, numbers);
+    pixel_filter_point(pass->lighting->scene->pixel_filter, numbers, point);
+    gbuffer_pixel(pass->gbuffer, tile, lane, &looks->x[to], &looks->y[to]);
+    looks->points.lanes[to] = to;
+    looks->points.x[to] = (float)looks->x[to] + point[0];
+    looks->points.y[to] = (float)looks->y[to] + point[1];
+    looks->points.indices[to] = block + EDGE_NUMBERS + number;
+    looks->light_numbers[to] = block + EDGE_NUMBERS + number * light_samples_of(pass);
+}
+
+/* What pixels hold of indirect light. */
+struct indirect {
+    ps_rgb irradiance;
+    float weight;
+    float pixels;
+};
+
+static void add_indirect(const struct place *from, struct indirect *sum)
+{
+    const ps_tile *tile = from->tile;
+    ps_rgb irradiance = {tile->irradiance_r[from->lane], tile->irradiance_g[from->lane],
+                         tile->irradiance_b[from->lane]};
+    sum->irradiance = ps_rgb_add(sum->irradiance, irradiance);
+    sum->weight += tile->weight[from->lane];
+    sum->pixels += 1.0f;
+}
+
+/* Gives a sample the mean of the indirect light that the pixels around found on its surface. */
+static void borrow_indirect(const struct gbuffer *gbuffer, struct looks *looks, uint32_t i)
+{
+    struct indirect same = {.pixels = 0.0f}, any = {.pixels = 0.0f};
+    for (int dy = -NEIGHBOURHOOD; dy <= NEIGHBOURHOOD; dy++)
+        for (int dx = -NEIGHBOURHOOD; dx <= NEIGHBOURHOOD; dx++) {
+            struct place there;
+            if (!place_of(gbuffer, (int64_t)looks->x[i] + dx, (int64_t)looks->y[i] + dy, &there) ||
+                !sees_surface(&there))
+                continue;
+            add_indirect(&there, &any);
+            if (same_surface(&looks->tile, i, there.tile, there.lane))
+                add_indirect(&there, &same);
+        }
+    const struct indirect *found = same.pixels > 0.0f ? &same : &any;
+    float scale = found->pixels > 0.0f ? 1.0f / found->pixels : 0.0f;
+    looks->tile.irradiance_r[i] = scale * found->irradiance.r;
+    looks->tile.irradiance_g[i] = scale * found->irradiance.g;
+    looks->tile.irradiance_b[i] = scale * found->irradiance.b;
+    looks->tile.weight[i] = scale * found->weight;
+}
+
+/* Traces the samples, adds them to their pixels and forgets them. */
+static void finish_looks(const struct edge_pass *pass, struct looks *looks, struct film *film)
+{
+    const struct lighting *lighting = pass->lighting;
+    struct gbuffer gbuffer = {
+        .width = PS_TILE_SIZE,
+        .height = PS_TILE_SIZE,
+        .tiles_across = 1,
+        .tiles_down = 1,
+        .tile_count = 1,
+        .tiles = &looks->tile,
+        .direct = looks->direct,
+        .emitted = looks->emitted,
+    };
+    struct view_pass view = {
+        .scene = lighting->scene,
+        .trace = lighting->trace,
+        .maps = lighting->maps,
+        .gbuffer = &gbuffer,
+        .seed = pass->seed,
+    };
+    view_trace(&view, &looks->points, 0);
+    direct_light_tile(lighting, &gbuffer, 0, pass->seed, looks->light_numbers,
+                      light_samples_of(pass));
+    for (uint32_t i = 0; i < looks->points.count; i++) {
+        borrow_indirect(pass->gbuffer, looks, i);
+        film_add_sample(film, &gbuffer, 0, i, 1.0f / (float)pass->samples, looks->x[i],
+                        looks->y[i]);
+    }
+    looks->points.count = 0;
+}
+
+void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *film)
+{
+    bool edges[PS_TILE_PIXELS];
+    _Alignas(64) struct looks looks;
+    looks.points.count = 0;
+    uint32_t count = edges_find(pass->gbuffer, tile, edges);
+    film_add_tile(film, pass->gbuffer, tile, count > 0 ? edges : NULL);
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS && count > 0; lane++)
+        for (uint32_t sample = 0; sample < pass->samples && edges[lane]; sample++) {
+            add_look(pass, tile, lane, sample, &looks);
+            if (looks.points.count == PS_TILE_PIXELS)
+                finish_looks(pass, &looks, film);
+        }
+    if (looks.points.count > 0)
+        finish_looks(pass, &looks, film);
+}

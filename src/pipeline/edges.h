@@ -1,0 +1,37 @@
+/* edges.h: smooth edges in a single pass: more camera samples where neighbouring pixels differ.
+ *
+ * A pass looks at one point of each pixel, so that edges come out as stairs until many passes are added
+ * up; yet most pixels lie on one surface, of which one look tells all. Adaptive supersampling (Whitted
+ * 1980, "An improved illumination model for shaded display", section 3) looks again only where a pixel
+ * differs from a neighbour: in its surface, in its albedo, or in the light that comes from it straight
+ * from the lights. Each further sample has surface, emission and direct light of its own. Its indirect
+ * light, which is smooth and dear, is the mean of what the pixels around found on the same surface, so that
+ * estimators are not asked again. Not so by tracing the picture at a higher resolution: that costs
+ * everywhere.
+ *
+ * Things too thin for the middle of any pixel are found only beside an edge. Where no pixel around
+ * sees a sample's surface, it takes the mean of all that see any.
+ */
+#ifndef PIPELINE_EDGES_H
+#define PIPELINE_EDGES_H
+
+#include "film/film.h"
+#include "pipeline/direct.h"
+
+/* A pass whose G-buffer has all its light. */
+struct edge_pass {
+    const struct lighting *lighting;
+    const struct gbuffer *gbuffer;
+    uint64_t seed;
+    uint32_t number;  /* of the pass */
+    uint32_t samples; /* of a pixel at an edge */
+};
+
+/* Which pixels of a tile differ from a neighbour to the left, right, top or bottom; how many. Reads
+ * neighbouring tiles. */
+uint32_t edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE_PIXELS]);
+
+/* Adds a tile to the film: pixels at edges by the mean of their samples, the others by what they hold. */
+void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *film);
+
+#endif

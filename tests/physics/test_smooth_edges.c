@@ -1,0 +1,102 @@
+/* test_smooth_edges.c: one pass with many samples at edges comes close to many passes.
+ *
+ * A ball on a checkered floor, under a spotlight that casts its shadow, with a mirror behind it and as
+ * much indirect light everywhere: there are edges of things, textures, shadows and what a mirror shows.
+ * Pixels off the edges are the same as without, bit for bit.
+ */
+#include "support/render_scene.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+static const char scene[] =
+    "psd: 1\n"
+    "camera: {location: [0, 1.6, -4], look_at: [0, 0.6, 0], angle: 50}\n"
+    "image: {width: 96, height: 54}\n"
+    "materials:\n"
+    "  floor: {diffuse: {checker: {colors: [0.2, 0.8], scale: 0.5}}}\n"
+    "  ball: {diffuse: [0.8, 0.3, 0.2]}\n"
+    "  mirror: {mirror: 0.9}\n"
+    "lights:\n"
+    "  - spotlight: {location: [-2, 4, -2], point_at: [0, 0, 0], radius: 60, falloff: 70,\n"
+    "                intensity: 40}\n"
+    "objects:\n"
+    "  - quad: {corners: [[-4, 0, -3], [-4, 0, 3], [4, 0, 3], [4, 0, -3]], material: floor}\n"
+    "  - sphere: {center: [0, 0.6, 0], radius: 0.6, material: ball}\n"
+    "  - quad: {corners: [[0.5, 0, 2], [0.5, 2, 2], [2.5, 2, 1.5], [2.5, 0, 1.5]],\n"
+    "           material: mirror}\n"
+    "render: {passes: %d, edge_samples: %d}\n";
+
+static struct rendering look(int passes, int edge_samples)
+{
+    static const char *const choices[] = {"estimator=ambient:irradiance=2", NULL};
+    char text[2048];
+    snprintf(text, sizeof text, scene, passes, edge_samples);
+    return render_text(text, 2, choices);
+}
+
+/* Relative RMSE of a channel. */
+static double error_of(const struct rendering *test, const struct rendering *reference,
+                       const char *name)
+{
+    const float *a = image_channel(&test->image, name), *b = image_channel(&reference->image, name);
+    double squares = 0, all = 0;
+    for (size_t i = 0; i < test->image.width * test->image.height; i++) {
+        squares += pow((double)a[i] - b[i], 2);
+        all += pow(b[i], 2);
+    }
+    return sqrt(squares / all);
+}
+
+static double share_of_equal(const struct rendering *a, const struct rendering *b, const char *name)
+{
+    const float *one = image_channel(&a->image, name), *other = image_channel(&b->image, name);
+    size_t equal = 0, pixels = a->image.width * a->image.height;
+    for (size_t i = 0; i < pixels; i++)
+        equal += one[i] == other[i];
+    return (double)equal / (double)pixels;
+}
+
+static void test_one_pass_comes_close_to_many(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"R", "direct.G", "indirect.G", "albedo.G", "N.Y"};
+    struct rendering reference = look(1024, 1), plain = look(1, 1), smooth = look(1, 64);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        double without = error_of(&plain, &reference, names[i]);
+        double with = error_of(&smooth, &reference, names[i]);
+        print_message("%s: %.2f %% without, %.2f %% with\n", names[i], 100 * without, 100 * with);
+        assert_true(with < without / 4);
+    }
+    double equal = share_of_equal(&smooth, &plain, "R");
+    print_message("%.1f %% of the pixels are the same\n", 100 * equal);
+    assert_true(equal > 0.5 && equal < 0.95);
+    rendering_release(&reference);
+    rendering_release(&plain);
+    rendering_release(&smooth);
+}
+
+/* Passes go on from each other's samples. */
+static void test_passes_add_to_it(void **state)
+{
+    (void)state;
+    struct rendering reference = look(1024, 1), one = look(1, 4), sixteen = look(16, 4);
+    double first = error_of(&one, &reference, "R"), last = error_of(&sixteen, &reference, "R");
+    print_message("4 samples: %.2f %%; in 16 passes: %.2f %%\n", 100 * first, 100 * last);
+    assert_true(last < first / 3);
+    rendering_release(&reference);
+    rendering_release(&one);
+    rendering_release(&sixteen);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_one_pass_comes_close_to_many),
+        cmocka_unit_test(test_passes_add_to_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

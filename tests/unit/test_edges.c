@@ -1,0 +1,139 @@
+/* test_edges.c: which pixels differ from their neighbours. The picture is wider than a tile, and its right
+ * half differs from its left one in one thing at a time. */
+#include "pipeline/edges.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#define WIDTH 20
+#define HEIGHT 18
+
+static struct gbuffer gbuffer;
+
+static int open_gbuffer(void **state)
+{
+    (void)state;
+    struct error error;
+    return gbuffer_create(WIDTH, HEIGHT, &gbuffer, &error);
+}
+
+static int close_gbuffer(void **state)
+{
+    (void)state;
+    gbuffer_release(&gbuffer);
+    return 0;
+}
+
+static const ps_hit grey = {.normal = {0, 0, 1}, .albedo = {0.5f, 0.5f, 0.5f}};
+
+/* All see a plane: those from column `first` on the other one, at its place. */
+static void fill(uint32_t first, const ps_hit *other, ps_rgb other_direct, ps_rgb other_emitted)
+{
+    for (uint32_t tile = 0; tile < gbuffer.tile_count; tile++) {
+        gbuffer_clear_tile(&gbuffer, tile);
+        for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+            uint32_t x, y;
+            bool inside = gbuffer_pixel(&gbuffer, tile, lane, &x, &y), far = x >= first;
+            size_t i = (size_t)tile * PS_TILE_PIXELS + lane;
+            ps_hit hit = far ? *other : grey;
+            hit.position.x = (float)x;
+            hit.position.y = (float)y;
+            gbuffer.direct[i] = far ? other_direct : (ps_rgb){1, 1, 1};
+            gbuffer.emitted[i] = far ? other_emitted : (ps_rgb){0, 0, 0};
+            if (inside && hit.object != PS_NO_OBJECT)
+                gbuffer_store(&gbuffer.tiles[tile], lane, &hit, (ps_rgb){1, 1, 1}, 1);
+        }
+    }
+}
+
+/* The pixels at both sides of column `first` and no others are edges; 0: there are none. */
+static void expect_edge_at(uint32_t first)
+{
+    for (uint32_t tile = 0; tile < gbuffer.tile_count; tile++) {
+        bool edges[PS_TILE_PIXELS];
+        uint32_t count = 0, found = edges_find(&gbuffer, tile, edges);
+        for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+            uint32_t x, y;
+            bool inside = gbuffer_pixel(&gbuffer, tile, lane, &x, &y);
+            bool expected = inside && first > 0 && (x == first || x + 1 == first);
+            assert_int_equal(edges[lane], expected);
+            count += edges[lane];
+        }
+        assert_int_equal(found, count);
+    }
+}
+
+static const ps_rgb one = {1, 1, 1}, none = {0, 0, 0};
+
+static void test_a_plane_has_none(void **state)
+{
+    (void)state;
+    fill(7, &grey, one, none);
+    expect_edge_at(0);
+    ps_hit sky = grey;
+    sky.object = PS_NO_OBJECT;
+    fill(0, &sky, one, none); /* nor has nothing */
+    expect_edge_at(0);
+}
+
+static void test_surfaces_that_differ(void **state)
+{
+    (void)state;
+    ps_hit other = grey;
+    other.normal = (ps_vec3){0, 0, -1};
+    fill(7, &other, one, none);
+    expect_edge_at(7);
+    other = grey;
+    other.position.z = 1; /* a step */
+    fill(7, &other, one, none);
+    expect_edge_at(7);
+    other = grey;
+    other.object = 1;
+    fill(7, &other, one, none);
+    expect_edge_at(7);
+    other.object = PS_NO_OBJECT;
+    fill(7, &other, one, none);
+    expect_edge_at(7);
+}
+
+static void test_edges_between_tiles(void **state)
+{
+    (void)state;
+    ps_hit other = grey;
+    other.object = 1;
+    fill(PS_TILE_SIZE, &other, one, none);
+    expect_edge_at(PS_TILE_SIZE);
+}
+
+/* By more than a quarter of the larger one. */
+static void test_light_and_albedo_that_differ(void **state)
+{
+    (void)state;
+    fill(7, &grey, (ps_rgb){1, 0.7f, 1}, none);
+    expect_edge_at(7);
+    fill(7, &grey, (ps_rgb){1, 0.8f, 1}, none);
+    expect_edge_at(0);
+    fill(7, &grey, one, (ps_rgb){0, 0, 0.1f}); /* beside 0.5 / pi reflected */
+    expect_edge_at(7);
+    ps_hit other = grey;
+    other.albedo.r = 0.35f;
+    fill(7, &other, none, none); /* in the dark indirect light may show it */
+    expect_edge_at(7);
+    other.albedo.r = 0.4f;
+    fill(7, &other, one, none);
+    expect_edge_at(0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_plane_has_none),
+        cmocka_unit_test(test_surfaces_that_differ),
+        cmocka_unit_test(test_edges_between_tiles),
+        cmocka_unit_test(test_light_and_albedo_that_differ),
+    };
+    return cmocka_run_group_tests(tests, open_gbuffer, close_gbuffer);
+}
