@@ -249,8 +249,8 @@ struct render_description {
     int64_t passes;
     int64_t seed;
     int64_t light_samples; /* shadow rays for each light that has a size, pixel and pass */
-    int64_t edge_samples;  /* camera samples of a pixel at an edge, in each pass; 1: as everywhere */
-    int32_t direct;        /* enum direct_light */
+    int64_t edge_samples; /* camera samples of a pixel at an edge, in each pass; 1: as everywhere */
+    int32_t direct;       /* enum direct_light */
     int64_t direct_resolution;
     double indirect_exposure; /* factor on the indirect light when it joins the direct light */
     ps_rgb ambient;           /* radiance of pixels that no indirect light reached */
