@@ -284,7 +284,7 @@ ps_result render_inspect(const struct scene *scene, struct render_settings *sett
         .callbacks = callbacks,
         .statistics = statistics,
     };
-    settings->passes = 1;
+    settings->passes = settings->edge_samples = 1;
     host_create(&render);
     ps_result result = create(&render, error);
     if (result == PS_OK) {
