@@ -88,9 +88,9 @@ static const struct schema_row render_rows[] = {
                  "start of the random numbers")),
     VALUE(PS_INT(struct render_description, light_samples, "4", 1, 65536, "",
                  "shadow rays to each light that has a size, for a pixel and pass")),
-    VALUE(
-        PS_INT(struct render_description, edge_samples, "1", 1, 1024, "",
-               "looks at a pixel that differs from its neighbours, in each pass; 1: as elsewhere")),
+    VALUE(PS_INT(
+        struct render_description, edge_samples, "1", 1, 1024, "",
+        "how many points of a pixel that differs from its neighbours are looked at in each pass")),
     VALUE(PS_CHOICE(struct render_description, direct, "rays", direct_ways,
                     "how it is found what lights reach; those that have a size: by rays alone")),
     VALUE(PS_INT(struct render_description, direct_resolution, "1024", 1, 8192, "pixels",

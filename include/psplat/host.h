@@ -86,7 +86,7 @@ struct ps_host {
     void (*occluded)(const ps_host *host, const ps_ray *rays, size_t n, uint8_t *blocked);
 
     /* Traces packets; see ps_packet. The fastest way where 16 rays run close together and side by side, in
-     * 4x4 blocks rather than rows: `coherent` then is 1. Where they run apart, 0 is as much faster; either
+     * 4x4 blocks rather than rows: `coherent` then is 1. Where they run apart, 0 is faster; either
      * gives the same. [any thread] */
     void (*intersect_packets)(const ps_host *host, ps_packet *packets, size_t n, int coherent);
 

@@ -150,9 +150,10 @@ typedef struct ps_denoiser_vtable {
     PS_NUMBER_OR(                                                                                  \
         state, size, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",              \
         "half-width of the box; auto: by the scene's radius and the number of light paths"),       \
-        PS_NUMBER(state, follow, "0.6", 0, INFINITY, 0, "",                                        \
-                  "limit of size, down to a part of it or to the interleaved pixels, as a fraction of " \
-                  "the distance travelled; 0: none"),                                              \
+        PS_NUMBER(                                                                                 \
+            state, follow, "0.6", 0, INFINITY, 0, "",                                              \
+            "limit of size, down to a part of it or to the interleaved pixels, as a fraction of "  \
+            "the distance travelled; 0: none"),                                                    \
         PS_NUMBER_OR(state, depth, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto,               \
                      "scene units",                                                                \
                      "reach of the box past the first hit; auto: what the hit's slope needs"),     \

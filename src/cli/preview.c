@@ -13,6 +13,7 @@ static const struct option passes = {.name = "passes"}, set = {.name = "set"},
 static const struct argument stands_for[] = {
     {&passes, "1"},
     {&set, "render.light_samples=4"},
+    {&set, "render.edge_samples=1"},
     {&plugin, "injection=photon:count=10000"},
     {&plugin, "stratification=none"},
     {&plugin, "visibility=shadowmap:size=auto,resolution=4"},

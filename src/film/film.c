@@ -55,12 +55,15 @@ static void add_seen(struct film *film, int plane, const struct tile_row *row, c
     const uint32_t *object = row->tile->object + row->lane;
     float *sums = film->planes[plane] + row->pixel;
     for (size_t i = 0; i < row->count; i++)
-        sums[i] += object[i] == PS_NO_OBJECT ? 0.0f : row->shares[i] * values[i];
+        sums[i] +=
+            object[i] == PS_NO_OBJECT || row->shares[i] <= 0.0f ? 0.0f : row->shares[i] * values[i];
 }
 
 static void add_emitted(struct film *film, const struct tile_row *row)
 {
     for (size_t i = 0; i < row->count; i++) {
+        if (row->shares[i] <= 0.0f)
+            continue;
         film->planes[FILM_DIRECT_R][row->pixel + i] += row->shares[i] * row->emitted[i].r;
         film->planes[FILM_DIRECT_G][row->pixel + i] += row->shares[i] * row->emitted[i].g;
         film->planes[FILM_DIRECT_B][row->pixel + i] += row->shares[i] * row->emitted[i].b;

@@ -26,7 +26,7 @@ enum film_plane {
     FILM_POSITION_Y,
     FILM_POSITION_Z,
     FILM_DEPTH,
-    FILM_COVERAGE, /* passes in which the pixel saw a surface */
+    FILM_COVERAGE, /* passes, or shares of them, in which the pixel saw a surface */
     FILM_PLANES
 };
 

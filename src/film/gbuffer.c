@@ -23,7 +23,8 @@ ps_result gbuffer_create(size_t width, size_t height, struct gbuffer *gbuffer, s
     gbuffer->tiles = aligned_alloc(64, gbuffer->tile_count * sizeof(ps_tile));
     gbuffer->direct = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(ps_rgb));
     gbuffer->emitted = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(ps_rgb));
-    if (gbuffer->tiles && gbuffer->direct && gbuffer->emitted)
+    gbuffer->by_chance = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(bool));
+    if (gbuffer->tiles && gbuffer->direct && gbuffer->emitted && gbuffer->by_chance)
         return PS_OK;
     size_t bytes = gbuffer_bytes(gbuffer);
     gbuffer_release(gbuffer);
@@ -35,12 +36,14 @@ void gbuffer_release(struct gbuffer *gbuffer)
     free(gbuffer->tiles);
     free(gbuffer->direct);
     free(gbuffer->emitted);
+    free(gbuffer->by_chance);
     *gbuffer = (struct gbuffer){.tiles = NULL};
 }
 
 size_t gbuffer_bytes(const struct gbuffer *gbuffer)
 {
-    return gbuffer->tile_count * (sizeof(ps_tile) + 2 * PS_TILE_PIXELS * sizeof(ps_rgb));
+    return gbuffer->tile_count *
+           (sizeof(ps_tile) + PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool)));
 }
 
 bool gbuffer_pixel(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane, uint32_t *x,
@@ -76,6 +79,7 @@ void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t index)
     ps_tile *tile = &gbuffer->tiles[index];
     memset(tile, 0, sizeof *tile);
     memset(&gbuffer->emitted[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(ps_rgb));
+    memset(&gbuffer->by_chance[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(bool));
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
         tile->position_x[lane] = tile->position_y[lane] = tile->position_z[lane] = GBUFFER_NOWHERE;
         tile->depth[lane] = INFINITY;

@@ -19,6 +19,7 @@ struct gbuffer {
     ps_tile *tiles;  /* 64-byte aligned, owned */
     ps_rgb *direct;  /* direct irradiance, tile_count * PS_TILE_PIXELS, owned */
     ps_rgb *emitted; /* radiance collected on the way there, of the same size, owned */
+    bool *by_chance; /* whether another look would take another way (a lens, gloss), likewise */
 };
 
 /* Tiles of a picture of that size, and no memory for them. */
@@ -34,7 +35,7 @@ size_t gbuffer_bytes(const struct gbuffer *gbuffer);
 bool gbuffer_pixel(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane, uint32_t *x,
                    uint32_t *y);
 
-/* Makes all lanes of a tile see nothing, and zeroes its accumulators and emitted radiance. */
+/* Makes all lanes of a tile see nothing, and zeroes its accumulators, emitted radiance and by_chance. */
 void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t tile);
 
 /* Lets a lane see what was hit, at the end of a way of length `travelled` that leaves `throughput` of

@@ -12,8 +12,12 @@
 /* Pixels up to so far to each side know of the indirect light at a sample. */
 #define NEIGHBOURHOOD 2
 
-/* Random numbers of samples at edges come from the upper half of a pixel's own. */
-#define EDGE_NUMBERS ((uint64_t)1 << 23)
+/* Neighbours that lie off each other's plane by more than this part of their distance (squared) are a
+ * step; less may be a normal that is bent or smoothed. */
+#define STEP2 0.25f
+
+/* Seeds of scenes end before: random numbers of samples at edges are no pixel's. */
+#define EDGE_SEED ((uint64_t)1 << 63)
 
 /* --- finding them ------------------------------------------------------------------------------- */
 
@@ -52,14 +56,36 @@ static ps_vec3 normal_of(const ps_tile *tile, uint32_t lane)
     return (ps_vec3){tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
 }
 
-static bool same_surface(const ps_tile *tile, uint32_t lane, const ps_tile *other,
-                         uint32_t other_lane)
+static bool same_object(const struct place *a, const struct place *b)
 {
-    ps_vec3 normal = normal_of(tile, lane);
-    ps_vec3 way = ps_subtract(position_of(other, other_lane), position_of(tile, lane));
-    return tile->object[lane] == other->object[other_lane] &&
-           gbuffer_same_surface(ps_dot(normal, normal_of(other, other_lane)), ps_dot(normal, way),
-                                ps_dot(way, way));
+    return a->tile->object[a->lane] == b->tile->object[b->lane];
+}
+
+/* How far b lies off the plane of a, how far away (squared), and the cosine between both normals. */
+struct offset {
+    float off_plane, distance2, cosine;
+};
+
+static struct offset offset_of(const struct place *a, const struct place *b)
+{
+    ps_vec3 normal = normal_of(a->tile, a->lane);
+    ps_vec3 way = ps_subtract(position_of(b->tile, b->lane), position_of(a->tile, a->lane));
+    return (struct offset){ps_dot(normal, way), ps_dot(way, way),
+                           ps_dot(normal, normal_of(b->tile, b->lane))};
+}
+
+static bool same_surface(const struct place *a, const struct place *b)
+{
+    struct offset offset = offset_of(a, b);
+    return same_object(a, b) &&
+           gbuffer_same_surface(offset.cosine, offset.off_plane, offset.distance2);
+}
+
+static bool surfaces_differ(const struct place *a, const struct place *b)
+{
+    struct offset offset = offset_of(a, b);
+    return !same_object(a, b) || offset.cosine < 0.9f ||
+           offset.off_plane * offset.off_plane > STEP2 * offset.distance2;
 }
 
 static ps_rgb albedo_of(const struct place *place)
@@ -91,7 +117,7 @@ static bool places_differ(const struct place *a, const struct place *b)
 {
     if (sees_surface(a) != sees_surface(b))
         return true;
-    if (sees_surface(a) && !same_surface(a->tile, a->lane, b->tile, b->lane))
+    if (sees_surface(a) && surfaces_differ(a, b))
         return true;
     return colors_differ(albedo_of(a), albedo_of(b)) ||
            colors_differ(radiance_of(a), radiance_of(b));
@@ -104,6 +130,8 @@ static bool is_edge(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane)
     struct place here, there;
     if (!gbuffer_pixel(gbuffer, tile, lane, &x, &y) || !place_of(gbuffer, x, y, &here))
         return false;
+    if (gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS + lane])
+        return true;
     for (int i = 0; i < 4; i++)
         if (place_of(gbuffer, (int64_t)x + steps[i][0], (int64_t)y + steps[i][1], &there) &&
             places_differ(&here, &there))
@@ -111,25 +139,22 @@ static bool is_edge(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane)
     return false;
 }
 
-uint32_t edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE_PIXELS])
+void edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE_PIXELS])
 {
-    uint32_t count = 0;
-    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         edges[lane] = is_edge(gbuffer, tile, lane);
-        count += edges[lane];
-    }
-    return count;
 }
 
 /* --- looking again ------------------------------------------------------------------------------ */
 
 /* Samples under way: one tile of a picture of its own. */
 struct looks {
+    _Alignas(64) ps_tile tile;
+    ps_rgb direct[PS_TILE_PIXELS], emitted[PS_TILE_PIXELS];
+    bool by_chance[PS_TILE_PIXELS];
     struct view_points points;
     uint32_t x[PS_TILE_PIXELS], y[PS_TILE_PIXELS]; /* their pixels */
     uint64_t light_numbers[PS_TILE_PIXELS];
-    ps_tile tile;
-    ps_rgb direct[PS_TILE_PIXELS], emitted[PS_TILE_PIXELS];
 };
 
 /* Shadow rays of a sample: all samples together have no fewer than a pixel elsewhere. */
@@ -145,14 +170,14 @@ static void add_look(const struct edge_pass *pass, uint32_t tile, uint32_t lane,
     uint64_t block = ps_sample_block(tile, lane);
     uint64_t number = (uint64_t)pass->number * pass->samples + sample;
     float numbers[4], point[2];
-    sample_point(sample_key(pass->seed, PS_STREAM_PIXEL, 1), block + number, numbers);
+    sample_point(sample_key(pass->seed | EDGE_SEED, PS_STREAM_PIXEL, 0), block + number, numbers);
     pixel_filter_point(pass->lighting->scene->pixel_filter, numbers, point);
     gbuffer_pixel(pass->gbuffer, tile, lane, &looks->x[to], &looks->y[to]);
     looks->points.lanes[to] = to;
     looks->points.x[to] = (float)looks->x[to] + point[0];
     looks->points.y[to] = (float)looks->y[to] + point[1];
-    looks->points.indices[to] = block + EDGE_NUMBERS + number;
-    looks->light_numbers[to] = block + EDGE_NUMBERS + number * light_samples_of(pass);
+    looks->points.indices[to] = block + number;
+    looks->light_numbers[to] = block + number * light_samples_of(pass);
 }
 
 /* What pixels hold of indirect light. */
@@ -172,10 +197,20 @@ static void add_indirect(const struct place *from, struct indirect *sum)
     sum->pixels += 1.0f;
 }
 
+static const struct indirect *best_of(const struct indirect *same_surface,
+                                      const struct indirect *same_object,
+                                      const struct indirect *any)
+{
+    if (same_surface->pixels > 0.0f)
+        return same_surface;
+    return same_object->pixels > 0.0f ? same_object : any;
+}
+
 /* Gives a sample the mean of the indirect light that the pixels around found on its surface. */
 static void borrow_indirect(const struct gbuffer *gbuffer, struct looks *looks, uint32_t i)
 {
-    struct indirect same = {.pixels = 0.0f}, any = {.pixels = 0.0f};
+    const struct place here = {.tile = &looks->tile, .lane = i};
+    struct indirect surface = {.pixels = 0.0f}, object = {.pixels = 0.0f}, any = {.pixels = 0.0f};
     for (int dy = -NEIGHBOURHOOD; dy <= NEIGHBOURHOOD; dy++)
         for (int dx = -NEIGHBOURHOOD; dx <= NEIGHBOURHOOD; dx++) {
             struct place there;
@@ -183,10 +218,12 @@ static void borrow_indirect(const struct gbuffer *gbuffer, struct looks *looks, 
                 !sees_surface(&there))
                 continue;
             add_indirect(&there, &any);
-            if (same_surface(&looks->tile, i, there.tile, there.lane))
-                add_indirect(&there, &same);
+            if (same_object(&here, &there))
+                add_indirect(&there, &object);
+            if (same_surface(&here, &there))
+                add_indirect(&there, &surface);
         }
-    const struct indirect *found = same.pixels > 0.0f ? &same : &any;
+    const struct indirect *found = best_of(&surface, &object, &any);
     float scale = found->pixels > 0.0f ? 1.0f / found->pixels : 0.0f;
     looks->tile.irradiance_r[i] = scale * found->irradiance.r;
     looks->tile.irradiance_g[i] = scale * found->irradiance.g;
@@ -207,16 +244,17 @@ static void finish_looks(const struct edge_pass *pass, struct looks *looks, stru
         .tiles = &looks->tile,
         .direct = looks->direct,
         .emitted = looks->emitted,
+        .by_chance = looks->by_chance,
     };
     struct view_pass view = {
         .scene = lighting->scene,
         .trace = lighting->trace,
         .maps = lighting->maps,
         .gbuffer = &gbuffer,
-        .seed = pass->seed,
+        .seed = pass->seed | EDGE_SEED,
     };
     view_trace(&view, &looks->points, 0);
-    direct_light_tile(lighting, &gbuffer, 0, pass->seed, looks->light_numbers,
+    direct_light_tile(lighting, &gbuffer, 0, view.seed, looks->light_numbers,
                       light_samples_of(pass));
     for (uint32_t i = 0; i < looks->points.count; i++) {
         borrow_indirect(pass->gbuffer, looks, i);
@@ -228,12 +266,13 @@ static void finish_looks(const struct edge_pass *pass, struct looks *looks, stru
 
 void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *film)
 {
-    bool edges[PS_TILE_PIXELS];
-    _Alignas(64) struct looks looks;
+    bool *edges = &pass->edges[(size_t)tile * PS_TILE_PIXELS];
+    struct looks looks;
     looks.points.count = 0;
-    uint32_t count = edges_find(pass->gbuffer, tile, edges);
-    film_add_tile(film, pass->gbuffer, tile, count > 0 ? edges : NULL);
-    for (uint32_t lane = 0; lane < PS_TILE_PIXELS && count > 0; lane++)
+    if (pass->number == 0)
+        edges_find(pass->gbuffer, tile, edges);
+    film_add_tile(film, pass->gbuffer, tile, edges);
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         for (uint32_t sample = 0; sample < pass->samples && edges[lane]; sample++) {
             add_look(pass, tile, lane, sample, &looks);
             if (looks.points.count == PS_TILE_PIXELS)

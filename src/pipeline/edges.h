@@ -6,11 +6,16 @@
  * differs from a neighbour: in its surface, in its albedo, or in the light that comes from it straight
  * from the lights. Each further sample has surface, emission and direct light of its own. Its indirect
  * light, which is smooth and dear, is the mean of what the pixels around found on the same surface, so that
- * estimators are not asked again. Not so by tracing the picture at a higher resolution: that costs
- * everywhere.
+ * estimators are not asked again. Tracing at a higher resolution would cost everywhere.
  *
- * Things too thin for the middle of any pixel are found only beside an edge. Where no pixel around
- * sees a sample's surface, it takes the mean of all that see any.
+ * The first pass decides for all. If each decided for itself, looks that are rare (at things thinner than a
+ * pixel, at what glass mirrors) would be replaced by a mean, and common ones kept: light would go missing,
+ * however many the passes. Pixels whose look is a matter of chance count as edges: those seen through a
+ * lens, in gloss, or in a surface that mirrors and lets through. A single pass still misses things too thin
+ * for the middle of any pixel, but beside an edge.
+ *
+ * Where no pixel around sees a sample's surface, it takes the mean of those that see its object, or else
+ * of all that see any.
  */
 #ifndef PIPELINE_EDGES_H
 #define PIPELINE_EDGES_H
@@ -22,16 +27,19 @@
 struct edge_pass {
     const struct lighting *lighting;
     const struct gbuffer *gbuffer;
+    bool *
+        edges; /* which of its pixels are edges: tile_count * PS_TILE_PIXELS, set by the first pass */
     uint64_t seed;
     uint32_t number;  /* of the pass */
     uint32_t samples; /* of a pixel at an edge */
 };
 
-/* Which pixels of a tile differ from a neighbour to the left, right, top or bottom; how many. Reads
- * neighbouring tiles. */
-uint32_t edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE_PIXELS]);
+/* Which pixels of a tile differ from a neighbour to the left, right, top or bottom, or show what they do by
+ * chance. Reads neighbouring tiles. */
+void edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE_PIXELS]);
 
-/* Adds a tile to the film: pixels at edges by the mean of their samples, the others by what they hold. */
+/* Adds a tile to the film: pixels at edges by the mean of their samples, the others by what they hold. Any
+ * thread, a tile each. */
 void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *film);
 
 #endif

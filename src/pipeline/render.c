@@ -9,6 +9,7 @@
 #include "pipeline/render_state.h"
 #include "pipeline/view.h"
 #include <psplat/tile.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void report_progress(const struct render *render, const char *stage, double fraction)
@@ -53,6 +54,13 @@ static ps_result create_shadow_maps(struct render *render, struct error *error)
     return PS_OK;
 }
 
+static ps_result create_edges(struct render *render, struct error *error)
+{
+    size_t count = (size_t)render->gbuffer.tile_count * PS_TILE_PIXELS;
+    render->edges = calloc(count, sizeof *render->edges);
+    return render->edges ? PS_OK : error_memory(error, count * sizeof *render->edges, "edges");
+}
+
 static ps_result create(struct render *render, struct error *error)
 {
     const struct scene *scene = render->scene;
@@ -67,6 +75,8 @@ static ps_result create(struct render *render, struct error *error)
         result = gbuffer_create(scene->width, scene->height, &render->gbuffer, error);
     if (result == PS_OK)
         result = film_create(scene->width, scene->height, &render->film, error);
+    if (result == PS_OK && render->settings->edge_samples > 1)
+        result = create_edges(render, error);
     if (result == PS_OK)
         result = start_strategies(render, error);
     if (result == PS_OK)
@@ -87,6 +97,7 @@ static void destroy(struct render *render)
     source_stream_release(&render->sources);
     for (int kind = 0; kind < PS_KINDS; kind++)
         strategy_stop(&render->settings->strategies[kind]);
+    free(render->edges);
     film_release(&render->film);
     gbuffer_release(&render->gbuffer);
     shadow_maps_destroy(render->shadow_maps);
@@ -160,6 +171,7 @@ static void smooth_tile(void *user, uint64_t index, uint32_t worker)
         .gbuffer = &render->gbuffer,
         .seed = render->settings->seed,
         .number = render->pass.number,
+        .edges = render->edges,
         .samples = render->settings->edge_samples,
     };
     edges_add_tile(&pass, (uint32_t)index, &render->film);
@@ -221,9 +233,8 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
     return work;
 }
 
-static void end_pass(struct tile_work *work)
+static void end_pass(struct tile_work *work, bool smooth)
 {
-    bool smooth = work->render->settings->edge_samples > 1;
     over_tiles(work, smooth ? "edges" : "film", smooth ? smooth_tile : add_tile);
     film_count_pass(&work->render->film);
 }
@@ -236,7 +247,7 @@ static ps_result run_pass(struct render *render, uint32_t number, struct error *
         gbuffer_clear_indirect(&render->gbuffer);
     else if (result != PS_OK)
         return result;
-    end_pass(&work);
+    end_pass(&work, render->edges && result == PS_OK);
     return result;
 }
 
@@ -289,7 +300,7 @@ ps_result render_inspect(const struct scene *scene, struct render_settings *sett
     ps_result result = create(&render, error);
     if (result == PS_OK) {
         struct tile_work work = begin_pass(&render, 0);
-        end_pass(&work);
+        end_pass(&work, false);
         film_average(&render.film);
         result = inspect(user, &render, error);
     }

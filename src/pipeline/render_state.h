@@ -18,6 +18,7 @@ struct render {
     struct shadow_maps *shadow_maps; /* for the direct light of the picture; NULL: shadow rays */
     struct gbuffer gbuffer;
     struct film film;
+    bool *edges; /* pixels that take several samples (edges.h), owned; NULL: none does */
     struct source_stream sources;
     struct kernel_variant kernel;
     struct splatter splatter; /* made when an estimator first splats */

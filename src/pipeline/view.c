@@ -29,9 +29,10 @@ static ps_ray look(const struct view_pass *pass, const struct view_points *point
     return camera_ray(camera, points->x[lane], points->y[lane], lens);
 }
 
-static void start(const struct view_pass *pass, const struct view_points *points,
+static void start(const struct view_pass *pass, const struct view_points *points, uint32_t tile,
                   struct sight *sight)
 {
+    bool *by_chance = &pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
     sight->count = points->count;
     sight->indices = points->indices;
     for (size_t i = 0; i < points->count; i++) {
@@ -40,6 +41,7 @@ static void start(const struct view_pass *pass, const struct view_points *points
         sight->throughput[i] = (ps_rgb){1, 1, 1};
         sight->travelled[i] = 0.0f;
         sight->pdfs[i] = 0.0f;
+        by_chance[points->lanes[i]] = pass->scene->camera.aperture > 0.0f;
     }
 }
 
@@ -112,6 +114,7 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
 {
     const struct scene *scene = pass->scene;
     ps_tile *pixels = &pass->gbuffer->tiles[tile];
+    bool *by_chance = &pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
     uint32_t key = sample_key(pass->seed, PS_STREAM_VIEW, depth);
     size_t left = 0;
     for (size_t i = 0; i < sight->count; i++) {
@@ -119,6 +122,7 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
         sample_point(key, sight->indices[sight->lanes[i]], numbers);
         ps_scatter on = material_scatter(&scene->materials[hits[i].material], scene->microfacets,
                                          PS_FROM_CAMERA, &sight->rays[i], &hits[i], numbers);
+        by_chance[sight->lanes[i]] |= on.probability < 1.0f || on.lobe == PS_GLOSSY;
         if (on.lobe == PS_DIFFUSE) {
             ps_rgb throughput = ps_rgb_scale(sight->throughput[i], 1.0f / on.probability);
             if (ps_rgb_maximum(hits[i].albedo) > 0.0f)
@@ -158,7 +162,7 @@ void view_trace(const struct view_pass *pass, const struct view_points *points, 
     struct sight sight;
     ps_hit hits[PS_TILE_PIXELS];
     gbuffer_clear_tile(pass->gbuffer, index);
-    start(pass, points, &sight);
+    start(pass, points, index, &sight);
     for (uint32_t depth = 0; sight.count > 0 && depth <= PS_LONGEST_CHAIN; depth++) {
         trace_intersect(pass->trace, depth == 0 ? RAYS_CAMERA : RAYS_INCOHERENT, sight.rays,
                         sight.count, hits);

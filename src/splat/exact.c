@@ -20,25 +20,14 @@ static ps_vec3 position_of(const struct field_tile *tile, uint32_t lane)
     return (ps_vec3){tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
 }
 
-/* The part of the kernel around (u, v) beyond a wall; more than 1/2 where that lies behind it. */
-static float beyond_wall(const ps_wall *wall, const struct kernel_profile *profile, float u,
-                         float v, float width)
-{
-    float distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
-    if (!(distance > 0.0f))
-        return 1.0f;
-    float within = fminf(distance / width, 1.0f);
-    return profile->beyond[(size_t)(within * (float)(KERNEL_BOUNDARY_SIZE - 1))];
-}
-
 /* What the walls beside a splat make of its weight at (u, v): 0 behind one of them. */
 static float make_up(const struct kernel_splat *splat, const struct kernel_profile *profile,
                      float u, float v, float width)
 {
     float beyond[PS_MOST_WALLS] = {0.0f, 0.0f};
     for (uint32_t k = 0; k < splat->wall_count; k++) {
-        beyond[k] = beyond_wall(&splat->walls[k], profile, u, v, width);
-        if (beyond[k] > 0.5f)
+        beyond[k] = kernel_beyond(&splat->walls[k], profile->beyond, u, v, 1.0f / width);
+        if (beyond[k] >= KERNEL_BEHIND)
             return 0.0f;
     }
     return 1.0f / kernel_left(beyond[0], beyond[1], splat->walls_likeness);

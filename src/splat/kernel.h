@@ -19,8 +19,10 @@
  * Where the source has walls beside it (wall.h), k is divided by the part of the kernel that they leave.
  *
  * The cosine is there because K lies in the plane across the beam. Blocks of 16 pixels whose bounds
- * the box does not touch are left out. No branches within a block: masks, one gather from the depth
- * map and one from the profile, so that compilers turn the loop into 8 or 16 lanes. It is compiled
+ * the box does not touch are left out, and a block is left as soon as no pixel of it can be lit: after
+ * they are placed, after they chose their widths, and after they are weighed. No branches from lane to
+ * lane: masks and gathers (from the depth map, the profile, and what walls leave), so that compilers turn
+ * the loops into 8 or 16 lanes. It is compiled
  * once for each instruction set (kernel_variant.c) and chosen at run time; a pixel's sum runs in
  * splat order.
  */
@@ -34,7 +36,7 @@
 
 #define KERNEL_PROFILE_SIZE 1024
 #define KERNEL_BOUNDARY_SIZE 257
-#define KERNEL_LEAST_LEFT 0.0625f
+#define KERNEL_LEAST_LEFT 0.0625f /* walls make no splat brighter than 16 times */
 
 /* A filter, tabulated over squared radius. */
 struct kernel_profile {
@@ -74,11 +76,27 @@ static inline float kernel_above(const struct kernel_splat *splat, float u, floa
     return t - (splat->source_depth + u * splat->start_u + v * splat->start_v);
 }
 
+/* Where a start lies behind a wall; before it, no more than half of the kernel lies beyond. */
+#define KERNEL_BEHIND 1.0f
+
+/* The part of the kernel around the start at (u, v) that lies beyond a wall, or KERNEL_BEHIND; `beyond`: the
+ * profile's. Compilers make vectors of it. */
+static inline float kernel_beyond(const ps_wall *wall, const float *beyond, float u, float v,
+                                  float inverse_width)
+{
+    float distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
+    float within = distance * inverse_width;
+    within = within > 0.0f ? within : 0.0f;
+    within = within < 1.0f ? within : 1.0f;
+    float part = beyond[(int)(within * (float)(KERNEL_BOUNDARY_SIZE - 1))];
+    return distance > 0.0f ? part : KERNEL_BEHIND;
+}
+
 /* The part of a kernel that two straight borders leave, of which `one` and `other` lie beyond each;
  * `likeness` as kernel_splat.walls_likeness. Beyond both lies nothing where the borders face each other
  * (-1), the product where they stand at right angles (0; exact for a Gaussian), the lesser part where they
- * are parallel (1); in between, what lies in between, exact for any round kernel whose middle lies on both.
- * No more is made up for than KERNEL_LEAST_LEFT asks. */
+ * are parallel (1); in between, what lies in between, exact for any round kernel whose middle lies on
+ * both. */
 static inline float kernel_left(float one, float other, float likeness)
 {
     float product = one * other, lesser = one < other ? one : other;

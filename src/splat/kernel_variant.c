@@ -103,7 +103,7 @@ struct placed_block {
     float u[LANES], v[LANES];     /* across it, in half-widths */
     float t[LANES], above[LANES]; /* along it, from the centre and from the source's plane */
     float facing[LANES]; /* cosine under which the light meets the surface; negative from behind */
-    float inverse_width[LANES]; /* 1 / h; set by choose_widths */
+    float width[LANES], inverse_width[LANES]; /* h and 1 / h; set by choose_widths */
 };
 
 /* What a block's pixels get from one splat. */
@@ -149,6 +149,7 @@ static inline int choose_widths(const struct field_tile *tile, int first,
         float width = width_at(&splat->width, placed->above[i], placed->facing[i],
                                x * splat->u.x + y * splat->u.y + z * splat->u.z,
                                x * splat->v.x + y * splat->v.y + z * splat->v.z);
+        placed->width[i] = width;
         placed->inverse_width[i] = 1.0f / width;
         any |= placed->u[i] * placed->u[i] + placed->v[i] * placed->v[i] < width * width;
     }
@@ -168,8 +169,8 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
         float r2 = u * u + v * v;
         float inverse_width = placed->inverse_width[i];
         float in_width2 = r2 * inverse_width * inverse_width;
-        float least_above = splat->clearance * least(1.0f, 1.0f / inverse_width);
-        float cosine = clamp(facing, 1e-3f, 1.0f);
+        float least_above = splat->clearance * least(placed->width[i], 1.0f);
+        float cosine = clamp(facing, WIDTH_LEAST_FACING, 1.0f);
         float slope = sqrtf(1.0f - cosine * cosine) / cosine;
         float bias = splat->bias_constant + splat->bias_slope * least(slope, BOX_STEEPEST);
         int column = (int)clamp((u + 1.0f) * half_resolution, 0.0f, last_texel);
@@ -189,19 +190,12 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
     return useful;
 }
 
-#define BEHIND 1.0f /* in front of a wall, half of the kernel at most lies beyond it */
-
-/* The parts of the kernel around each pixel's start beyond a wall; BEHIND where that lies behind it. */
 static inline void look_beyond(const struct placed_block *placed, const ps_wall *wall,
                                const float *beyond, float *parts)
 {
-    for (int i = 0; i < LANES; i++) {
-        float distance =
-            wall->distance - (placed->u[i] * wall->normal_u + placed->v[i] * wall->normal_v);
-        float part = beyond[(int)(clamp(distance * placed->inverse_width[i], 0.0f, 1.0f) *
-                                  (float)(KERNEL_BOUNDARY_SIZE - 1))];
-        parts[i] = distance > 0.0f ? part : BEHIND;
-    }
+    for (int i = 0; i < LANES; i++)
+        parts[i] =
+            kernel_beyond(wall, beyond, placed->u[i], placed->v[i], placed->inverse_width[i]);
 }
 
 /* Divides by the part of the kernel that the walls beside the source leave; behind them there is no such
@@ -214,7 +208,7 @@ static inline void make_up(const struct placed_block *placed, const struct kerne
     if (splat->wall_count > 1)
         look_beyond(placed, &splat->walls[1], beyond, other);
     for (int i = 0; i < LANES; i++) {
-        float in_front = (float)((one[i] < BEHIND) & (other[i] < BEHIND));
+        float in_front = (float)((one[i] < KERNEL_BEHIND) & (other[i] < KERNEL_BEHIND));
         float share = in_front / kernel_left(one[i], other[i], splat->walls_likeness);
         light->weight[i] *= share;
         light->projected[i] *= share;

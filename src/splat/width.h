@@ -22,7 +22,7 @@
 #include <psplat/types.h>
 
 /* Steeper surfaces are taken to be no steeper; those that face away are not lit, whatever comes out. */
-#define LEAST_FACING 1e-3f
+#define WIDTH_LEAST_FACING 1e-3f
 
 /* h in half-widths of the box, with all that can be worked out once for all pixels. */
 struct width {
@@ -37,7 +37,7 @@ struct width {
 static inline float width_at(const struct width *width, float distance, float facing,
                              float normal_u, float normal_v)
 {
-    facing = facing > LEAST_FACING ? facing : LEAST_FACING;
+    facing = facing > WIDTH_LEAST_FACING ? facing : WIDTH_LEAST_FACING;
     float a = normal_u * width->spread - width->tilt_u * facing;
     float b = normal_v * width->spread - width->tilt_v * facing;
     float h = width->by_distance * distance * facing / (facing + sqrtf(a * a + b * b));

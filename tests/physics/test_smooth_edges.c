@@ -79,6 +79,60 @@ static void test_one_pass_comes_close_to_many(void **state)
     rendering_release(&smooth);
 }
 
+/* Bright bars before black, thinner than a pixel; the second camera has a lens that looks past them. */
+#define BARS                                                                                       \
+    "objects:\n"                                                                                   \
+    "  - quad: {corners: [[-0.31, -2, 0], [-0.31, 2, 0], [-0.30, 2, 0], [-0.30, -2, 0]],\n"        \
+    "           material: shining}\n"                                                              \
+    "  - quad: {corners: [[-2, 0.203, 0], [-2, 0.21, 0], [2, 0.22, 0], [2, 0.213, 0]],\n"          \
+    "           material: shining}\n"
+
+/* A pane of glass, which mirrors a bright surface behind the camera a little. */
+#define PANE                                                                                       \
+    "objects:\n"                                                                                   \
+    "  - quad: {corners: [[-2, -2, 0], [-2, 2, 0], [2, 2, 0], [2, -2, 0]], material: glass}\n"     \
+    "  - quad: {corners: [[-9, -9, -5], [9, -9, -5], [9, 9, -5], [-9, 9, -5]],\n"                  \
+    "           material: shining}\n"
+
+static double mean_light(const char *camera, const char *objects, int passes, int edge_samples)
+{
+    static const char *const choices[] = {"estimator=ambient:irradiance=0", NULL};
+    static const char format[] = "psd: 1\n"
+                                 "camera: {location: [0, 0, -4], look_at: [0, 0, 0], angle: 30%s}\n"
+                                 "image: {width: 20, height: 14}\n"
+                                 "materials:\n"
+                                 "  shining: {diffuse: 0, emission: 1, emission_both: yes}\n"
+                                 "  glass: {dielectric: {ior: 1.5}}\n"
+                                 "%s"
+                                 "render: {passes: %d, edge_samples: %d}\n";
+    char text[2048];
+    snprintf(text, sizeof text, format, camera, objects, passes, edge_samples);
+    struct rendering rendering = render_text(text, 2, choices);
+    double mean = mean_of_all(&rendering.image, "R");
+    rendering_release(&rendering);
+    return mean;
+}
+
+/* Neither what is rarely hit nor what is rarely chosen goes missing, as it would if looks that differ from
+ * their neighbours were replaced pass by pass. */
+static void test_the_mean_stays(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *camera, *objects;
+    } cases[] = {
+        {"bars", "", BARS},
+        {"bars out of focus", ", aperture: 0.2, focus: 8", BARS},
+        {"a pane", "", PANE},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        double expected = mean_light(cases[i].camera, cases[i].objects, 4096, 1);
+        double mean = mean_light(cases[i].camera, cases[i].objects, 512, 8);
+        print_message("%s: %.4f of the mean without\n", cases[i].name, mean / expected);
+        assert_true(expected > 0.005 && fabs(mean / expected - 1) < 0.03);
+    }
+}
+
 /* Passes go on from each other's samples. */
 static void test_passes_add_to_it(void **state)
 {
@@ -97,6 +151,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_pass_comes_close_to_many),
         cmocka_unit_test(test_passes_add_to_it),
+        cmocka_unit_test(test_the_mean_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -118,6 +118,52 @@ static void test_borders_cut_segments_off_a_disc(void **state)
     assert_true(worst < 0.005);
 }
 
+/* The part of the profile that borders at distance d1 and d2 leave, whose normals are `angle` apart: summed
+ * over a grid. */
+static double part_left(const struct kernel_profile *profile, double d1, double d2, double angle)
+{
+    const int side = 800;
+    double all = 0, left = 0;
+    for (int i = 0; i < side * side; i++) {
+        double u = (i % side + 0.5) / side * 2 - 1, v = (i / side + 0.5) / side * 2 - 1;
+        double r2 = u * u + v * v;
+        if (r2 >= 1)
+            continue;
+        double weight = profile->weights[(size_t)(r2 * KERNEL_PROFILE_SIZE)];
+        all += weight;
+        if (u < d1 && u * cos(angle) + v * sin(angle) < d2)
+            left += weight;
+    }
+    return left / all;
+}
+
+static float beyond_at(const struct kernel_profile *profile, double distance)
+{
+    return profile->beyond[(size_t)(distance * (KERNEL_BOUNDARY_SIZE - 1) + 0.5)];
+}
+
+/* Through the middle it is exact, elsewhere within 4 % of the whole kernel. */
+static void test_two_borders_leave_what_integration_finds(void **state)
+{
+    (void)state;
+    struct kernel_profile profile;
+    gaussian_profile(&profile);
+    double at_middle = 0, worst = 0;
+    for (int angle = 30; angle <= 150; angle += 30)
+        for (int i = 0; i < 16; i++) {
+            double radians = angle * 3.14159265358979 / 180, d1 = i % 4 * 0.2, d2 = i / 4 * 0.2;
+            float likeness = (float)(2 / 3.14159265358979 * asin(cos(radians)));
+            double left = kernel_left(beyond_at(&profile, d1), beyond_at(&profile, d2), likeness);
+            double off = fabs(left - part_left(&profile, d1, d2, radians));
+            if (i == 0)
+                at_middle = fmax(at_middle, off);
+            worst = fmax(worst, off);
+        }
+    print_message("off by %.4f at the middle, %.4f at most\n", at_middle, worst);
+    assert_true(at_middle < 0.002);
+    assert_true(worst < 0.04);
+}
+
 /* A quarter of the kernel lies beyond each border. */
 static void test_two_borders_leave_what_lies_before_both(void **state)
 {
@@ -138,6 +184,7 @@ int main(void)
         cmocka_unit_test(test_profiles_integrate_to_one),
         cmocka_unit_test(test_borders_cut_every_profile_by_its_part),
         cmocka_unit_test(test_borders_cut_segments_off_a_disc),
+        cmocka_unit_test(test_two_borders_leave_what_integration_finds),
         cmocka_unit_test(test_two_borders_leave_what_lies_before_both),
         cmocka_unit_test(test_bad_profiles_are_refused),
     };
