@@ -83,16 +83,19 @@ cmp -s example.c "$PSPLAT_SOURCE/tests/plugins/cosine.c" ||
 # --- statistics, layers and attributes ---
 
 : >statistics
-for choice in injection=rsm:resolution=8 injection=voxel:resolution=8 stratification=cascade \
-    estimator=splat estimator=photonmap estimator=vpl:lights=8 estimator=ssao denoiser=gaussian \
-    visibility=imperfect:points=1000; do
-    case $choice in
-    injection=*) injection= ;;
-    *) injection="-p injection=photon:count=200" ;;
-    esac
-    run 0 -q --size 16x9 --direct shadowmap --direct-resolution 8 $injection -p $choice -o a.exr --stats a.json "$cornell"
+# gather_statistics WORD...: what a render with these options counts.
+gather_statistics() {
+    run 0 -q --size 16x9 "$@" -o a.exr --stats a.json "$cornell"
     awk '/^  "/ { split($0, part, "\""); table = part[2] }
          /^    "/ { split($0, key, "\""); print table ": " key[2] }' a.json >>statistics
+}
+photon="-p injection=photon:count=200"
+gather_statistics -p injection=rsm:resolution=8
+gather_statistics -p injection=voxel:resolution=8
+gather_statistics $photon --set render.edge_samples=2
+for choice in stratification=cascade estimator=splat estimator=photonmap estimator=vpl:lights=8 estimator=ssao \
+    denoiser=gaussian visibility=imperfect:points=1000; do
+    gather_statistics $photon -p $choice --direct shadowmap --direct-resolution 8
 done
 sort -u statistics >program
 for table in seconds counters bytes; do
