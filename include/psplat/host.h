@@ -31,9 +31,9 @@ typedef enum ps_stream {
  * (PS_BOX_PARAMS in strategy.h gives the rows). Scene units. */
 typedef struct ps_box_settings {
     double size;      /* half-width R; 0: automatic, by the scene's radius and the light paths */
-    double follow;    /* R is at most follow * distance travelled, or size / 5, or the interleaved
-                         pixels, whichever is largest; 0: no limit. Pixels of a full beam choose
-                         for themselves: see ps_splat */
+    double follow;    /* R is at most follow * distance travelled, or 0.3 * size (0.6 * size after
+                         the first bounce), or the interleaved pixels, whichever is largest; 0: no
+                         limit. Pixels of a full beam choose for themselves: see ps_splat */
     double depth;     /* how far the box reaches past the first hit; 0: R tan(theta) + R */
     double step_back; /* see step_back_rule */
     int32_t step_back_rule; /* 0: auto, min(d, R tan(theta) + R/2); 1: full, from the source; -1:

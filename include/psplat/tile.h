@@ -4,6 +4,17 @@
 
 #include <psplat/math.h>
 
+/* Where a pixel of a tile looks, and its normal there. */
+static inline ps_vec3 ps_tile_position(const ps_tile *tile, uint32_t lane)
+{
+    return (ps_vec3){tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
+}
+
+static inline ps_vec3 ps_tile_normal(const ps_tile *tile, uint32_t lane)
+{
+    return (ps_vec3){tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
+}
+
 /* The pixels of a tile that see a surface. */
 typedef struct ps_points {
     size_t count;
@@ -18,10 +29,8 @@ static inline void ps_collect_points(const ps_tile *tile, ps_points *points)
         if (tile->object[lane] == PS_NO_OBJECT)
             continue;
         size_t i = points->count++;
-        points->positions[i] =
-            (ps_vec3){tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
-        points->normals[i] =
-            (ps_vec3){tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
+        points->positions[i] = ps_tile_position(tile, lane);
+        points->normals[i] = ps_tile_normal(tile, lane);
         points->lanes[i] = lane;
     }
 }

@@ -76,8 +76,8 @@ static void place_tile(void *user, uint64_t index, uint32_t worker)
 static struct point point_of(const ps_tile *tile, uint32_t lane)
 {
     return (struct point){
-        {tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]},
-        {tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]},
+        ps_tile_position(tile, lane),
+        ps_tile_normal(tile, lane),
         tile->depth[lane],
     };
 }

@@ -5,7 +5,7 @@
 #include "debug/font.h"
 #include "debug/id_colour.h"
 #include "image/tonemap.h"
-#include <psplat/math.h>
+#include <psplat/tile.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -76,9 +76,7 @@ static struct colour paint_normal(const struct pixel *pixel)
 static struct colour paint_position(const struct pixel *pixel)
 {
     const struct scene *scene = pixel->render->scene;
-    const ps_tile *tile = pixel->tile;
-    uint32_t lane = pixel->lane;
-    ps_vec3 position = {tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
+    ps_vec3 position = ps_tile_position(pixel->tile, pixel->lane);
     ps_vec3 away = ps_scale(ps_subtract(position, scene->center), 0.5f / scene->radius);
     return from_shares((ps_rgb){0.5f + away.x, 0.5f + away.y, 0.5f + away.z});
 }

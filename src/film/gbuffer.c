@@ -54,6 +54,12 @@ bool gbuffer_pixel(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane, 
     return *x < gbuffer->width && *y < gbuffer->height;
 }
 
+uint32_t gbuffer_tile_of(const struct gbuffer *gbuffer, uint32_t x, uint32_t y, uint32_t *lane)
+{
+    *lane = y % PS_TILE_SIZE * PS_TILE_SIZE + x % PS_TILE_SIZE;
+    return y / PS_TILE_SIZE * gbuffer->tiles_across + x / PS_TILE_SIZE;
+}
+
 void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throughput,
                    float travelled)
 {

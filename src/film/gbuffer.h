@@ -35,6 +35,9 @@ size_t gbuffer_bytes(const struct gbuffer *gbuffer);
 bool gbuffer_pixel(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane, uint32_t *x,
                    uint32_t *y);
 
+/* The other way: tile and lane of a pixel of the picture. */
+uint32_t gbuffer_tile_of(const struct gbuffer *gbuffer, uint32_t x, uint32_t y, uint32_t *lane);
+
 /* Makes all lanes of a tile see nothing, and zeroes its accumulators, emitted radiance and by_chance. */
 void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t tile);
 

@@ -33,9 +33,8 @@ static bool place_of(const struct gbuffer *gbuffer, int64_t x, int64_t y, struct
 {
     if (x < 0 || y < 0 || x >= (int64_t)gbuffer->width || y >= (int64_t)gbuffer->height)
         return false;
-    size_t tile = (size_t)y / PS_TILE_SIZE * gbuffer->tiles_across + (size_t)x / PS_TILE_SIZE;
-    uint32_t lane = (uint32_t)y % PS_TILE_SIZE * PS_TILE_SIZE + (uint32_t)x % PS_TILE_SIZE;
-    size_t pixel = tile * PS_TILE_PIXELS + lane;
+    uint32_t lane, tile = gbuffer_tile_of(gbuffer, (uint32_t)x, (uint32_t)y, &lane);
+    size_t pixel = (size_t)tile * PS_TILE_PIXELS + lane;
     *place = (struct place){&gbuffer->tiles[tile], lane, gbuffer->direct[pixel],
                             gbuffer->emitted[pixel]};
     return true;
@@ -44,16 +43,6 @@ static bool place_of(const struct gbuffer *gbuffer, int64_t x, int64_t y, struct
 static bool sees_surface(const struct place *place)
 {
     return place->tile->object[place->lane] != PS_NO_OBJECT;
-}
-
-static ps_vec3 position_of(const ps_tile *tile, uint32_t lane)
-{
-    return (ps_vec3){tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
-}
-
-static ps_vec3 normal_of(const ps_tile *tile, uint32_t lane)
-{
-    return (ps_vec3){tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
 }
 
 static bool same_object(const struct place *a, const struct place *b)
@@ -68,10 +57,11 @@ struct offset {
 
 static struct offset offset_of(const struct place *a, const struct place *b)
 {
-    ps_vec3 normal = normal_of(a->tile, a->lane);
-    ps_vec3 way = ps_subtract(position_of(b->tile, b->lane), position_of(a->tile, a->lane));
+    ps_vec3 normal = ps_tile_normal(a->tile, a->lane);
+    ps_vec3 way =
+        ps_subtract(ps_tile_position(b->tile, b->lane), ps_tile_position(a->tile, a->lane));
     return (struct offset){ps_dot(normal, way), ps_dot(way, way),
-                           ps_dot(normal, normal_of(b->tile, b->lane))};
+                           ps_dot(normal, ps_tile_normal(b->tile, b->lane))};
 }
 
 static bool same_surface(const struct place *a, const struct place *b)

@@ -27,8 +27,7 @@
 struct edge_pass {
     const struct lighting *lighting;
     const struct gbuffer *gbuffer;
-    bool *
-        edges; /* which of its pixels are edges: tile_count * PS_TILE_PIXELS, set by the first pass */
+    bool *edges; /* which lanes of its tiles are edges; set by the first pass */
     uint64_t seed;
     uint32_t number;  /* of the pass */
     uint32_t samples; /* of a pixel at an edge */

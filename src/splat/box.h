@@ -12,11 +12,11 @@
  *             their light (after Herzog et al. 2007, "Global illumination using photon ray
  *             splatting").
  *
- * The size follows the distance d travelled, R = min(size, follow * d) but no less than size / 5,
- * as a photon differential would: light from close by, in a corner, makes small splats. Nor does it
- * follow below the n x n pixels that interleaved splats are averaged over in the end. The box of a full
- * beam is as wide as its pixels' sizes ask for (width.h, reach.h). Where
- * sources were merged, `size` grows with the square root of their number (see grow).
+ * The size follows the distance d travelled, R = min(size, follow * d) but no less than a part of
+ * size (0.3; 0.6 after the first bounce), as a photon differential would: light from close by, in a corner,
+ * makes small splats. Nor does it follow below the n x n pixels that interleaved splats are averaged over in
+ * the end. The box of a full beam is as wide as its pixels' sizes ask for (width.h, reach.h). Where sources
+ * were merged, `size` grows with the square root of their number (see grow).
  */
 #ifndef SPLAT_BOX_H
 #define SPLAT_BOX_H
@@ -45,7 +45,7 @@ float box_clearance(float surface_offset, float half_width, bool hollow);
 
 /* The half-width that light paths so many in a pass deserve. Noise grows as splats shrink and blur as
  * they grow; measured on the Cornell box the error is least at a size that falls by the fourth root of
- * the paths (53 mm for 400,000, 75 for 100,000). Later passes (from 0) shrink it by
+ * the paths (47 mm for 400,000, 66 for 100,000). Later passes (from 0) shrink it by
  * p^((alpha - 1) / 2), alpha = 2/3, so that the mean of more and more passes loses noise and blur alike
  * (Knaus and Zwicker 2011, "Progressive photon mapping: a probabilistic approach"). */
 float box_automatic_size(float scene_radius, uint64_t paths, uint32_t pass);

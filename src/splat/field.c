@@ -122,13 +122,13 @@ static void fill_tile(void *user, uint64_t index, uint32_t worker)
     const struct gbuffer *gbuffer = work->gbuffer;
     struct field_tile *tile = &work->field->tiles[index];
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-        uint32_t x, y;
-        if (field_pixel(work->field, (uint32_t)index, lane, &x, &y))
-            fill_lane(tile, lane,
-                      &gbuffer->tiles[y / PS_TILE_SIZE * gbuffer->tiles_across + x / PS_TILE_SIZE],
-                      y % PS_TILE_SIZE * PS_TILE_SIZE + x % PS_TILE_SIZE);
-        else
+        uint32_t x, y, source;
+        if (field_pixel(work->field, (uint32_t)index, lane, &x, &y)) {
+            uint32_t from = gbuffer_tile_of(gbuffer, x, y, &source);
+            fill_lane(tile, lane, &gbuffer->tiles[from], source);
+        } else {
             clear_lane(tile, lane);
+        }
     }
     memset(tile->irradiance_r, 0, sizeof tile->irradiance_r);
     memset(tile->irradiance_g, 0, sizeof tile->irradiance_g);

@@ -10,7 +10,7 @@
  * ray may start at the rim, and half of the disc around that start lies past it. Their
  * nearest hits give up to two straight walls; a pixel whose ray starts at distance d (in half-widths)
  * in front of a wall then divides the kernel by the part of a disc around that start that lies on this
- * side, which is the share of the sources around it that could exist at all. That is exact for even
+ * side (of two walls: kernel_left), which is the share of the sources around it that could exist at all. That is exact for even
  * light on a plane, and not only in the mean: dividing by the part of the source's own disc would
  * keep the energy, and put it into the wrong place. A pixel whose ray starts behind a wall gets nothing
  * of the splat: sources there are others, or none. The wall itself does not always see to that, since
