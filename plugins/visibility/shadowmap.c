@@ -4,6 +4,11 @@
  * Back faces count: a map that starts inside of something must see its far side, or light leaks
  * through.
  *
+ * Pixels take light from before the walls beside a source alone (ps_splat.walls), but a texel that such
+ * a wall cuts may have its centre behind it, from where a ray would start inside of a block, or in the next
+ * room, and darken the texel's other part for nothing. With 4x4 texels that kept back 1 % of all light in
+ * the Cornell box. So rays start before the walls, too.
+ *
  * For the depth tolerance see ps_set_bias.
  */
 #include <psplat/plugin.h>
@@ -11,6 +16,9 @@
 PS_BOX_CHOICES
 
 #define BLOCK 4 /* texels along the side of a packet */
+
+/* How far before a wall rays start at least, in half-widths. */
+#define BEFORE_WALLS 0.05f
 
 static const char *const bias_choices[] = {"slope", NULL};
 
@@ -33,6 +41,18 @@ static void place(const void *opaque, const ps_host *host, const ps_source *sour
     host->place_boxes(host, &settings, sources, hits, n, splats);
     ps_open_full_beams(&settings, splats, n);
     ps_set_bias(state->bias, (uint32_t)state->resolution, splats, n);
+}
+
+/* Twice, for corners: the way out of one wall may lead into the other. */
+static void move_before_walls(const ps_splat *splat, float *u, float *v)
+{
+    for (uint32_t i = 0; i < 2 * splat->wall_count; i++) {
+        const ps_wall *wall = &splat->walls[i % splat->wall_count];
+        float most = (wall->distance - BEFORE_WALLS) * splat->half_width;
+        float past = fmaxf(*u * wall->normal_u + *v * wall->normal_v - most, 0.0f);
+        *u -= past * wall->normal_u;
+        *v -= past * wall->normal_v;
+    }
 }
 
 /* One ray of the map: where it starts, as a depth, and its origin. */
@@ -59,9 +79,10 @@ static void trace_block(const ps_host *host, const ps_splat *splat, int side, in
     for (int lane = 0; lane < BLOCK * BLOCK; lane++) {
         int column = least(left + lane % BLOCK, side - 1),
             row = least(top + lane / BLOCK, side - 1);
-        start[lane] =
-            load_ray(splat, ps_texel_centre(splat, (uint32_t)side, (uint32_t)column),
-                     ps_texel_centre(splat, (uint32_t)side, (uint32_t)row), &packet, lane);
+        float u = ps_texel_centre(splat, (uint32_t)side, (uint32_t)column);
+        float v = ps_texel_centre(splat, (uint32_t)side, (uint32_t)row);
+        move_before_walls(splat, &u, &v);
+        start[lane] = load_ray(splat, u, v, &packet, lane);
         reach[lane] = packet.tfar[lane];
     }
     host->intersect_packets(host, &packet, 1, 1);

@@ -109,15 +109,14 @@ static void test_full_beams_keep_the_energy(void **state)
     free(text);
 }
 
-/* What walls beside the sources keep back is most of what large beams lose, where no map adds errors of
- * its own. */
+/* What walls beside the sources keep back is most of what large beams lose. */
 static void test_walls_give_back_what_creases_lose(void **state)
 {
     (void)state;
     char *text = cornell_text(WIDTH, HEIGHT);
     double truth = splat_all(text, "visibility=shadowmap:size=8,resolution=4,follow=0");
-    double lost = splat_all(text, "visibility=raycast:size=50,walls=no") / truth - 1;
-    double left = splat_all(text, "visibility=raycast:size=50,walls=yes") / truth - 1;
+    double lost = splat_all(text, "visibility=shadowmap:size=50,walls=no") / truth - 1;
+    double left = splat_all(text, "visibility=shadowmap:size=50,walls=yes") / truth - 1;
     print_message("beams of 50 mm against 8: %+.4f, making up for walls %+.4f\n", lost, left);
     assert_true(lost < -0.02);
     assert_true(fabs(left) < 0.4 * fabs(lost));

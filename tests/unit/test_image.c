@@ -242,7 +242,8 @@ static void test_stream_as_long_as_the_pixels(void **state)
     assert_round_trip(state, &image);
 }
 
-/* What a tool of the OpenEXR package says about the file, to be freed; NULL where there is none. */
+/* What a tool of the OpenEXR package says about the file, to be freed; NULL where there is none. Its exit
+ * status says nothing: exrinfo 3.1 returns a variable that it never set. */
 static char *told_by(const char *tool, const char *path, const char *output)
 {
     char command[2048];
@@ -253,7 +254,7 @@ static char *told_by(const char *tool, const char *path, const char *output)
         return NULL;
     }
     snprintf(command, sizeof command, "%s '%s' >'%s' 2>&1", tool, path, output);
-    assert_int_equal(system(command), 0);
+    assert_int_not_equal(system(command), -1);
     char *text = (char *)scratch_load(output, &size);
     text[size] = '\0';
     return text;
