@@ -1,6 +1,7 @@
 /* command_render.c: psplat render: a scene becomes a picture. */
 #include "base/clock.h"
 #include "cli/command.h"
+#include "cli/layers.h"
 #include "cli/output.h"
 #include "cli/preview.h"
 #include "cli/progress.h"
@@ -15,6 +16,7 @@
 
 static const struct option options[] = {
     {'o', "output", "FILE", "write FILE (.exr or .png); may be given several times"},
+    {0, "layers", "NAME,...", "layers of EXR files beside the picture; or all (default), none"},
     RENDER_OPTIONS,
     {0, "preview", NULL, "a quick look: small, few light paths, coarse shadows"},
     {0, "passes", "N", "number of passes; more smooth edges and lessen noise"},
@@ -26,6 +28,7 @@ struct job {
     const char *outputs[MOST_OUTPUTS];
     size_t output_count;
     char *default_outputs[2]; /* owned */
+    const char *layers;       /* a list of layers.h */
     const char *stats_path;
     double passes; /* negative: not given */
     struct progress progress;
@@ -74,6 +77,10 @@ static bool take_option(struct job *job, const struct argument *argument)
     const char *name = argument->option->name, *value = argument->value;
     if (strcmp(name, "output") == 0)
         return take_output(job, value);
+    if (strcmp(name, "layers") == 0) {
+        job->layers = value;
+        return layers_check(value);
+    }
     if (strcmp(name, "stats") == 0)
         job->stats_path = value;
     else if (strcmp(name, "passes") == 0)
@@ -181,6 +188,7 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     settings->passes = (uint32_t)passes;
     ps_result written = output_describe(&image, description->path, &job->options.scene, settings,
                                         description->image.exposure, error);
+    layers_keep(&image, job->layers);
     if (written == PS_OK)
         written = write_files(job, &image, description->image.exposure, settings->threads,
                               statistics, error);
@@ -231,7 +239,7 @@ static int load_and_render(struct job *job)
 
 static int run_arguments(const struct argument *arguments, size_t count)
 {
-    struct job job = {.passes = -1};
+    struct job job = {.layers = "all", .passes = -1};
     int status = STATUS_USAGE;
     if (render_options_take(&job.options, arguments, count) &&
         take_arguments(&job, arguments, count)) {

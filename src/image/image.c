@@ -1,7 +1,6 @@
 /* image.c: the picture in memory: named planes of floats and string attributes. */
 #include "image/image.h"
 
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,6 +57,22 @@ ps_result image_adopt_channel(struct image *image, const char *name, float *samp
     }
     return error_memory(error, (image->channel_count + 1) * sizeof *image->channels,
                         "a channel of a picture");
+}
+
+void image_keep_channels(struct image *image, bool (*keeps)(const void *user, const char *name),
+                         const void *user)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < image->channel_count; i++) {
+        struct image_channel channel = image->channels[i];
+        if (keeps(user, channel.name)) {
+            image->channels[kept++] = channel;
+        } else {
+            free(channel.name);
+            free(channel.samples);
+        }
+    }
+    image->channel_count = kept;
 }
 
 static struct image_attribute *find_attribute(const struct image *image, const char *name)

@@ -9,6 +9,7 @@
 #define IMAGE_IMAGE_H
 
 #include "base/error.h"
+#include <stdbool.h>
 
 struct image_channel {
     char *name;     /* owned */
@@ -38,6 +39,10 @@ float *image_add_channel(struct image *image, const char *name);
  * on. When out of memory, PS_ERROR_MEMORY, they stay the caller's. */
 ps_result image_adopt_channel(struct image *image, const char *name, float *samples,
                               struct error *error);
+
+/* Releases the channels that `keeps` is false of; the others stay in their order. */
+void image_keep_channels(struct image *image, bool (*keeps)(const void *user, const char *name),
+                         const void *user);
 
 /* Appends, or replaces, a string attribute. */
 ps_result image_set_attribute(struct image *image, const char *name, const char *value,

@@ -31,6 +31,12 @@ double render_bytes(size_t width, size_t height);
  * Allocates nothing. */
 ps_result render_check_memory(size_t width, size_t height, struct error *error);
 
+/* The layers of a picture, beside R, G and B. */
+#define RENDER_LAYERS "albedo, direct, indirect, N, P, weight, Z"
+
+/* Whether the first `length` characters of `name` are that of a layer. */
+bool render_makes_layer(const char *name, size_t length);
+
 /* Renders into `image` (the layers of psplat(1)); the caller releases it. Starts the strategies of
  * `settings`, which may be used for one render only. When cancelled, the passes that were complete
  * make the picture and the result is PS_CANCELLED; without any, the picture holds the direct light.

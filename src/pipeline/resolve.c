@@ -1,6 +1,7 @@
 /* resolve.c: the film becomes a picture: normalization, ambient fallback, denoiser, combination. */
 #include "base/clock.h"
 #include "pipeline/render_state.h"
+#include <string.h>
 
 /* The layers of the picture that come straight from the film. */
 static const struct layer {
@@ -13,6 +14,19 @@ static const struct layer {
     {"P.X", FILM_POSITION_X},    {"P.Y", FILM_POSITION_Y},    {"P.Z", FILM_POSITION_Z},
     {"Z", FILM_DEPTH},           {"weight", FILM_WEIGHT},
 };
+
+static bool is_layer_of(const char *channel, const char *name, size_t length)
+{
+    return strcspn(channel, ".") == length && strncmp(channel, name, length) == 0;
+}
+
+bool render_makes_layer(const char *name, size_t length)
+{
+    bool found = length > 0 && is_layer_of("indirect", name, length);
+    for (size_t i = 0; i < sizeof layers / sizeof layers[0] && length > 0; i++)
+        found |= is_layer_of(layers[i].name, name, length);
+    return found;
+}
 
 struct rgb_planes {
     float *r, *g, *b;

@@ -90,6 +90,34 @@ expect_same_pixels dark.exr reference.exr
 expect_different dark.png reference.png
 expect_different dark.png bright.png
 
+# --layers takes channels out of the EXR, and changes none.
+channels() { sed -n 's/^channels: //p' out; }
+run 0 info reference.exr
+all=$(channels)
+run 0 $small --layers all -o layers.exr -o layers.png "$cornell"
+expect_same layers.exr reference.exr
+run 0 $small --layers none -o layers.exr -o layers.png "$cornell"
+expect_same layers.png reference.png
+run 0 info layers.exr
+[ "$(channels)" = "B G R" ] || fail "--layers none: $(channels)"
+run 0 compare layers.exr reference.exr --fail 'rel_rmse>0'
+run 0 $small --layers Z,indirect,N -o layers.exr "$cornell"
+run 0 info layers.exr
+[ "$(channels)" = "B G N.X N.Y N.Z R Z indirect.B indirect.G indirect.R" ] || fail "--layers: $(channels)"
+run 0 compare layers.exr reference.exr --layer indirect --fail 'rel_rmse>0'
+for name in $(echo "$all" | tr ' ' '\n' | sed '/^[RGB]$/d; s/\..*//' | sort -u); do
+    run 0 $small --layers "$name" -o layers.exr "$cornell"
+    run 0 info layers.exr
+    [ "$(channels | tr ' ' '\n' | sed '/^[RGB]$/d; s/\..*//' | sort -u)" = "$name" ] || fail "--layers $name: $(channels)"
+    run 2 --layers nothing "$cornell"
+    expect_match err "expected .* $name[, ]"
+done
+for wrong in "" , N, ,N N,,Z indirect.R R "N Z" nothing; do
+    run 2 --layers "$wrong" "$cornell"
+    expect_text err "--layers: expected all, none, or names among"
+    expect_text err "got '$wrong'"
+done
+
 # The command line goes before the scene's own size, passes, seed and exposure.
 sed 's/^image:.*/image: {width: 48, height: 27, exposure: 2}/
      s/^render:.*/&\n  passes: 3\n  seed: 7/' "$cornell" >own.psd

@@ -1,0 +1,53 @@
+#include "cli/layers.h"
+
+#include "pipeline/render.h"
+#include <stdio.h>
+#include <string.h>
+
+/* The part of a list up to its next comma, past which `list` moves; 0 at the end. */
+static size_t next_name(const char **list, const char **name)
+{
+    *name = *list;
+    size_t length = strcspn(*list, ",");
+    *list += length + ((*list)[length] == ',');
+    return length;
+}
+
+bool layers_check(const char *list)
+{
+    const char *rest = list, *name;
+    if (strcmp(list, "all") == 0 || strcmp(list, "none") == 0)
+        return true;
+    do {
+        size_t length = next_name(&rest, &name);
+        if (!render_makes_layer(name, length)) {
+            fprintf(stderr,
+                    "psplat: error: --layers: expected all, none, or names among " RENDER_LAYERS
+                    " with commas between them, got '%s'\n",
+                    list);
+            return false;
+        }
+    } while (*rest || rest[-1] == ',');
+    return true;
+}
+
+/* Of channel "N.X" the layer is N. */
+static bool keeps(const void *list, const char *channel)
+{
+    const char *rest = list, *name;
+    size_t length = strcspn(channel, ".");
+    if (!render_makes_layer(channel, length))
+        return true;
+    while (*rest) {
+        size_t name_length = next_name(&rest, &name);
+        if (name_length == length && strncmp(name, channel, length) == 0)
+            return true;
+    }
+    return false;
+}
+
+void layers_keep(struct image *image, const char *list)
+{
+    if (strcmp(list, "all") != 0)
+        image_keep_channels(image, keeps, list);
+}

@@ -1,0 +1,18 @@
+/* layers.h: which of a rendered picture's layers go into its EXR files (render --layers).
+ *
+ * A list is `all`, `none`, or names with commas between them. The picture itself, R, G and B, always
+ * stays.
+ */
+#ifndef CLI_LAYERS_H
+#define CLI_LAYERS_H
+
+#include "image/image.h"
+#include <stdbool.h>
+
+/* Whether it is a list of layers that pictures have; if not, says so on stderr. */
+bool layers_check(const char *list);
+
+/* Takes what the list, checked before, does not name out of a picture. */
+void layers_keep(struct image *image, const char *list);
+
+#endif
