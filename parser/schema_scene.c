@@ -88,6 +88,9 @@ static const struct schema_row render_rows[] = {
                  "start of the random numbers")),
     VALUE(PS_INT(struct render_description, light_samples, "4", 1, 65536, "",
                  "shadow rays to each light that has a size, for a pixel and pass")),
+    BOOL(
+        "light_join", offsetof(struct render_description, light_join), "no",
+        "whether pixels take in what their neighbours' shadow rays found, where they met the same"),
     VALUE(PS_INT(
         struct render_description, edge_samples, "1", 1, 1024, "",
         "how many points of a pixel that differs from its neighbours are looked at in each pass")),

@@ -12,7 +12,8 @@ static const struct option passes = {.name = "passes"}, set = {.name = "set"},
 
 static const struct argument stands_for[] = {
     {&passes, "1"},
-    {&set, "render.light_samples=4"},
+    {&set, "render.light_samples=2"},
+    {&set, "render.light_join=yes"},
     {&set, "render.edge_samples=1"},
     {&plugin, "injection=photon:count=10000"},
     {&plugin, "stratification=none"},

@@ -31,8 +31,21 @@ ps_result gbuffer_create(size_t width, size_t height, struct gbuffer *gbuffer, s
     return error_memory(error, bytes, "the G-buffer");
 }
 
+ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error)
+{
+    size_t lanes = (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
+    gbuffer->met = calloc(lanes, sizeof *gbuffer->met);
+    gbuffer->joined = calloc(lanes, sizeof *gbuffer->joined);
+    if (gbuffer->met && gbuffer->joined)
+        return PS_OK;
+    return error_memory(error, lanes * (sizeof *gbuffer->met + sizeof *gbuffer->joined),
+                        "direct light");
+}
+
 void gbuffer_release(struct gbuffer *gbuffer)
 {
+    free(gbuffer->met);
+    free(gbuffer->joined);
     free(gbuffer->tiles);
     free(gbuffer->direct);
     free(gbuffer->emitted);
@@ -42,8 +55,9 @@ void gbuffer_release(struct gbuffer *gbuffer)
 
 size_t gbuffer_bytes(const struct gbuffer *gbuffer)
 {
+    size_t join = gbuffer->met ? sizeof *gbuffer->met + sizeof *gbuffer->joined : 0;
     return gbuffer->tile_count *
-           (sizeof(ps_tile) + PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool)));
+           (sizeof(ps_tile) + PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool) + join));
 }
 
 bool gbuffer_pixel(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane, uint32_t *x,

@@ -20,6 +20,10 @@ struct gbuffer {
     ps_rgb *direct;  /* direct irradiance, tile_count * PS_TILE_PIXELS, owned */
     ps_rgb *emitted; /* radiance collected on the way there, of the same size, owned */
     bool *by_chance; /* whether another look would take another way (a lens, gloss), likewise */
+    /* What shadow rays met (see gbuffer_met_alike), and room for direct light that is joined; likewise,
+     * or NULL where nobody joins it. */
+    uint64_t *met;
+    ps_rgb *joined;
 };
 
 /* Tiles of a picture of that size, and no memory for them. */
@@ -27,6 +31,9 @@ struct gbuffer gbuffer_layout(size_t width, size_t height);
 
 ps_result gbuffer_create(size_t width, size_t height, struct gbuffer *gbuffer, struct error *error);
 void gbuffer_release(struct gbuffer *gbuffer);
+
+/* Makes room for what light_join.h needs. */
+ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error);
 
 /* Bytes that the buffer takes. */
 size_t gbuffer_bytes(const struct gbuffer *gbuffer);
@@ -54,6 +61,26 @@ uint32_t gbuffer_block_lane(uint32_t i);
 static inline int gbuffer_same_surface(float cosine, float off_plane, float distance2)
 {
     return (cosine > 0.9f) & (off_plane * off_plane <= 0.01f * distance2);
+}
+
+/* What a ray to light `light` met, of which the share `lit` came through: light i of 32 has bits 2 i, some
+ * light came through, and 2 i + 1, some was stopped. Further lights share them. */
+static inline uint64_t gbuffer_met(size_t light, float lit)
+{
+    uint64_t bits = (uint64_t)(lit > 0.0f) | (uint64_t)(lit < 1.0f) << 1;
+    return bits << 2 * (light % 32);
+}
+
+static inline uint64_t gbuffer_either_bit(uint64_t met)
+{
+    return (met | met >> 1) & UINT64_C(0x5555555555555555);
+}
+
+/* Whether two points see the lights alike: none that shines on one of them whole is hidden from the other,
+ * nor out of its reach. So the edge of a hard shadow lies between them, or nothing does. */
+static inline bool gbuffer_met_alike(uint64_t a, uint64_t b)
+{
+    return gbuffer_either_bit(a & b) == gbuffer_either_bit(a | b);
 }
 
 /* Forgets the indirect light of an unfinished pass. */

@@ -16,6 +16,7 @@ struct receivers {
     const ps_ray *rays; /* NULL: irradiance is asked for */
     const ps_hit *hits;
     float (*numbers)[4]; /* NULL: no light has a size */
+    uint64_t *met;       /* what rays to the lights met, see gbuffer_met; NULL: nobody asks */
 };
 
 /* Two of a point's four numbers, or these moved by Roberts's sequence for many lights. */
@@ -98,8 +99,11 @@ static void add_light(const struct receivers *to, size_t light, ps_rgb *sums)
     if (count == 0)
         return;
     find_lit(to->lighting, light, rays, normals, count, lit);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         sums[targets[i]] = ps_rgb_add(sums[targets[i]], ps_rgb_scale(unshadowed[i], lit[i]));
+        if (to->met)
+            to->met[targets[i]] |= gbuffer_met(light, lit[i]);
+    }
 }
 
 static void add_lights(const struct receivers *to, ps_rgb *sums)
@@ -193,7 +197,7 @@ void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer,
     const struct scene *scene = lighting->scene;
     ps_rgb *direct = &gbuffer->direct[(size_t)index * PS_TILE_PIXELS];
     ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}};
-    uint64_t indices[PS_TILE_PIXELS];
+    uint64_t indices[PS_TILE_PIXELS], met[PS_TILE_PIXELS] = {0};
     float room[PS_TILE_PIXELS][4];
     samples = scene->has_sized_lights ? samples : 1;
     ps_points points;
@@ -202,7 +206,8 @@ void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer,
     struct receivers to = {.lighting = lighting,
                            .n = points.count,
                            .positions = points.positions,
-                           .normals = points.normals};
+                           .normals = points.normals,
+                           .met = gbuffer->met ? met : NULL};
     for (uint32_t sample = 0; sample < samples; sample++) {
         for (size_t i = 0; i < points.count; i++)
             indices[i] = first_indices[points.lanes[i]] + sample;
@@ -213,4 +218,6 @@ void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer,
         direct[lane] = (ps_rgb){0, 0, 0};
     for (size_t i = 0; i < points.count; i++)
         direct[points.lanes[i]] = ps_rgb_scale(irradiance[i], 1.0f / (float)samples);
+    for (size_t i = 0; i < points.count && gbuffer->met; i++)
+        gbuffer->met[(size_t)index * PS_TILE_PIXELS + points.lanes[i]] = met[i];
 }

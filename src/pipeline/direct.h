@@ -33,7 +33,8 @@ void emitted_radiance(const struct scene *scene, const ps_ray *rays, const ps_hi
                       const float *pdfs, size_t n, ps_rgb *radiance);
 
 /* Fills in the direct irradiance of a tile's lanes: the mean of `samples` shadow rays for each light that
- * has a size. `first_indices`: of each lane's random numbers, of which it takes as many. */
+ * has a size. `first_indices`: of each lane's random numbers, of which it takes as many. And
+ * what they met, where the G-buffer has room for it. */
 void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer, uint32_t tile,
                        uint64_t seed, const uint64_t first_indices[PS_TILE_PIXELS],
                        uint32_t samples);

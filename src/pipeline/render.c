@@ -5,6 +5,7 @@
 #include "base/sample.h"
 #include "pipeline/direct.h"
 #include "pipeline/edges.h"
+#include "pipeline/light_join.h"
 #include "pipeline/pixel_filter.h"
 #include "pipeline/render_state.h"
 #include "pipeline/view.h"
@@ -75,6 +76,8 @@ static ps_result create(struct render *render, struct error *error)
         result = gbuffer_create(scene->width, scene->height, &render->gbuffer, error);
     if (result == PS_OK)
         result = film_create(scene->width, scene->height, &render->film, error);
+    if (result == PS_OK && render->settings->light_join && scene->has_sized_lights)
+        result = gbuffer_prepare_join(&render->gbuffer, error);
     if (result == PS_OK && render->settings->edge_samples > 1)
         result = create_edges(render, error);
     if (result == PS_OK)
@@ -204,6 +207,17 @@ ps_result render_estimate(struct render *render, struct error *error)
                      render->error.text[0] ? ": " : "", render->error.text);
 }
 
+static void light_pixels(struct tile_work *work)
+{
+    struct render *render = work->render;
+    over_tiles(work, "direct", light_tile);
+    if (!render->gbuffer.met)
+        return;
+    double start = clock_seconds();
+    light_join(&render->gbuffer, render->settings->threads);
+    statistics_add_seconds(render->statistics, "direct", clock_seconds() - start);
+}
+
 /* Fills the G-buffer and its direct light. */
 static struct tile_work begin_pass(struct render *render, uint32_t number)
 {
@@ -229,7 +243,7 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
     };
     set_jitter(render, work.jitter);
     over_tiles(&work, "gbuffer", trace_tile);
-    over_tiles(&work, "direct", light_tile);
+    light_pixels(&work);
     return work;
 }
 

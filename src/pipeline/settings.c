@@ -90,6 +90,7 @@ ps_result settings_resolve(struct loader *loader, const struct render_descriptio
 {
     *settings = (struct render_settings){
         .passes = (uint32_t)description->passes,
+        .light_join = description->light_join != 0,
         .edge_samples = (uint32_t)description->edge_samples,
         .seed = (uint64_t)description->seed,
         .threads = threads,

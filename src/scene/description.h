@@ -249,6 +249,7 @@ struct render_description {
     int64_t passes;
     int64_t seed;
     int64_t light_samples; /* shadow rays for each light that has a size, pixel and pass */
+    int32_t light_join;    /* 1: pixels take in what shadow rays of those around them found */
     int64_t edge_samples; /* camera samples of a pixel at an edge, in each pass; 1: as everywhere */
     int32_t direct;       /* enum direct_light */
     int64_t direct_resolution;

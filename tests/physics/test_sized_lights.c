@@ -163,9 +163,8 @@ static void test_lights_add(void **state)
 /* --- shadows -------------------------------------------------------------------------------- */
 
 /* A narrow lamp across a long edge: the floor along x, seen from above without the edge. */
-static void test_penumbra(void **state)
+static struct rendering render_penumbra(int light_samples, const char *join)
 {
-    (void)state;
     static const char text[] =
         "psd: 1\n"
         "camera: {location: [0, 3, 0], look_at: [0, 0, 0], up: [0, 0, -1],\n"
@@ -178,28 +177,74 @@ static void test_penumbra(void **state)
         "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: floor}\n"
         "  - quad: {corners: [[-9, 2, 9], [0, 2, 9], [0, 2, -9], [-9, 2, -9]], material: screen,\n"
         "           camera: no}\n"
-        "render: {light_samples: 1024}\n";
+        "render: {light_samples: %d, light_join: %s}\n";
     static const char *const choices[] = {"estimator=ambient:irradiance=0", NULL};
-    struct rendering rendering = render_text(text, 2, choices);
+    char with[sizeof text + 16];
+    snprintf(with, sizeof with, text, light_samples, join);
+    return render_text(with, 2, choices);
+}
+
+/* Direct radiance where the whole lamp is seen from right below. */
+static const double full_light = ALBEDO / PI * 100 * 0.02 * 0.8 / 16;
+
+static double penumbra_x(size_t column)
+{
+    return ((double)column + 0.5) * 0.05 - 1.6;
+}
+
+/* The lamp's part that is seen, from where the line over the edge meets its plane. */
+static double penumbra_radiance(double x)
+{
+    double from = fmin(fmax(-x, -0.4), 0.4), sum = 0;
+    for (int i = 0; i < 1000; i++) {
+        double u = from + (0.4 - from) * (i + 0.5) / 1000 - x;
+        sum += (0.4 - from) / 1000 * 16 / pow(16 + u * u, 2);
+    }
+    return ALBEDO / PI * 100 * 0.02 * sum;
+}
+
+static void test_penumbra(void **state)
+{
+    (void)state;
+    struct rendering rendering = render_penumbra(1024, "no");
     double worst = 0;
     for (size_t column = 0; column < 64; column++) {
-        double x = ((double)column + 0.5) * 0.05 - 1.6;
-        /* The lamp's part that is seen, from where the line over the edge meets its plane. */
-        double from = fmin(fmax(-x, -0.4), 0.4), sum = 0;
-        for (int i = 0; i < 1000; i++) {
-            double u = from + (0.4 - from) * (i + 0.5) / 1000 - x;
-            sum += (0.4 - from) / 1000 * 16 / pow(16 + u * u, 2);
-        }
-        double expected = ALBEDO / PI * 100 * 0.02 * sum;
-        double full = ALBEDO / PI * 100 * 0.02 * 0.8 / 16;
+        double x = penumbra_x(column);
         double got = mean_of(&rendering.image, "direct.G", column, 7, 1, 2);
         if (x < -0.4)
             assert_true(got == 0);
-        worst = fmax(worst, fabs(got - expected) / full);
+        worst = fmax(worst, fabs(got - penumbra_radiance(x)) / full_light);
     }
     print_message("penumbra: worst column off by %.3f %% of full light\n", 100 * worst);
     assert_true(worst < 0.01);
     rendering_release(&rendering);
+}
+
+/* RMS of the differences of single pixels, over full light. */
+static double difference(const struct rendering *a, const struct rendering *b)
+{
+    const float *one = image_channel(&a->image, "direct.G");
+    const float *other = image_channel(&b->image, "direct.G");
+    double sum = 0;
+    for (size_t i = 0; i < 64 * 16; i++)
+        sum += pow((double)one[i] - (double)other[i], 2) / (64 * 16);
+    return sqrt(sum) / full_light;
+}
+
+static void test_joined_light(void **state)
+{
+    (void)state;
+    struct rendering truth = render_penumbra(1024, "no");
+    struct rendering alone = render_penumbra(16, "no"), joined = render_penumbra(16, "yes");
+    double error_alone = difference(&alone, &truth), error_joined = difference(&joined, &truth);
+    double mean = mean_of_all(&joined.image, "direct.G") / mean_of_all(&truth.image, "direct.G");
+    print_message("16 rays: off by %.4f of full light, joined %.4f, their mean %.4f\n", error_alone,
+                  error_joined, mean);
+    assert_true(error_joined < 0.4 * error_alone);
+    assert_true(fabs(mean - 1) < 0.005);
+    rendering_release(&truth);
+    rendering_release(&alone);
+    rendering_release(&joined);
 }
 
 int main(void)
@@ -209,7 +254,7 @@ int main(void)
         cmocka_unit_test(test_emissive_quad), cmocka_unit_test(test_disc),
         cmocka_unit_test(test_sphere),        cmocka_unit_test(test_sun),
         cmocka_unit_test(test_sky),           cmocka_unit_test(test_lights_add),
-        cmocka_unit_test(test_penumbra),
+        cmocka_unit_test(test_penumbra),      cmocka_unit_test(test_joined_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

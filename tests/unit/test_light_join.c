@@ -1,0 +1,175 @@
+/* test_light_join.c: which pixels join their direct light: on synthetic G-buffers, wider than a tile. */
+#include "pipeline/light_join.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#define WIDTH 20
+#define HEIGHT 18
+
+static struct gbuffer gbuffer;
+
+static int open_gbuffer(void **state)
+{
+    (void)state;
+    struct error error;
+    return gbuffer_create(WIDTH, HEIGHT, &gbuffer, &error) != PS_OK ||
+           gbuffer_prepare_join(&gbuffer, &error) != PS_OK;
+}
+
+static int close_gbuffer(void **state)
+{
+    (void)state;
+    gbuffer_release(&gbuffer);
+    return 0;
+}
+
+/* What a pixel shows. */
+struct sight {
+    ps_vec3 normal;
+    float height; /* above the plane z = 0 */
+    float direct;
+    uint64_t met;
+};
+
+static size_t index_of(uint32_t x, uint32_t y)
+{
+    uint32_t lane, tile = gbuffer_tile_of(&gbuffer, x, y, &lane);
+    return (size_t)tile * PS_TILE_PIXELS + lane;
+}
+
+static void join(struct sight (*at)(uint32_t x, uint32_t y))
+{
+    for (uint32_t tile = 0; tile < gbuffer.tile_count; tile++)
+        gbuffer_clear_tile(&gbuffer, tile);
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            struct sight sight = at(x, y);
+            ps_hit hit = {
+                .position = {(float)x, (float)y, sight.height},
+                .normal = sight.normal,
+            };
+            size_t i = index_of(x, y);
+            gbuffer_store(&gbuffer.tiles[i / PS_TILE_PIXELS], (uint32_t)(i % PS_TILE_PIXELS), &hit,
+                          (ps_rgb){1, 1, 1}, 1);
+            gbuffer.direct[i] = (ps_rgb){sight.direct, 2 * sight.direct, 0};
+            gbuffer.met[i] = sight.met;
+        }
+    light_join(&gbuffer, 3);
+}
+
+static float joined(uint32_t x, uint32_t y)
+{
+    ps_rgb direct = gbuffer.direct[index_of(x, y)];
+    assert_float_equal(direct.g, 2 * direct.r, 1e-5);
+    return direct.r;
+}
+
+static const ps_vec3 up = {0, 0, 1};
+
+/* --- what rays met ------------------------------------------------------------------------------ */
+
+static void test_lights_are_seen_alike(void **state)
+{
+    (void)state;
+    uint64_t whole = gbuffer_met(3, 1.0f), none = gbuffer_met(3, 0.0f), part = whole | none;
+    assert_true(gbuffer_met_alike(0, 0));
+    assert_true(gbuffer_met_alike(whole, whole) && gbuffer_met_alike(none, none));
+    assert_true(gbuffer_met_alike(part, whole) && gbuffer_met_alike(none, part));
+    assert_int_equal(gbuffer_met(3, 0.5f), part);
+    assert_false(gbuffer_met_alike(whole, none));
+    assert_false(gbuffer_met_alike(whole, 0)); /* out of its reach */
+    /* One light that differs is enough; light 35 has the bits of light 3. */
+    uint64_t other = gbuffer_met(31, 1.0f);
+    assert_true(gbuffer_met_alike(other | part, other | whole));
+    assert_false(gbuffer_met_alike(other | whole, other | none));
+    assert_int_equal(gbuffer_met(35, 1.0f), whole);
+}
+
+/* --- a flat surface ------------------------------------------------------------------------------- */
+
+#define HALF_LIT (gbuffer_met(0, 1.0f) | gbuffer_met(0, 0.0f))
+
+static struct sight one_bright_pixel(uint32_t x, uint32_t y)
+{
+    return (struct sight){up, 0, x == 8 && y == 9 ? 25.0f : 0.0f, HALF_LIT};
+}
+
+static void test_a_window_of_5_by_5(void **state)
+{
+    (void)state;
+    join(one_bright_pixel);
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            bool within = x >= 6 && x <= 10 && y >= 7 && y <= 11;
+            assert_float_equal(joined(x, y), within ? 1.0 : 0.0, 1e-5);
+        }
+}
+
+static struct sight ramp(uint32_t x, uint32_t y)
+{
+    return (struct sight){up, 0, 3.0f * (float)x + (float)y, HALF_LIT};
+}
+
+/* Up to the picture's borders, where half of the window is missing. */
+static void test_what_falls_off_evenly_stays(void **state)
+{
+    (void)state;
+    join(ramp);
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++)
+            assert_float_equal(joined(x, y), 3.0f * (float)x + (float)y, 1e-4);
+}
+
+/* --- what nothing crosses ----------------------------------------------------------------------- */
+
+static struct sight hard_shadow(uint32_t x, uint32_t y)
+{
+    (void)y;
+    return (struct sight){up, 0, x < 9 ? 1.0f : 0.0f, gbuffer_met(0, x < 9 ? 1.0f : 0.0f)};
+}
+
+static struct sight cone(uint32_t x, uint32_t y)
+{
+    (void)y;
+    return (struct sight){up, 0, x < 9 ? 1.0f : 0.0f, x < 9 ? gbuffer_met(0, 1.0f) : 0};
+}
+
+static struct sight step(uint32_t x, uint32_t y)
+{
+    (void)y;
+    return (struct sight){up, x < 9 ? 4.0f : 0.0f, x < 9 ? 1.0f : 0.0f, HALF_LIT};
+}
+
+static struct sight roof(uint32_t x, uint32_t y)
+{
+    (void)y;
+    ps_vec3 left = {-0.1f, 0, 0.995f}, right = {0.1f, 0, 0.995f};
+    return (struct sight){x < 9 ? left : right, 0, x < 9 ? 1.0f : 0.0f, HALF_LIT};
+}
+
+static void test_edges_stay_sharp(void **state)
+{
+    (void)state;
+    struct sight (*const sights[])(uint32_t x, uint32_t y) = {hard_shadow, cone, step, roof};
+    for (size_t i = 0; i < sizeof sights / sizeof sights[0]; i++) {
+        join(sights[i]);
+        for (uint32_t x = 0; x < WIDTH; x++)
+            assert_float_equal(joined(x, 9), x < 9 ? 1.0 : 0.0, 1e-6);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_lights_are_seen_alike),
+        cmocka_unit_test(test_a_window_of_5_by_5),
+        cmocka_unit_test(test_what_falls_off_evenly_stays),
+        cmocka_unit_test(test_edges_stay_sharp),
+    };
+    return cmocka_run_group_tests(tests, open_gbuffer, close_gbuffer);
+}
