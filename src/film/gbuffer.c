@@ -74,6 +74,15 @@ uint32_t gbuffer_tile_of(const struct gbuffer *gbuffer, uint32_t x, uint32_t y, 
     return y / PS_TILE_SIZE * gbuffer->tiles_across + x / PS_TILE_SIZE;
 }
 
+bool gbuffer_find(const struct gbuffer *gbuffer, int64_t x, int64_t y, uint32_t *tile,
+                  uint32_t *lane)
+{
+    if (x < 0 || y < 0 || x >= (int64_t)gbuffer->width || y >= (int64_t)gbuffer->height)
+        return false;
+    *tile = gbuffer_tile_of(gbuffer, (uint32_t)x, (uint32_t)y, lane);
+    return true;
+}
+
 void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throughput,
                    float travelled)
 {

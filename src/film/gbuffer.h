@@ -45,6 +45,10 @@ bool gbuffer_pixel(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane, 
 /* The other way: tile and lane of a pixel of the picture. */
 uint32_t gbuffer_tile_of(const struct gbuffer *gbuffer, uint32_t x, uint32_t y, uint32_t *lane);
 
+/* The same for a neighbour, which may lie outside of the picture: false, and nothing told, then. */
+bool gbuffer_find(const struct gbuffer *gbuffer, int64_t x, int64_t y, uint32_t *tile,
+                  uint32_t *lane);
+
 /* Makes all lanes of a tile see nothing, and zeroes its accumulators, emitted radiance and by_chance. */
 void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t tile);
 

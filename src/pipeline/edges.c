@@ -31,9 +31,9 @@ struct place {
 /* False outside of the picture. */
 static bool place_of(const struct gbuffer *gbuffer, int64_t x, int64_t y, struct place *place)
 {
-    if (x < 0 || y < 0 || x >= (int64_t)gbuffer->width || y >= (int64_t)gbuffer->height)
+    uint32_t tile, lane;
+    if (!gbuffer_find(gbuffer, x, y, &tile, &lane))
         return false;
-    uint32_t lane, tile = gbuffer_tile_of(gbuffer, (uint32_t)x, (uint32_t)y, &lane);
     size_t pixel = (size_t)tile * PS_TILE_PIXELS + lane;
     *place = (struct place){&gbuffer->tiles[tile], lane, gbuffer->direct[pixel],
                             gbuffer->emitted[pixel]};

@@ -1,7 +1,7 @@
 #include "pipeline/light_join.h"
 
 #include "base/parallel.h"
-#include <psplat/math.h>
+#include <psplat/tile.h>
 
 #define REACH 2 /* pixels to each side */
 
@@ -16,14 +16,13 @@ struct pixel {
 
 static bool find_pixel(const struct gbuffer *gbuffer, int64_t x, int64_t y, struct pixel *pixel)
 {
-    if (x < 0 || y < 0 || x >= (int64_t)gbuffer->width || y >= (int64_t)gbuffer->height)
+    uint32_t tile, lane;
+    if (!gbuffer_find(gbuffer, x, y, &tile, &lane))
         return false;
-    uint32_t lane, number = gbuffer_tile_of(gbuffer, (uint32_t)x, (uint32_t)y, &lane);
-    const ps_tile *tile = &gbuffer->tiles[number];
     *pixel = (struct pixel){
-        .index = (size_t)number * PS_TILE_PIXELS + lane,
-        .position = {tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]},
-        .normal = {tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]},
+        .index = (size_t)tile * PS_TILE_PIXELS + lane,
+        .position = ps_tile_position(&gbuffer->tiles[tile], lane),
+        .normal = ps_tile_normal(&gbuffer->tiles[tile], lane),
     };
     return true;
 }
