@@ -11,6 +11,12 @@
 #include <psplat/math.h>
 #include <psplat/param.h>
 
+/* How many walls a splat has: a plugin's own splats may claim anything. */
+static inline uint32_t ps_wall_count(const ps_splat *splat)
+{
+    return splat->wall_count < PS_MOST_WALLS ? splat->wall_count : PS_MOST_WALLS;
+}
+
 /* Where a point lies in a bundle: (u, v, t). */
 static inline ps_vec3 ps_bundle_place(const ps_splat *splat, ps_vec3 point)
 {

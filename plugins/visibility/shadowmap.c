@@ -46,13 +46,14 @@ static void place(const void *opaque, const ps_host *host, const ps_source *sour
 /* Twice, for corners: the way out of one wall may lead into the other. */
 static void move_before_walls(const ps_splat *splat, float *u, float *v)
 {
-    for (uint32_t i = 0; i < 2 * splat->wall_count; i++) {
-        const ps_wall *wall = &splat->walls[i % splat->wall_count];
-        float most = (wall->distance - BEFORE_WALLS) * splat->half_width;
-        float past = fmaxf(*u * wall->normal_u + *v * wall->normal_v - most, 0.0f);
-        *u -= past * wall->normal_u;
-        *v -= past * wall->normal_v;
-    }
+    for (int turn = 0; turn < 2; turn++)
+        for (uint32_t i = 0; i < ps_wall_count(splat); i++) {
+            const ps_wall *wall = &splat->walls[i];
+            float most = (wall->distance - BEFORE_WALLS) * splat->half_width;
+            float past = fmaxf(*u * wall->normal_u + *v * wall->normal_v - most, 0.0f);
+            *u -= past * wall->normal_u;
+            *v -= past * wall->normal_v;
+        }
 }
 
 /* One ray of the map: where it starts, as a depth, and its origin. */

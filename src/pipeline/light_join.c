@@ -1,39 +1,42 @@
 #include "pipeline/light_join.h"
 
 #include "base/parallel.h"
-#include <psplat/tile.h>
 
 #define REACH 2 /* pixels to each side */
 
 /* Cosine between normals of what counts as flat: 3.6 degrees. */
 #define LEAST_COSINE 0.998f
 
-/* A pixel: its place in arrays of lanes, and its surface. */
+/* A pixel of the G-buffer, and its place in arrays of lanes. */
 struct pixel {
+    const ps_tile *tile;
+    uint32_t lane;
     size_t index;
-    ps_vec3 position, normal;
 };
 
-static bool find_pixel(const struct gbuffer *gbuffer, int64_t x, int64_t y, struct pixel *pixel)
+static struct pixel pixel_at(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane)
 {
-    uint32_t tile, lane;
-    if (!gbuffer_find(gbuffer, x, y, &tile, &lane))
-        return false;
-    *pixel = (struct pixel){
-        .index = (size_t)tile * PS_TILE_PIXELS + lane,
-        .position = ps_tile_position(&gbuffer->tiles[tile], lane),
-        .normal = ps_tile_normal(&gbuffer->tiles[tile], lane),
-    };
-    return true;
+    return (struct pixel){&gbuffer->tiles[tile], lane, (size_t)tile * PS_TILE_PIXELS + lane};
 }
 
 static bool alike(const struct gbuffer *gbuffer, const struct pixel *a, const struct pixel *b)
 {
-    float cosine = ps_dot(a->normal, b->normal);
-    ps_vec3 apart = ps_subtract(b->position, a->position);
-    return gbuffer_met_alike(gbuffer->met[a->index], gbuffer->met[b->index]) &&
-           cosine > LEAST_COSINE &&
-           gbuffer_same_surface(cosine, ps_dot(a->normal, apart), ps_dot(apart, apart));
+    if (!gbuffer_met_alike(gbuffer->met[a->index], gbuffer->met[b->index]))
+        return false;
+    struct gbuffer_offset offset = gbuffer_offset_of(a->tile, a->lane, b->tile, b->lane);
+    return offset.cosine > LEAST_COSINE &&
+           gbuffer_same_surface(offset.cosine, offset.off_plane, offset.distance2);
+}
+
+/* A neighbour that counts, if it has an opposite one. */
+static bool find_alike(const struct gbuffer *gbuffer, const struct pixel *here, int64_t x,
+                       int64_t y, struct pixel *there)
+{
+    uint32_t tile, lane;
+    if (!gbuffer_find(gbuffer, x, y, &tile, &lane))
+        return false;
+    *there = pixel_at(gbuffer, tile, lane);
+    return alike(gbuffer, here, there);
 }
 
 static ps_rgb mean_around(const struct gbuffer *gbuffer, const struct pixel *here, uint32_t x,
@@ -44,9 +47,8 @@ static ps_rgb mean_around(const struct gbuffer *gbuffer, const struct pixel *her
     for (int dy = 0; dy <= REACH; dy++)
         for (int dx = dy == 0 ? 1 : -REACH; dx <= REACH; dx++) {
             struct pixel there, opposite;
-            if (!find_pixel(gbuffer, (int64_t)x + dx, (int64_t)y + dy, &there) ||
-                !find_pixel(gbuffer, (int64_t)x - dx, (int64_t)y - dy, &opposite) ||
-                !alike(gbuffer, here, &there) || !alike(gbuffer, here, &opposite))
+            if (!find_alike(gbuffer, here, (int64_t)x + dx, (int64_t)y + dy, &there) ||
+                !find_alike(gbuffer, here, (int64_t)x - dx, (int64_t)y - dy, &opposite))
                 continue;
             sum = ps_rgb_add(sum, gbuffer->direct[there.index]);
             sum = ps_rgb_add(sum, gbuffer->direct[opposite.index]);
@@ -61,10 +63,10 @@ static void join_tile(void *user, uint64_t tile, uint32_t worker)
     const struct gbuffer *gbuffer = user;
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
         uint32_t x, y;
-        struct pixel here;
-        if (gbuffer_pixel(gbuffer, (uint32_t)tile, lane, &x, &y) &&
-            find_pixel(gbuffer, x, y, &here))
-            gbuffer->joined[here.index] = mean_around(gbuffer, &here, x, y);
+        if (!gbuffer_pixel(gbuffer, (uint32_t)tile, lane, &x, &y))
+            continue;
+        struct pixel here = pixel_at(gbuffer, (uint32_t)tile, lane);
+        gbuffer->joined[here.index] = mean_around(gbuffer, &here, x, y);
     }
 }
 

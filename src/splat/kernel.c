@@ -1,7 +1,7 @@
 #include "splat/kernel.h"
 
 #include <math.h>
-#include <psplat/math.h>
+#include <psplat/bundle.h>
 #include <string.h>
 
 #define KERNEL_DECLARE(name)                                                                       \
@@ -90,16 +90,10 @@ void kernel_profile_count(struct kernel_profile *profile)
     profile->counting = true;
 }
 
-/* A plugin's own splats may claim anything. */
-static uint32_t wall_count(const ps_splat *splat)
-{
-    return splat->wall_count < PS_MOST_WALLS ? splat->wall_count : PS_MOST_WALLS;
-}
-
 static float walls_likeness(const ps_splat *splat)
 {
     const ps_wall *walls = splat->walls;
-    if (wall_count(splat) < 2)
+    if (ps_wall_count(splat) < 2)
         return 0.0f;
     float cosine = walls[0].normal_u * walls[1].normal_u + walls[0].normal_v * walls[1].normal_v;
     return 2.0f / PS_PI * asinf(fmaxf(-1.0f, fminf(cosine, 1.0f)));
@@ -150,7 +144,7 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
         .kernel_scale = profile->counting ? 1.0f : merged * profile->scale * inverse * inverse,
         .power = ps_rgb_scale(splat->power, 1.0f / merged),
         .depths = depths,
-        .wall_count = profile->counting ? 0 : wall_count(splat),
+        .wall_count = profile->counting ? 0 : ps_wall_count(splat),
         .walls = {splat->walls[0], splat->walls[1]},
         .walls_likeness = walls_likeness(splat),
     };

@@ -242,9 +242,9 @@ static void test_stream_as_long_as_the_pixels(void **state)
     assert_round_trip(state, &image);
 }
 
-/* What a tool of the OpenEXR package says about the file, to be freed; NULL where there is none. Its exit
- * status says nothing: exrinfo 3.1 returns a variable that it never set. */
-static char *told_by(const char *tool, const char *path, const char *output)
+/* What a tool of the OpenEXR package says about the file, to be freed; NULL where there is none.
+ * `has_status`: exrinfo 3.1 has none, as it returns a variable that it never set. */
+static char *told_by(const char *tool, bool has_status, const char *path, const char *output)
 {
     char command[2048];
     size_t size;
@@ -254,7 +254,8 @@ static char *told_by(const char *tool, const char *path, const char *output)
         return NULL;
     }
     snprintf(command, sizeof command, "%s '%s' >'%s' 2>&1", tool, path, output);
-    assert_int_not_equal(system(command), -1);
+    int status = system(command);
+    assert_true(has_status ? status == 0 : status != -1);
     char *text = (char *)scratch_load(output, &size);
     text[size] = '\0';
     return text;
@@ -278,13 +279,13 @@ static void test_other_programs_can_read_it(void **state)
     const char *output = scratch_path(state, "output.txt");
     write_picture(&image, path);
     image_release(&image);
-    char *text = told_by("exrheader", path, output);
+    char *text = told_by("exrheader", true, path, output);
     for (size_t i = 0; text && i < sizeof header / sizeof *header; i++) {
         assert_non_null(strstr(text, header[i]));
     }
     assert_true(!text || !strstr(text, "capDate"));
     free(text);
-    text = told_by("exrinfo", path, output);
+    text = told_by("exrinfo", false, path, output);
     assert_true(!text || strstr(text, "257 x 19"));
     free(text);
 }
