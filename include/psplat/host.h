@@ -57,6 +57,14 @@ typedef struct ps_pass {
 
 #define PS_MOST_INTERLEAVE 8
 
+/* Light that splats leave to the estimator: what surfaces that lights shine on reflect, diffusely and only
+ * once, over less than `distance` (0: nothing is left). So many rays as `rays`, for a pixel and those that it
+ * is averaged with, find it about as well as the pass's splats find the rest. */
+typedef struct ps_near_light {
+    float distance;
+    uint32_t rays;
+} ps_near_light;
+
 /* A body of parallel_for: item `index`, on worker `worker` < thread_count. */
 typedef void (*ps_body)(void *user, uint64_t index, uint32_t worker);
 
@@ -199,6 +207,18 @@ struct ps_host {
      * equal areas. [any thread] */
     void (*emit_from)(const ps_host *host, uint32_t index, const float (*samples)[4], size_t n,
                       ps_ray *rays, ps_rgb *power);
+
+    /* From now on in this pass place_boxes leaves near light to the caller, by ps_splat.nearest: what comes
+     * from nearer than a half-width of the boxes, automatic or given, which splats would blur; nothing where
+     * beams don't start at their sources and follow the distance. After begin_splats, before place_splats.
+     * [main thread, inside accumulate] */
+    ps_result (*leave_near_light)(const ps_host *host, ps_near_light *near);
+
+    /* Takes the near light of tile `index`: irradiance (W/m^2) for each lane. When the pass ends it is added
+     * to the tile without weight, as a mean over the n x n pixels of begin_splats. One worker at a time for
+     * each tile. [any thread, after leave_near_light] */
+    void (*set_near_light)(const ps_host *host, uint32_t index,
+                           const ps_rgb irradiance[PS_TILE_PIXELS]);
 };
 
 #endif

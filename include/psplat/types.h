@@ -95,10 +95,12 @@ typedef struct ps_source {
     ps_vec3 direction;
     ps_rgb power; /* W */
     uint16_t
-        bounce;    /* diffuse surfaces met so far, this one included: 1 = lit by a light directly */
-    uint16_t lobe; /* ps_lobe by which the surface sent it out; not PS_DIFFUSE: a caustic */
-    float merged;  /* how many emitted sources this one stands for (1 when none were merged) */
-    uint64_t path; /* number of the light path, counted over all passes; keys random streams */
+        bounce;   /* diffuse surfaces met so far, this one included: 1 = lit by a light directly */
+    uint8_t lobe; /* ps_lobe by which the surface sent it out; not PS_DIFFUSE: a caustic */
+    uint8_t specular; /* 1: some surface on the light's way, this one included, did not scatter it
+                         diffusely */
+    float merged;     /* how many emitted sources this one stands for (1 when none were merged) */
+    uint64_t path;    /* number of the light path, counted over all passes; keys random streams */
 } ps_source;
 
 /* A wall beside a source, behind which part of its bundle would start: the ray at (u, v), in
@@ -128,6 +130,9 @@ typedef struct ps_splat {
      * and `widest`; and where that is less than the box's, the bundle starts as much nearer to the
      * source's plane. follow 0: all pixels take all of it, and source_depth says nothing. */
     float source_depth, follow, narrowest, widest;
+    /* Of full beams that follow the distance: what lies nearer than this to the source's plane gets weight but
+     * no light, which the estimator gathers otherwise (host->leave_near_light). 0: all is lit. */
+    float nearest;
     /* Lit where t <= map + constant + slope * tan(theta), theta between the light and the receiver's
      * normal. */
     float bias_constant, bias_slope;

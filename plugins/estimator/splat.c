@@ -8,6 +8,14 @@
  * The cosine belongs here since K lies across the beam; a photon map's gather, whose kernel lies in
  * the surface, has none. The driver multiplies by albedo / pi. Placing, depth maps, bins and the
  * inner loop are the core's (src/splat), shared by whatever splats.
+ *
+ * A kernel blurs what is smaller than itself: light that comes from nearer than a half-width, along creases
+ * and under what stands close to a wall. There splats would have to be as small as the gaps, and would be so
+ * noisy that they rule the error. So what lamps throw onto surfaces nearby is found by short rays from the
+ * pixels (after Kollig and Keller 2006, "Illumination in the presence of weak singularities", who make up for
+ * the clamped light of near virtual lights), and splats leave it out. The two parts meet at one distance, so
+ * their sum has no seam and counts nothing twice. Light that other surfaces threw there is smooth, and caustics
+ * are found by light paths alone: both are splatted all the way.
  */
 #include <math.h>
 #include <psplat/plugin.h>
@@ -16,6 +24,7 @@
 
 struct state {
     int64_t interleave;
+    ps_number_or_choice near_rays;
 };
 
 static ps_result splat_batches(const ps_host *host, const ps_source *sources, size_t n,
@@ -47,30 +56,183 @@ static uint32_t interleave_of(const struct state *state, const ps_pass *pass)
     return n < 1 ? 1 : n < MOST_AUTOMATIC ? n : MOST_AUTOMATIC;
 }
 
-static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pass *pass)
+/* --- near light --------------------------------------------------------------------------------- */
+
+/* Rays of each pixel that tell whether anything is near to the block that it lies in. Where none of the
+ * block's sixteen pixels meet anything, less than half a percent of the light can come from nearby. */
+#define SCOUTS 4
+
+#define BLOCK 4 /* pixels along the side of a block */
+
+#define DIRECTION_SET 1u
+#define LAMP_SET 2u
+
+struct near_work {
+    const ps_host *host;
+    const ps_pass *pass;
+    float distance; /* from within which light is gathered */
+    uint64_t rays;  /* of each pixel */
+};
+
+static uint32_t block_of(uint32_t lane)
 {
-    ps_splat *splats = host->allocate(host, BATCH * sizeof *splats, "splats placed");
-    if (!splats)
-        return PS_ERROR_MEMORY;
-    const struct state *state = opaque;
+    return lane / PS_TILE_SIZE / BLOCK * (PS_TILE_SIZE / BLOCK) + lane % PS_TILE_SIZE / BLOCK;
+}
+
+/* Where a pixel's samples begin: the sixteen of a block share one run of the sequence, since what they find
+ * is averaged. */
+static uint64_t samples_of(const struct near_work *work, uint64_t tile, uint32_t lane)
+{
+    uint64_t place = lane / PS_TILE_SIZE % BLOCK * BLOCK + lane % BLOCK;
+    uint64_t pass = work->pass->number;
+    return ps_sample_block(tile, block_of(lane)) + (pass * BLOCK * BLOCK + place) * work->rays;
+}
+
+/* Shoots one ray from each point, and moves what they meet to the front; returns how many. targets[i]: the
+ * point of hit i. */
+static size_t look(const struct near_work *work, const ps_points *points, const uint64_t *indices,
+                   ps_ray *rays, ps_hit *hits, uint32_t *targets)
+{
+    float numbers[PS_TILE_PIXELS][4];
+    size_t met = 0;
+    work->host->samples(work->host, PS_STREAM_PATH, DIRECTION_SET, indices, points->count, numbers);
+    for (uint32_t i = 0; i < points->count; i++) {
+        ps_vec3 normal = points->normals[i];
+        rays[i] = ps_leave_surface(points->positions[i], normal,
+                                   ps_cosine_direction(normal, numbers[i][0], numbers[i][1]),
+                                   work->pass->surface_offset);
+        rays[i].tfar = work->distance;
+        targets[i] = i;
+    }
+    work->host->intersect(work->host, rays, points->count, hits);
+    ps_forget_own_surface(points, targets, points->count, work->pass->surface_offset, hits);
+    for (uint32_t i = 0; i < points->count; i++) {
+        if (!(hits[i].distance < INFINITY))
+            continue;
+        targets[met] = i;
+        rays[met] = rays[i];
+        hits[met] = hits[i];
+        hits[met++].flags &= ~PS_HIT_SPECULAR; /* gloss is splatted */
+    }
+    return met;
+}
+
+/* Adds what one ray of each point finds; near[block] becomes 1 where it meets something. With directions
+ * drawn by the cosine, a ray's irradiance is pi times the radiance that it finds. */
+static void gather(const struct near_work *work, uint64_t tile, const ps_points *points,
+                   uint64_t sample, ps_rgb *irradiance, uint8_t *near)
+{
+    ps_ray rays[PS_TILE_PIXELS];
+    ps_hit hits[PS_TILE_PIXELS];
+    ps_rgb radiance[PS_TILE_PIXELS];
+    uint64_t indices[PS_TILE_PIXELS];
+    uint32_t targets[PS_TILE_PIXELS];
+    for (size_t i = 0; i < points->count; i++)
+        indices[i] = samples_of(work, tile, points->lanes[i]) + sample;
+    size_t met = look(work, points, indices, rays, hits, targets);
+    for (size_t i = 0; i < met; i++)
+        indices[i] = indices[targets[i]]; /* targets[i] >= i */
+    work->host->direct_radiance(work->host, rays, hits, PS_STREAM_PATH, LAMP_SET, indices, met,
+                                radiance);
+    for (size_t i = 0; i < met; i++) {
+        uint32_t lane = points->lanes[targets[i]];
+        ps_rgb found = ps_rgb_scale(radiance[i], PS_PI / (float)work->rays);
+        irradiance[lane] = ps_rgb_add(irradiance[lane], found);
+        near[block_of(lane)] = 1;
+    }
+}
+
+/* Keeps the points of blocks that something is near to. */
+static void keep_near(const uint8_t *near, ps_points *points)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < points->count; i++) {
+        if (!near[block_of(points->lanes[i])])
+            continue;
+        points->positions[kept] = points->positions[i];
+        points->normals[kept] = points->normals[i];
+        points->lanes[kept++] = points->lanes[i];
+    }
+    points->count = kept;
+}
+
+static void gather_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct near_work *work = user;
+    const ps_host *host = work->host;
+    ps_points points;
+    uint8_t near[PS_TILE_PIXELS / (BLOCK * BLOCK)] = {0};
+    ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}};
+    ps_collect_points(host->tile(host, (uint32_t)index), &points);
+    for (uint64_t sample = 0; sample < work->rays; sample++) {
+        if (sample == SCOUTS)
+            keep_near(near, &points);
+        gather(work, index, &points, sample, irradiance, near);
+    }
+    host->set_near_light(host, (uint32_t)index, irradiance);
+}
+
+/* Gathers the light that splats leave. Averaging over n x n pixels is as good as so many more rays; powers of
+ * two are spread most evenly. */
+static ps_result gather_near(const ps_host *host, const ps_pass *pass, float distance, double rays,
+                             uint32_t n)
+{
+    struct near_work work = {host, pass, distance, 1};
+    while (2.0 * (double)work.rays * n * n <= rays)
+        work.rays *= 2;
+    return host->for_each_tile(host, gather_tile, &work);
+}
+
+/* --- the plugin --------------------------------------------------------------------------------- */
+
+static ps_result splat_all(const ps_host *host, ps_splat *splats)
+{
     const ps_source *sources;
     size_t n = 1;
     double progress;
-    ps_result result = host->begin_splats(host, interleave_of(state, pass));
+    ps_result result = PS_OK;
     while (result == PS_OK && n > 0) {
         result = host->next_sources(host, &sources, &n, &progress);
         if (result == PS_OK)
             result = splat_batches(host, sources, n, splats);
         host->progress(host, progress);
     }
+    return result;
+}
+
+static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pass *pass)
+{
+    const struct state *state = opaque;
+    uint32_t interleave = interleave_of(state, pass);
+    int automatic = state->near_rays.choice >= 0;
+    ps_near_light near = {.distance = 0.0f};
+    ps_splat *splats = host->allocate(host, BATCH * sizeof *splats, "splats placed");
+    if (!splats)
+        return PS_ERROR_MEMORY;
+    ps_result result = host->begin_splats(host, interleave);
+    if (result == PS_OK && (automatic || state->near_rays.number > 0))
+        result = host->leave_near_light(host, &near);
+    if (result == PS_OK)
+        result = splat_all(host, splats);
+    if (result == PS_OK && near.distance > 0.0f)
+        result = gather_near(host, pass, near.distance,
+                             automatic ? near.rays : state->near_rays.number, interleave);
     host->release(host, splats);
     return result;
 }
+
+static const char *const near_rays_choices[] = {"auto", NULL};
 
 static const ps_param params[] = {
     PS_INT(struct state, interleave, "0", 0, PS_MOST_INTERLEAVE, "pixels",
            "n: a splat lights every n-th pixel across and down, and neighbours are averaged; 0: by "
            "the picture's size, at most 4"),
+    PS_NUMBER_OR(
+        struct state, near_rays, "auto", 0, 65536, 0, near_rays_choices, "rays",
+        "short rays, of each pixel and those that it is averaged with, for light from nearer "
+        "than a half-width, which splats would blur; 0: it is splatted, too; auto: by the "
+        "number of light paths"),
 };
 
 static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};

@@ -28,6 +28,7 @@ struct path {
     float numbers[4]; /* for the next surface: two for the direction, roulette, choice of lobe */
     uint32_t bounces; /* diffuse surfaces met */
     uint32_t chain;   /* others since the last one */
+    uint8_t specular; /* 1: it met others at all */
 };
 
 static uint64_t path_count(const void *state)
@@ -80,8 +81,10 @@ static int goes_on(const struct state *state, const ps_scatter *scattered, struc
     path->power = ps_rgb_multiply(path->power, scattered->weight);
     if (!(ps_rgb_maximum(path->power) > 0.0f))
         return 0;
-    if (scattered->lobe != PS_DIFFUSE)
+    if (scattered->lobe != PS_DIFFUSE) {
+        path->specular = 1;
         return ++path->chain <= PS_LONGEST_CHAIN;
+    }
     path->chain = 0;
     path->bounces++;
     if (state->bounces && path->bounces > (uint32_t)state->bounces)
@@ -98,7 +101,8 @@ static ps_source source_of(const struct path *path, const ps_hit *hit, const ps_
         .direction = scattered->direction,
         .power = path->power,
         .bounce = (uint16_t)path->bounces,
-        .lobe = (uint16_t)scattered->lobe,
+        .lobe = (uint8_t)scattered->lobe,
+        .specular = path->specular,
         .merged = 1.0f,
         .path = path->index,
     };

@@ -58,6 +58,7 @@ struct path {
     uint64_t index;   /* over all passes */
     float numbers[4]; /* for the next surface */
     uint16_t bounces; /* diffuse surfaces met */
+    uint8_t specular; /* 1: it met others, too */
 };
 
 /* --- the maps of the lights ------------------------------------------------------------------------ */
@@ -308,6 +309,7 @@ static size_t extend_paths(const ps_host *host, const ps_pass *pass, uint32_t se
         struct path path = paths[i];
         path.power = ps_rgb_multiply(path.power, scattered[i].weight);
         path.bounces += scattered[i].lobe == PS_DIFFUSE;
+        path.specular |= scattered[i].lobe != PS_DIFFUSE;
         if (!(ps_rgb_maximum(path.power) > 0.0f) || path.bounces > 1)
             continue;
         sources[(*count)++] = (ps_source){
@@ -316,7 +318,8 @@ static size_t extend_paths(const ps_host *host, const ps_pass *pass, uint32_t se
             .direction = scattered[i].direction,
             .power = path.power,
             .bounce = path.bounces,
-            .lobe = (uint16_t)scattered[i].lobe,
+            .lobe = (uint8_t)scattered[i].lobe,
+            .specular = path.specular,
             .merged = 1.0f,
             .path = path.index,
         };

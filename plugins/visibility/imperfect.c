@@ -538,11 +538,17 @@ static uint32_t resolution(const void *state)
     return (uint32_t)((const struct state *)state)->resolution;
 }
 
+static ps_box_settings boxes(const void *opaque)
+{
+    const struct state *state = opaque;
+    return PS_BOX_SETTINGS(state);
+}
+
 static void place(const void *opaque, const ps_host *host, const ps_source *sources,
                   const ps_hit *hits, size_t n, ps_splat *splats)
 {
     const struct state *state = opaque;
-    ps_box_settings settings = PS_BOX_SETTINGS(state);
+    ps_box_settings settings = boxes(state);
     host->place_boxes(host, &settings, sources, hits, n, splats);
     ps_open_full_beams(&settings, splats, n);
     ps_set_bias(state->bias, (uint32_t)state->resolution, splats, n);
@@ -580,6 +586,7 @@ static const ps_param params[] = {
 static const ps_visibility_vtable vtable = {
     .size = sizeof vtable,
     .resolution = resolution,
+    .boxes = boxes,
     .place = place,
     .depth_maps = depth_maps,
 };

@@ -22,11 +22,17 @@ static uint32_t resolution(const void *state)
     return 0;
 }
 
+static ps_box_settings boxes(const void *opaque)
+{
+    const struct state *state = opaque;
+    return PS_BOX_SETTINGS(state);
+}
+
 static void place(const void *opaque, const ps_host *host, const ps_source *sources,
                   const ps_hit *hits, size_t n, ps_splat *splats)
 {
     const struct state *state = opaque;
-    ps_box_settings settings = PS_BOX_SETTINGS(state);
+    ps_box_settings settings = boxes(state);
     host->place_boxes(host, &settings, sources, hits, n, splats);
     ps_open_full_beams(&settings, splats, n);
 }
@@ -67,6 +73,7 @@ static const ps_param params[] = {PS_BOX_PARAMS(struct state, "full", "yes")};
 static const ps_visibility_vtable vtable = {
     .size = sizeof vtable,
     .resolution = resolution,
+    .boxes = boxes,
     .place = place,
     .visible = visible,
 };

@@ -33,6 +33,7 @@ static struct box_scene box_scene_of(const struct render *render)
         .seed = render->settings->seed,
         .camera = &render->scene->camera,
         .interleave = render->has_splatter ? render->splatter.settings.interleave : 1,
+        .near_distance = render->near_light.distance,
     };
 }
 
@@ -200,6 +201,7 @@ static ps_result host_begin_splats(const ps_host *host, uint32_t n)
         return result;
     struct splatter_pass pass = {render->pass.number, render->sources.path_count};
     splatter_begin_pass(&render->splatter, &render->gbuffer, pass);
+    render->near_light.distance = 0.0f;
     render->splatting = true;
     return PS_OK;
 }
@@ -216,12 +218,39 @@ static ps_result host_splat(const ps_host *host, ps_splat *splats, size_t n)
     return result;
 }
 
+static float near_distance(const struct render *render)
+{
+    const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
+    const ps_visibility_vtable *vtable = visibility->descriptor->vtable;
+    if (!vtable->boxes)
+        return 0.0f;
+    ps_box_settings settings = vtable->boxes(visibility->state);
+    struct box_scene scene = box_scene_of(render);
+    return box_near_distance(&scene, &settings);
+}
+
+static ps_result host_leave_near_light(const ps_host *host, ps_near_light *near)
+{
+    struct render *render = render_of(host);
+    near->distance = near_distance(render);
+    near->rays = near_light_rays(render->sources.path_count);
+    return near_light_begin(&render->near_light, &render->gbuffer, near->distance, &render->error);
+}
+
+static void host_set_near_light(const ps_host *host, uint32_t index,
+                                const ps_rgb irradiance[PS_TILE_PIXELS])
+{
+    near_light_set(&render_of(host)->near_light, index, irradiance);
+}
+
 void host_add_splatting(ps_host *host)
 {
     host->place_boxes = host_place_boxes;
     host->place_splats = host_place_splats;
     host->begin_splats = host_begin_splats;
     host->splat = host_splat;
+    host->leave_near_light = host_leave_near_light;
+    host->set_near_light = host_set_near_light;
 }
 
 void host_report_splatter(struct render *render)

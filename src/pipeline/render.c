@@ -97,6 +97,7 @@ static void destroy(struct render *render)
 {
     if (render->has_splatter)
         splatter_release(&render->splatter);
+    near_light_release(&render->near_light);
     source_stream_release(&render->sources);
     for (int kind = 0; kind < PS_KINDS; kind++)
         strategy_stop(&render->settings->strategies[kind]);
@@ -188,6 +189,14 @@ static void over_tiles(struct tile_work *work, const char *stage, parallel_body 
     statistics_add_seconds(render->statistics, stage, clock_seconds() - start);
 }
 
+static void end_splats(struct render *render)
+{
+    struct splatter *splatter = &render->splatter;
+    splatter_end_pass(splatter, &render->gbuffer);
+    near_light_end(&render->near_light, &render->gbuffer, splatter->settings.interleave,
+                   render->settings->threads);
+}
+
 ps_result render_estimate(struct render *render, struct error *error)
 {
     const struct strategy *estimator = &render->settings->strategies[PS_ESTIMATOR];
@@ -197,7 +206,7 @@ ps_result render_estimate(struct render *render, struct error *error)
     double start = clock_seconds();
     ps_result result = vtable->accumulate(estimator->state, &render->host, &render->pass);
     if (result == PS_OK && render->splatting)
-        splatter_end_pass(&render->splatter, &render->gbuffer);
+        end_splats(render);
     statistics_add_seconds(render->statistics, "estimate", clock_seconds() - start);
     if (result == PS_OK && render->host.cancelled(&render->host))
         return PS_CANCELLED;

@@ -4,6 +4,7 @@
 #define PIPELINE_RENDER_STATE_H
 
 #include "film/film.h"
+#include "pipeline/near_light.h"
 #include "pipeline/render.h"
 #include "pipeline/shadow_maps.h"
 #include "pipeline/sources.h"
@@ -24,6 +25,7 @@ struct render {
     struct splatter splatter; /* made when an estimator first splats */
     bool has_splatter;
     bool splatting; /* in this pass */
+    struct near_light near_light;
     bool
         counts_splats; /* in place of the filter: tiles' weights count the splats that light them */
     ps_pass pass;

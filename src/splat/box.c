@@ -10,7 +10,8 @@
 /* A size that follows the distance stops at this fraction of `size`. Without a floor, light that
  * crosses a corner from very near makes splats so small and bright that they rule the error: at a fifth,
  * a tenth of the Cornell box's pixels hold two thirds of its variance. What lamps light has the sharp
- * edges of their shadows, which wide splats blur; what other surfaces light has none. */
+ * edges of their shadows, which wide splats blur; what other surfaces light has none. Where light from close
+ * by is not splatted, these blur less, and the size may stop at what it is at that distance. */
 #define SMALLEST_LIT_BY_LAMPS 0.3f
 #define SMALLEST_LIT_BY_SURFACES 0.6f
 
@@ -94,6 +95,13 @@ static float growth(const ps_box_settings *settings, const ps_source *source)
     return fminf(sqrtf(source->merged), (float)fmin(settings->grow, 1e9));
 }
 
+/* How near to its source's plane a splat lights. All the way, where shadow rays would not find the light
+ * that it sends on: caustics, and what other surfaces lit. */
+static float nearest_lit(const struct box_scene *scene, const ps_source *source)
+{
+    return source->bounce == 1 && !source->specular ? scene->near_distance : 0.0f;
+}
+
 /* What a size that follows the distance may not fall below. Smaller ones than n pixels, of which every
  * n-th is lit, are noise that averaging them takes back in part. */
 static float smallest(const struct box_scene *scene, const ps_source *source, float distance,
@@ -102,15 +110,28 @@ static float smallest(const struct box_scene *scene, const ps_source *source, fl
     ps_vec3 lit =
         ps_add_scaled(source->position, fminf(distance, 4.0f * scene->radius), source->direction);
     float pixels = (float)scene->interleave * camera_pixel_size(scene->camera, lit);
-    float part = source->bounce > 1 ? SMALLEST_LIT_BY_SURFACES : SMALLEST_LIT_BY_LAMPS;
+    bool wide = source->bounce > 1 || nearest_lit(scene, source) > 0.0f;
+    float part = wide ? SMALLEST_LIT_BY_SURFACES : SMALLEST_LIT_BY_LAMPS;
     return fmaxf(part * size, fminf(pixels, size));
+}
+
+/* Half-width where nothing was merged and no distance is followed. */
+static float box_size(const struct box_scene *scene, const ps_box_settings *settings)
+{
+    return settings->size > 0 ? bounded(scene, settings->size) : scene->automatic_size;
 }
 
 float box_widest(const struct box_scene *scene, const ps_box_settings *settings,
                  const ps_source *source)
 {
-    float size = settings->size > 0 ? bounded(scene, settings->size) : scene->automatic_size;
-    return bounded(scene, (double)size * (double)growth(settings, source));
+    double size = box_size(scene, settings);
+    return bounded(scene, size * (double)growth(settings, source));
+}
+
+float box_near_distance(const struct box_scene *scene, const ps_box_settings *settings)
+{
+    bool starts_at_source = settings->step_back_rule == STEP_BACK_FULL;
+    return starts_at_source && settings->follow > 0 ? box_size(scene, settings) : 0.0f;
 }
 
 float box_half_width(const struct box_scene *scene, const ps_box_settings *settings,
@@ -143,6 +164,7 @@ static void place_full(const struct box_scene *scene, const ps_box_settings *set
     float tilt = hypotf(splat->start_slope_u, splat->start_slope_v) * splat->half_width;
     splat->near_depth = fminf(splat->source_depth - tilt, 0.0f);
     splat->follow = (float)fmin(settings->follow, 1e9);
+    splat->nearest = nearest_lit(scene, source);
     splat->widest = box_widest(scene, settings, source);
     splat->narrowest = smallest(scene, source, distance, splat->widest);
 }

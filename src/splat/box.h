@@ -13,8 +13,8 @@
  *             splatting").
  *
  * The size follows the distance d travelled, R = min(size, follow * d) but no less than a part of
- * size (0.3; 0.6 after the first bounce), as a photon differential would: light from close by, in a corner,
- * makes small splats. Nor does it follow below the n x n pixels that interleaved splats are averaged over in
+ * size (0.3; 0.6 after the first bounce, or where light from close by is left to the estimator), as a photon
+ * differential would: light from close by, in a corner, makes small splats. Nor does it follow below the n x n pixels that interleaved splats are averaged over in
  * the end. The box of a full beam is as wide as its pixels' sizes ask for (width.h, reach.h). Where sources
  * were merged, `size` grows with the square root of their number (see grow).
  */
@@ -38,6 +38,7 @@ struct box_scene {
     uint64_t seed;        /* rotates the frames */
     const struct camera *camera;
     uint32_t interleave; /* see field.h */
+    float near_distance; /* of the light that splats leave to the estimator; 0: none */
 };
 
 /* How far above its source's tangent plane a full beam of that half-width starts. */
@@ -49,6 +50,12 @@ float box_clearance(float surface_offset, float half_width, bool hollow);
  * p^((alpha - 1) / 2), alpha = 2/3, so that the mean of more and more passes loses noise and blur alike
  * (Knaus and Zwicker 2011, "Progressive photon mapping: a probabilistic approach"). */
 float box_automatic_size(float scene_radius, uint64_t paths, uint32_t pass);
+
+/* How near light has to come from for splats to leave it to the estimator: as near as they would blur
+ * it, one half-width; 0 where beams don't start at their sources and follow the distance. (After the bias
+ * compensation of virtual point lights: Kollig and Keller 2006, "Illumination in the presence of weak
+ * singularities".) */
+float box_near_distance(const struct box_scene *scene, const ps_box_settings *settings);
 
 /* Half-width of the disc that a source's light may fill. */
 float box_widest(const struct box_scene *scene, const ps_box_settings *settings,

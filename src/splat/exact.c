@@ -6,8 +6,8 @@
 struct inside {
     size_t count;
     uint32_t lanes[PS_TILE_PIXELS];
-    float weight[PS_TILE_PIXELS], cosine[PS_TILE_PIXELS];
-    ps_vec3 points[PS_TILE_PIXELS]; /* off their surfaces */
+    float weight[PS_TILE_PIXELS], cosine[PS_TILE_PIXELS]; /* 0: the light is not splatted */
+    ps_vec3 points[PS_TILE_PIXELS];                       /* off their surfaces */
 };
 
 static ps_vec3 normal_of(const struct field_tile *tile, uint32_t lane)
@@ -68,7 +68,7 @@ static void collect(const struct field_tile *tile, const struct kernel_splat *sp
         size_t i = inside->count++;
         inside->lanes[i] = lane;
         inside->weight[i] = weight_at(splat, profile, u, v, width);
-        inside->cosine[i] = cosine;
+        inside->cosine[i] = above >= splat->nearest ? cosine : 0.0f;
         inside->points[i] = ps_add_scaled(position, surface_offset, normal);
     }
 }

@@ -184,7 +184,7 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
         float narrowing = 1.0f + splat->by_width * (inverse_width * inverse_width - 1.0f);
         float weight = (float)lit * profile[entry] * splat->kernel_scale * narrowing;
         light->weight[i] = weight;
-        light->projected[i] = weight * facing;
+        light->projected[i] = (float)(placed->above[i] >= splat->nearest) * weight * facing;
         useful += lit;
     }
     return useful;

@@ -1,0 +1,31 @@
+/* pair_mean.h: pixels take in what the pixels around them found, where it may be the same.
+ *
+ * A few rays tell a pixel's light badly; those of its neighbours tell nearly the same light (interleaved
+ * sampling: Keller and Heidrich 2001, section 4). So what a pixel found becomes a mean over a window. Of it
+ * count
+ *
+ * - pixels on the same surface, all but flat: bumps keep their shading;
+ * - those that see the lights alike (gbuffer_met_alike), where that was asked for: nothing crosses the edge
+ *   of a hard shadow;
+ * - pairs that lie opposite each other, both or none. A mean over pairs keeps what falls off evenly, where
+ *   one over part of a window would flatten what lies along the rims of surfaces.
+ *
+ * What bends within the window is blurred, which is a bias.
+ */
+#ifndef FILM_PAIR_MEAN_H
+#define FILM_PAIR_MEAN_H
+
+#include "film/gbuffer.h"
+
+/* Arrays have a value for each lane of each tile; borrowed. */
+struct pair_mean {
+    const struct gbuffer *gbuffer;
+    const uint64_t *met; /* see gbuffer_met_alike; NULL: does not matter */
+    int reach;           /* pixels to each side */
+    const ps_rgb *from;
+    ps_rgb *to; /* set for lanes that are pixels of the picture */
+};
+
+void pair_mean_take(struct pair_mean *mean, uint32_t threads);
+
+#endif

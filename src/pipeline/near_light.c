@@ -1,0 +1,84 @@
+#include "pipeline/near_light.h"
+
+#include "base/parallel.h"
+#include "film/pair_mean.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* For 400,000 light paths, and how few and many there may be. Measured: in the Cornell box half as many raise
+ * the error of those paths from 2.2 to 2.3 %, twice as many leave it; in the colonnade, where most light is
+ * near, from 4.4 to 4.9 %, and lower it to 4.2 %. */
+#define RAYS 128
+#define LEAST_RAYS 16
+#define MOST_RAYS 4096
+
+uint32_t near_light_rays(uint64_t paths)
+{
+    double rays = RAYS * sqrt((double)paths / 4e5);
+    return (uint32_t)fmin(fmax(rays, LEAST_RAYS), MOST_RAYS);
+}
+
+static size_t lanes_of(const struct gbuffer *gbuffer)
+{
+    return (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
+}
+
+ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffer, float distance,
+                           struct error *error)
+{
+    size_t lanes = lanes_of(gbuffer);
+    near->distance = distance;
+    if (!near->found)
+        near->found = malloc(lanes * sizeof *near->found);
+    if (!near->joined)
+        near->joined = malloc(lanes * sizeof *near->joined);
+    if (!near->found || !near->joined)
+        return error_memory(error, 2 * lanes * sizeof *near->found, "near light");
+    memset(near->found, 0, lanes * sizeof *near->found);
+    return PS_OK;
+}
+
+void near_light_release(struct near_light *near)
+{
+    free(near->found);
+    free(near->joined);
+    *near = (struct near_light){.found = NULL};
+}
+
+void near_light_set(struct near_light *near, uint32_t tile, const ps_rgb irradiance[PS_TILE_PIXELS])
+{
+    memcpy(&near->found[(size_t)tile * PS_TILE_PIXELS], irradiance,
+           PS_TILE_PIXELS * sizeof *irradiance);
+}
+
+struct adding {
+    struct gbuffer *gbuffer;
+    const ps_rgb *irradiance;
+};
+
+static void add_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct adding *adding = user;
+    ps_tile *tile = &adding->gbuffer->tiles[index];
+    const ps_rgb *irradiance = &adding->irradiance[index * PS_TILE_PIXELS];
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        if (tile->object[lane] == PS_NO_OBJECT)
+            continue;
+        tile->irradiance_r[lane] += irradiance[lane].r;
+        tile->irradiance_g[lane] += irradiance[lane].g;
+        tile->irradiance_b[lane] += irradiance[lane].b;
+    }
+}
+
+void near_light_end(struct near_light *near, struct gbuffer *gbuffer, uint32_t interleave,
+                    uint32_t threads)
+{
+    if (!(near->distance > 0.0f))
+        return;
+    struct pair_mean mean = {gbuffer, NULL, (int)interleave / 2, near->found, near->joined};
+    pair_mean_take(&mean, threads);
+    struct adding adding = {gbuffer, near->joined};
+    parallel_for(threads, gbuffer->tile_count, add_tile, &adding);
+}

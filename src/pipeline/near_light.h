@@ -1,0 +1,34 @@
+/* near_light.h: the light that splats of a pass leave to the estimator, pixel by pixel.
+ *
+ * The estimator gathers it with few rays a pixel. Where splats are interleaved over n x n pixels, so is this:
+ * it becomes a mean over the same window (pair_mean.h).
+ */
+#ifndef PIPELINE_NEAR_LIGHT_H
+#define PIPELINE_NEAR_LIGHT_H
+
+#include "film/gbuffer.h"
+
+struct near_light {
+    float distance; /* from within which it comes, in this pass; 0: none is left */
+    ps_rgb *found;  /* irradiance, a value for each lane of each tile; owned; NULL: none yet */
+    ps_rgb *joined; /* room for its means, likewise */
+};
+
+/* So many rays a pixel, and those that it is averaged with, have less noise than the splats of so many paths:
+ * both fall by the root of their number, nearly. */
+uint32_t near_light_rays(uint64_t paths);
+
+/* Starts a pass in which light from within a distance is left, and makes room where there is none. */
+ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffer, float distance,
+                           struct error *error);
+void near_light_release(struct near_light *near);
+
+/* Takes what was found in a tile. Any thread that owns the tile. */
+void near_light_set(struct near_light *near, uint32_t tile,
+                    const ps_rgb irradiance[PS_TILE_PIXELS]);
+
+/* Adds what was found to the G-buffer's tiles, without weight. `interleave`: n. */
+void near_light_end(struct near_light *near, struct gbuffer *gbuffer, uint32_t interleave,
+                    uint32_t threads);
+
+#endif

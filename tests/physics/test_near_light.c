@@ -1,0 +1,110 @@
+/* test_near_light.c: light from nearer than splats are wide, in closed form.
+ *
+ * The sun shines along a floor onto a wall of height h and half-length L that stands on it, and lights the floor
+ * not at all. A floor point before the middle of the wall, at distance d, sees the wall, whose radiosity is
+ * albedo times the sun's irradiance S, under the view factor of a rectangle that stands at right angles on
+ * its plane (Howell, "A catalog of radiation heat transfer configuration factors", B-4, twice):
+ *
+ *     F(d) = (atan(L / d) - d / c atan(L / c)) / pi,   c = sqrt(d^2 + h^2)
+ *
+ * Splats of half-width h and more smear that over the crease; short rays find it.
+ */
+#include "support/render_scene.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#define PI 3.14159265358979323846
+
+#define WALL_HEIGHT 0.1
+#define WALL_HALF_LENGTH 2.0
+#define SUN 2.0
+#define WALL_ALBEDO 0.8
+#define FLOOR_ALBEDO 0.5
+
+#define COLUMNS 16 /* of the picture, which lies along the wall */
+#define ROWS 8
+#define PICTURE_LEFT 0.01
+#define PICTURE_WIDTH 0.04
+
+static const char crease[] =
+    "psd: 1\n"
+    "camera: {location: [0.03, 0.09, 0], look_at: [0.03, 0, 0], up: [0, 0, -1],\n"
+    "         projection: orthographic, width: 0.04}\n"
+    "image: {width: 16, height: 8}\n"
+    "materials: {floor: {diffuse: 0.5}, wall: {diffuse: 0.8}}\n"
+    "lights:\n"
+    "  - sun: {direction: [-1, 0, 0], irradiance: 2}\n"
+    "objects:\n"
+    "  - quad: {corners: [[0, 0, 2], [1, 0, 2], [1, 0, -2], [0, 0, -2]], material: floor}\n"
+    "  - quad: {corners: [[0, 0, 2], [0, 0.1, 2], [0, 0.1, -2], [0, 0, -2]], material: wall}\n";
+
+static double expected_at(int column)
+{
+    double d = PICTURE_LEFT + (column + 0.5) * PICTURE_WIDTH / COLUMNS;
+    double c = hypot(d, WALL_HEIGHT), length = WALL_HALF_LENGTH;
+    double view_factor = (atan(length / d) - d / c * atan(length / c)) / PI;
+    return SUN * WALL_ALBEDO * view_factor * FLOOR_ALBEDO / PI;
+}
+
+/* The largest relative error of a column's mean. */
+static double worst_column(const char *visibility, const char *estimator)
+{
+    const char *const choices[] = {"injection=photon:count=400000", visibility, estimator, NULL};
+    struct rendering rendering = render_text(crease, 2, choices);
+    double worst = 0;
+    for (int column = 0; column < COLUMNS; column++) {
+        double mean = mean_of(&rendering.image, "indirect.G", (size_t)column, 0, 1, ROWS);
+        worst = fmax(worst, fabs(mean / expected_at(column) - 1));
+    }
+    rendering_release(&rendering);
+    print_message("%s, %s: columns off by up to %.3f\n", visibility, estimator, worst);
+    return worst;
+}
+
+static void test_crease(void **state)
+{
+    (void)state;
+    assert_true(worst_column("visibility=shadowmap:size=0.4", "estimator=splat:near_rays=0") >
+                0.25);
+    assert_true(worst_column("visibility=shadowmap:size=0.4", "estimator=splat:near_rays=4096") <
+                0.03);
+    assert_true(worst_column("visibility=raycast:size=0.4", "estimator=splat:near_rays=4096") <
+                0.03);
+}
+
+/* The mean of four pixels and more rays is that of all rays. */
+static void test_interleaved(void **state)
+{
+    (void)state;
+    assert_true(worst_column("visibility=shadowmap:size=0.4",
+                             "estimator=splat:near_rays=16384,interleave=2") < 0.08);
+}
+
+/* Boxes that begin before the first hit cannot tell how near their source is. */
+static void test_boxes_leave_nothing(void **state)
+{
+    (void)state;
+    static const char *const without[] = {"visibility=shadowmap:step_back=auto",
+                                          "estimator=splat:near_rays=0", NULL};
+    static const char *const with[] = {"visibility=shadowmap:step_back=auto",
+                                       "estimator=splat:near_rays=64", NULL};
+    struct rendering a = render_text(crease, 2, without), b = render_text(crease, 2, with);
+    assert_true(mean_of_all(&a.image, "indirect.G") > 0);
+    expect_same_image(&a.image, &b.image);
+    rendering_release(&a);
+    rendering_release(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_crease),
+        cmocka_unit_test(test_interleaved),
+        cmocka_unit_test(test_boxes_leave_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
