@@ -5,69 +5,131 @@
 /* Cosine between normals of what counts as flat: 3.6 degrees. */
 #define LEAST_COSINE 0.998f
 
-/* A pixel of the G-buffer, and its place in arrays of lanes. */
-struct pixel {
-    const ps_tile *tile;
-    uint32_t lane;
-    size_t index;
+#define SIDE PS_TILE_SIZE
+#define APRON (SIDE + 2 * PAIR_MEAN_MOST_REACH)
+
+/* A tile and what lies around it, row by row; what lies outside of the picture has no normal. */
+struct apron {
+    float position_x[APRON][APRON], position_y[APRON][APRON], position_z[APRON][APRON];
+    float normal_x[APRON][APRON], normal_y[APRON][APRON], normal_z[APRON][APRON];
+    float r[APRON][APRON], g[APRON][APRON], b[APRON][APRON];
+    uint64_t met[APRON][APRON];
 };
 
-static struct pixel pixel_at(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane)
-{
-    return (struct pixel){&gbuffer->tiles[tile], lane, (size_t)tile * PS_TILE_PIXELS + lane};
-}
+/* What a row of pixels has gathered. */
+struct row_sums {
+    float r[SIDE], g[SIDE], b[SIDE], count[SIDE];
+};
 
-static bool alike(const struct pair_mean *mean, const struct pixel *a, const struct pixel *b)
-{
-    if (mean->met && !gbuffer_met_alike(mean->met[a->index], mean->met[b->index]))
-        return false;
-    struct gbuffer_offset offset = gbuffer_offset_of(a->tile, a->lane, b->tile, b->lane);
-    return offset.cosine > LEAST_COSINE &&
-           gbuffer_same_surface(offset.cosine, offset.off_plane, offset.distance2);
-}
-
-/* A neighbour that counts, if it has an opposite one. */
-static bool find_alike(const struct pair_mean *mean, const struct pixel *here, int64_t x, int64_t y,
-                       struct pixel *there)
+static void load_pixel(const struct pair_mean *mean, int64_t x, int64_t y, int row, int column,
+                       struct apron *apron)
 {
     uint32_t tile, lane;
-    if (!gbuffer_find(mean->gbuffer, x, y, &tile, &lane))
-        return false;
-    *there = pixel_at(mean->gbuffer, tile, lane);
-    return alike(mean, here, there);
+    if (!gbuffer_find(mean->gbuffer, x, y, &tile, &lane)) {
+        apron->normal_x[row][column] = apron->normal_y[row][column] = apron->normal_z[row][column] =
+            0.0f;
+        return;
+    }
+    const ps_tile *from = &mean->gbuffer->tiles[tile];
+    size_t index = (size_t)tile * PS_TILE_PIXELS + lane;
+    apron->position_x[row][column] = from->position_x[lane];
+    apron->position_y[row][column] = from->position_y[lane];
+    apron->position_z[row][column] = from->position_z[lane];
+    apron->normal_x[row][column] = from->normal_x[lane];
+    apron->normal_y[row][column] = from->normal_y[lane];
+    apron->normal_z[row][column] = from->normal_z[lane];
+    apron->r[row][column] = mean->from[index].r;
+    apron->g[row][column] = mean->from[index].g;
+    apron->b[row][column] = mean->from[index].b;
+    apron->met[row][column] = mean->met ? mean->met[index] : 0;
 }
 
-static ps_rgb mean_around(const struct pair_mean *mean, const struct pixel *here, uint32_t x,
-                          uint32_t y)
+static void load_apron(const struct pair_mean *mean, uint32_t tile, struct apron *apron)
 {
-    ps_rgb sum = mean->from[here->index];
-    float count = 1.0f;
+    int64_t left = (int64_t)(tile % mean->gbuffer->tiles_across) * SIDE - mean->reach;
+    int64_t top = (int64_t)(tile / mean->gbuffer->tiles_across) * SIDE - mean->reach;
+    int side = SIDE + 2 * mean->reach;
+    for (int row = 0; row < side; row++)
+        for (int column = 0; column < side; column++)
+            load_pixel(mean, left + column, top + row, row, column, apron);
+}
+
+/* Which pixels of a row are like their neighbours at (dx, dy): 1 or 0. Compilers make vectors of it. */
+static void find_alike(const struct apron *apron, int reach, int row, int dx, int dy, int *alike)
+{
+    int here_row = row + reach, there_row = here_row + dy;
+    for (int i = 0; i < SIDE; i++) {
+        int here = i + reach, there = here + dx;
+        float nx = apron->normal_x[here_row][here], ny = apron->normal_y[here_row][here],
+              nz = apron->normal_z[here_row][here];
+        float x = apron->position_x[there_row][there] - apron->position_x[here_row][here];
+        float y = apron->position_y[there_row][there] - apron->position_y[here_row][here];
+        float z = apron->position_z[there_row][there] - apron->position_z[here_row][here];
+        float cosine = nx * apron->normal_x[there_row][there] +
+                       ny * apron->normal_y[there_row][there] +
+                       nz * apron->normal_z[there_row][there];
+        float off = nx * x + ny * y + nz * z;
+        alike[i] =
+            (cosine > LEAST_COSINE) & gbuffer_same_surface(cosine, off, x * x + y * y + z * z);
+    }
+}
+
+static void drop_unlike_met(const struct apron *apron, int reach, int row, int dx, int dy,
+                            int *alike)
+{
+    for (int i = 0; i < SIDE; i++)
+        alike[i] &= gbuffer_met_alike(apron->met[row + reach][i + reach],
+                                      apron->met[row + reach + dy][i + reach + dx]);
+}
+
+/* Adds to the pixels of a row their neighbours at (dx, dy) and (-dx, -dy), where both are like them. */
+static void add_pairs(const struct pair_mean *mean, const struct apron *apron, int row, int dx,
+                      int dy, struct row_sums *restrict sums)
+{
+    int reach = mean->reach, one[SIDE], other[SIDE];
+    find_alike(apron, reach, row, dx, dy, one);
+    find_alike(apron, reach, row, -dx, -dy, other);
+    if (mean->met) {
+        drop_unlike_met(apron, reach, row, dx, dy, one);
+        drop_unlike_met(apron, reach, row, -dx, -dy, other);
+    }
+    int a = row + reach + dy, b = row + reach - dy;
+    for (int i = 0; i < SIDE; i++) {
+        int there = i + reach + dx, opposite = i + reach - dx;
+        float both = (float)(one[i] & other[i]);
+        sums->r[i] += both * (apron->r[a][there] + apron->r[b][opposite]);
+        sums->g[i] += both * (apron->g[a][there] + apron->g[b][opposite]);
+        sums->b[i] += both * (apron->b[a][there] + apron->b[b][opposite]);
+        sums->count[i] += 2.0f * both;
+    }
+}
+
+static void mean_of_row(const struct pair_mean *mean, const struct apron *apron, int row,
+                        ps_rgb *to)
+{
+    struct row_sums sums;
     int reach = mean->reach;
+    for (int i = 0; i < SIDE; i++) {
+        sums.r[i] = apron->r[row + reach][i + reach];
+        sums.g[i] = apron->g[row + reach][i + reach];
+        sums.b[i] = apron->b[row + reach][i + reach];
+        sums.count[i] = 1.0f;
+    }
     for (int dy = 0; dy <= reach; dy++)
-        for (int dx = dy == 0 ? 1 : -reach; dx <= reach; dx++) {
-            struct pixel there, opposite;
-            if (!find_alike(mean, here, (int64_t)x + dx, (int64_t)y + dy, &there) ||
-                !find_alike(mean, here, (int64_t)x - dx, (int64_t)y - dy, &opposite))
-                continue;
-            sum = ps_rgb_add(sum, mean->from[there.index]);
-            sum = ps_rgb_add(sum, mean->from[opposite.index]);
-            count += 2.0f;
-        }
-    return ps_rgb_scale(sum, 1.0f / count);
+        for (int dx = dy == 0 ? 1 : -reach; dx <= reach; dx++)
+            add_pairs(mean, apron, row, dx, dy, &sums);
+    for (int i = 0; i < SIDE; i++)
+        to[i] = ps_rgb_scale((ps_rgb){sums.r[i], sums.g[i], sums.b[i]}, 1.0f / sums.count[i]);
 }
 
 static void mean_of_tile(void *user, uint64_t tile, uint32_t worker)
 {
     (void)worker;
     const struct pair_mean *mean = user;
-    const struct gbuffer *gbuffer = mean->gbuffer;
-    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-        uint32_t x, y;
-        if (!gbuffer_pixel(gbuffer, (uint32_t)tile, lane, &x, &y))
-            continue;
-        struct pixel here = pixel_at(gbuffer, (uint32_t)tile, lane);
-        mean->to[here.index] = mean_around(mean, &here, x, y);
-    }
+    struct apron apron = {0};
+    load_apron(mean, (uint32_t)tile, &apron);
+    for (int row = 0; row < SIDE; row++)
+        mean_of_row(mean, &apron, row, &mean->to[tile * PS_TILE_PIXELS + (size_t)(row * SIDE)]);
 }
 
 void pair_mean_take(struct pair_mean *mean, uint32_t threads)

@@ -57,28 +57,34 @@ static void lane_place(uint32_t lane, uint32_t *x, uint32_t *y)
     *y = by_rows / PS_TILE_SIZE;
 }
 
-bool field_pixel(const struct field *field, uint32_t tile, uint32_t lane, uint32_t *x, uint32_t *y)
+/* Column and row of a tile's first pixel; the next ones lie `interleave` further. */
+struct corner {
+    uint32_t x, y;
+};
+
+static struct corner corner_of(const struct field *field, uint32_t tile)
 {
     uint32_t each = field->tiles_across * field->tiles_down;
-    uint32_t subset = tile / each, place = tile % each;
+    uint32_t subset = tile / each, place = tile % each, side = PS_TILE_SIZE * field->interleave;
+    return (struct corner){
+        place % field->tiles_across * side + subset % field->interleave,
+        place / field->tiles_across * side + subset / field->interleave,
+    };
+}
+
+static bool pixel_from(const struct field *field, struct corner corner, uint32_t lane, uint32_t *x,
+                       uint32_t *y)
+{
     uint32_t column, row;
     lane_place(lane, &column, &row);
-    column += place % field->tiles_across * PS_TILE_SIZE;
-    row += place / field->tiles_across * PS_TILE_SIZE;
-    *x = column * field->interleave + subset % field->interleave;
-    *y = row * field->interleave + subset / field->interleave;
+    *x = corner.x + column * field->interleave;
+    *y = corner.y + row * field->interleave;
     return *x < field->width && *y < field->height;
 }
 
-/* Where the field keeps pixel (x, y) of the picture. */
-static const struct field_tile *find_pixel(const struct field *field, uint32_t x, uint32_t y,
-                                           uint32_t *lane)
+bool field_pixel(const struct field *field, uint32_t tile, uint32_t lane, uint32_t *x, uint32_t *y)
 {
-    uint32_t n = field->interleave;
-    uint32_t subset = y % n * n + x % n, column = x / n, row = y / n;
-    *lane = lane_of(column % PS_TILE_SIZE, row % PS_TILE_SIZE);
-    return &field->tiles[(subset * field->tiles_down + row / PS_TILE_SIZE) * field->tiles_across +
-                         column / PS_TILE_SIZE];
+    return pixel_from(field, corner_of(field, tile), lane, x, y);
 }
 
 struct work {
@@ -121,9 +127,10 @@ static void fill_tile(void *user, uint64_t index, uint32_t worker)
     const struct work *work = user;
     const struct gbuffer *gbuffer = work->gbuffer;
     struct field_tile *tile = &work->field->tiles[index];
+    struct corner corner = corner_of(work->field, (uint32_t)index);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
         uint32_t x, y, source;
-        if (field_pixel(work->field, (uint32_t)index, lane, &x, &y)) {
+        if (pixel_from(work->field, corner, lane, &x, &y)) {
             uint32_t from = gbuffer_tile_of(gbuffer, x, y, &source);
             fill_lane(tile, lane, &gbuffer->tiles[from], source);
         } else {
@@ -157,14 +164,32 @@ struct apron {
     float weight[APRON][APRON];
 };
 
-static void load_pixel(const struct field *field, int64_t x, int64_t y, struct apron *apron,
-                       int column, int row)
+/* Where the field keeps a column or a row of the picture. */
+struct line_place {
+    uint32_t subset, tile, lane; /* lane: 0..PS_TILE_SIZE - 1 */
+    bool there;                  /* within the picture */
+};
+
+static struct line_place place_line(int64_t line, size_t end, uint32_t n)
+{
+    if (line < 0 || line >= (int64_t)end)
+        return (struct line_place){.there = false};
+    uint32_t own = (uint32_t)line / n;
+    return (struct line_place){(uint32_t)line % n, own / PS_TILE_SIZE, own % PS_TILE_SIZE, true};
+}
+
+static void load_pixel(const struct field *field, const struct line_place *x,
+                       const struct line_place *y, struct apron *apron, int column, int row)
 {
     static const struct field_tile nothing = {.position_x = {BOUNDS_NOWHERE}};
     const struct field_tile *tile = &nothing;
     uint32_t lane = 0;
-    if (x >= 0 && y >= 0 && x < (int64_t)field->width && y < (int64_t)field->height)
-        tile = find_pixel(field, (uint32_t)x, (uint32_t)y, &lane);
+    if (x->there && y->there) {
+        uint32_t subset = y->subset * field->interleave + x->subset;
+        tile =
+            &field->tiles[(subset * field->tiles_down + y->tile) * field->tiles_across + x->tile];
+        lane = lane_of(x->lane, y->lane);
+    }
     apron->position_x[row][column] = tile->position_x[lane];
     apron->position_y[row][column] = tile->position_y[lane];
     apron->position_z[row][column] = tile->position_z[lane];
@@ -177,16 +202,30 @@ static void load_pixel(const struct field *field, int64_t x, int64_t y, struct a
     apron->weight[row][column] = tile->weight[lane];
 }
 
+/* The tile whose first pixel is (left, top), and `reach` pixels around it. */
+static void load_apron(const struct field *field, int64_t left, int64_t top, int reach,
+                       struct apron *apron)
+{
+    struct line_place columns[APRON], rows[APRON];
+    int first = MARGIN - reach, end = MARGIN + PS_TILE_SIZE + reach;
+    for (int i = first; i < end; i++) {
+        columns[i] = place_line(left + i - MARGIN, field->width, field->interleave);
+        rows[i] = place_line(top + i - MARGIN, field->height, field->interleave);
+    }
+    for (int row = first; row < end; row++)
+        for (int column = first; column < end; column++)
+            load_pixel(field, &columns[column], &rows[row], apron, column, row);
+}
+
 /* What a row of pixels has gathered from its windows. */
 struct row_sums {
     float total[PS_TILE_SIZE];
     float r[PS_TILE_SIZE], g[PS_TILE_SIZE], b[PS_TILE_SIZE], weight[PS_TILE_SIZE];
 };
 
-/* Adds to each pixel of a row its neighbour at (dx, dy), `share` times, where that lies on the same
- * surface. */
-static void add_neighbours(const struct apron *apron, int row, int dx, int dy, float share,
-                           struct row_sums *sums)
+/* Which pixels of a row lie on the surface of their neighbours at (dx, dy): 1 or 0. Compilers make vectors of
+ * it, as of add_neighbours, since each writes to an array of its own. */
+static void find_same(const struct apron *apron, int row, int dx, int dy, int *same)
 {
     int other = row + dy;
     for (int i = 0; i < PS_TILE_SIZE; i++) {
@@ -199,8 +238,20 @@ static void add_neighbours(const struct apron *apron, int row, int dx, int dy, f
         float cosine = nx * apron->normal_x[other][there] + ny * apron->normal_y[other][there] +
                        nz * apron->normal_z[other][there];
         float off = nx * x + ny * y + nz * z;
-        int same = gbuffer_same_surface(cosine, off, x * x + y * y + z * z);
-        float weight = (float)same * share;
+        same[i] = gbuffer_same_surface(cosine, off, x * x + y * y + z * z);
+    }
+}
+
+/* Adds to each pixel of a row its neighbour at (dx, dy), `share` times, where that lies on the same
+ * surface. */
+static void add_neighbours(const struct apron *apron, int row, int dx, int dy, float share,
+                           struct row_sums *restrict sums)
+{
+    int same[PS_TILE_SIZE], other = row + dy;
+    find_same(apron, row, dx, dy, same);
+    for (int i = 0; i < PS_TILE_SIZE; i++) {
+        int there = MARGIN + i + dx;
+        float weight = (float)same[i] * share;
         sums->total[i] += weight;
         sums->r[i] += weight * apron->irradiance_r[other][there];
         sums->g[i] += weight * apron->irradiance_g[other][there];
@@ -243,9 +294,7 @@ static void join_tile(void *user, uint64_t index, uint32_t worker)
     int64_t top = (int64_t)(index / gbuffer->tiles_across) * PS_TILE_SIZE;
     int reach = (int)field->interleave / 2;
     struct apron apron = {0};
-    for (int row = MARGIN - reach; row < MARGIN + PS_TILE_SIZE + reach; row++)
-        for (int column = MARGIN - reach; column < MARGIN + PS_TILE_SIZE + reach; column++)
-            load_pixel(field, left + column - MARGIN, top + row - MARGIN, &apron, column, row);
+    load_apron(field, left, top, reach, &apron);
     for (int row = 0; row < PS_TILE_SIZE; row++)
         join_row(&apron, field->interleave, row, &gbuffer->tiles[index]);
 }
