@@ -64,14 +64,18 @@ static uint32_t interleave_of(const struct state *state, const ps_pass *pass)
 
 #define BLOCK 4 /* pixels along the side of a block */
 
+/* Sets of random numbers: for directions, and for points on lamps. */
 #define DIRECTION_SET 1u
 #define LAMP_SET 2u
+
+#define TILES_AT_A_TIME 256 /* until the user may stop */
 
 struct near_work {
     const ps_host *host;
     const ps_pass *pass;
-    float distance; /* from within which light is gathered */
-    uint64_t rays;  /* of each pixel */
+    float distance;      /* from within which light is gathered */
+    uint64_t rays;       /* of each pixel */
+    uint64_t first_tile; /* of those that are at work */
 };
 
 static uint32_t block_of(uint32_t lane)
@@ -161,16 +165,17 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct near_work *work = user;
     const ps_host *host = work->host;
+    uint64_t tile = work->first_tile + index;
     ps_points points;
     uint8_t near[PS_TILE_PIXELS / (BLOCK * BLOCK)] = {0};
     ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}};
-    ps_collect_points(host->tile(host, (uint32_t)index), &points);
+    ps_collect_points(host->tile(host, (uint32_t)tile), &points);
     for (uint64_t sample = 0; sample < work->rays; sample++) {
         if (sample == SCOUTS)
             keep_near(near, &points);
-        gather(work, index, &points, sample, irradiance, near);
+        gather(work, tile, &points, sample, irradiance, near);
     }
-    host->set_near_light(host, (uint32_t)index, irradiance);
+    host->set_near_light(host, (uint32_t)tile, irradiance);
 }
 
 /* Gathers the light that splats leave. Averaging over n x n pixels is as good as so many more rays; powers of
@@ -178,10 +183,17 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
 static ps_result gather_near(const ps_host *host, const ps_pass *pass, float distance, double rays,
                              uint32_t n)
 {
-    struct near_work work = {host, pass, distance, 1};
+    struct near_work work = {host, pass, distance, .rays = 1};
     while (2.0 * (double)work.rays * n * n <= rays)
         work.rays *= 2;
-    return host->for_each_tile(host, gather_tile, &work);
+    for (; work.first_tile < pass->tile_count; work.first_tile += TILES_AT_A_TIME) {
+        uint64_t left = pass->tile_count - work.first_tile;
+        if (host->cancelled(host))
+            return PS_CANCELLED;
+        host->parallel_for(host, left < TILES_AT_A_TIME ? left : TILES_AT_A_TIME, gather_tile,
+                           &work);
+    }
+    return PS_OK;
 }
 
 /* --- the plugin --------------------------------------------------------------------------------- */
@@ -213,11 +225,11 @@ static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pa
     ps_result result = host->begin_splats(host, interleave);
     if (result == PS_OK && (automatic || state->near_rays.number > 0))
         result = host->leave_near_light(host, &near);
-    if (result == PS_OK)
-        result = splat_all(host, splats);
     if (result == PS_OK && near.distance > 0.0f)
         result = gather_near(host, pass, near.distance,
                              automatic ? near.rays : state->near_rays.number, interleave);
+    if (result == PS_OK)
+        result = splat_all(host, splats);
     host->release(host, splats);
     return result;
 }

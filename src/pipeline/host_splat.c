@@ -234,6 +234,10 @@ static ps_result host_leave_near_light(const ps_host *host, ps_near_light *near)
     struct render *render = render_of(host);
     near->distance = near_distance(render);
     near->rays = near_light_rays(render->sources.path_count);
+    if (!(near->distance > 0.0f))
+        return PS_OK;
+    statistics_set_bytes(render->statistics, "near light",
+                         (double)near_light_bytes(&render->gbuffer));
     return near_light_begin(&render->near_light, &render->gbuffer, near->distance, &render->error);
 }
 

@@ -19,7 +19,8 @@ double render_bytes(size_t width, size_t height)
     struct film film = {.width = width, .height = height};
     struct field field = field_layout(&gbuffer, 1);
     return (double)gbuffer_bytes(&gbuffer) + (double)field_bytes(&field) +
-           (double)film_bytes(&film) + (double)picture_bytes(width, height);
+           (double)near_light_bytes(&gbuffer) + (double)film_bytes(&film) +
+           (double)picture_bytes(width, height);
 }
 
 /* Infinite where the system does not tell. */

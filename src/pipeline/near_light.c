@@ -24,6 +24,11 @@ static size_t lanes_of(const struct gbuffer *gbuffer)
     return (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
 }
 
+size_t near_light_bytes(const struct gbuffer *gbuffer)
+{
+    return 2 * lanes_of(gbuffer) * sizeof(ps_rgb);
+}
+
 ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffer, float distance,
                            struct error *error)
 {
@@ -34,7 +39,7 @@ ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffe
     if (!near->joined)
         near->joined = malloc(lanes * sizeof *near->joined);
     if (!near->found || !near->joined)
-        return error_memory(error, 2 * lanes * sizeof *near->found, "near light");
+        return error_memory(error, near_light_bytes(gbuffer), "near light");
     memset(near->found, 0, lanes * sizeof *near->found);
     return PS_OK;
 }

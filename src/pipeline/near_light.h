@@ -21,6 +21,8 @@ uint32_t near_light_rays(uint64_t paths);
 /* Starts a pass in which light from within a distance is left, and makes room where there is none. */
 ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffer, float distance,
                            struct error *error);
+/* What that takes for a G-buffer of this size. */
+size_t near_light_bytes(const struct gbuffer *gbuffer);
 void near_light_release(struct near_light *near);
 
 /* Takes what was found in a tile. Any thread that owns the tile. */
