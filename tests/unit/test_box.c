@@ -117,6 +117,34 @@ static void test_size_follows_less_far_after_the_first_bounce(void **state)
     }
 }
 
+static ps_splat place_near(ps_box_settings settings, uint16_t bounce, uint8_t specular)
+{
+    struct box_scene own = scene;
+    own.near_distance = box_near_distance(&own, &settings);
+    ps_source source = {
+        .normal = {0, 1, 0}, .direction = {0, 1, 0}, .bounce = bounce, .specular = specular};
+    ps_hit hit = {.position = {0, 0.01f, 0}, .distance = 0.01f, .normal = {0, -1, 0}};
+    return place_one(&own, &settings, &source, &hit);
+}
+
+/* As far as splats are wide, where the light was reflected once, and diffusely; splats may be wide then. */
+static void test_near_light_is_left(void **state)
+{
+    (void)state;
+    const ps_box_settings full = {.size = 3, .follow = 0.25, .step_back_rule = 1};
+    expect_near(place_near(full, 1, 0).nearest, 3);
+    expect_near(place_near(full, 1, 0).half_width, 0.6 * 3);
+    expect_near(place_near(full, 1, 1).nearest, 0);
+    expect_near(place_near(full, 1, 1).half_width, 0.3 * 3);
+    expect_near(place_near(full, 2, 0).nearest, 0);
+    const ps_box_settings automatic = {.follow = 0.25, .step_back_rule = 1};
+    expect_near(place_near(automatic, 1, 0).nearest, 2);
+    const ps_box_settings sloped = {.size = 3, .follow = 0.25},
+                          still = {.size = 3, .step_back_rule = 1};
+    expect_near(place_near(sloped, 1, 0).nearest, 0);
+    expect_near(place_near(still, 1, 0).nearest, 0);
+}
+
 /* Nor less than the pixels that are averaged in the end, of which these settings have 4x4. */
 static void test_size_follows_no_further_than_pixels(void **state)
 {
@@ -347,6 +375,7 @@ int main(void)
         cmocka_unit_test(test_automatic_size),
         cmocka_unit_test(test_size_follows_distance),
         cmocka_unit_test(test_size_follows_less_far_after_the_first_bounce),
+        cmocka_unit_test(test_near_light_is_left),
         cmocka_unit_test(test_size_follows_no_further_than_pixels),
         cmocka_unit_test(test_size_grows_with_what_was_merged),
         cmocka_unit_test(test_automatic_step_back),

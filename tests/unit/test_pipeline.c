@@ -1,5 +1,6 @@
 /* test_pipeline.c: the driver: sources pass through, dark pixels are filled and counted, layers
  * join, and the picture depends on neither threads nor batches. */
+#include "pipeline/near_light.h"
 #include "support/render_scene.h"
 
 #include <math.h>
@@ -188,9 +189,19 @@ static void test_determined_without_visibility(void **state)
     expect_determined(choices);
 }
 
+static void test_rays_for_near_light(void **state)
+{
+    (void)state;
+    assert_int_equal(near_light_rays(400000), 128);
+    assert_int_equal(near_light_rays(1600000), 256);
+    assert_int_equal(near_light_rays(1), 16);
+    assert_int_equal(near_light_rays(UINT64_MAX), 4096);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rays_for_near_light),
         cmocka_unit_test(test_no_stratification_passes_sources_through),
         cmocka_unit_test(test_bounces_add_sources),
         cmocka_unit_test(test_ambient_fills_dark_pixels),
