@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "trace/trace.h"
-#include <psplat/tile.h>
 #include <stdbool.h>
 
 /* Where lanes that see no surface lie: outside of any scene, yet its square is finite. */
@@ -60,21 +59,6 @@ void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throu
 
 /* Lane of number i when a tile is walked in 4x4 blocks. */
 uint32_t gbuffer_block_lane(uint32_t i);
-
-/* How far lane b lies off the plane of lane a, how far away (squared), and the cosine between both
- * normals. */
-struct gbuffer_offset {
-    float off_plane, distance2, cosine;
-};
-
-static inline struct gbuffer_offset gbuffer_offset_of(const ps_tile *tile_a, uint32_t a,
-                                                      const ps_tile *tile_b, uint32_t b)
-{
-    ps_vec3 normal = ps_tile_normal(tile_a, a);
-    ps_vec3 way = ps_subtract(ps_tile_position(tile_b, b), ps_tile_position(tile_a, a));
-    return (struct gbuffer_offset){ps_dot(normal, way), ps_dot(way, way),
-                                   ps_dot(normal, ps_tile_normal(tile_b, b))};
-}
 
 /* Whether two points may be taken for points of one surface: normals no farther apart (`cosine`) than 25
  * degrees, and one no farther off the other's plane than a tenth of their distance (squared: `distance2`). */

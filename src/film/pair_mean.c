@@ -1,19 +1,18 @@
 #include "film/pair_mean.h"
 
 #include "base/parallel.h"
+#include "film/apron.h"
 
 /* Cosine between normals of what counts as flat: 3.6 degrees. */
 #define LEAST_COSINE 0.998f
 
 #define SIDE PS_TILE_SIZE
-#define APRON (SIDE + 2 * PAIR_MEAN_MOST_REACH)
 
-/* A tile and what lies around it, row by row; what lies outside of the picture has no normal. */
+/* A tile and what lies around it. */
 struct apron {
-    float position_x[APRON][APRON], position_y[APRON][APRON], position_z[APRON][APRON];
-    float normal_x[APRON][APRON], normal_y[APRON][APRON], normal_z[APRON][APRON];
-    float r[APRON][APRON], g[APRON][APRON], b[APRON][APRON];
-    uint64_t met[APRON][APRON];
+    struct apron_surfaces at;
+    float r[APRON_SIDE][APRON_SIDE], g[APRON_SIDE][APRON_SIDE], b[APRON_SIDE][APRON_SIDE];
+    uint64_t met[APRON_SIDE][APRON_SIDE];
 };
 
 /* What a row of pixels has gathered. */
@@ -21,23 +20,21 @@ struct row_sums {
     float r[SIDE], g[SIDE], b[SIDE], count[SIDE];
 };
 
+/* What lies outside of the picture stays as it is. */
 static void load_pixel(const struct pair_mean *mean, int64_t x, int64_t y, int row, int column,
                        struct apron *apron)
 {
     uint32_t tile, lane;
-    if (!gbuffer_find(mean->gbuffer, x, y, &tile, &lane)) {
-        apron->normal_x[row][column] = apron->normal_y[row][column] = apron->normal_z[row][column] =
-            0.0f;
+    if (!gbuffer_find(mean->gbuffer, x, y, &tile, &lane))
         return;
-    }
     const ps_tile *from = &mean->gbuffer->tiles[tile];
     size_t index = (size_t)tile * PS_TILE_PIXELS + lane;
-    apron->position_x[row][column] = from->position_x[lane];
-    apron->position_y[row][column] = from->position_y[lane];
-    apron->position_z[row][column] = from->position_z[lane];
-    apron->normal_x[row][column] = from->normal_x[lane];
-    apron->normal_y[row][column] = from->normal_y[lane];
-    apron->normal_z[row][column] = from->normal_z[lane];
+    apron->at.position_x[row][column] = from->position_x[lane];
+    apron->at.position_y[row][column] = from->position_y[lane];
+    apron->at.position_z[row][column] = from->position_z[lane];
+    apron->at.normal_x[row][column] = from->normal_x[lane];
+    apron->at.normal_y[row][column] = from->normal_y[lane];
+    apron->at.normal_z[row][column] = from->normal_z[lane];
     apron->r[row][column] = mean->from[index].r;
     apron->g[row][column] = mean->from[index].g;
     apron->b[row][column] = mean->from[index].b;
@@ -46,56 +43,35 @@ static void load_pixel(const struct pair_mean *mean, int64_t x, int64_t y, int r
 
 static void load_apron(const struct pair_mean *mean, uint32_t tile, struct apron *apron)
 {
-    int64_t left = (int64_t)(tile % mean->gbuffer->tiles_across) * SIDE - mean->reach;
-    int64_t top = (int64_t)(tile / mean->gbuffer->tiles_across) * SIDE - mean->reach;
-    int side = SIDE + 2 * mean->reach;
-    for (int row = 0; row < side; row++)
-        for (int column = 0; column < side; column++)
+    int64_t left = (int64_t)(tile % mean->gbuffer->tiles_across) * SIDE - APRON_MARGIN;
+    int64_t top = (int64_t)(tile / mean->gbuffer->tiles_across) * SIDE - APRON_MARGIN;
+    int first = APRON_MARGIN - mean->reach, end = APRON_MARGIN + SIDE + mean->reach;
+    for (int row = first; row < end; row++)
+        for (int column = first; column < end; column++)
             load_pixel(mean, left + column, top + row, row, column, apron);
 }
 
-/* Which pixels of a row are like their neighbours at (dx, dy): 1 or 0. Compilers make vectors of it. */
-static void find_alike(const struct apron *apron, int reach, int row, int dx, int dy, int *alike)
+/* Which pixels of a row are like their neighbours at (dx, dy): 1 or 0. */
+static void find_alike(const struct pair_mean *mean, const struct apron *apron, int row, int dx,
+                       int dy, int *alike)
 {
-    int here_row = row + reach, there_row = here_row + dy;
-    for (int i = 0; i < SIDE; i++) {
-        int here = i + reach, there = here + dx;
-        float nx = apron->normal_x[here_row][here], ny = apron->normal_y[here_row][here],
-              nz = apron->normal_z[here_row][here];
-        float x = apron->position_x[there_row][there] - apron->position_x[here_row][here];
-        float y = apron->position_y[there_row][there] - apron->position_y[here_row][here];
-        float z = apron->position_z[there_row][there] - apron->position_z[here_row][here];
-        float cosine = nx * apron->normal_x[there_row][there] +
-                       ny * apron->normal_y[there_row][there] +
-                       nz * apron->normal_z[there_row][there];
-        float off = nx * x + ny * y + nz * z;
-        alike[i] =
-            (cosine > LEAST_COSINE) & gbuffer_same_surface(cosine, off, x * x + y * y + z * z);
-    }
-}
-
-static void drop_unlike_met(const struct apron *apron, int reach, int row, int dx, int dy,
-                            int *alike)
-{
-    for (int i = 0; i < SIDE; i++)
-        alike[i] &= gbuffer_met_alike(apron->met[row + reach][i + reach],
-                                      apron->met[row + reach + dy][i + reach + dx]);
+    int here = APRON_MARGIN + row, there = here + dy;
+    apron_find_same(&apron->at, row, dx, dy, LEAST_COSINE, alike);
+    for (int i = 0; i < SIDE && mean->met; i++)
+        alike[i] &= gbuffer_met_alike(apron->met[here][APRON_MARGIN + i],
+                                      apron->met[there][APRON_MARGIN + i + dx]);
 }
 
 /* Adds to the pixels of a row their neighbours at (dx, dy) and (-dx, -dy), where both are like them. */
 static void add_pairs(const struct pair_mean *mean, const struct apron *apron, int row, int dx,
                       int dy, struct row_sums *restrict sums)
 {
-    int reach = mean->reach, one[SIDE], other[SIDE];
-    find_alike(apron, reach, row, dx, dy, one);
-    find_alike(apron, reach, row, -dx, -dy, other);
-    if (mean->met) {
-        drop_unlike_met(apron, reach, row, dx, dy, one);
-        drop_unlike_met(apron, reach, row, -dx, -dy, other);
-    }
-    int a = row + reach + dy, b = row + reach - dy;
+    int one[SIDE], other[SIDE];
+    find_alike(mean, apron, row, dx, dy, one);
+    find_alike(mean, apron, row, -dx, -dy, other);
+    int a = APRON_MARGIN + row + dy, b = APRON_MARGIN + row - dy;
     for (int i = 0; i < SIDE; i++) {
-        int there = i + reach + dx, opposite = i + reach - dx;
+        int there = APRON_MARGIN + i + dx, opposite = APRON_MARGIN + i - dx;
         float both = (float)(one[i] & other[i]);
         sums->r[i] += both * (apron->r[a][there] + apron->r[b][opposite]);
         sums->g[i] += both * (apron->g[a][there] + apron->g[b][opposite]);
@@ -108,11 +84,11 @@ static void mean_of_row(const struct pair_mean *mean, const struct apron *apron,
                         ps_rgb *to)
 {
     struct row_sums sums;
-    int reach = mean->reach;
+    int reach = mean->reach, here = APRON_MARGIN + row;
     for (int i = 0; i < SIDE; i++) {
-        sums.r[i] = apron->r[row + reach][i + reach];
-        sums.g[i] = apron->g[row + reach][i + reach];
-        sums.b[i] = apron->b[row + reach][i + reach];
+        sums.r[i] = apron->r[here][APRON_MARGIN + i];
+        sums.g[i] = apron->g[here][APRON_MARGIN + i];
+        sums.b[i] = apron->b[here][APRON_MARGIN + i];
         sums.count[i] = 1.0f;
     }
     for (int dy = 0; dy <= reach; dy++)

@@ -17,13 +17,11 @@
 
 #include "film/gbuffer.h"
 
-#define PAIR_MEAN_MOST_REACH 4
-
 /* Arrays have a value for each lane of each tile; borrowed. */
 struct pair_mean {
     const struct gbuffer *gbuffer;
     const uint64_t *met; /* see gbuffer_met_alike; NULL: does not matter */
-    int reach;           /* pixels to each side, at most PAIR_MEAN_MOST_REACH */
+    int reach;           /* pixels to each side, at most APRON_MARGIN (apron.h) */
     const ps_rgb *from;
     ps_rgb *to; /* says nothing for lanes that are no pixels of the picture */
 };

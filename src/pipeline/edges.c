@@ -50,16 +50,30 @@ static bool same_object(const struct place *a, const struct place *b)
     return a->tile->object[a->lane] == b->tile->object[b->lane];
 }
 
+/* How far b lies off the plane of a, how far away (squared), and the cosine between both normals. */
+struct offset {
+    float off_plane, distance2, cosine;
+};
+
+static struct offset offset_of(const struct place *a, const struct place *b)
+{
+    ps_vec3 normal = ps_tile_normal(a->tile, a->lane);
+    ps_vec3 way =
+        ps_subtract(ps_tile_position(b->tile, b->lane), ps_tile_position(a->tile, a->lane));
+    return (struct offset){ps_dot(normal, way), ps_dot(way, way),
+                           ps_dot(normal, ps_tile_normal(b->tile, b->lane))};
+}
+
 static bool same_surface(const struct place *a, const struct place *b)
 {
-    struct gbuffer_offset offset = gbuffer_offset_of(a->tile, a->lane, b->tile, b->lane);
+    struct offset offset = offset_of(a, b);
     return same_object(a, b) &&
            gbuffer_same_surface(offset.cosine, offset.off_plane, offset.distance2);
 }
 
 static bool surfaces_differ(const struct place *a, const struct place *b)
 {
-    struct gbuffer_offset offset = gbuffer_offset_of(a->tile, a->lane, b->tile, b->lane);
+    struct offset offset = offset_of(a, b);
     return !same_object(a, b) || offset.cosine < 0.9f ||
            offset.off_plane * offset.off_plane > STEP2 * offset.distance2;
 }

@@ -15,8 +15,9 @@
  * The size follows the distance d travelled, R = min(size, follow * d) but no less than a part of
  * size (0.3; 0.6 after the first bounce, or where light from close by is left to the estimator), as a photon
  * differential would: light from close by, in a corner, makes small splats. Nor does it follow below the n x n
- * pixels that interleaved splats are averaged over in the end. The box of a full beam is as wide as its pixels' sizes ask for (width.h, reach.h). Where sources
- * were merged, `size` grows with the square root of their number (see grow).
+ * pixels that interleaved splats are averaged over in the end. The box of a full beam is as wide as its pixels'
+ * sizes ask for (width.h, reach.h). Where sources were merged, `size` grows with the square root of their
+ * number (see grow).
  */
 #ifndef SPLAT_BOX_H
 #define SPLAT_BOX_H

@@ -1,7 +1,7 @@
 #include "splat/field.h"
 
 #include "base/parallel.h"
-#include <psplat/host.h>
+#include "film/apron.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -153,15 +153,12 @@ void field_fill(struct field *field, const struct gbuffer *gbuffer, uint32_t thr
 
 /* --- joining ------------------------------------------------------------------------------------ */
 
-#define MARGIN (PS_MOST_INTERLEAVE / 2)
-#define APRON (PS_TILE_SIZE + 2 * MARGIN)
-
-/* A tile of the G-buffer and what lies around it, row by row. */
+/* A tile of the G-buffer and what lies around it. */
 struct apron {
-    float position_x[APRON][APRON], position_y[APRON][APRON], position_z[APRON][APRON];
-    float normal_x[APRON][APRON], normal_y[APRON][APRON], normal_z[APRON][APRON];
-    float irradiance_r[APRON][APRON], irradiance_g[APRON][APRON], irradiance_b[APRON][APRON];
-    float weight[APRON][APRON];
+    struct apron_surfaces at;
+    float irradiance_r[APRON_SIDE][APRON_SIDE], irradiance_g[APRON_SIDE][APRON_SIDE],
+        irradiance_b[APRON_SIDE][APRON_SIDE];
+    float weight[APRON_SIDE][APRON_SIDE];
 };
 
 /* Where the field keeps a column or a row of the picture. */
@@ -190,12 +187,12 @@ static void load_pixel(const struct field *field, const struct line_place *x,
             &field->tiles[(subset * field->tiles_down + y->tile) * field->tiles_across + x->tile];
         lane = lane_of(x->lane, y->lane);
     }
-    apron->position_x[row][column] = tile->position_x[lane];
-    apron->position_y[row][column] = tile->position_y[lane];
-    apron->position_z[row][column] = tile->position_z[lane];
-    apron->normal_x[row][column] = tile->normal_x[lane];
-    apron->normal_y[row][column] = tile->normal_y[lane];
-    apron->normal_z[row][column] = tile->normal_z[lane];
+    apron->at.position_x[row][column] = tile->position_x[lane];
+    apron->at.position_y[row][column] = tile->position_y[lane];
+    apron->at.position_z[row][column] = tile->position_z[lane];
+    apron->at.normal_x[row][column] = tile->normal_x[lane];
+    apron->at.normal_y[row][column] = tile->normal_y[lane];
+    apron->at.normal_z[row][column] = tile->normal_z[lane];
     apron->irradiance_r[row][column] = tile->irradiance_r[lane];
     apron->irradiance_g[row][column] = tile->irradiance_g[lane];
     apron->irradiance_b[row][column] = tile->irradiance_b[lane];
@@ -206,11 +203,11 @@ static void load_pixel(const struct field *field, const struct line_place *x,
 static void load_apron(const struct field *field, int64_t left, int64_t top, int reach,
                        struct apron *apron)
 {
-    struct line_place columns[APRON], rows[APRON];
-    int first = MARGIN - reach, end = MARGIN + PS_TILE_SIZE + reach;
+    struct line_place columns[APRON_SIDE], rows[APRON_SIDE];
+    int first = APRON_MARGIN - reach, end = APRON_MARGIN + PS_TILE_SIZE + reach;
     for (int i = first; i < end; i++) {
-        columns[i] = place_line(left + i - MARGIN, field->width, field->interleave);
-        rows[i] = place_line(top + i - MARGIN, field->height, field->interleave);
+        columns[i] = place_line(left + i - APRON_MARGIN, field->width, field->interleave);
+        rows[i] = place_line(top + i - APRON_MARGIN, field->height, field->interleave);
     }
     for (int row = first; row < end; row++)
         for (int column = first; column < end; column++)
@@ -223,34 +220,15 @@ struct row_sums {
     float r[PS_TILE_SIZE], g[PS_TILE_SIZE], b[PS_TILE_SIZE], weight[PS_TILE_SIZE];
 };
 
-/* Which pixels of a row lie on the surface of their neighbours at (dx, dy): 1 or 0. Compilers make vectors of
- * it, as of add_neighbours, since each writes to an array of its own. */
-static void find_same(const struct apron *apron, int row, int dx, int dy, int *same)
-{
-    int other = row + dy;
-    for (int i = 0; i < PS_TILE_SIZE; i++) {
-        int here = MARGIN + i, there = here + dx;
-        float nx = apron->normal_x[row][here], ny = apron->normal_y[row][here],
-              nz = apron->normal_z[row][here];
-        float x = apron->position_x[other][there] - apron->position_x[row][here];
-        float y = apron->position_y[other][there] - apron->position_y[row][here];
-        float z = apron->position_z[other][there] - apron->position_z[row][here];
-        float cosine = nx * apron->normal_x[other][there] + ny * apron->normal_y[other][there] +
-                       nz * apron->normal_z[other][there];
-        float off = nx * x + ny * y + nz * z;
-        same[i] = gbuffer_same_surface(cosine, off, x * x + y * y + z * z);
-    }
-}
-
 /* Adds to each pixel of a row its neighbour at (dx, dy), `share` times, where that lies on the same
  * surface. */
 static void add_neighbours(const struct apron *apron, int row, int dx, int dy, float share,
                            struct row_sums *restrict sums)
 {
-    int same[PS_TILE_SIZE], other = row + dy;
-    find_same(apron, row, dx, dy, same);
+    int same[PS_TILE_SIZE], other = APRON_MARGIN + row + dy;
+    apron_find_same(&apron->at, row, dx, dy, 0.0f, same);
     for (int i = 0; i < PS_TILE_SIZE; i++) {
-        int there = MARGIN + i + dx;
+        int there = APRON_MARGIN + i + dx;
         float weight = (float)same[i] * share;
         sums->total[i] += weight;
         sums->r[i] += weight * apron->irradiance_r[other][there];
@@ -272,7 +250,7 @@ static void join_row(const struct apron *apron, uint32_t interleave, int row, ps
     for (int dy = -reach; dy <= reach; dy++)
         for (int dx = -reach; dx <= reach; dx++)
             add_neighbours(
-                apron, MARGIN + row, dx, dy,
+                apron, row, dx, dy,
                 border_share(dx, reach, interleave) * border_share(dy, reach, interleave), &sums);
     for (int i = 0; i < PS_TILE_SIZE; i++) {
         int lane = row * PS_TILE_SIZE + i;

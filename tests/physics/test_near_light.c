@@ -76,7 +76,7 @@ static void test_crease(void **state)
                 0.03);
 }
 
-/* The mean of four pixels and more rays is that of all rays. */
+/* Pixels that share rays with those around them, along the wall. */
 static void test_interleaved(void **state)
 {
     (void)state;
