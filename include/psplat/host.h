@@ -50,9 +50,10 @@ typedef struct ps_pass {
     uint64_t seed;       /* of the render */
     uint32_t tile_count; /* tiles of the G-buffer */
     uint32_t thread_count;
-    float surface_offset; /* how far to move a ray's origin off the surface it leaves, along the
+    float surface_offset;   /* how far to move a ray's origin off the surface it leaves, along the
                              normal */
-    uint32_t specular;    /* 1: some surface mirrors, shines by gloss or refracts */
+    uint32_t specular;      /* 1: some surface mirrors, shines by gloss or refracts */
+    uint32_t shares_places; /* 1: several sources may leave one place without much harm */
 } ps_pass;
 
 #define PS_MOST_INTERLEAVE 8
@@ -63,6 +64,10 @@ typedef struct ps_pass {
 typedef struct ps_near_light {
     float distance;
     uint32_t rays;
+    /* Over how many pixels, itself included, the light of lane l of tile t becomes a mean, at
+     * [t * PS_TILE_PIXELS + l]: few along the rims of surfaces, `window` inside of them. Valid for the pass. */
+    const uint8_t *averaged;
+    uint32_t window;
 } ps_near_light;
 
 /* A body of parallel_for: item `index`, on worker `worker` < thread_count. */

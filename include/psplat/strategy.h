@@ -93,7 +93,7 @@ typedef struct ps_filter_vtable {
 
 typedef struct ps_estimator_vtable {
     uint32_t size;
-    uint32_t reserved;
+    uint32_t shares_places; /* see ps_pass */
     /* Adds the pass's indirect irradiance and weight to the tiles. [main thread] */
     ps_result (*accumulate)(const void *state, const ps_host *host, const ps_pass *pass);
 } ps_estimator_vtable;

@@ -43,17 +43,18 @@ static ps_result splat_batches(const ps_host *host, const ps_source *sources, si
 }
 
 /* Interleaving pays where n pixels are little beside a splat; in small pictures, or small parts of
- * them, it blurs edges and adds noise. */
+ * them, it blurs edges and adds noise. Subsets by powers of two share out paths most evenly. */
 #define SIDE_PER_STEP 150.0f /* pixels of the picture's side for each step of n */
-#define MOST_AUTOMATIC 4
 
 static uint32_t interleave_of(const struct state *state, const ps_pass *pass)
 {
     if (state->interleave > 0)
         return (uint32_t)state->interleave;
     float side = PS_TILE_SIZE * sqrtf((float)pass->tile_count);
-    uint32_t n = (uint32_t)(side / SIDE_PER_STEP);
-    return n < 1 ? 1 : n < MOST_AUTOMATIC ? n : MOST_AUTOMATIC;
+    uint32_t n = 1;
+    while (2 * n <= PS_MOST_INTERLEAVE && (float)(2 * n) * SIDE_PER_STEP <= side)
+        n *= 2;
+    return n;
 }
 
 /* --- near light --------------------------------------------------------------------------------- */
@@ -63,6 +64,7 @@ static uint32_t interleave_of(const struct state *state, const ps_pass *pass)
 #define SCOUTS 4
 
 #define BLOCK 4 /* pixels along the side of a block */
+#define BLOCKS (PS_TILE_PIXELS / (BLOCK * BLOCK))
 
 /* Sets of random numbers: for directions, and for points on lamps. */
 #define DIRECTION_SET 1u
@@ -73,8 +75,8 @@ static uint32_t interleave_of(const struct state *state, const ps_pass *pass)
 struct near_work {
     const ps_host *host;
     const ps_pass *pass;
-    float distance;      /* from within which light is gathered */
-    uint64_t rays;       /* of each pixel */
+    ps_near_light near;
+    double rays; /* of a pixel in the middle of a surface and those that it is averaged with */
     uint64_t first_tile; /* of those that are at work */
 };
 
@@ -83,13 +85,47 @@ static uint32_t block_of(uint32_t lane)
     return lane / PS_TILE_SIZE / BLOCK * (PS_TILE_SIZE / BLOCK) + lane % PS_TILE_SIZE / BLOCK;
 }
 
-/* Where a pixel's samples begin: the sixteen of a block share one run of the sequence, since what they find
- * is averaged. */
-static uint64_t samples_of(const struct near_work *work, uint64_t tile, uint32_t lane)
+static uint64_t near_power_of_two(double number)
 {
-    uint64_t place = lane / PS_TILE_SIZE % BLOCK * BLOCK + lane % BLOCK;
-    uint64_t pass = work->pass->number;
-    return ps_sample_block(tile, block_of(lane)) + (pass * BLOCK * BLOCK + place) * work->rays;
+    uint64_t power = 1;
+    while (sqrt(2) * (double)power < number)
+        power *= 2;
+    return power;
+}
+
+/* Rays of a pixel. Those of its window are averaged, n of them in the middle of a surface and c along its
+ * rim, where a ray tells c pixels and not n: what noise is left in the picture is least with sqrt(n / c) times
+ * as many there. A power of two, since these are spread most evenly. */
+static uint64_t rays_of(const struct near_work *work, uint64_t tile, uint32_t lane)
+{
+    double averaged = work->near.averaged[tile * PS_TILE_PIXELS + lane];
+    return near_power_of_two(work->rays / sqrt((double)work->near.window * averaged));
+}
+
+/* The samples of a tile's pixels, and where those of a pixel begin. */
+struct near_samples {
+    uint64_t most; /* rays of any pixel */
+    uint64_t rays[PS_TILE_PIXELS], first[PS_TILE_PIXELS];
+};
+
+/* The sixteen pixels of a block share one run of the sequence, since what they find is averaged. */
+static void share_samples(const struct near_work *work, uint64_t tile, const ps_points *points,
+                          struct near_samples *samples)
+{
+    uint64_t most[BLOCKS] = {0};
+    uint64_t before = work->pass->number * BLOCK * BLOCK * near_power_of_two(work->rays);
+    samples->most = 0;
+    for (size_t i = 0; i < points->count; i++) {
+        uint32_t lane = points->lanes[i];
+        uint64_t rays = samples->rays[lane] = rays_of(work, tile, lane);
+        most[block_of(lane)] = rays > most[block_of(lane)] ? rays : most[block_of(lane)];
+        samples->most = rays > samples->most ? rays : samples->most;
+    }
+    for (size_t i = 0; i < points->count; i++) {
+        uint32_t lane = points->lanes[i], block = block_of(lane);
+        uint64_t place = lane / PS_TILE_SIZE % BLOCK * BLOCK + lane % BLOCK;
+        samples->first[lane] = ps_sample_block(tile, block) + before + place * most[block];
+    }
 }
 
 /* Shoots one ray from each point, and moves what they meet to the front; returns how many. targets[i]: the
@@ -105,7 +141,7 @@ static size_t look(const struct near_work *work, const ps_points *points, const 
         rays[i] = ps_leave_surface(points->positions[i], normal,
                                    ps_cosine_direction(normal, numbers[i][0], numbers[i][1]),
                                    work->pass->surface_offset);
-        rays[i].tfar = work->distance;
+        rays[i].tfar = work->near.distance;
         targets[i] = i;
     }
     work->host->intersect(work->host, rays, points->count, hits);
@@ -123,8 +159,8 @@ static size_t look(const struct near_work *work, const ps_points *points, const 
 
 /* Adds what one ray of each point finds; near[block] becomes 1 where it meets something. With directions
  * drawn by the cosine, a ray's irradiance is pi times the radiance that it finds. */
-static void gather(const struct near_work *work, uint64_t tile, const ps_points *points,
-                   uint64_t sample, ps_rgb *irradiance, uint8_t *near)
+static void gather(const struct near_work *work, const struct near_samples *samples,
+                   const ps_points *points, uint64_t sample, ps_rgb *irradiance, uint8_t *near)
 {
     ps_ray rays[PS_TILE_PIXELS];
     ps_hit hits[PS_TILE_PIXELS];
@@ -132,7 +168,7 @@ static void gather(const struct near_work *work, uint64_t tile, const ps_points 
     uint64_t indices[PS_TILE_PIXELS];
     uint32_t targets[PS_TILE_PIXELS];
     for (size_t i = 0; i < points->count; i++)
-        indices[i] = samples_of(work, tile, points->lanes[i]) + sample;
+        indices[i] = samples->first[points->lanes[i]] + sample;
     size_t met = look(work, points, indices, rays, hits, targets);
     for (size_t i = 0; i < met; i++)
         indices[i] = indices[targets[i]]; /* targets[i] >= i */
@@ -140,22 +176,25 @@ static void gather(const struct near_work *work, uint64_t tile, const ps_points 
                                 radiance);
     for (size_t i = 0; i < met; i++) {
         uint32_t lane = points->lanes[targets[i]];
-        ps_rgb found = ps_rgb_scale(radiance[i], PS_PI / (float)work->rays);
+        ps_rgb found = ps_rgb_scale(radiance[i], PS_PI / (float)samples->rays[lane]);
         irradiance[lane] = ps_rgb_add(irradiance[lane], found);
         near[block_of(lane)] = 1;
     }
 }
 
-/* Keeps the points of blocks that something is near to. */
-static void keep_near(const uint8_t *near, ps_points *points)
+/* Keeps the points that shoot ray `sample`: of those whose scouts are back, the ones of blocks that something
+ * is near to. */
+static void keep_looking(const struct near_samples *samples, uint64_t sample, const uint8_t *near,
+                         ps_points *points)
 {
     size_t kept = 0;
     for (size_t i = 0; i < points->count; i++) {
-        if (!near[block_of(points->lanes[i])])
+        uint32_t lane = points->lanes[i];
+        if (sample >= samples->rays[lane] || (sample >= SCOUTS && !near[block_of(lane)]))
             continue;
         points->positions[kept] = points->positions[i];
         points->normals[kept] = points->normals[i];
-        points->lanes[kept++] = points->lanes[i];
+        points->lanes[kept++] = lane;
     }
     points->count = kept;
 }
@@ -167,25 +206,23 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     const ps_host *host = work->host;
     uint64_t tile = work->first_tile + index;
     ps_points points;
-    uint8_t near[PS_TILE_PIXELS / (BLOCK * BLOCK)] = {0};
+    struct near_samples samples;
+    uint8_t near[BLOCKS] = {0};
     ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}};
     ps_collect_points(host->tile(host, (uint32_t)tile), &points);
-    for (uint64_t sample = 0; sample < work->rays; sample++) {
-        if (sample == SCOUTS)
-            keep_near(near, &points);
-        gather(work, tile, &points, sample, irradiance, near);
+    share_samples(work, tile, &points, &samples);
+    for (uint64_t sample = 0; sample < samples.most && points.count > 0; sample++) {
+        keep_looking(&samples, sample, near, &points);
+        gather(work, &samples, &points, sample, irradiance, near);
     }
     host->set_near_light(host, (uint32_t)tile, irradiance);
 }
 
-/* Gathers the light that splats leave. Averaging over n x n pixels is as good as so many more rays; powers of
- * two are spread most evenly. */
-static ps_result gather_near(const ps_host *host, const ps_pass *pass, float distance, double rays,
-                             uint32_t n)
+/* Gathers the light that splats leave. */
+static ps_result gather_near(const ps_host *host, const ps_pass *pass, const ps_near_light *near,
+                             double rays)
 {
-    struct near_work work = {host, pass, distance, .rays = 1};
-    while (2.0 * (double)work.rays * n * n <= rays)
-        work.rays *= 2;
+    struct near_work work = {host, pass, *near, rays, 0};
     for (; work.first_tile < pass->tile_count; work.first_tile += TILES_AT_A_TIME) {
         uint64_t left = pass->tile_count - work.first_tile;
         if (host->cancelled(host))
@@ -226,8 +263,7 @@ static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pa
     if (result == PS_OK && (automatic || state->near_rays.number > 0))
         result = host->leave_near_light(host, &near);
     if (result == PS_OK && near.distance > 0.0f)
-        result = gather_near(host, pass, near.distance,
-                             automatic ? near.rays : state->near_rays.number, interleave);
+        result = gather_near(host, pass, &near, automatic ? near.rays : state->near_rays.number);
     if (result == PS_OK)
         result = splat_all(host, splats);
     host->release(host, splats);
@@ -247,7 +283,11 @@ static const ps_param params[] = {
         "number of light paths"),
 };
 
-static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};
+static const ps_estimator_vtable vtable = {
+    .size = sizeof vtable,
+    .shares_places = 1,
+    .accumulate = accumulate,
+};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

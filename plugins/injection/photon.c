@@ -10,25 +10,53 @@
  *
  * Emission and first direction share one four-dimensional Sobol point: low discrepancy over (light
  * direction, bounce direction) together.
+ *
+ * Splitting (Arvo and Kirk 1990): `split` light paths in a row share a walk. At every diffuse surface it
+ * leaves a source for each of them, into directions of a lattice that the walk's own numbers shift, and
+ * goes on along the first. A pixel sees splats that come from all over, few of them from one place, so
+ * their noise is nearly that of as many walks; but the walk is traced, and the walls around the
+ * place are looked for, once for all. Each path keeps its own share Phi / N, so the mean is the same
+ * whatever `split` is. Where surfaces mirror, caustics want walks of their own.
  */
+#include <math.h>
 #include <psplat/plugin.h>
-
+#include <stdio.h>
 #include <string.h>
 
 struct state {
     int64_t count;
     int64_t bounces;
     int64_t roulette;
+    ps_number_or_choice split;
 };
 
-struct path {
+#define MOST_SPLIT 64
+
+/* What the light paths [path, path + count) share. */
+struct walk {
     ps_ray ray;
-    ps_rgb power;
-    uint64_t index;   /* over all passes */
+    ps_rgb power;   /* of each path */
+    uint64_t index; /* over all passes, as are those of paths */
+    uint64_t path;
+    uint32_t count;
+    uint32_t skipped; /* paths of this walk that came before, and are left out */
     float numbers[4]; /* for the next surface: two for the direction, roulette, choice of lobe */
     uint32_t bounces; /* diffuse surfaces met */
     uint32_t chain;   /* others since the last one */
     uint8_t specular; /* 1: it met others at all */
+};
+
+/* A walk that an earlier run began sends out its own direction besides those of its paths. */
+#define MOST_DIRECTIONS (PS_PATH_CHUNK + 1)
+
+/* All directions that walks send light to where they arrived, those of each walk in a row. */
+struct fan {
+    ps_ray rays[MOST_DIRECTIONS]; /* by which the walks came */
+    ps_hit hits[MOST_DIRECTIONS];
+    float numbers[MOST_DIRECTIONS][4];
+    ps_scatter scattered[MOST_DIRECTIONS];
+    size_t count;
+    size_t first[PS_PATH_CHUNK]; /* of each walk: that in which it goes on */
 };
 
 static uint64_t path_count(const void *state)
@@ -36,15 +64,49 @@ static uint64_t path_count(const void *state)
     return (uint64_t)((const struct state *)state)->count;
 }
 
-static void start_paths(const struct state *state, const ps_host *host, const ps_pass *pass,
-                        uint64_t first, size_t n, struct path *paths)
+/* Light that was reflected once loses some of the even spread of walks; later bounces lose nothing. */
+#define AUTOMATIC_SPLIT_ONCE 2
+#define AUTOMATIC_SPLIT 4
+
+static uint32_t split_of(const struct state *state, const ps_pass *pass)
+{
+    if (state->split.choice < 0)
+        return (uint32_t)state->split.number;
+    if (!pass->shares_places || pass->specular)
+        return 1;
+    return state->bounces == 1 ? AUTOMATIC_SPLIT_ONCE : AUTOMATIC_SPLIT;
+}
+
+/* The walks of the paths [first, first + n) of the pass; returns how many. */
+static size_t share_out(const struct state *state, const ps_pass *pass, uint64_t first, size_t n,
+                        struct walk *walks)
+{
+    uint32_t split = split_of(state, pass);
+    uint64_t count = (uint64_t)state->count, end = first + n;
+    uint64_t walks_before = pass->number * ((count + split - 1) / split);
+    size_t shared = 0;
+    for (uint64_t path = first, next; path < end; path = next) {
+        next = (path / split + 1) * split;
+        next = next < end ? next : end;
+        walks[shared++] = (struct walk){
+            .index = walks_before + path / split,
+            .path = pass->number * count + path,
+            .count = (uint32_t)(next - path),
+            .skipped = (uint32_t)(path % split),
+        };
+    }
+    return shared;
+}
+
+static void start_walks(const struct state *state, const ps_host *host, struct walk *walks,
+                        size_t n)
 {
     uint64_t indices[PS_PATH_CHUNK] = {0};
     float shared[PS_PATH_CHUNK][4], other[PS_PATH_CHUNK][4], emission[PS_PATH_CHUNK][4];
     ps_ray rays[PS_PATH_CHUNK];
     ps_rgb power[PS_PATH_CHUNK];
     for (size_t i = 0; i < n; i++)
-        indices[i] = (uint64_t)pass->number * (uint64_t)state->count + first + i;
+        indices[i] = walks[i].index;
     host->samples(host, PS_STREAM_EMISSION, 0, indices, n, shared);
     host->samples(host, PS_STREAM_EMISSION, 1, indices, n, other);
     for (size_t i = 0; i < n; i++) {
@@ -54,107 +116,173 @@ static void start_paths(const struct state *state, const ps_host *host, const ps
         emission[i][3] = other[i][1];
     }
     host->emit_light(host, (const float(*)[4])emission, n, rays, power);
-    for (size_t i = 0; i < n; i++)
-        paths[i] = (struct path){
-            .ray = rays[i],
-            .power = ps_rgb_scale(power[i], 1.0f / (float)state->count),
-            .index = indices[i],
-            .numbers = {shared[i][2], shared[i][3], other[i][2], other[i][3]},
-        };
+    for (size_t i = 0; i < n; i++) {
+        const float numbers[4] = {shared[i][2], shared[i][3], other[i][2], other[i][3]};
+        walks[i].ray = rays[i];
+        walks[i].power = ps_rgb_scale(power[i], 1.0f / (float)state->count);
+        memcpy(walks[i].numbers, numbers, sizeof numbers);
+    }
 }
 
-/* Random numbers for the surfaces that the paths meet at the end of segment `segment` > 0. */
-static void draw_surface(const ps_host *host, uint32_t segment, struct path *paths, size_t n)
+/* Random numbers for the surfaces that the walks meet at the end of segment `segment` > 0. */
+static void draw_surface(const ps_host *host, uint32_t segment, struct walk *walks, size_t n)
 {
     uint64_t indices[PS_PATH_CHUNK] = {0};
     float points[PS_PATH_CHUNK][4];
     for (size_t i = 0; i < n; i++)
-        indices[i] = paths[i].index;
+        indices[i] = walks[i].index;
     host->samples(host, PS_STREAM_BOUNCE, segment + 1, indices, n, points);
     for (size_t i = 0; i < n; i++)
-        memcpy(paths[i].numbers, points[i], sizeof points[i]);
+        memcpy(walks[i].numbers, points[i], sizeof points[i]);
 }
 
-/* Whether a path goes on after a surface that scatters like this; its power is then what is left. */
-static int goes_on(const struct state *state, const ps_scatter *scattered, struct path *path)
+/* Whether a walk goes on after a surface that scatters like this. Its power is then what is left, and
+ * `arriving` that with which it came, but for roulette. */
+static int goes_on(const struct state *state, const ps_scatter *scattered, struct walk *walk,
+                   ps_rgb *arriving)
 {
-    path->power = ps_rgb_multiply(path->power, scattered->weight);
-    if (!(ps_rgb_maximum(path->power) > 0.0f))
+    *arriving = walk->power;
+    walk->power = ps_rgb_multiply(*arriving, scattered->weight);
+    if (!(ps_rgb_maximum(walk->power) > 0.0f))
         return 0;
     if (scattered->lobe != PS_DIFFUSE) {
-        path->specular = 1;
-        return ++path->chain <= PS_LONGEST_CHAIN;
+        walk->specular = 1;
+        return ++walk->chain <= PS_LONGEST_CHAIN;
     }
-    path->chain = 0;
-    path->bounces++;
-    if (state->bounces && path->bounces > (uint32_t)state->bounces)
+    walk->chain = 0;
+    walk->bounces++;
+    if (state->bounces && walk->bounces > (uint32_t)state->bounces)
         return 0;
-    return !state->roulette || path->bounces < (uint32_t)state->roulette ||
-           ps_survives(ps_rgb_maximum(scattered->weight), path->numbers[2], &path->power);
+    if (!state->roulette || walk->bounces < (uint32_t)state->roulette)
+        return 1;
+    int survives = ps_survives(ps_rgb_maximum(scattered->weight), walk->numbers[2], arriving);
+    walk->power = ps_rgb_multiply(*arriving, scattered->weight);
+    return survives;
 }
 
-static ps_source source_of(const struct path *path, const ps_hit *hit, const ps_scatter *scattered)
+/* Traces the walks, and keeps those that meet something, moved to the front with their hits. */
+static size_t trace_walks(const ps_host *host, struct walk *walks, size_t n, ps_ray *rays,
+                          ps_hit *hits)
+{
+    for (size_t i = 0; i < n; i++)
+        rays[i] = walks[i].ray;
+    size_t kept[PS_PATH_CHUNK];
+    size_t met = ps_trace_kept(host, rays, n, hits, kept);
+    for (size_t i = 0; i < met; i++)
+        walks[i] = walks[kept[i]];
+    return met;
+}
+
+/* The numbers of a walk for its direction `number`, moved by that point of the (0, 2)-sequence of Sobol: digit by
+ * digit, so that they stay as evenly spread. */
+static void move_numbers(uint32_t number, float numbers[4])
+{
+    uint32_t x = 0, y = 0, column = 1u << 31;
+    for (uint32_t bit = 0; number >> bit; bit++, column ^= column >> 1)
+        if (number >> bit & 1) {
+            x ^= 1u << (31 - bit);
+            y ^= column;
+        }
+    numbers[0] = (float)((uint32_t)(numbers[0] * 0x1p24f) ^ x >> 8) * 0x1p-24f;
+    numbers[1] = (float)((uint32_t)(numbers[1] * 0x1p24f) ^ y >> 8) * 0x1p-24f;
+}
+
+/* One more direction of a walk. */
+static void add_direction(struct fan *fan, const struct walk *walk, const ps_ray *ray,
+                          const ps_hit *hit, uint32_t number)
+{
+    float *numbers = fan->numbers[fan->count];
+    memcpy(numbers, walk->numbers, sizeof walk->numbers);
+    move_numbers(number, numbers);
+    fan->rays[fan->count] = *ray;
+    fan->hits[fan->count++] = *hit;
+}
+
+static void fan_out(const ps_host *host, const struct walk *walks, const ps_ray *rays,
+                    const ps_hit *hits, size_t n, struct fan *fan)
+{
+    fan->count = 0;
+    for (size_t i = 0; i < n; i++) {
+        const struct walk *walk = &walks[i];
+        fan->first[i] = fan->count;
+        if (walk->skipped > 0)
+            add_direction(fan, walk, &rays[i], &hits[i], 0);
+        for (uint32_t path = 0; path < walk->count; path++)
+            add_direction(fan, walk, &rays[i], &hits[i], walk->skipped + path);
+    }
+    host->scatter(host, PS_FROM_LIGHT, fan->rays, fan->hits, (const float(*)[4])fan->numbers,
+                  fan->count, fan->scattered);
+}
+
+static ps_source source_of(const struct walk *walk, const ps_hit *hit, const ps_scatter *scattered,
+                           ps_rgb arriving)
 {
     return (ps_source){
         .position = hit->position,
         .normal = scattered->normal,
         .direction = scattered->direction,
-        .power = path->power,
-        .bounce = (uint16_t)path->bounces,
+        .power = ps_rgb_multiply(arriving, scattered->weight),
+        .bounce = (uint16_t)walk->bounces,
         .lobe = (uint8_t)scattered->lobe,
-        .specular = path->specular,
+        .specular = walk->specular,
         .merged = 1.0f,
-        .path = path->index,
+        .path = walk->path,
     };
 }
 
-/* Traces the paths, and keeps those that meet something, moved to the front with their hits. */
-static size_t trace_paths(const ps_host *host, struct path *paths, size_t n, ps_ray *rays,
-                          ps_hit *hits)
+/* The sources of all paths of a walk; returns how many. A mirror sends all paths the same way: one source
+ * has the power of all. */
+static size_t leave_sources(const struct walk *walk, const ps_hit *hit, const ps_scatter *scattered,
+                            ps_rgb arriving, ps_source *sources)
 {
-    for (size_t i = 0; i < n; i++)
-        rays[i] = paths[i].ray;
-    size_t kept[PS_PATH_CHUNK];
-    size_t met = ps_trace_kept(host, rays, n, hits, kept);
-    for (size_t i = 0; i < met; i++)
-        paths[i] = paths[kept[i]];
-    return met;
+    size_t left = 0;
+    if (scattered->lobe != PS_DIFFUSE) {
+        sources[left] = source_of(walk, hit, scattered, arriving);
+        sources[left].power = ps_rgb_scale(sources[left].power, (float)walk->count);
+        return 1;
+    }
+    scattered += walk->skipped > 0;
+    for (uint32_t i = 0; i < walk->count; i++) {
+        sources[left] = source_of(walk, hit, &scattered[i], arriving);
+        sources[left].path += i;
+        left += ps_rgb_maximum(sources[left].power) > 0.0f;
+    }
+    return left;
 }
 
-/* Whether a path that left a source may leave another: past the last diffuse bounce only mirrors and
+/* Whether a walk that left sources may leave others: past the last diffuse bounce only mirrors and
  * glass can make one. */
-static int may_go_on(const struct state *state, const ps_pass *pass, const struct path *path)
+static int may_go_on(const struct state *state, const ps_pass *pass, const struct walk *walk)
 {
-    return pass->specular || !state->bounces || path->bounces < (uint32_t)state->bounces;
+    return pass->specular || !state->bounces || walk->bounces < (uint32_t)state->bounces;
 }
 
-/* Carries all paths to their next surface, where they leave `count` sources; returns how many go on,
+/* Carries all walks to their next surface, where they leave `count` sources; returns how many go on,
  * moved to the front. */
-static size_t extend_paths(const struct state *state, const ps_host *host, const ps_pass *pass,
-                           uint32_t segment, struct path *paths, size_t n, ps_source *sources,
+static size_t extend_walks(const struct state *state, const ps_host *host, const ps_pass *pass,
+                           uint32_t segment, struct walk *walks, size_t n, ps_source *sources,
                            size_t *count)
 {
     ps_ray rays[PS_PATH_CHUNK];
     ps_hit hits[PS_PATH_CHUNK];
-    ps_scatter scattered[PS_PATH_CHUNK];
-    float numbers[PS_PATH_CHUNK][4];
-    n = trace_paths(host, paths, n, rays, hits);
+    struct fan fan;
+    n = trace_walks(host, walks, n, rays, hits);
     if (segment > 0)
-        draw_surface(host, segment, paths, n);
-    for (size_t i = 0; i < n; i++)
-        memcpy(numbers[i], paths[i].numbers, sizeof numbers[i]);
-    host->scatter(host, PS_FROM_LIGHT, rays, hits, (const float(*)[4])numbers, n, scattered);
+        draw_surface(host, segment, walks, n);
+    fan_out(host, walks, rays, hits, n, &fan);
     size_t alive = 0;
     *count = 0;
     for (size_t i = 0; i < n; i++) {
-        struct path path = paths[i];
-        if (!goes_on(state, &scattered[i], &path))
+        struct walk walk = walks[i];
+        const ps_scatter *scattered = &fan.scattered[fan.first[i]];
+        ps_rgb arriving;
+        if (!goes_on(state, scattered, &walk, &arriving))
             continue;
-        sources[(*count)++] = source_of(&path, &hits[i], &scattered[i]);
-        path.ray = ps_leave_surface(hits[i].position, scattered[i].normal, scattered[i].direction,
+        *count += leave_sources(&walk, &hits[i], scattered, arriving, sources + *count);
+        walk.ray = ps_leave_surface(hits[i].position, scattered->normal, scattered->direction,
                                     pass->surface_offset);
-        if (may_go_on(state, pass, &path))
-            paths[alive++] = path;
+        if (may_go_on(state, pass, &walk))
+            walks[alive++] = walk;
     }
     return alive;
 }
@@ -163,13 +291,14 @@ static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pa
                       size_t n, const ps_source_sink *sink)
 {
     const struct state *state = opaque;
-    struct path paths[PS_PATH_CHUNK];
+    struct walk walks[PS_PATH_CHUNK];
     ps_source sources[PS_PATH_CHUNK];
-    start_paths(state, host, pass, first, n, paths);
+    n = share_out(state, pass, first, n, walks);
+    start_walks(state, host, walks, n);
     ps_result result = PS_OK;
     for (uint32_t segment = 0; n > 0 && result == PS_OK; segment++) {
         size_t count;
-        n = extend_paths(state, host, pass, segment, paths, n, sources, &count);
+        n = extend_walks(state, host, pass, segment, walks, n, sources, &count);
         result = sink->append(sink->core, sources, count);
     }
     return result;
@@ -179,8 +308,14 @@ static int32_t init(void *opaque, const ps_host *host, char *message, size_t siz
 {
     (void)host;
     const struct state *state = opaque;
+    if (state->split.number != floor(state->split.number)) {
+        snprintf(message, size, "split: expected a whole number");
+        return 1;
+    }
     return ps_check_bounces(state->bounces, state->roulette, message, size);
 }
+
+static const char *const split_choices[] = {"auto", NULL};
 
 static const ps_param params[] = {
     PS_INT(struct state, count, "100000", 1, 2000000000, "paths", "light paths in each pass"),
@@ -188,6 +323,10 @@ static const ps_param params[] = {
            "diffuse surfaces at which a path leaves a source; 0: unlimited"),
     PS_INT(struct state, roulette, "2", 0, 1000, "bounces",
            "bounce from which on Russian roulette may end a path; 0: never"),
+    PS_NUMBER_OR(
+        struct state, split, "auto", 1, MOST_SPLIT, 0, split_choices, "paths",
+        "light paths that share a walk, and leave its surfaces in so many directions; auto: 4 for "
+        "estimators that splat where nothing mirrors, else 1"),
 };
 
 static const ps_injection_vtable vtable = {

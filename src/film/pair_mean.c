@@ -35,9 +35,10 @@ static void load_pixel(const struct pair_mean *mean, int64_t x, int64_t y, int r
     apron->at.normal_x[row][column] = from->normal_x[lane];
     apron->at.normal_y[row][column] = from->normal_y[lane];
     apron->at.normal_z[row][column] = from->normal_z[lane];
-    apron->r[row][column] = mean->from[index].r;
-    apron->g[row][column] = mean->from[index].g;
-    apron->b[row][column] = mean->from[index].b;
+    ps_rgb found = mean->from ? mean->from[index] : (ps_rgb){0, 0, 0};
+    apron->r[row][column] = found.r;
+    apron->g[row][column] = found.g;
+    apron->b[row][column] = found.b;
     apron->met[row][column] = mean->met ? mean->met[index] : 0;
 }
 
@@ -81,7 +82,7 @@ static void add_pairs(const struct pair_mean *mean, const struct apron *apron, i
 }
 
 static void mean_of_row(const struct pair_mean *mean, const struct apron *apron, int row,
-                        ps_rgb *to)
+                        size_t first)
 {
     struct row_sums sums;
     int reach = mean->reach, here = APRON_MARGIN + row;
@@ -94,8 +95,11 @@ static void mean_of_row(const struct pair_mean *mean, const struct apron *apron,
     for (int dy = 0; dy <= reach; dy++)
         for (int dx = dy == 0 ? 1 : -reach; dx <= reach; dx++)
             add_pairs(mean, apron, row, dx, dy, &sums);
-    for (int i = 0; i < SIDE; i++)
-        to[i] = ps_rgb_scale((ps_rgb){sums.r[i], sums.g[i], sums.b[i]}, 1.0f / sums.count[i]);
+    for (size_t i = 0; i < SIDE && mean->to; i++)
+        mean->to[first + i] =
+            ps_rgb_scale((ps_rgb){sums.r[i], sums.g[i], sums.b[i]}, 1.0f / sums.count[i]);
+    for (size_t i = 0; i < SIDE && mean->counts; i++)
+        mean->counts[first + i] = (uint8_t)sums.count[i];
 }
 
 static void mean_of_tile(void *user, uint64_t tile, uint32_t worker)
@@ -105,7 +109,7 @@ static void mean_of_tile(void *user, uint64_t tile, uint32_t worker)
     struct apron apron = {0};
     load_apron(mean, (uint32_t)tile, &apron);
     for (int row = 0; row < SIDE; row++)
-        mean_of_row(mean, &apron, row, &mean->to[tile * PS_TILE_PIXELS + (size_t)(row * SIDE)]);
+        mean_of_row(mean, &apron, row, tile * PS_TILE_PIXELS + (size_t)(row * SIDE));
 }
 
 void pair_mean_take(struct pair_mean *mean, uint32_t threads)

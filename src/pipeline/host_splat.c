@@ -238,7 +238,12 @@ static ps_result host_leave_near_light(const ps_host *host, ps_near_light *near)
         return PS_OK;
     statistics_set_bytes(render->statistics, "near light",
                          (double)near_light_bytes(&render->gbuffer));
-    return near_light_begin(&render->near_light, &render->gbuffer, near->distance, &render->error);
+    ps_result result = near_light_begin(&render->near_light, &render->gbuffer, near->distance,
+                                        render->splatter.settings.interleave,
+                                        render->settings->threads, &render->error);
+    near->averaged = render->near_light.averaged;
+    near->window = near_light_window(&render->near_light);
+    return result;
 }
 
 static void host_set_near_light(const ps_host *host, uint32_t index,

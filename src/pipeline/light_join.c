@@ -7,7 +7,7 @@
 void light_join(struct gbuffer *gbuffer, uint32_t threads)
 {
     ps_rgb *found = gbuffer->direct;
-    struct pair_mean mean = {gbuffer, gbuffer->met, REACH, found, gbuffer->joined};
+    struct pair_mean mean = {gbuffer, gbuffer->met, REACH, found, gbuffer->joined, NULL};
     pair_mean_take(&mean, threads);
     gbuffer->direct = gbuffer->joined;
     gbuffer->joined = found;

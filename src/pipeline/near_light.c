@@ -26,28 +26,39 @@ static size_t lanes_of(const struct gbuffer *gbuffer)
 
 size_t near_light_bytes(const struct gbuffer *gbuffer)
 {
-    return 2 * lanes_of(gbuffer) * sizeof(ps_rgb);
+    return lanes_of(gbuffer) * (2 * sizeof(ps_rgb) + sizeof(uint8_t));
 }
 
 ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffer, float distance,
-                           struct error *error)
+                           uint32_t interleave, uint32_t threads, struct error *error)
 {
     size_t lanes = lanes_of(gbuffer);
     near->distance = distance;
+    near->reach = (int)interleave / 2;
+    if (!near->averaged)
+        near->averaged = malloc(lanes);
     if (!near->found)
         near->found = malloc(lanes * sizeof *near->found);
     if (!near->joined)
         near->joined = malloc(lanes * sizeof *near->joined);
-    if (!near->found || !near->joined)
+    if (!near->found || !near->joined || !near->averaged)
         return error_memory(error, near_light_bytes(gbuffer), "near light");
     memset(near->found, 0, lanes * sizeof *near->found);
+    struct pair_mean count = {gbuffer, NULL, near->reach, NULL, NULL, near->averaged};
+    pair_mean_take(&count, threads);
     return PS_OK;
+}
+
+uint32_t near_light_window(const struct near_light *near)
+{
+    return (uint32_t)((2 * near->reach + 1) * (2 * near->reach + 1));
 }
 
 void near_light_release(struct near_light *near)
 {
     free(near->found);
     free(near->joined);
+    free(near->averaged);
     *near = (struct near_light){.found = NULL};
 }
 
@@ -77,12 +88,11 @@ static void add_tile(void *user, uint64_t index, uint32_t worker)
     }
 }
 
-void near_light_end(struct near_light *near, struct gbuffer *gbuffer, uint32_t interleave,
-                    uint32_t threads)
+void near_light_end(struct near_light *near, struct gbuffer *gbuffer, uint32_t threads)
 {
     if (!(near->distance > 0.0f))
         return;
-    struct pair_mean mean = {gbuffer, NULL, (int)interleave / 2, near->found, near->joined};
+    struct pair_mean mean = {gbuffer, NULL, near->reach, near->found, near->joined, NULL};
     pair_mean_take(&mean, threads);
     struct adding adding = {gbuffer, near->joined};
     parallel_for(threads, gbuffer->tile_count, add_tile, &adding);

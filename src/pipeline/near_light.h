@@ -9,28 +9,32 @@
 #include "film/gbuffer.h"
 
 struct near_light {
-    float distance; /* from within which it comes, in this pass; 0: none is left */
-    ps_rgb *found;  /* irradiance, a value for each lane of each tile; owned; NULL: none yet */
-    ps_rgb *joined; /* room for its means, likewise */
+    float distance;    /* from within which it comes, in this pass; 0: none is left */
+    ps_rgb *found;     /* irradiance, a value for each lane of each tile; owned; NULL: none yet */
+    ps_rgb *joined;    /* room for its means, likewise */
+    uint8_t *averaged; /* how many pixels they are taken over, likewise */
+    int reach;         /* pixels to each side of those */
 };
 
 /* So many rays a pixel, and those that it is averaged with, have less noise than the splats of so many paths:
  * both fall by the root of their number, nearly. */
 uint32_t near_light_rays(uint64_t paths);
 
-/* Starts a pass in which light from within a distance is left, and makes room where there is none. */
+/* Starts a pass in which light from within a distance is left, and makes room where there is none.
+ * `interleave`: n. */
 ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffer, float distance,
-                           struct error *error);
+                           uint32_t interleave, uint32_t threads, struct error *error);
 /* What that takes for a G-buffer of this size. */
 size_t near_light_bytes(const struct gbuffer *gbuffer);
+/* The most pixels that a mean is taken over. */
+uint32_t near_light_window(const struct near_light *near);
 void near_light_release(struct near_light *near);
 
 /* Takes what was found in a tile. Any thread that owns the tile. */
 void near_light_set(struct near_light *near, uint32_t tile,
                     const ps_rgb irradiance[PS_TILE_PIXELS]);
 
-/* Adds what was found to the G-buffer's tiles, without weight. `interleave`: n. */
-void near_light_end(struct near_light *near, struct gbuffer *gbuffer, uint32_t interleave,
-                    uint32_t threads);
+/* Adds what was found to the G-buffer's tiles, without weight. */
+void near_light_end(struct near_light *near, struct gbuffer *gbuffer, uint32_t threads);
 
 #endif

@@ -193,8 +193,7 @@ static void end_splats(struct render *render)
 {
     struct splatter *splatter = &render->splatter;
     splatter_end_pass(splatter, &render->gbuffer);
-    near_light_end(&render->near_light, &render->gbuffer, splatter->settings.interleave,
-                   render->settings->threads);
+    near_light_end(&render->near_light, &render->gbuffer, render->settings->threads);
 }
 
 ps_result render_estimate(struct render *render, struct error *error)
@@ -230,6 +229,8 @@ static void light_pixels(struct tile_work *work)
 /* Fills the G-buffer and its direct light. */
 static struct tile_work begin_pass(struct render *render, uint32_t number)
 {
+    const ps_estimator_vtable *estimator =
+        render->settings->strategies[PS_ESTIMATOR].descriptor->vtable;
     render->pass = (ps_pass){
         .size = sizeof(ps_pass),
         .number = number,
@@ -238,6 +239,7 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
         .thread_count = render->settings->threads,
         .surface_offset = render->scene->surface_offset,
         .specular = render->scene->microfacets != NULL,
+        .shares_places = estimator->shares_places,
     };
     render->splatting = false;
     report_progress(render, "direct light", (double)number / render->settings->passes);

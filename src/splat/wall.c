@@ -10,6 +10,9 @@
  * beyond it. */
 #define REACH 2.0f
 
+/* How many times as long the way along the surface may be as that across a bundle. */
+#define MOST_SLOPE 8.0f
+
 /* Of the rays along a surface, so many are stopped near the ground where it is hollow, and get half as far
  * again or more where they run higher. */
 #define MOST_AZIMUTHS 12
@@ -26,8 +29,15 @@ static const float cosine[AZIMUTHS] = {C1,  C3,  C5,  C7,  -C7, -C5, -C3, -C1,
 static const float sine[AZIMUTHS] = {C7,  C5,  C3,  C1,  C1,  C3,  C5,  C7,
                                      -C7, -C5, -C3, -C1, -C1, -C3, -C5, -C7};
 
-/* How far the rays got, in parts of the way to look; 1: all of it. */
+/* How far rays get along the tangent plane of a source. */
+struct star {
+    ps_vec3 directions[AZIMUTHS];
+    float distances[AZIMUTHS]; /* INFINITY: nothing is met */
+};
+
+/* The same across a splat's bundle: where they run, and how far in parts of the way to look; 1: all of it. */
 struct free_way {
+    float cosine[AZIMUTHS], sine[AZIMUTHS];
     float reach[AZIMUTHS];
 };
 
@@ -36,23 +46,42 @@ struct wall {
     float a, b;
 };
 
-/* Along the surface, `height` above it. */
-static struct free_way look_around(const ps_host *host, const ps_splat *splat,
-                                   const ps_source *source, float height)
+/* How far to look for the walls of a splat: across a bundle that leaves at a slope the way is shorter. */
+static float length_for(const ps_source *source, const ps_splat *splat)
+{
+    return REACH * splat->half_width * fminf(1.0f / box_cosine(source), MOST_SLOPE);
+}
+
+/* `height` above the surface, so far as `length`. */
+static struct star look_around(const ps_host *host, const ps_source *source, float height,
+                               float length)
 {
     _Alignas(64) ps_packet packet;
-    struct free_way way;
-    ps_vec3 origin = ps_add_scaled(source->position, height, source->normal);
+    struct star star;
+    ps_vec3 u, v, origin = ps_add_scaled(source->position, height, source->normal);
+    ps_frame(source->normal, &u, &v);
     for (int i = 0; i < AZIMUTHS; i++) {
-        float u = REACH * splat->half_width * cosine[i], v = REACH * splat->half_width * sine[i];
-        ps_vec3 rim = ps_add(ps_scale(splat->axis_u, u), ps_scale(splat->axis_v, v));
-        rim =
-            ps_add_scaled(rim, u * splat->start_slope_u + v * splat->start_slope_v, splat->axis_w);
-        ps_packet_set(&packet, (size_t)i, (ps_ray){origin, 0.0f, rim, 1.0f});
+        star.directions[i] = ps_add(ps_scale(u, cosine[i]), ps_scale(v, sine[i]));
+        ps_packet_set(&packet, (size_t)i, (ps_ray){origin, 0.0f, star.directions[i], length});
     }
     host->intersect_packets(host, &packet, 1, 0);
     for (int i = 0; i < AZIMUTHS; i++)
-        way.reach[i] = fmaxf(packet.tfar[i], 1e-3f);
+        star.distances[i] = packet.tfar[i] < length ? packet.tfar[i] : INFINITY;
+    return star;
+}
+
+static struct free_way way_across(const struct star *star, const ps_splat *splat)
+{
+    struct free_way way;
+    float nearer = 1.0f / (REACH * splat->half_width);
+    for (int i = 0; i < AZIMUTHS; i++) {
+        float u = ps_dot(star->directions[i], splat->axis_u);
+        float v = ps_dot(star->directions[i], splat->axis_v);
+        float across = fmaxf(sqrtf(u * u + v * v), 1e-6f);
+        way.cosine[i] = u / across;
+        way.sine[i] = v / across;
+        way.reach[i] = fminf(fmaxf(star->distances[i] * across * nearer, 1e-3f), 1.0f);
+    }
     return way;
 }
 
@@ -65,9 +94,9 @@ static int count_stopped(const struct free_way *way, const struct free_way *othe
     return count;
 }
 
-static float reach_of(const struct wall *wall, int i)
+static float reach_of(const struct wall *wall, const struct free_way *way, int i)
 {
-    float inverse = wall->a * cosine[i] + wall->b * sine[i];
+    float inverse = wall->a * way->cosine[i] + wall->b * way->sine[i];
     return inverse > 1.0f ? 1.0f / inverse : 1.0f;
 }
 
@@ -78,11 +107,11 @@ static struct wall through(const struct free_way *way, int i)
     int j = way->reach[left] < way->reach[right] ? left : right;
     float at_i = 1.0f / way->reach[i], at_j = 1.0f / way->reach[j];
     if (!(way->reach[j] < 1.0f))
-        return (struct wall){cosine[i] * at_i, sine[i] * at_i};
-    float determinant = cosine[i] * sine[j] - cosine[j] * sine[i];
+        return (struct wall){way->cosine[i] * at_i, way->sine[i] * at_i};
+    float determinant = way->cosine[i] * way->sine[j] - way->cosine[j] * way->sine[i];
     return (struct wall){
-        (at_i * sine[j] - at_j * sine[i]) / determinant,
-        (at_j * cosine[i] - at_i * cosine[j]) / determinant,
+        (at_i * way->sine[j] - at_j * way->sine[i]) / determinant,
+        (at_j * way->cosine[i] - at_i * way->cosine[j]) / determinant,
     };
 }
 
@@ -92,7 +121,7 @@ static bool stands(const struct wall *wall, const struct free_way *way)
 {
     int expected = 0, met = 0;
     for (int i = 0; i < AZIMUTHS; i++) {
-        float reach = reach_of(wall, i);
+        float reach = reach_of(wall, way, i);
         expected += reach < 0.9f;
         met += reach < 0.9f && way->reach[i] < 1.1f * reach;
     }
@@ -106,7 +135,7 @@ static int nearest_unexplained(const struct free_way *way, const struct wall *wa
     for (int i = 0; i < AZIMUTHS; i++) {
         bool explained = way->reach[i] >= 1.0f;
         for (uint32_t k = 0; k < n; k++)
-            explained |= way->reach[i] > 0.9f * reach_of(&walls[k], i);
+            explained |= way->reach[i] > 0.9f * reach_of(&walls[k], way, i);
         if (!explained && (nearest < 0 || way->reach[i] < way->reach[nearest]))
             nearest = i;
     }
@@ -137,12 +166,13 @@ static void find(const struct free_way *way, ps_splat *splat)
 /* The way around a source, and where its beam starts. A hollow surface rises all around: its own walls
  * are no others, and its beam starts higher. */
 static struct free_way look(const ps_host *host, float surface_offset, const ps_source *source,
-                            ps_splat *splat)
+                            const struct star *star, ps_splat *splat)
 {
-    struct free_way low = look_around(host, splat, source, surface_offset);
+    struct free_way low = way_across(star, splat);
     if (count_stopped(&low, &low, 1.0f) >= MOST_AZIMUTHS) {
         float clearance = box_clearance(surface_offset, splat->half_width, true);
-        struct free_way high = look_around(host, splat, source, clearance);
+        struct star above = look_around(host, source, clearance, length_for(source, splat));
+        struct free_way high = way_across(&above, splat);
         if (count_stopped(&low, &high, 1.0f / HIGHER_REACH) >= MOST_AZIMUTHS)
             return high;
     }
@@ -150,13 +180,35 @@ static struct free_way look(const ps_host *host, float surface_offset, const ps_
     return low;
 }
 
-void wall_find(const ps_host *host, float surface_offset, const ps_source *sources, size_t n,
-               ps_splat *splats)
+static bool same_place(const ps_source *a, const ps_source *b)
 {
+    return ps_same(a->position, b->position) && ps_same(a->normal, b->normal);
+}
+
+/* Of sources in one place, which share their star. */
+static void find_around(const ps_host *host, float surface_offset, const ps_source *sources,
+                        size_t n, ps_splat *splats)
+{
+    float length = 0.0f;
+    for (size_t i = 0; i < n; i++)
+        length = fmaxf(length, length_for(&sources[i], &splats[i]));
+    if (!(length > 0.0f))
+        return;
+    struct star star = look_around(host, &sources[0], surface_offset, length);
     for (size_t i = 0; i < n; i++) {
         if (!(splats[i].half_width > 0.0f))
             continue;
-        struct free_way way = look(host, surface_offset, &sources[i], &splats[i]);
+        struct free_way way = look(host, surface_offset, &sources[i], &star, &splats[i]);
         find(&way, &splats[i]);
+    }
+}
+
+void wall_find(const ps_host *host, float surface_offset, const ps_source *sources, size_t n,
+               ps_splat *splats)
+{
+    for (size_t first = 0, end; first < n; first = end) {
+        for (end = first + 1; end < n && same_place(&sources[first], &sources[end]);)
+            end++;
+        find_around(host, surface_offset, sources + first, end - first, splats + first);
     }
 }

@@ -150,7 +150,7 @@ chosen visibility "shadowmap:size=1,$shadowmap,resolution=2,bias=3" \
 # Where the scene says nothing, the default is laid over.
 chosen denoiser "none" $scene
 chosen denoiser "gaussian:size=7x7" -p denoiser=gaussian:size=7x7 $scene
-chosen injection "photon:count=50,bounces=2,roulette=2" -p injection=photon:bounces=2 $scene
+chosen injection "photon:count=50,bounces=2,roulette=2,split=auto" -p injection=photon:bounces=2 $scene
 
 # --- each strategy makes another picture than the default ---
 

@@ -1,0 +1,129 @@
+/* test_injection_photon.c: light paths that share a walk (`split`): where their sources lie, where they shine, and
+ * that all the light is there. */
+#include "support/inject.h"
+#include "support/lit_room.h"
+#include <math.h>
+#include <psplat/math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* A floor that reflects a half, all that the lamp lights. */
+static const char floor_text[] = SCENE_HEAD
+    "  half: {diffuse: 0.5}\n"
+    "lights:\n"
+    "  - spotlight: {location: [0, 2, 0], point_at: [0, 0, 0], radius: 50, falloff: 50, "
+    "intensity: 3}\n"
+    "objects:\n"
+    "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: half}\n";
+
+/* Every path has its own share of the light, also where their number is no multiple, in each pass. */
+static void test_all_paths_leave_their_share(void **state)
+{
+    (void)state;
+    double all = 0.5 * 3 * 2 * 3.14159265358979 * (1 - cos(50 * 3.14159265358979 / 180));
+    static const char *const choices[] = {"photon:count=1001,split=1", "photon:count=1001,split=3",
+                                          "photon:count=1001,split=64"};
+    for (int i = 0; i < 3; i++)
+        for (uint32_t pass = 0; pass < 2; pass++) {
+            struct injected injected = inject_text(floor_text, choices[i], pass, 2);
+            assert_int_equal(injected.count, 1001);
+            for (size_t k = 0; k < injected.count; k++) {
+                assert_true(fabs(injected.sources[k].power.g - all / 1001) < 1e-5 * all / 1001);
+                assert_true(injected.sources[k].path == pass * 1001 + k);
+            }
+            injected_release(&injected);
+        }
+}
+
+/* Four in a place of their own, and their directions spread: one in each quarter of the light by slope. */
+static void test_paths_of_a_walk_share_its_place(void **state)
+{
+    (void)state;
+    struct injected injected = inject_text(floor_text, "photon:count=4000,split=4", 0, 1);
+    const ps_source *sources = injected.sources;
+    for (size_t first = 0; first < injected.count; first += 4) {
+        int quarters[4] = {0};
+        for (size_t k = first; k < first + 4; k++) {
+            float height2 =
+                sources[k].direction.y * sources[k].direction.y; /* even, by the cosine */
+            assert_true(ps_same(sources[k].position, sources[first].position));
+            quarters[(int)fminf(4 * height2, 3)]++;
+        }
+        for (int i = 0; i < 4; i++)
+            assert_int_equal(quarters[i], 1);
+        assert_true(first == 0 || !ps_same(sources[first].position, sources[first - 1].position));
+    }
+    injected_release(&injected);
+}
+
+/* 256 paths are injected at a time: a walk of 3 may begin in one run and end in the next. */
+static void test_walks_that_runs_cut(void **state)
+{
+    (void)state;
+    struct injected injected = inject_text(floor_text, "photon:count=600,split=3", 0, 2);
+    for (size_t k = 0; k < injected.count; k++)
+        assert_true(ps_same(injected.sources[k].position, injected.sources[k / 3 * 3].position));
+    injected_release(&injected);
+}
+
+static const char mirror_text[] = SCENE_HEAD
+    "lights:\n"
+    "  - spotlight: {location: [0, 2, 0], point_at: [0, 0, 0], radius: 50, falloff: 50, "
+    "intensity: 3}\n"
+    "objects:\n"
+    "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: mirror}\n"
+    "  - quad: {corners: [[-9, 3, 9], [9, 3, 9], [9, 3, -9], [-9, 3, -9]], material: white}\n";
+
+static void test_a_mirror_leaves_one_source(void **state)
+{
+    (void)state;
+    struct injected one = inject_text(mirror_text, "photon:count=1000,split=1,bounces=1", 0, 2);
+    struct injected four = inject_text(mirror_text, "photon:count=1000,split=4,bounces=1", 0, 2);
+    size_t mirrored[2] = {0, 0};
+    for (size_t k = 0; k < one.count; k++)
+        mirrored[0] += one.sources[k].lobe == PS_SPECULAR;
+    for (size_t k = 0; k < four.count; k++)
+        mirrored[1] += four.sources[k].lobe == PS_SPECULAR && four.sources[k].bounce == 0;
+    assert_true(mirrored[0] > 990);
+    assert_true(mirrored[1] == 250);
+    expect_power("behind a mirror", power_of(&four), power_of(&one), 0.02);
+    injected_release(&one);
+    injected_release(&four);
+}
+
+/* All bounces: where walks end by roulette, too. */
+static void test_power_does_not_depend_on_it(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < LIT_ROOMS; i++)
+        expect_power(lit_rooms[i].name,
+                     mean_power(lit_rooms[i].text, "photon:count=400000,bounces=0,split=4", 2),
+                     mean_power(lit_rooms[i].text, "photon:count=400000,bounces=0,split=1", 2),
+                     0.01);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    char *message = injection_refusal(floor_text, "photon:split=2.5");
+    assert_non_null(strstr(message, "split"));
+    free(message);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_all_paths_leave_their_share),
+        cmocka_unit_test(test_paths_of_a_walk_share_its_place),
+        cmocka_unit_test(test_walks_that_runs_cut),
+        cmocka_unit_test(test_a_mirror_leaves_one_source),
+        cmocka_unit_test(test_power_does_not_depend_on_it),
+        cmocka_unit_test(test_refusals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
