@@ -54,6 +54,8 @@ typedef struct ps_stratification_vtable {
     ps_result (*cells)(const void *state, const ps_host *host, const ps_pass *pass,
                        const ps_source *sources, size_t n, const ps_vec3 *points, size_t count,
                        uint64_t *numbers);
+    uint32_t keeps_all; /* 1: combine leaves all as it is; see ps_pass.shares_places */
+    uint32_t reserved;
 } ps_stratification_vtable;
 
 #define PS_NO_CELL UINT64_MAX

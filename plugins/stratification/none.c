@@ -12,7 +12,11 @@ static ps_result combine(const void *state, const ps_host *host, const ps_pass *
     return PS_OK;
 }
 
-static const ps_stratification_vtable vtable = {.size = sizeof vtable, .combine = combine};
+static const ps_stratification_vtable vtable = {
+    .size = sizeof vtable,
+    .combine = combine,
+    .keeps_all = 1,
+};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

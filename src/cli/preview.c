@@ -18,7 +18,7 @@ static const struct argument stands_for[] = {
     {&plugin, "injection=photon:count=10000"},
     {&plugin, "stratification=none"},
     {&plugin, "visibility=shadowmap:size=auto,resolution=4"},
-    {&plugin, "estimator=splat:near_rays=0"},
+    {&plugin, "estimator=splat:interleave=4,near_rays=0"},
 };
 
 #define STANDS_FOR (sizeof stands_for / sizeof stands_for[0])

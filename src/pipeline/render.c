@@ -226,11 +226,18 @@ static void light_pixels(struct tile_work *work)
     statistics_add_seconds(render->statistics, "direct", clock_seconds() - start);
 }
 
+/* What merges sources would take those in one place for one. */
+static uint32_t shares_places(const struct render_settings *settings)
+{
+    const ps_estimator_vtable *estimator = settings->strategies[PS_ESTIMATOR].descriptor->vtable;
+    const ps_stratification_vtable *stratification =
+        settings->strategies[PS_STRATIFICATION].descriptor->vtable;
+    return estimator->shares_places && stratification->keeps_all;
+}
+
 /* Fills the G-buffer and its direct light. */
 static struct tile_work begin_pass(struct render *render, uint32_t number)
 {
-    const ps_estimator_vtable *estimator =
-        render->settings->strategies[PS_ESTIMATOR].descriptor->vtable;
     render->pass = (ps_pass){
         .size = sizeof(ps_pass),
         .number = number,
@@ -239,7 +246,7 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
         .thread_count = render->settings->threads,
         .surface_offset = render->scene->surface_offset,
         .specular = render->scene->microfacets != NULL,
-        .shares_places = estimator->shares_places,
+        .shares_places = shares_places(render->settings),
     };
     render->splatting = false;
     report_progress(render, "direct light", (double)number / render->settings->passes);

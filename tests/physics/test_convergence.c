@@ -13,7 +13,7 @@
 #define MOST_STEPS 4
 
 /* The same light paths for all, where they are by photons. */
-#define PHOTONS "injection=photon:count=8000"
+#define PHOTONS "injection=photon:count=8000,split=1"
 
 struct approximation {
     const char *reference[3];

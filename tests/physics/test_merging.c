@@ -40,8 +40,8 @@ static struct rendering render_seed(int seed, const char *const choices[])
     return rendering;
 }
 
-#define SINGLE "injection=photon:count=25000"
-#define SEVERAL "injection=photon:count=15000,bounces=4"
+#define SINGLE "injection=photon:count=25000,split=1"
+#define SEVERAL "injection=photon:count=15000,bounces=4,split=1"
 #define FIXED "visibility=shadowmap:grow=1"
 
 /* Light without stratification, seed by seed; rendered once for each injection. */
