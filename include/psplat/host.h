@@ -58,18 +58,6 @@ typedef struct ps_pass {
 
 #define PS_MOST_INTERLEAVE 8
 
-/* Light that splats leave to the estimator: what surfaces that lights shine on reflect, diffusely and only
- * once, over less than `distance` (0: nothing is left). So many rays as `rays`, for a pixel and those that it
- * is averaged with, find it about as well as the pass's splats find the rest. */
-typedef struct ps_near_light {
-    float distance;
-    uint32_t rays;
-    /* Over how many pixels, itself included, the light of lane l of tile t becomes a mean, at
-     * [t * PS_TILE_PIXELS + l]: few along the rims of surfaces, `window` inside of them. Valid for the pass. */
-    const uint8_t *averaged;
-    uint32_t window;
-} ps_near_light;
-
 /* A body of parallel_for: item `index`, on worker `worker` < thread_count. */
 typedef void (*ps_body)(void *user, uint64_t index, uint32_t worker);
 
@@ -213,17 +201,13 @@ struct ps_host {
     void (*emit_from)(const ps_host *host, uint32_t index, const float (*samples)[4], size_t n,
                       ps_ray *rays, ps_rgb *power);
 
-    /* From now on in this pass place_boxes leaves near light to the caller, by ps_splat.nearest: what comes
-     * from nearer than a half-width of the boxes, automatic or given, which splats would blur; nothing where
-     * beams don't start at their sources and follow the distance. After begin_splats, before place_splats.
-     * [main thread, inside accumulate] */
-    ps_result (*leave_near_light)(const ps_host *host, ps_near_light *near);
-
-    /* Takes the near light of tile `index`: irradiance (W/m^2) for each lane. When the pass ends it is added
-     * to the tile without weight, as a mean over the n x n pixels of begin_splats. One worker at a time for
-     * each tile. [any thread, after leave_near_light] */
-    void (*set_near_light)(const ps_host *host, uint32_t index,
-                           const ps_rgb irradiance[PS_TILE_PIXELS]);
+    /* From now on in this pass place_boxes leaves near light out, by ps_splat.nearest: what surfaces that
+     * lights shine on reflect, diffusely and only once, over less than a half-width of the boxes, automatic or
+     * given, which splats would blur. It is found by short rays instead, so many for a pixel in the middle of a surface and those that it
+     * is averaged with; 0: as many as find it about as well as the pass's splats find the rest. When the pass
+     * ends it is added to the tiles, without weight. Does nothing where beams don't start at their sources and
+     * follow the distance. After begin_splats, before place_splats. [main thread, inside accumulate] */
+    ps_result (*gather_near_light)(const ps_host *host, double rays);
 };
 
 #endif

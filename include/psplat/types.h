@@ -131,7 +131,7 @@ typedef struct ps_splat {
      * source's plane. follow 0: all pixels take all of it, and source_depth says nothing. */
     float source_depth, follow, narrowest, widest;
     /* Of full beams that follow the distance: what lies nearer than this to the source's plane gets weight but
-     * no light, which the estimator gathers otherwise (host->leave_near_light). 0: all is lit. */
+     * no light, which is gathered otherwise (host->gather_near_light). 0: all is lit. */
     float nearest;
     /* Lit where t <= map + constant + slope * tan(theta), theta between the light and the receiver's
      * normal. */

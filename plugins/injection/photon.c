@@ -64,17 +64,15 @@ static uint64_t path_count(const void *state)
     return (uint64_t)((const struct state *)state)->count;
 }
 
-/* Light that was reflected once loses some of the even spread of walks; later bounces lose nothing. */
-#define AUTOMATIC_SPLIT_ONCE 2
+/* Where there is more than one bounce. Light that was reflected once gains more from the even spread of walks
+ * of its own (spotlit Cornell box, 400,000 paths: 1.7 % of noise, and 2.0 % with 4 a walk) than it costs. */
 #define AUTOMATIC_SPLIT 4
 
 static uint32_t split_of(const struct state *state, const ps_pass *pass)
 {
     if (state->split.choice < 0)
         return (uint32_t)state->split.number;
-    if (!pass->shares_places || pass->specular)
-        return 1;
-    return state->bounces == 1 ? AUTOMATIC_SPLIT_ONCE : AUTOMATIC_SPLIT;
+    return !pass->shares_places || pass->specular || state->bounces == 1 ? 1 : AUTOMATIC_SPLIT;
 }
 
 /* The walks of the paths [first, first + n) of the pass; returns how many. */

@@ -1,7 +1,8 @@
 /* apron.h: a tile and the pixels around it, row by row, for means over neighbours.
  *
  * Plain arrays in which a neighbour is an offset away, so that compilers make vectors of the loops over a
- * row; each loop has to write to an array of its own for that.
+ * row; each loop has to write to an array of its own for that. Where all is flat, no neighbours need to be
+ * looked at, and sums over windows are made of sums over columns.
  */
 #ifndef FILM_APRON_H
 #define FILM_APRON_H
@@ -41,5 +42,14 @@ static inline void apron_find_same(const struct apron_surfaces *at, int row, int
             (cosine > least_cosine) & gbuffer_same_surface(cosine, off, x * x + y * y + z * z);
     }
 }
+
+/* Whether all pixels of the tile and up to `reach` around it lie on one plane, with one normal: then any two are
+ * on the same surface, and means are plain sums. Most tiles of most pictures. */
+bool apron_is_flat(const struct apron_surfaces *at, int reach);
+
+/* Sums over the window of each pixel of the tile, up to `reach` to each side; the border of the window counts
+ * `border` times. */
+void apron_sum(const float from[APRON_SIDE][APRON_SIDE], int reach, float border,
+               float to[PS_TILE_SIZE][PS_TILE_SIZE]);
 
 #endif

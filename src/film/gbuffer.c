@@ -83,6 +83,14 @@ bool gbuffer_find(const struct gbuffer *gbuffer, int64_t x, int64_t y, uint32_t 
     return true;
 }
 
+bool gbuffer_sees_nothing(const ps_tile *tile)
+{
+    int seen = 0;
+    for (int lane = 0; lane < PS_TILE_PIXELS; lane++)
+        seen += tile->object[lane] != PS_NO_OBJECT;
+    return seen == 0;
+}
+
 void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throughput,
                    float travelled)
 {

@@ -57,6 +57,9 @@ void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t tile);
 void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throughput,
                    float travelled);
 
+/* Whether no lane of a tile sees anything. */
+bool gbuffer_sees_nothing(const ps_tile *tile);
+
 /* Lane of number i when a tile is walked in 4x4 blocks. */
 uint32_t gbuffer_block_lane(uint32_t i);
 

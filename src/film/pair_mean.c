@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "film/apron.h"
+#include <string.h>
 
 /* Cosine between normals of what counts as flat: 3.6 degrees. */
 #define LEAST_COSINE 0.998f
@@ -102,12 +103,56 @@ static void mean_of_row(const struct pair_mean *mean, const struct apron *apron,
         mean->counts[first + i] = (uint8_t)sums.count[i];
 }
 
+static void keep_tile(const struct pair_mean *mean, size_t first)
+{
+    if (mean->counts)
+        memset(&mean->counts[first], 1, PS_TILE_PIXELS);
+    if (mean->to)
+        memcpy(&mean->to[first], &mean->from[first], PS_TILE_PIXELS * sizeof *mean->to);
+}
+
+static bool all_met_alike(const struct pair_mean *mean, const struct apron *apron)
+{
+    uint64_t met = apron->met[APRON_MARGIN][APRON_MARGIN];
+    int others = 0, first = APRON_MARGIN - mean->reach, end = APRON_MARGIN + SIDE + mean->reach;
+    for (int row = first; row < end; row++)
+        for (int i = first; i < end; i++)
+            others += apron->met[row][i] != met;
+    return others == 0 && gbuffer_met_alike(met, met);
+}
+
+/* Where all pixels are alike. */
+static void mean_of_flat(const struct pair_mean *mean, const struct apron *apron, size_t first)
+{
+    float r[SIDE][SIDE], g[SIDE][SIDE], b[SIDE][SIDE];
+    int window = (2 * mean->reach + 1) * (2 * mean->reach + 1);
+    if (mean->counts)
+        memset(&mean->counts[first], window, PS_TILE_PIXELS);
+    if (!mean->to)
+        return;
+    apron_sum(apron->r, mean->reach, 1.0f, r);
+    apron_sum(apron->g, mean->reach, 1.0f, g);
+    apron_sum(apron->b, mean->reach, 1.0f, b);
+    for (int row = 0; row < SIDE; row++)
+        for (int i = 0; i < SIDE; i++)
+            mean->to[first + (size_t)(row * SIDE + i)] =
+                ps_rgb_scale((ps_rgb){r[row][i], g[row][i], b[row][i]}, 1.0f / (float)window);
+}
+
 static void mean_of_tile(void *user, uint64_t tile, uint32_t worker)
 {
     (void)worker;
     const struct pair_mean *mean = user;
     struct apron apron = {0};
+    if (gbuffer_sees_nothing(&mean->gbuffer->tiles[tile])) {
+        keep_tile(mean, tile * PS_TILE_PIXELS);
+        return;
+    }
     load_apron(mean, (uint32_t)tile, &apron);
+    if (apron_is_flat(&apron.at, mean->reach) && (!mean->met || all_met_alike(mean, &apron))) {
+        mean_of_flat(mean, &apron, tile * PS_TILE_PIXELS);
+        return;
+    }
     for (int row = 0; row < SIDE; row++)
         mean_of_row(mean, &apron, row, tile * PS_TILE_PIXELS + (size_t)(row * SIDE));
 }

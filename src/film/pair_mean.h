@@ -22,11 +22,9 @@ struct pair_mean {
     const struct gbuffer *gbuffer;
     const uint64_t *met; /* see gbuffer_met_alike; NULL: does not matter */
     int reach;           /* pixels to each side, at most APRON_MARGIN (apron.h) */
-    const ps_rgb *from;  /* NULL: pixels are only counted */
-    ps_rgb *
-        to; /* like counts, says nothing for lanes that are no pixels of the picture; NULL: as `from` */
-    uint8_t *
-        counts; /* how many pixels the mean is taken over, itself included; NULL: does not matter */
+    const ps_rgb *from;
+    ps_rgb *to;      /* both NULL: pixels are only counted */
+    uint8_t *counts; /* over how many pixels, itself included; NULL: does not matter */
 };
 
 void pair_mean_take(struct pair_mean *mean, uint32_t threads);

@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "base/parallel.h"
+#include "pipeline/near_gather.h"
 #include "pipeline/render_state.h"
 #include "splat/box.h"
 #include "splat/reach.h"
@@ -229,27 +230,24 @@ static float near_distance(const struct render *render)
     return box_near_distance(&scene, &settings);
 }
 
-static ps_result host_leave_near_light(const ps_host *host, ps_near_light *near)
+static ps_result host_gather_near_light(const ps_host *host, double rays)
 {
     struct render *render = render_of(host);
-    near->distance = near_distance(render);
-    near->rays = near_light_rays(render->sources.path_count);
-    if (!(near->distance > 0.0f))
+    struct near_light *near = &render->near_light;
+    float distance = near_distance(render);
+    if (!(distance > 0.0f))
         return PS_OK;
+    double start = clock_seconds();
     statistics_set_bytes(render->statistics, "near light",
                          (double)near_light_bytes(&render->gbuffer));
-    ps_result result = near_light_begin(&render->near_light, &render->gbuffer, near->distance,
-                                        render->splatter.settings.interleave,
-                                        render->settings->threads, &render->error);
-    near->averaged = render->near_light.averaged;
-    near->window = near_light_window(&render->near_light);
+    ps_result result =
+        near_light_begin(near, &render->gbuffer, distance, render->splatter.settings.interleave,
+                         render->settings->threads, &render->error);
+    if (result == PS_OK)
+        result = near_gather(host, &render->pass, near,
+                             rays > 0.0 ? rays : near_light_rays(render->sources.path_count));
+    statistics_add_seconds(render->statistics, "near", clock_seconds() - start);
     return result;
-}
-
-static void host_set_near_light(const ps_host *host, uint32_t index,
-                                const ps_rgb irradiance[PS_TILE_PIXELS])
-{
-    near_light_set(&render_of(host)->near_light, index, irradiance);
 }
 
 void host_add_splatting(ps_host *host)
@@ -258,8 +256,7 @@ void host_add_splatting(ps_host *host)
     host->place_splats = host_place_splats;
     host->begin_splats = host_begin_splats;
     host->splat = host_splat;
-    host->leave_near_light = host_leave_near_light;
-    host->set_near_light = host_set_near_light;
+    host->gather_near_light = host_gather_near_light;
 }
 
 void host_report_splatter(struct render *render)

@@ -5,7 +5,7 @@
 #include <psplat/host.h>
 
 /* Fills in the functions place_boxes, begin_splats, place_splats, splat,
- * leave_near_light and set_near_light. */
+ * gather_near_light. */
 void host_add_splatting(ps_host *host);
 
 #endif

@@ -1,6 +1,6 @@
-/* near_light.h: the light that splats of a pass leave to the estimator, pixel by pixel.
+/* near_light.h: the light that splats of a pass leave out, pixel by pixel.
  *
- * The estimator gathers it with few rays a pixel. Where splats are interleaved over n x n pixels, so is this:
+ * It is gathered with few rays a pixel (near_gather.h). Where splats are interleaved over n x n pixels, so is this:
  * it becomes a mean over the same window (pair_mean.h).
  */
 #ifndef PIPELINE_NEAR_LIGHT_H
@@ -29,10 +29,6 @@ size_t near_light_bytes(const struct gbuffer *gbuffer);
 /* The most pixels that a mean is taken over. */
 uint32_t near_light_window(const struct near_light *near);
 void near_light_release(struct near_light *near);
-
-/* Takes what was found in a tile. Any thread that owns the tile. */
-void near_light_set(struct near_light *near, uint32_t tile,
-                    const ps_rgb irradiance[PS_TILE_PIXELS]);
 
 /* Adds what was found to the G-buffer's tiles, without weight. */
 void near_light_end(struct near_light *near, struct gbuffer *gbuffer, uint32_t threads);

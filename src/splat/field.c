@@ -243,6 +243,22 @@ static float border_share(int offset, int reach, uint32_t interleave)
     return interleave % 2 == 0 && abs(offset) == reach ? 0.5f : 1.0f;
 }
 
+/* Where all lies on one plane: each window has the weight of all subsets, each once. */
+static void join_flat(const struct apron *apron, uint32_t interleave, ps_tile *tile)
+{
+    float sums[PS_TILE_SIZE][PS_TILE_SIZE];
+    const float(*from[])[APRON_SIDE] = {apron->irradiance_r, apron->irradiance_g,
+                                        apron->irradiance_b, apron->weight};
+    float *const to[] = {tile->irradiance_r, tile->irradiance_g, tile->irradiance_b, tile->weight};
+    int reach = (int)interleave / 2;
+    float scale = 1.0f / (float)(interleave * interleave);
+    for (size_t plane = 0; plane < sizeof from / sizeof *from; plane++) {
+        apron_sum(from[plane], reach, border_share(reach, reach, interleave), sums);
+        for (int lane = 0; lane < PS_TILE_PIXELS; lane++)
+            to[plane][lane] += scale * sums[lane / PS_TILE_SIZE][lane % PS_TILE_SIZE];
+    }
+}
+
 static void join_row(const struct apron *apron, uint32_t interleave, int row, ps_tile *tile)
 {
     struct row_sums sums = {0};
@@ -272,7 +288,13 @@ static void join_tile(void *user, uint64_t index, uint32_t worker)
     int64_t top = (int64_t)(index / gbuffer->tiles_across) * PS_TILE_SIZE;
     int reach = (int)field->interleave / 2;
     struct apron apron = {0};
+    if (gbuffer_sees_nothing(&gbuffer->tiles[index]))
+        return;
     load_apron(field, left, top, reach, &apron);
+    if (reach > 0 && apron_is_flat(&apron.at, reach)) {
+        join_flat(&apron, field->interleave, &gbuffer->tiles[index]);
+        return;
+    }
     for (int row = 0; row < PS_TILE_SIZE; row++)
         join_row(&apron, field->interleave, row, &gbuffer->tiles[index]);
 }

@@ -1,0 +1,176 @@
+#include "pipeline/near_gather.h"
+
+#include <math.h>
+#include <psplat/plugin.h>
+
+/* Rays of each pixel that tell whether anything is near to the block that it lies in. Where none of the
+ * block's sixteen pixels meet anything, less than half a percent of the light can come from nearby. */
+#define SCOUTS 4
+
+#define BLOCK 4 /* pixels along the side of a block */
+#define BLOCKS (PS_TILE_PIXELS / (BLOCK * BLOCK))
+
+/* Sets of random numbers: for directions, and for points on lamps. */
+#define DIRECTION_SET 1u
+#define LAMP_SET 2u
+
+#define TILES_AT_A_TIME 256 /* until the user may stop */
+
+struct gathering {
+    const ps_host *host;
+    const ps_pass *pass;
+    struct near_light *near;
+    double rays; /* of a pixel in the middle of a surface and those that it is averaged with */
+    uint64_t first_tile; /* of those that are at work */
+};
+
+static uint32_t block_of(uint32_t lane)
+{
+    return lane / PS_TILE_SIZE / BLOCK * (PS_TILE_SIZE / BLOCK) + lane % PS_TILE_SIZE / BLOCK;
+}
+
+static uint64_t power_of_two(double number)
+{
+    uint64_t power = 1;
+    while (sqrt(2) * (double)power < number)
+        power *= 2;
+    return power;
+}
+
+/* Rays of a pixel. Those of its window are averaged, n of them in the middle of a surface and c along its
+ * rim, where a ray tells c pixels and not n: what noise is left in the picture is least with sqrt(n / c) times
+ * as many there. A power of two, since these are spread most evenly. */
+static uint64_t rays_of(const struct gathering *work, uint64_t tile, uint32_t lane)
+{
+    double averaged = work->near->averaged[tile * PS_TILE_PIXELS + lane];
+    return power_of_two(work->rays / sqrt((double)near_light_window(work->near) * averaged));
+}
+
+/* The samples of a tile's pixels, and where those of a pixel begin. */
+struct sample_runs {
+    uint64_t most; /* rays of any pixel */
+    uint64_t rays[PS_TILE_PIXELS], first[PS_TILE_PIXELS];
+};
+
+/* The sixteen pixels of a block share one run of the sequence, since what they find is averaged. */
+static void share_samples(const struct gathering *work, uint64_t tile, const ps_points *points,
+                          struct sample_runs *samples)
+{
+    uint64_t most[BLOCKS] = {0};
+    uint64_t before = work->pass->number * BLOCK * BLOCK * power_of_two(work->rays);
+    samples->most = 0;
+    for (size_t i = 0; i < points->count; i++) {
+        uint32_t lane = points->lanes[i];
+        uint64_t rays = samples->rays[lane] = rays_of(work, tile, lane);
+        most[block_of(lane)] = rays > most[block_of(lane)] ? rays : most[block_of(lane)];
+        samples->most = rays > samples->most ? rays : samples->most;
+    }
+    for (size_t i = 0; i < points->count; i++) {
+        uint32_t lane = points->lanes[i], block = block_of(lane);
+        uint64_t place = lane / PS_TILE_SIZE % BLOCK * BLOCK + lane % BLOCK;
+        samples->first[lane] = ps_sample_block(tile, block) + before + place * most[block];
+    }
+}
+
+/* Shoots one ray from each point, and moves what they meet to the front; returns how many. targets[i]: the
+ * point of hit i. */
+static size_t look(const struct gathering *work, const ps_points *points, const uint64_t *indices,
+                   ps_ray *rays, ps_hit *hits, uint32_t *targets)
+{
+    float numbers[PS_TILE_PIXELS][4];
+    size_t met = 0;
+    work->host->samples(work->host, PS_STREAM_PATH, DIRECTION_SET, indices, points->count, numbers);
+    for (uint32_t i = 0; i < points->count; i++) {
+        ps_vec3 normal = points->normals[i];
+        rays[i] = ps_leave_surface(points->positions[i], normal,
+                                   ps_cosine_direction(normal, numbers[i][0], numbers[i][1]),
+                                   work->pass->surface_offset);
+        rays[i].tfar = work->near->distance;
+        targets[i] = i;
+    }
+    work->host->intersect(work->host, rays, points->count, hits);
+    ps_forget_own_surface(points, targets, points->count, work->pass->surface_offset, hits);
+    for (uint32_t i = 0; i < points->count; i++) {
+        if (!(hits[i].distance < INFINITY))
+            continue;
+        targets[met] = i;
+        rays[met] = rays[i];
+        hits[met] = hits[i];
+        hits[met++].flags &= ~PS_HIT_SPECULAR; /* gloss is splatted */
+    }
+    return met;
+}
+
+/* Adds what one ray of each point finds; near[block] becomes 1 where it meets something. With directions
+ * drawn by the cosine, a ray's irradiance is pi times the radiance that it finds. */
+static void gather(const struct gathering *work, const struct sample_runs *samples,
+                   const ps_points *points, uint64_t sample, ps_rgb *irradiance, uint8_t *near)
+{
+    ps_ray rays[PS_TILE_PIXELS];
+    ps_hit hits[PS_TILE_PIXELS];
+    ps_rgb radiance[PS_TILE_PIXELS];
+    uint64_t indices[PS_TILE_PIXELS];
+    uint32_t targets[PS_TILE_PIXELS];
+    for (size_t i = 0; i < points->count; i++)
+        indices[i] = samples->first[points->lanes[i]] + sample;
+    size_t met = look(work, points, indices, rays, hits, targets);
+    for (size_t i = 0; i < met; i++)
+        indices[i] = indices[targets[i]]; /* targets[i] >= i */
+    work->host->direct_radiance(work->host, rays, hits, PS_STREAM_PATH, LAMP_SET, indices, met,
+                                radiance);
+    for (size_t i = 0; i < met; i++) {
+        uint32_t lane = points->lanes[targets[i]];
+        ps_rgb found = ps_rgb_scale(radiance[i], PS_PI / (float)samples->rays[lane]);
+        irradiance[lane] = ps_rgb_add(irradiance[lane], found);
+        near[block_of(lane)] = 1;
+    }
+}
+
+/* Keeps the points that shoot ray `sample`: of those whose scouts are back, the ones of blocks that something
+ * is near to. */
+static void keep_looking(const struct sample_runs *samples, uint64_t sample, const uint8_t *near,
+                         ps_points *points)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < points->count; i++) {
+        uint32_t lane = points->lanes[i];
+        if (sample >= samples->rays[lane] || (sample >= SCOUTS && !near[block_of(lane)]))
+            continue;
+        points->positions[kept] = points->positions[i];
+        points->normals[kept] = points->normals[i];
+        points->lanes[kept++] = lane;
+    }
+    points->count = kept;
+}
+
+static void gather_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct gathering *work = user;
+    const ps_host *host = work->host;
+    uint64_t tile = work->first_tile + index;
+    ps_points points;
+    struct sample_runs samples;
+    uint8_t near[BLOCKS] = {0};
+    ps_rgb *irradiance = &work->near->found[tile * PS_TILE_PIXELS];
+    ps_collect_points(host->tile(host, (uint32_t)tile), &points);
+    share_samples(work, tile, &points, &samples);
+    for (uint64_t sample = 0; sample < samples.most && points.count > 0; sample++) {
+        keep_looking(&samples, sample, near, &points);
+        gather(work, &samples, &points, sample, irradiance, near);
+    }
+}
+
+ps_result near_gather(const ps_host *host, const ps_pass *pass, struct near_light *near,
+                      double rays)
+{
+    struct gathering work = {host, pass, near, rays, 0};
+    for (; work.first_tile < pass->tile_count; work.first_tile += TILES_AT_A_TIME) {
+        uint64_t left = pass->tile_count - work.first_tile;
+        if (host->cancelled(host))
+            return PS_CANCELLED;
+        host->parallel_for(host, left < TILES_AT_A_TIME ? left : TILES_AT_A_TIME, gather_tile,
+                           &work);
+    }
+    return PS_OK;
+}
