@@ -149,8 +149,8 @@ struct ps_host {
 
     /* Prepares the pass's splatting; before its first place_splats. A splat will light only the pixels
      * of one of n x n interleaved subsets, n^2 times as strongly, and what neighbouring pixels learned
-     * is joined at the end of the pass; 1 <= n <= PS_MOST_INTERLEAVE. The n of the render's first pass
-     * holds for all. [main thread, inside accumulate] */
+     * is joined at the end of the pass; n <= PS_MOST_INTERLEAVE, 0: by the picture's size and the number of paths. The n
+     * of the render's first pass holds for all. [main thread, inside accumulate] */
     ps_result (*begin_splats)(const ps_host *host, uint32_t n);
 
     /* After begin_splats: adds the light of splats to the tiles: depth maps by the chosen visibility,

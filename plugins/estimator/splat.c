@@ -12,7 +12,6 @@
  * A kernel blurs what is smaller than itself, so light from nearer than a half-width is left out of splats and
  * found by short rays (host->gather_near_light).
  */
-#include <math.h>
 #include <psplat/plugin.h>
 
 #define BATCH 4096 /* splats placed at a time */
@@ -37,21 +36,6 @@ static ps_result splat_batches(const ps_host *host, const ps_source *sources, si
     return result;
 }
 
-/* Interleaving pays where n pixels are little beside a splat; in small pictures, or small parts of
- * them, it blurs edges and adds noise. Subsets by powers of two share out paths most evenly. */
-#define SIDE_PER_STEP 150.0f /* pixels of the picture's side for each step of n */
-
-static uint32_t interleave_of(const struct state *state, const ps_pass *pass)
-{
-    if (state->interleave > 0)
-        return (uint32_t)state->interleave;
-    float side = PS_TILE_SIZE * sqrtf((float)pass->tile_count);
-    uint32_t n = 1;
-    while (2 * n <= PS_MOST_INTERLEAVE && (float)(2 * n) * SIDE_PER_STEP <= side)
-        n *= 2;
-    return n;
-}
-
 static ps_result splat_all(const ps_host *host, ps_splat *splats)
 {
     const ps_source *sources;
@@ -69,11 +53,12 @@ static ps_result splat_all(const ps_host *host, ps_splat *splats)
 
 static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pass *pass)
 {
+    (void)pass;
     const struct state *state = opaque;
     ps_splat *splats = host->allocate(host, BATCH * sizeof *splats, "splats placed");
     if (!splats)
         return PS_ERROR_MEMORY;
-    ps_result result = host->begin_splats(host, interleave_of(state, pass));
+    ps_result result = host->begin_splats(host, (uint32_t)state->interleave);
     if (result == PS_OK && state->near_rays.choice >= 0)
         result = host->gather_near_light(host, 0.0);
     else if (result == PS_OK && state->near_rays.number > 0)

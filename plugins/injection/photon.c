@@ -134,14 +134,23 @@ static void draw_surface(const ps_host *host, uint32_t segment, struct walk *wal
         memcpy(walks[i].numbers, points[i], sizeof points[i]);
 }
 
-/* Whether a walk goes on after a surface that scatters like this. Its power is then what is left, and
- * `arriving` that with which it came, but for roulette. */
-static int goes_on(const struct state *state, const ps_scatter *scattered, struct walk *walk,
-                   ps_rgb *arriving)
+/* The largest weight, of any colour, that a walk has in any of its directions. */
+static float largest_weight(const struct fan *fan, size_t walk, size_t walks)
+{
+    size_t end = walk + 1 < walks ? fan->first[walk + 1] : fan->count;
+    float largest = 0.0f;
+    for (size_t i = fan->first[walk]; i < end; i++)
+        largest = fmaxf(largest, ps_rgb_maximum(fan->scattered[i].weight));
+    return largest;
+}
+
+/* Whether a walk leaves sources at a surface that scatters like this, in the direction in which the walk goes on, and has
+ * such a weight at most in any. `arriving` is then the power with which it came, but for roulette. */
+static int leaves_sources(const struct state *state, const ps_scatter *scattered, float weight,
+                          struct walk *walk, ps_rgb *arriving)
 {
     *arriving = walk->power;
-    walk->power = ps_rgb_multiply(*arriving, scattered->weight);
-    if (!(ps_rgb_maximum(walk->power) > 0.0f))
+    if (!(weight > 0.0f && ps_rgb_maximum(walk->power) > 0.0f))
         return 0;
     if (scattered->lobe != PS_DIFFUSE) {
         walk->specular = 1;
@@ -151,11 +160,8 @@ static int goes_on(const struct state *state, const ps_scatter *scattered, struc
     walk->bounces++;
     if (state->bounces && walk->bounces > (uint32_t)state->bounces)
         return 0;
-    if (!state->roulette || walk->bounces < (uint32_t)state->roulette)
-        return 1;
-    int survives = ps_survives(ps_rgb_maximum(scattered->weight), walk->numbers[2], arriving);
-    walk->power = ps_rgb_multiply(*arriving, scattered->weight);
-    return survives;
+    return !state->roulette || walk->bounces < (uint32_t)state->roulette ||
+           ps_survives(weight, walk->numbers[2], arriving);
 }
 
 /* Traces the walks, and keeps those that meet something, moved to the front with their hits. */
@@ -252,7 +258,8 @@ static size_t leave_sources(const struct walk *walk, const ps_hit *hit, const ps
  * glass can make one. */
 static int may_go_on(const struct state *state, const ps_pass *pass, const struct walk *walk)
 {
-    return pass->specular || !state->bounces || walk->bounces < (uint32_t)state->bounces;
+    return ps_rgb_maximum(walk->power) > 0.0f &&
+           (pass->specular || !state->bounces || walk->bounces < (uint32_t)state->bounces);
 }
 
 /* Carries all walks to their next surface, where they leave `count` sources; returns how many go on,
@@ -274,9 +281,11 @@ static size_t extend_walks(const struct state *state, const ps_host *host, const
         struct walk walk = walks[i];
         const ps_scatter *scattered = &fan.scattered[fan.first[i]];
         ps_rgb arriving;
-        if (!goes_on(state, scattered, &walk, &arriving))
+        float weight = largest_weight(&fan, i, n);
+        if (!leaves_sources(state, scattered, weight, &walk, &arriving))
             continue;
         *count += leave_sources(&walk, &hits[i], scattered, arriving, sources + *count);
+        walk.power = ps_rgb_multiply(arriving, scattered->weight);
         walk.ray = ps_leave_surface(hits[i].position, scattered->normal, scattered->direction,
                                     pass->surface_offset);
         if (may_go_on(state, pass, &walk))

@@ -7,6 +7,7 @@
 #include "splat/box.h"
 #include "splat/reach.h"
 #include "splat/wall.h"
+#include <math.h>
 #include <psplat/math.h>
 #include <string.h>
 
@@ -191,13 +192,32 @@ static ps_result create_splatter(struct render *render, uint32_t interleave)
     return result;
 }
 
+/* Interleaving pays where n pixels are little beside a splat; in small pictures, or small parts of them, it
+ * blurs edges and adds noise, and splats shrink as paths become more. (Under the lamp, 1600x900, 6.4 million
+ * paths have 2.1 % of error with 8, and 1.7 % with 4, in the same time; 400,000 take a third less time
+ * with 8.) Subsets by powers of two share out paths most evenly. */
+#define SIDE_PER_STEP 150.0 /* pixels of the picture's side for each step of n */
+#define MANY_PATHS 3000000
+#define MOST_FOR_MANY 4
+
+static uint32_t automatic_interleave(const struct render *render)
+{
+    double side = PS_TILE_SIZE * sqrt((double)render->gbuffer.tile_count);
+    uint32_t n = 1,
+             most = render->sources.path_count > MANY_PATHS ? MOST_FOR_MANY : PS_MOST_INTERLEAVE;
+    while (2 * n <= most && 2 * n * SIDE_PER_STEP <= side)
+        n *= 2;
+    return n;
+}
+
 static ps_result host_begin_splats(const ps_host *host, uint32_t n)
 {
     struct render *render = render_of(host);
-    uint32_t interleave = n < 1 ? 1 : n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
     ps_result result = source_stream_prepare(&render->sources, &render->error);
+    if (n == 0)
+        n = automatic_interleave(render);
     if (result == PS_OK && !render->has_splatter)
-        result = create_splatter(render, interleave);
+        result = create_splatter(render, n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE);
     if (result != PS_OK)
         return result;
     struct splatter_pass pass = {render->pass.number, render->sources.path_count};

@@ -1,7 +1,7 @@
 #include "pipeline/near_gather.h"
 
 #include <math.h>
-#include <psplat/plugin.h>
+#include <psplat/tile.h>
 
 /* Rays of each pixel that tell whether anything is near to the block that it lies in. Where none of the
  * block's sixteen pixels meet anything, less than half a percent of the light can come from nearby. */

@@ -77,7 +77,8 @@ static void test_russian_roulette_keeps_the_mean(void **state)
 }
 
 /* A closed box whose walls all shine alike, of albedo 1/2 and radiance 1: after one bounce each point of it
- * sends back 1/4, whatever the size of splats and of texels beside it. */
+ * sends back 1/4, whatever the size of splats and of texels beside it. (What is lost is 0.4 %, and
+ * noise 0.2 %; in one pass of 400,000 paths it is 0.5 %.) */
 static void test_even_light_in_a_box(void **state)
 {
     (void)state;
@@ -85,6 +86,7 @@ static void test_even_light_in_a_box(void **state)
         "psd: 1\n"
         "camera: {location: [1, 1, 0.1], look_at: [1, 1, 2], angle: 100}\n"
         "image: {width: 96, height: 54}\n"
+        "render: {passes: 4}\n"
         "materials: {wall: {diffuse: 0.5, emission: 1, emission_both: yes}}\n"
         "objects: [{box: {corners: [[0, 0, 0], [2, 2, 2]], material: wall}}]\n";
     static const char *const visibilities[] = {
@@ -95,11 +97,11 @@ static void test_even_light_in_a_box(void **state)
         "visibility=shadowmap:size=0.15,resolution=4",
     };
     for (size_t i = 0; i < sizeof visibilities / sizeof visibilities[0]; i++) {
-        const char *const choices[] = {"injection=photon:count=400000", visibilities[i], NULL};
+        const char *const choices[] = {"injection=photon:count=200000", visibilities[i], NULL};
         struct rendering rendering = render_text(text, 2, choices);
         double ratio = mean_of_all(&rendering.image, "indirect.G") / 0.25;
         print_message("%s: %.4f of an even light\n", visibilities[i], ratio);
-        assert_true(fabs(ratio - 1) < 0.006);
+        assert_true(fabs(ratio - 1) < 0.008);
         rendering_release(&rendering);
     }
 }

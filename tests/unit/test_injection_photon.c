@@ -107,6 +107,19 @@ static void test_power_does_not_depend_on_it(void **state)
                      0.01);
 }
 
+/* Bent normals send some directions into the surface; the others of a walk stay. */
+static void test_bumps(void **state)
+{
+    (void)state;
+    static const char text[] = SCENE_HEAD
+        "  rough: {diffuse: 0.8, bump: {noise: {colors: [0, 0.2], scale: 0.1}}}\n"
+        "lights:\n" SPOT "objects:\n"
+        "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: rough}\n"
+        "  - quad: {corners: [[-9, 3, -9], [9, 3, -9], [9, 3, 9], [-9, 3, 9]], material: rough}\n";
+    expect_power("bumps", mean_power(text, "photon:count=400000,bounces=3,split=4", 2),
+                 mean_power(text, "photon:count=400000,bounces=3,split=1", 2), 0.01);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -123,6 +136,7 @@ int main(void)
         cmocka_unit_test(test_walks_that_runs_cut),
         cmocka_unit_test(test_a_mirror_leaves_one_source),
         cmocka_unit_test(test_power_does_not_depend_on_it),
+        cmocka_unit_test(test_bumps),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
