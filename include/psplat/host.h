@@ -149,8 +149,8 @@ struct ps_host {
 
     /* Prepares the pass's splatting; before its first place_splats. A splat will light only the pixels
      * of one of n x n interleaved subsets, n^2 times as strongly, and what neighbouring pixels learned
-     * is joined at the end of the pass; n <= PS_MOST_INTERLEAVE, 0: by the picture's size and the number of paths. The n
-     * of the render's first pass holds for all. [main thread, inside accumulate] */
+     * is joined at the end of the pass; n <= PS_MOST_INTERLEAVE, 0: by the picture's size and the number of
+     * paths. The n of the render's first pass holds for all. [main thread, inside accumulate] */
     ps_result (*begin_splats)(const ps_host *host, uint32_t n);
 
     /* After begin_splats: adds the light of splats to the tiles: depth maps by the chosen visibility,
@@ -203,10 +203,11 @@ struct ps_host {
 
     /* From now on in this pass place_boxes leaves near light out, by ps_splat.nearest: what surfaces that
      * lights shine on reflect, diffusely and only once, over less than a half-width of the boxes, automatic or
-     * given, which splats would blur. It is found by short rays instead, so many for a pixel in the middle of a surface and those that it
-     * is averaged with; 0: as many as find it about as well as the pass's splats find the rest. When the pass
-     * ends it is added to the tiles, without weight. Does nothing where beams don't start at their sources and
-     * follow the distance. After begin_splats, before place_splats. [main thread, inside accumulate] */
+     * given, which splats would blur. It is found by short rays instead, so many for a pixel in the middle of
+     * a surface and those that it is averaged with; 0: as many as find it about as well as the pass's splats
+     * find the rest. When the pass ends it is added to the tiles, without weight. Does nothing where beams don't
+     * start at their sources and follow the distance. After begin_splats, before place_splats. [main thread,
+     * inside accumulate] */
     ps_result (*gather_near_light)(const ps_host *host, double rays);
 };
 

@@ -81,7 +81,7 @@ typedef struct ps_visibility_vtable {
     void (*visible)(const void *state, const ps_host *host, const ps_splat *splat,
                     const ps_vec3 *points, size_t n, uint8_t *lit);
     /* The settings by which all boxes are placed with host->place_boxes. NULL: they are placed otherwise;
-     * then splats leave no near light to the estimator. [main thread] */
+     * then splats leave out no near light. [main thread] */
     ps_box_settings (*boxes)(const void *state);
 } ps_visibility_vtable;
 

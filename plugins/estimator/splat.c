@@ -55,14 +55,13 @@ static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pa
 {
     (void)pass;
     const struct state *state = opaque;
+    int automatic = state->near_rays.choice >= 0;
     ps_splat *splats = host->allocate(host, BATCH * sizeof *splats, "splats placed");
     if (!splats)
         return PS_ERROR_MEMORY;
     ps_result result = host->begin_splats(host, (uint32_t)state->interleave);
-    if (result == PS_OK && state->near_rays.choice >= 0)
-        result = host->gather_near_light(host, 0.0);
-    else if (result == PS_OK && state->near_rays.number > 0)
-        result = host->gather_near_light(host, state->near_rays.number);
+    if (result == PS_OK && (automatic || state->near_rays.number > 0))
+        result = host->gather_near_light(host, automatic ? 0.0 : state->near_rays.number);
     if (result == PS_OK)
         result = splat_all(host, splats);
     host->release(host, splats);

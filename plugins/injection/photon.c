@@ -144,8 +144,8 @@ static float largest_weight(const struct fan *fan, size_t walk, size_t walks)
     return largest;
 }
 
-/* Whether a walk leaves sources at a surface that scatters like this, in the direction in which the walk goes on, and has
- * such a weight at most in any. `arriving` is then the power with which it came, but for roulette. */
+/* Whether a walk leaves sources at a surface that scatters like this in the direction in which the walk goes
+ * on, and has such a weight at most in any. `arriving` is then the power with which it came, but for roulette. */
 static int leaves_sources(const struct state *state, const ps_scatter *scattered, float weight,
                           struct walk *walk, ps_rgb *arriving)
 {
@@ -177,8 +177,8 @@ static size_t trace_walks(const ps_host *host, struct walk *walks, size_t n, ps_
     return met;
 }
 
-/* The numbers of a walk for its direction `number`, moved by that point of the (0, 2)-sequence of Sobol: digit by
- * digit, so that they stay as evenly spread. */
+/* The numbers of a walk for its direction `number`, moved by that point of the (0, 2)-sequence of Sobol:
+ * digit by digit, so that they stay as evenly spread. */
 static void move_numbers(uint32_t number, float numbers[4])
 {
     uint32_t x = 0, y = 0, column = 1u << 31;
@@ -315,7 +315,7 @@ static int32_t init(void *opaque, const ps_host *host, char *message, size_t siz
 {
     (void)host;
     const struct state *state = opaque;
-    if (state->split.number != floor(state->split.number)) {
+    if (state->split.choice < 0 && state->split.number != floor(state->split.number)) {
         snprintf(message, size, "split: expected a whole number");
         return 1;
     }

@@ -125,7 +125,7 @@ static bool all_met_alike(const struct pair_mean *mean, const struct apron *apro
 static void mean_of_flat(const struct pair_mean *mean, const struct apron *apron, size_t first)
 {
     float r[SIDE][SIDE], g[SIDE][SIDE], b[SIDE][SIDE];
-    int window = (2 * mean->reach + 1) * (2 * mean->reach + 1);
+    int window = pair_mean_window(mean->reach);
     if (mean->counts)
         memset(&mean->counts[first], window, PS_TILE_PIXELS);
     if (!mean->to)
@@ -143,11 +143,11 @@ static void mean_of_tile(void *user, uint64_t tile, uint32_t worker)
 {
     (void)worker;
     const struct pair_mean *mean = user;
-    struct apron apron = {0};
     if (gbuffer_sees_nothing(&mean->gbuffer->tiles[tile])) {
         keep_tile(mean, tile * PS_TILE_PIXELS);
         return;
     }
+    struct apron apron = {0};
     load_apron(mean, (uint32_t)tile, &apron);
     if (apron_is_flat(&apron.at, mean->reach) && (!mean->met || all_met_alike(mean, &apron))) {
         mean_of_flat(mean, &apron, tile * PS_TILE_PIXELS);

@@ -27,6 +27,12 @@ struct pair_mean {
     uint8_t *counts; /* over how many pixels, itself included; NULL: does not matter */
 };
 
+/* The most pixels that a mean is taken over. */
+static inline int pair_mean_window(int reach)
+{
+    return (2 * reach + 1) * (2 * reach + 1);
+}
+
 void pair_mean_take(struct pair_mean *mean, uint32_t threads);
 
 #endif

@@ -210,14 +210,17 @@ static uint32_t automatic_interleave(const struct render *render)
     return n;
 }
 
+static uint32_t interleave_of(const struct render *render, uint32_t n)
+{
+    return n == 0 ? automatic_interleave(render) : n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
+}
+
 static ps_result host_begin_splats(const ps_host *host, uint32_t n)
 {
     struct render *render = render_of(host);
     ps_result result = source_stream_prepare(&render->sources, &render->error);
-    if (n == 0)
-        n = automatic_interleave(render);
     if (result == PS_OK && !render->has_splatter)
-        result = create_splatter(render, n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE);
+        result = create_splatter(render, interleave_of(render, n));
     if (result != PS_OK)
         return result;
     struct splatter_pass pass = {render->pass.number, render->sources.path_count};

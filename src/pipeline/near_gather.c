@@ -1,5 +1,6 @@
 #include "pipeline/near_gather.h"
 
+#include "film/pair_mean.h"
 #include <math.h>
 #include <psplat/tile.h>
 
@@ -43,7 +44,7 @@ static uint64_t power_of_two(double number)
 static uint64_t rays_of(const struct gathering *work, uint64_t tile, uint32_t lane)
 {
     double averaged = work->near->averaged[tile * PS_TILE_PIXELS + lane];
-    return power_of_two(work->rays / sqrt((double)near_light_window(work->near) * averaged));
+    return power_of_two(work->rays / sqrt(pair_mean_window(work->near->reach) * averaged));
 }
 
 /* The samples of a tile's pixels, and where those of a pixel begin. */

@@ -3,9 +3,9 @@
  * A kernel blurs what is smaller than itself: light that comes from nearer than a half-width, along creases
  * and under what stands close to a wall. There splats would have to be as small as the gaps, and would be so
  * noisy that they rule the error. So what lamps throw onto surfaces nearby is found by short rays, cosine-
- * distributed (after Kollig and Keller 2006, "Illumination in the presence of weak singularities", who make up for
- * the clamped light of near virtual lights), and splats leave it out (ps_splat.nearest). The two parts meet at
- * one distance, so their sum has no seam and counts nothing twice. Light that other surfaces threw there is
+ * distributed (after Kollig and Keller 2006, "Illumination in the presence of weak singularities", who make up
+ * for the clamped light of near virtual lights), and splats leave it out (ps_splat.nearest). The two parts meet
+ * at one distance, so their sum has no seam and counts nothing twice. Light that other surfaces threw there is
  * smooth, and caustics are found by light paths alone: both are splatted all the way.
  */
 #ifndef PIPELINE_NEAR_GATHER_H
@@ -14,8 +14,8 @@
 #include "pipeline/near_light.h"
 #include <psplat/host.h>
 
-/* Fills near->found, which near_light_begin zeroed. `rays`: of a pixel in the middle of a surface and those that
- * it is averaged with. PS_CANCELLED when the user stops it. */
+/* Fills near->found, which near_light_begin zeroed. `rays`: of a pixel in the middle of a surface and those
+ * that it is averaged with. PS_CANCELLED when the user stops it. */
 ps_result near_gather(const ps_host *host, const ps_pass *pass, struct near_light *near,
                       double rays);
 

@@ -44,14 +44,9 @@ ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffe
     if (!near->found || !near->joined || !near->averaged)
         return error_memory(error, near_light_bytes(gbuffer), "near light");
     memset(near->found, 0, lanes * sizeof *near->found);
-    struct pair_mean count = {gbuffer, NULL, near->reach, NULL, NULL, near->averaged};
+    struct pair_mean count = {.gbuffer = gbuffer, .reach = near->reach, .counts = near->averaged};
     pair_mean_take(&count, threads);
     return PS_OK;
-}
-
-uint32_t near_light_window(const struct near_light *near)
-{
-    return (uint32_t)((2 * near->reach + 1) * (2 * near->reach + 1));
 }
 
 void near_light_release(struct near_light *near)
@@ -86,7 +81,8 @@ void near_light_end(struct near_light *near, struct gbuffer *gbuffer, uint32_t t
 {
     if (!(near->distance > 0.0f))
         return;
-    struct pair_mean mean = {gbuffer, NULL, near->reach, near->found, near->joined, NULL};
+    struct pair_mean mean = {
+        .gbuffer = gbuffer, .reach = near->reach, .from = near->found, .to = near->joined};
     pair_mean_take(&mean, threads);
     struct adding adding = {gbuffer, near->joined};
     parallel_for(threads, gbuffer->tile_count, add_tile, &adding);

@@ -1,7 +1,7 @@
 /* near_light.h: the light that splats of a pass leave out, pixel by pixel.
  *
- * It is gathered with few rays a pixel (near_gather.h). Where splats are interleaved over n x n pixels, so is this:
- * it becomes a mean over the same window (pair_mean.h).
+ * It is gathered with few rays a pixel (near_gather.h). Where splats are interleaved over n x n pixels, so is
+ * this: it becomes a mean over the same window (pair_mean.h).
  */
 #ifndef PIPELINE_NEAR_LIGHT_H
 #define PIPELINE_NEAR_LIGHT_H
@@ -26,8 +26,6 @@ ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffe
                            uint32_t interleave, uint32_t threads, struct error *error);
 /* What that takes for a G-buffer of this size. */
 size_t near_light_bytes(const struct gbuffer *gbuffer);
-/* The most pixels that a mean is taken over. */
-uint32_t near_light_window(const struct near_light *near);
 void near_light_release(struct near_light *near);
 
 /* Adds what was found to the G-buffer's tiles, without weight. */

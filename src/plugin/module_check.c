@@ -41,7 +41,7 @@ static size_t member_size(uint32_t type)
 
 /* Every table of functions is two 32-bit numbers and then pointers, all of which must be there but
  * a visibility's depth maps and its test of points (it may have either, or neither), an injection's
- * prepare, and a stratification's cells. */
+ * prepare, and a stratification's cells, which two more numbers follow. */
 static bool check_functions(const ps_descriptor *descriptor, struct error *error)
 {
     static const size_t first = 2 * sizeof(uint32_t);

@@ -13,7 +13,7 @@
  *             splatting").
  *
  * The size follows the distance d travelled, R = min(size, follow * d) but no less than a part of
- * size (0.3; 0.6 after the first bounce, or where light from close by is left to the estimator), as a photon
+ * size (0.3; 0.6 after the first bounce, or where light from close by is left to near rays), as a photon
  * differential would: light from close by, in a corner, makes small splats. Nor does it follow below the n x n
  * pixels that interleaved splats are averaged over in the end. The box of a full beam is as wide as its pixels'
  * sizes ask for (width.h, reach.h). Where sources were merged, `size` grows with the square root of their
@@ -39,7 +39,7 @@ struct box_scene {
     uint64_t seed;        /* rotates the frames */
     const struct camera *camera;
     uint32_t interleave; /* see field.h */
-    float near_distance; /* of the light that splats leave to the estimator; 0: none */
+    float near_distance; /* of the light that splats leave to near rays; 0: none */
 };
 
 /* How far above its source's tangent plane a full beam of that half-width starts. */
@@ -52,7 +52,7 @@ float box_clearance(float surface_offset, float half_width, bool hollow);
  * (Knaus and Zwicker 2011, "Progressive photon mapping: a probabilistic approach"). */
 float box_automatic_size(float scene_radius, uint64_t paths, uint32_t pass);
 
-/* How near light has to come from for splats to leave it to the estimator: as near as they would blur
+/* How near light has to come from for splats to leave it to near rays: as near as they would blur
  * it, one half-width; 0 where beams don't start at their sources and follow the distance. (After the bias
  * compensation of virtual point lights: Kollig and Keller 2006, "Illumination in the presence of weak
  * singularities".) */

@@ -287,9 +287,9 @@ static void join_tile(void *user, uint64_t index, uint32_t worker)
     int64_t left = (int64_t)(index % gbuffer->tiles_across) * PS_TILE_SIZE;
     int64_t top = (int64_t)(index / gbuffer->tiles_across) * PS_TILE_SIZE;
     int reach = (int)field->interleave / 2;
-    struct apron apron = {0};
     if (gbuffer_sees_nothing(&gbuffer->tiles[index]))
         return;
+    struct apron apron = {0};
     load_apron(field, left, top, reach, &apron);
     if (reach > 0 && apron_is_flat(&apron.at, reach)) {
         join_flat(&apron, field->interleave, &gbuffer->tiles[index]);

@@ -8,8 +8,8 @@
  *
  * Sixteen short rays run from the source along its tangent plane, past twice the rim of the disc: a pixel's
  * ray may start at the rim, and half of the disc around that start lies past it. Sources in one place share
- * them. Across each bundle, their nearest hits give up to two straight walls; a pixel whose ray starts at distance d (in half-widths)
- * in front of a wall then divides the kernel by the part of a disc around that start that lies on this
+ * them. Across each bundle, their nearest hits give up to two straight walls; a pixel whose ray starts at
+ * distance d (in half-widths) in front of a wall then divides the kernel by the part of a disc around that start that lies on this
  * side (of two walls: kernel_left), which is the share of the sources around it that could exist at all. That is exact for even
  * light on a plane, and not only in the mean: dividing by the part of the source's own disc would
  * keep the energy, and put it into the wrong place. A pixel whose ray starts behind a wall gets nothing
