@@ -7,6 +7,18 @@
 
 #define PS_PI 3.14159265358979323846f
 
+/* The smaller and the larger of two; `b` where they do not compare (NaN). Made for inner loops: what fmaxf
+ * promises about NaN costs a call. */
+static inline float ps_min(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static inline float ps_max(float a, float b)
+{
+    return a > b ? a : b;
+}
+
 static inline ps_vec3 ps_add(ps_vec3 a, ps_vec3 b)
 {
     return (ps_vec3){a.x + b.x, a.y + b.y, a.z + b.z};
@@ -71,7 +83,7 @@ static inline ps_rgb ps_rgb_multiply(ps_rgb a, ps_rgb b)
 
 static inline float ps_rgb_maximum(ps_rgb a)
 {
-    return fmaxf(a.r, fmaxf(a.g, a.b));
+    return ps_max(a.r, ps_max(a.g, a.b));
 }
 
 /* Rec.709 luminance */
@@ -97,7 +109,7 @@ static inline ps_vec3 ps_cosine_direction(ps_vec3 n, float u1, float u2)
     ps_vec3 u, v;
     ps_frame(n, &u, &v);
     float radius = sqrtf(u1), phi = 2.0f * PS_PI * u2;
-    float height = sqrtf(fmaxf(0.0f, 1.0f - u1));
+    float height = sqrtf(ps_max(1.0f - u1, 0.0f));
     ps_vec3 in_plane = ps_add_scaled(ps_scale(u, radius * cosf(phi)), radius * sinf(phi), v);
     return ps_normalize(ps_add_scaled(in_plane, height, n));
 }
@@ -129,7 +141,7 @@ static inline ps_vec3 ps_cone_direction(ps_vec3 axis, float cos_limit, float u1,
     ps_vec3 u, v;
     ps_frame(axis, &u, &v);
     float height = 1.0f - u1 * (1.0f - cos_limit), phi = 2.0f * PS_PI * u2;
-    float radius = sqrtf(fmaxf(0.0f, 1.0f - height * height));
+    float radius = sqrtf(ps_max(1.0f - height * height, 0.0f));
     ps_vec3 in_plane = ps_add_scaled(ps_scale(u, radius * cosf(phi)), radius * sinf(phi), v);
     return ps_normalize(ps_add_scaled(in_plane, height, axis));
 }

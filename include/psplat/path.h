@@ -17,7 +17,7 @@
  * where it ends, and otherwise divides what it carries by the probability, which keeps the mean. */
 static inline int ps_survives(float probability, float number, ps_rgb *carried)
 {
-    float survival = fminf(probability, PS_LIKELIEST_SURVIVAL);
+    float survival = ps_min(probability, PS_LIKELIEST_SURVIVAL);
     if (number >= survival)
         return 0;
     *carried = ps_rgb_scale(*carried, 1.0f / survival);

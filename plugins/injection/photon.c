@@ -140,7 +140,7 @@ static float largest_weight(const struct fan *fan, size_t walk, size_t walks)
     size_t end = walk + 1 < walks ? fan->first[walk + 1] : fan->count;
     float largest = 0.0f;
     for (size_t i = fan->first[walk]; i < end; i++)
-        largest = fmaxf(largest, ps_rgb_maximum(fan->scattered[i].weight));
+        largest = ps_max(largest, ps_rgb_maximum(fan->scattered[i].weight));
     return largest;
 }
 

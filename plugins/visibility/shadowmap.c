@@ -56,7 +56,7 @@ static void move_before_walls(const ps_splat *splat, float *u, float *v)
         for (uint32_t i = 0; i < ps_wall_count(splat); i++) {
             const ps_wall *wall = &splat->walls[i];
             float most = (wall->distance - BEFORE_WALLS) * splat->half_width;
-            float past = fmaxf(*u * wall->normal_u + *v * wall->normal_v - most, 0.0f);
+            float past = ps_max(*u * wall->normal_u + *v * wall->normal_v - most, 0.0f);
             *u -= past * wall->normal_u;
             *v -= past * wall->normal_v;
         }
@@ -67,7 +67,7 @@ static float load_ray(const ps_splat *splat, float u, float v, ps_packet *packet
 {
     float start = ps_bundle_start(splat, u, v);
     ps_vec3 origin = ps_bundle_point(splat, u, v, start);
-    float length = fmaxf(splat->far_depth - start, 0.0f);
+    float length = ps_max(splat->far_depth - start, 0.0f);
     ps_packet_set(packet, (size_t)lane, (ps_ray){origin, 0.0f, splat->axis_w, length});
     return start;
 }

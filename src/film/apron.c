@@ -1,20 +1,11 @@
 #include "film/apron.h"
 
 #include <math.h>
+#include <psplat/math.h>
 
 /* How far pixels may lie off the plane, in parts of the distance between neighbours, which is squared: far
  * less than gbuffer_same_surface allows. */
 #define MOST_OFF2 (0.005f * 0.005f)
-
-static float smaller(float a, float b)
-{
-    return a < b ? a : b;
-}
-
-static float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
 
 static bool has_one_normal(const struct apron_surfaces *at, int first, int end)
 {
@@ -39,7 +30,7 @@ static float most_off(const struct apron_surfaces *at, int first, int end)
             float off = nx * (at->position_x[row][i] - at->position_x[m][m]) +
                         ny * (at->position_y[row][i] - at->position_y[m][m]) +
                         nz * (at->position_z[row][i] - at->position_z[m][m]);
-            most = larger(most, off * off);
+            most = ps_max(most, off * off);
         }
     return most;
 }
@@ -53,7 +44,7 @@ static float least_spacing(const struct apron_surfaces *at, int first, int end, 
             float x = at->position_x[row + down][i + right] - at->position_x[row][i];
             float y = at->position_y[row + down][i + right] - at->position_y[row][i];
             float z = at->position_z[row + down][i + right] - at->position_z[row][i];
-            least = smaller(least, x * x + y * y + z * z);
+            least = ps_min(least, x * x + y * y + z * z);
         }
     return least;
 }
@@ -64,7 +55,7 @@ bool apron_is_flat(const struct apron_surfaces *at, int reach)
     if (!has_one_normal(at, first, end))
         return false;
     float spacing =
-        smaller(least_spacing(at, first, end, 0, 1), least_spacing(at, first, end, 1, 0));
+        ps_min(least_spacing(at, first, end, 0, 1), least_spacing(at, first, end, 1, 0));
     return most_off(at, first, end) <= MOST_OFF2 * spacing;
 }
 

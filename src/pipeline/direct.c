@@ -25,14 +25,14 @@ static void numbers_for_light(const float numbers[4], size_t light, float pair[2
     size_t first = light % 2 * 2, turn = light / 2;
     float turns = (float)turn;
     float a = numbers[first] + 0.7548777f * turns, b = numbers[first + 1] + 0.5698403f * turns;
-    pair[0] = fminf(a - floorf(a), 0x1.fffffep-1f);
-    pair[1] = fminf(b - floorf(b), 0x1.fffffep-1f);
+    pair[0] = ps_min(a - floorf(a), 0x1.fffffep-1f);
+    pair[1] = ps_min(b - floorf(b), 0x1.fffffep-1f);
 }
 
 /* What the receiver makes of irradiance 1 across a beam from `direction`. */
 static ps_rgb response(const struct receivers *to, size_t i, ps_vec3 direction, float light_pdf)
 {
-    float cosine = fmaxf(0.0f, ps_dot(direction, to->normals[i]));
+    float cosine = ps_max(0.0f, ps_dot(direction, to->normals[i]));
     if (!to->hits)
         return (ps_rgb){cosine, cosine, cosine};
     const ps_hit *hit = &to->hits[i];
@@ -62,7 +62,7 @@ static ps_rgb connect(const struct receivers *to, size_t i, size_t light, ps_ray
     if (!(ps_dot(sample.direction, to->normals[i]) > 0.0f))
         return nothing;
     /* A lamp may lie on a surface, which must not shadow it. */
-    float reach = fmaxf(sample.distance - scene->surface_offset, 0.0f);
+    float reach = ps_max(sample.distance - scene->surface_offset, 0.0f);
     *ray = (ps_ray){origin, 0.0f, sample.direction, reach};
     return ps_rgb_multiply(sample.weight, response(to, i, sample.direction, sample.pdf));
 }

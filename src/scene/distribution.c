@@ -1,6 +1,6 @@
 #include "scene/distribution.h"
 
-#include <math.h>
+#include <psplat/math.h>
 #include <stdlib.h>
 
 /* The largest float below 1. */
@@ -46,10 +46,10 @@ static float share(const float *cumulative, size_t entry)
 
 static size_t choose(const float *cumulative, size_t count, float u, float *rest)
 {
-    u = fminf(u, LAST);
+    u = ps_min(u, LAST);
     size_t entry = search(cumulative, count, u);
     float place = (u - share_before(cumulative, entry)) / share(cumulative, entry);
-    *rest = fminf(place, LAST);
+    *rest = ps_min(place, LAST);
     return entry;
 }
 

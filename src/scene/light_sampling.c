@@ -55,7 +55,7 @@ ps_vec3 light_cone_direction(ps_vec3 axis, float versine, float u1, float u2)
 
 float light_versine_of_sine2(float sine2)
 {
-    return sine2 / (1.0f + sqrtf(fmaxf(0.0f, 1.0f - sine2)));
+    return sine2 / (1.0f + sqrtf(ps_max(1.0f - sine2, 0.0f)));
 }
 
 ps_vec3 light_any_direction(float u1, float u2)

@@ -52,7 +52,7 @@ static struct shares shares_of(float u1, float u2)
 {
     float a = u1 < u2 ? 0.5f * u1 : u1 - 0.5f * u2;
     float b = u1 < u2 ? u2 - 0.5f * u1 : 0.5f * u2;
-    return (struct shares){{fmaxf(0.0f, 1.0f - a - b), a, b}};
+    return (struct shares){{ps_max(1.0f - a - b, 0.0f), a, b}};
 }
 
 static ps_vec3 point_of(const struct corners *corners, const struct shares *shares)

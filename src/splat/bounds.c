@@ -17,12 +17,12 @@ struct bound bound_empty(void)
 
 static ps_vec3 minimum(ps_vec3 a, ps_vec3 b)
 {
-    return (ps_vec3){fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)};
+    return (ps_vec3){ps_min(a.x, b.x), ps_min(a.y, b.y), ps_min(a.z, b.z)};
 }
 
 static ps_vec3 maximum(ps_vec3 a, ps_vec3 b)
 {
-    return (ps_vec3){fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z)};
+    return (ps_vec3){ps_max(a.x, b.x), ps_max(a.y, b.y), ps_max(a.z, b.z)};
 }
 
 void bound_add_point(struct bound *bound, ps_vec3 position, ps_vec3 normal)

@@ -40,8 +40,8 @@ static void set_frame(const struct box_scene *scene, const ps_source *source, ps
 
 static float slope_of(float cosine)
 {
-    float c = fmaxf(cosine, 1e-4f);
-    return fminf(sqrtf(fmaxf(0.0f, 1.0f - c * c)) / c, BOX_STEEPEST);
+    float c = ps_max(cosine, 1e-4f);
+    return ps_min(sqrtf(ps_max(1.0f - c * c, 0.0f)) / c, BOX_STEEPEST);
 }
 
 /* A full beam starts this far above the source's tangent plane, as a fraction of the half-width: surfaces
@@ -53,21 +53,21 @@ static float slope_of(float cosine)
 
 float box_clearance(float surface_offset, float half_width, bool hollow)
 {
-    return fmaxf(surface_offset, (hollow ? HOLLOW_CLEARANCE : CLEARANCE) * half_width);
+    return ps_max(surface_offset, (hollow ? HOLLOW_CLEARANCE : CLEARANCE) * half_width);
 }
 
 #define LEAST_COSINE 0.015625f
 
 float box_cosine(const ps_source *source)
 {
-    return fmaxf(ps_dot(source->normal, source->direction), LEAST_COSINE);
+    return ps_max(ps_dot(source->normal, source->direction), LEAST_COSINE);
 }
 
 void box_start(const ps_source *source, float clearance, ps_splat *splat)
 {
     float cosine = box_cosine(source);
     splat->start_depth =
-        splat->source_depth + fminf(clearance / cosine, -0.5f * splat->source_depth);
+        splat->source_depth + ps_min(clearance / cosine, -0.5f * splat->source_depth);
 }
 
 static float step_back(const ps_box_settings *settings, float half_width, float distance,
@@ -76,7 +76,7 @@ static float step_back(const ps_box_settings *settings, float half_width, float 
     float wanted = settings->step_back_rule == STEP_BACK_NUMBER
                        ? (float)fmin(settings->step_back, 1e9)
                        : half_width * slope + 0.5f * half_width;
-    return fminf(wanted, distance);
+    return ps_min(wanted, distance);
 }
 
 /* A length from the settings as a float that the ray tracer can bear: past the scene is nothing. */
@@ -92,7 +92,7 @@ static float growth(const ps_box_settings *settings, const ps_source *source)
 {
     if (!(settings->grow > 1.0 && source->merged > 1.0f))
         return 1.0f;
-    return fminf(sqrtf(source->merged), (float)fmin(settings->grow, 1e9));
+    return ps_min(sqrtf(source->merged), (float)fmin(settings->grow, 1e9));
 }
 
 /* How near to its source's plane a splat lights. All the way, where shadow rays would not find the light
@@ -108,11 +108,11 @@ static float smallest(const struct box_scene *scene, const ps_source *source, fl
                       float size)
 {
     ps_vec3 lit =
-        ps_add_scaled(source->position, fminf(distance, 4.0f * scene->radius), source->direction);
+        ps_add_scaled(source->position, ps_min(distance, 4.0f * scene->radius), source->direction);
     float pixels = (float)scene->interleave * camera_pixel_size(scene->camera, lit);
     bool wide = source->bounce > 1 || nearest_lit(scene, source) > 0.0f;
     float part = wide ? SMALLEST_LIT_BY_SURFACES : SMALLEST_LIT_BY_LAMPS;
-    return fmaxf(part * size, fminf(pixels, size));
+    return ps_max(part * size, ps_min(pixels, size));
 }
 
 /* Half-width where nothing was merged and no distance is followed. */
@@ -140,8 +140,8 @@ float box_half_width(const struct box_scene *scene, const ps_box_settings *setti
     float size = box_widest(scene, settings, source);
     if (!(settings->follow > 0))
         return size;
-    return fmaxf(fminf(size, (float)fmin(settings->follow, 1e9) * distance),
-                 smallest(scene, source, distance, size));
+    return ps_max(ps_min(size, (float)fmin(settings->follow, 1e9) * distance),
+                  smallest(scene, source, distance, size));
 }
 
 void box_stand_in(const ps_source *source, float distance, ps_hit *hit)
@@ -161,8 +161,9 @@ static void place_full(const struct box_scene *scene, const ps_box_settings *set
     splat->start_slope_v = -ps_dot(source->normal, splat->axis_v) / cosine;
     splat->source_depth = -distance;
     box_start(source, box_clearance(scene->surface_offset, splat->half_width, true), splat);
-    float tilt = hypotf(splat->start_slope_u, splat->start_slope_v) * splat->half_width;
-    splat->near_depth = fminf(splat->source_depth - tilt, 0.0f);
+    float slope = sqrtf(splat->start_slope_u * splat->start_slope_u +
+                        splat->start_slope_v * splat->start_slope_v);
+    splat->near_depth = ps_min(splat->source_depth - slope * splat->half_width, 0.0f);
     splat->follow = (float)fmin(settings->follow, 1e9);
     splat->nearest = nearest_lit(scene, source);
     splat->widest = box_widest(scene, settings, source);
@@ -201,7 +202,7 @@ void box_cut(ps_splat *splat, const float *depths, uint32_t resolution)
 {
     float farthest = -INFINITY;
     for (uint32_t i = 0; i < resolution * resolution; i++)
-        farthest = fmaxf(farthest, depths[i]);
+        farthest = ps_max(farthest, depths[i]);
     float tolerance = splat->bias_constant + splat->bias_slope * BOX_STEEPEST;
-    splat->far_depth = fminf(splat->far_depth, farthest + tolerance);
+    splat->far_depth = ps_min(splat->far_depth, farthest + tolerance);
 }

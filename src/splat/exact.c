@@ -37,7 +37,7 @@ static float make_up(const struct kernel_splat *splat, const struct kernel_profi
 static float weight_at(const struct kernel_splat *splat, const struct kernel_profile *profile,
                        float u, float v, float width)
 {
-    float r2 = fminf((u * u + v * v) / (width * width), 0.99999f);
+    float r2 = ps_min((u * u + v * v) / (width * width), 0.99999f);
     size_t entry = (size_t)(r2 * (float)KERNEL_PROFILE_SIZE);
     float narrowing = 1.0f + splat->by_width * (1.0f / (width * width) - 1.0f);
     return profile->weights[entry] * splat->kernel_scale * narrowing *
@@ -63,7 +63,7 @@ static void collect(const struct field_tile *tile, const struct kernel_splat *sp
         float above = kernel_above(splat, u, v, t);
         float width = width_at(&splat->width, above, cosine, ps_dot(normal, splat->u),
                                ps_dot(normal, splat->v));
-        if (!(r2 < width * width && above >= splat->clearance * fminf(width, 1.0f)))
+        if (!(r2 < width * width && above >= splat->clearance * ps_min(width, 1.0f)))
             continue;
         size_t i = inside->count++;
         inside->lanes[i] = lane;

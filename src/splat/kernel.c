@@ -96,7 +96,7 @@ static float walls_likeness(const ps_splat *splat)
     if (ps_wall_count(splat) < 2)
         return 0.0f;
     float cosine = walls[0].normal_u * walls[1].normal_u + walls[0].normal_v * walls[1].normal_v;
-    return 2.0f / PS_PI * asinf(fmaxf(-1.0f, fminf(cosine, 1.0f)));
+    return 2.0f / PS_PI * asinf(ps_max(ps_min(cosine, 1.0f), -1.0f));
 }
 
 /* A plugin's own splats may claim anything; 1 / 0 would make NaN of what is not lit. */
@@ -107,7 +107,7 @@ static float walls_likeness(const ps_splat *splat)
 static struct width prepare_width(const ps_splat *splat)
 {
     float inverse = 1.0f / splat->half_width;
-    float narrowest = fmaxf(splat->narrowest * inverse, LEAST_WIDTH);
+    float narrowest = ps_max(splat->narrowest * inverse, LEAST_WIDTH);
     if (!(splat->follow > 0.0f))
         return (struct width){.narrowest = 1.0f, .widest = 1.0f};
     return (struct width){
@@ -116,7 +116,7 @@ static struct width prepare_width(const ps_splat *splat)
         .tilt_u = splat->follow * splat->start_slope_u,
         .tilt_v = splat->follow * splat->start_slope_v,
         .narrowest = narrowest,
-        .widest = fmaxf(splat->widest * inverse, narrowest),
+        .widest = ps_max(splat->widest * inverse, narrowest),
     };
 }
 
@@ -124,7 +124,7 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
                                    const float *depths)
 {
     float inverse = 1.0f / splat->half_width;
-    float merged = profile->counting ? 1.0f : fmaxf(splat->merged, 1.0f);
+    float merged = profile->counting ? 1.0f : ps_max(splat->merged, 1.0f);
     return (struct kernel_splat){
         .centre = splat->centre,
         .u = ps_scale(splat->axis_u, inverse),
@@ -136,7 +136,7 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
         .start_v = splat->start_slope_v * splat->half_width,
         .source_depth = splat->follow > 0.0f ? splat->source_depth : splat->start_depth,
         .clearance =
-            splat->follow > 0.0f ? fmaxf(splat->start_depth - splat->source_depth, 0.0f) : 0.0f,
+            splat->follow > 0.0f ? ps_max(splat->start_depth - splat->source_depth, 0.0f) : 0.0f,
         .nearest = splat->follow > 0.0f ? splat->nearest : 0.0f,
         .width = prepare_width(splat),
         .bias_constant = splat->bias_constant,

@@ -24,20 +24,9 @@ uint32_t KERNEL_TOUCH(const struct bounds *bounds, const struct kernel_splat *sp
 #define LANES FIELD_BLOCK
 #define AT_A_TIME 64 /* splats */
 
-/* Comparisons become vector minima and maxima; fminf's promise about NaN would cost a call. */
-static inline float least(float a, float b)
-{
-    return a < b ? a : b;
-}
-
-static inline float most(float a, float b)
-{
-    return a > b ? a : b;
-}
-
 static inline float clamp(float x, float low, float high)
 {
-    return least(most(x, low), high);
+    return ps_min(ps_max(x, low), high);
 }
 
 static inline int lowest_bit(uint32_t mask)
@@ -67,11 +56,11 @@ uint32_t KERNEL_TOUCH(const struct bounds *bounds, const struct kernel_splat *sp
                         (ex * fabsf(v.x) + ey * fabsf(v.y) + ez * fabsf(v.z));
         float depth = x * w.x + y * w.y + z * w.z;
         float reach = ex * fabsf(w.x) + ey * fabsf(w.y) + ez * fabsf(w.z);
-        float off_u = most(along_u, 0.0f), off_v = most(along_v, 0.0f);
+        float off_u = ps_max(along_u, 0.0f), off_v = ps_max(along_v, 0.0f);
         /* The lowest that n.W may be. */
-        float facing = least(bounds->normal_low_x[i] * w.x, bounds->normal_high_x[i] * w.x) +
-                       least(bounds->normal_low_y[i] * w.y, bounds->normal_high_y[i] * w.y) +
-                       least(bounds->normal_low_z[i] * w.z, bounds->normal_high_z[i] * w.z);
+        float facing = ps_min(bounds->normal_low_x[i] * w.x, bounds->normal_high_x[i] * w.x) +
+                       ps_min(bounds->normal_low_y[i] * w.y, bounds->normal_high_y[i] * w.y) +
+                       ps_min(bounds->normal_low_z[i] * w.z, bounds->normal_high_z[i] * w.z);
         uint32_t touches = (off_u * off_u + off_v * off_v < 1.0f) & (facing < 0.0f) &
                            (depth - reach <= splat->far_depth) &
                            (depth + reach >= splat->near_depth);
@@ -169,10 +158,10 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
         float r2 = u * u + v * v;
         float inverse_width = placed->inverse_width[i];
         float in_width2 = r2 * inverse_width * inverse_width;
-        float least_above = splat->clearance * least(placed->width[i], 1.0f);
+        float least_above = splat->clearance * ps_min(placed->width[i], 1.0f);
         float cosine = clamp(facing, WIDTH_LEAST_FACING, 1.0f);
         float slope = sqrtf(1.0f - cosine * cosine) / cosine;
-        float bias = splat->bias_constant + splat->bias_slope * least(slope, BOX_STEEPEST);
+        float bias = splat->bias_constant + splat->bias_slope * ps_min(slope, BOX_STEEPEST);
         int column = (int)clamp((u + 1.0f) * half_resolution, 0.0f, last_texel);
         int line = (int)clamp((v + 1.0f) * half_resolution, 0.0f, last_texel);
         float past = t - depths[line * resolution + column];

@@ -43,9 +43,9 @@ static float width_for(const struct box_scene *scene, const ps_box_settings *set
     for (int i = 0; i < RAYS; i++) {
         if (!(packet->tfar[i] < INFINITY))
             continue;
-        float aside = widest * hypotf(place_u[i], place_v[i]);
+        float aside = widest * sqrtf(place_u[i] * place_u[i] + place_v[i] * place_v[i]);
         float wanted = box_half_width(scene, settings, source, packet->tfar[i]);
-        width = fmaxf(width, wanted > aside ? fminf(MARGIN * aside, widest) : 0.0f);
+        width = ps_max(width, wanted > aside ? ps_min(MARGIN * aside, widest) : 0.0f);
     }
     return width;
 }
@@ -57,9 +57,9 @@ static float nearest_of(const ps_packet *packet, const ps_source *source)
     for (size_t i = 0; i < RAYS; i++) {
         ps_vec3 origin = {packet->origin_x[i], packet->origin_y[i], packet->origin_z[i]};
         ps_vec3 ahead = ps_subtract(origin, source->position);
-        nearest = fminf(nearest, ps_dot(ahead, source->direction) + packet->tfar[i]);
+        nearest = ps_min(nearest, ps_dot(ahead, source->direction) + packet->tfar[i]);
     }
-    return fmaxf(nearest, 0.0f);
+    return ps_max(nearest, 0.0f);
 }
 
 static void find_one(const ps_host *host, const struct box_scene *scene,
@@ -76,7 +76,8 @@ static void find_one(const ps_host *host, const struct box_scene *scene,
         float nearest = nearest_of(&packet, source);
         least = nearest < INFINITY ? box_half_width(scene, settings, source, nearest) : 0.0f;
         if (nearest < INFINITY)
-            box_stand_in(source, fmaxf(nearest, widest), hit); /* beams start before half of that */
+            box_stand_in(source, ps_max(nearest, widest),
+                         hit); /* beams start before half of that */
     }
     *half_width = width_for(scene, settings, source, &packet, widest, least);
 }

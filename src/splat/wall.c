@@ -49,7 +49,7 @@ struct wall {
 /* How far to look for the walls of a splat: across a bundle that leaves at a slope the way is shorter. */
 static float length_for(const ps_source *source, const ps_splat *splat)
 {
-    return REACH * splat->half_width * fminf(1.0f / box_cosine(source), MOST_SLOPE);
+    return REACH * splat->half_width * ps_min(1.0f / box_cosine(source), MOST_SLOPE);
 }
 
 /* `height` above the surface, so far as `length`. */
@@ -77,10 +77,10 @@ static struct free_way way_across(const struct star *star, const ps_splat *splat
     for (int i = 0; i < AZIMUTHS; i++) {
         float u = ps_dot(star->directions[i], splat->axis_u);
         float v = ps_dot(star->directions[i], splat->axis_v);
-        float across = fmaxf(sqrtf(u * u + v * v), 1e-6f);
+        float across = ps_max(sqrtf(u * u + v * v), 1e-6f);
         way.cosine[i] = u / across;
         way.sine[i] = v / across;
-        way.reach[i] = fminf(fmaxf(star->distances[i] * across * nearer, 1e-3f), 1.0f);
+        way.reach[i] = ps_min(ps_max(star->distances[i] * across * nearer, 1e-3f), 1.0f);
     }
     return way;
 }
@@ -191,7 +191,7 @@ static void find_around(const ps_host *host, float surface_offset, const ps_sour
 {
     float length = 0.0f;
     for (size_t i = 0; i < n; i++)
-        length = fmaxf(length, length_for(&sources[i], &splats[i]));
+        length = ps_max(length, length_for(&sources[i], &splats[i]));
     if (!(length > 0.0f))
         return;
     struct star star = look_around(host, &sources[0], surface_offset, length);

@@ -24,7 +24,7 @@ static struct placed find(const struct scene *scene, const struct intersection *
 /* By the largest component first: the square of a very small or large one is no float. */
 static ps_vec3 unit(ps_vec3 n)
 {
-    float largest = fmaxf(fabsf(n.x), fmaxf(fabsf(n.y), fabsf(n.z)));
+    float largest = ps_max(fabsf(n.x), ps_max(fabsf(n.y), fabsf(n.z)));
     return ps_normalize(ps_scale(n, 1.0f / largest));
 }
 
