@@ -6,40 +6,41 @@ typedef int32_t signed_lanes __attribute__((vector_size(16)));
 
 /* Direction numbers of the first four Sobol dimensions, from the initial numbers of Joe and Kuo
  * 2008, "Constructing Sobol sequences with better two-dimensional projections": column i of
- * dimensions 0 to 3, which lie together so that one operation serves all four. */
+ * dimensions 0 to 3, which lie together so that one operation serves all four. Their bits run in
+ * reversed order, in which they are scrambled. */
 static const lanes sobol_columns[32] = {
-    {0x80000000, 0x80000000, 0x80000000, 0x80000000},
-    {0x40000000, 0xc0000000, 0xc0000000, 0xc0000000},
-    {0x20000000, 0xa0000000, 0x60000000, 0x20000000},
-    {0x10000000, 0xf0000000, 0x90000000, 0x50000000},
-    {0x08000000, 0x88000000, 0xe8000000, 0xf8000000},
-    {0x04000000, 0xcc000000, 0x5c000000, 0x74000000},
-    {0x02000000, 0xaa000000, 0x8e000000, 0xa2000000},
-    {0x01000000, 0xff000000, 0xc5000000, 0x93000000},
-    {0x00800000, 0x80800000, 0x68800000, 0xd8800000},
-    {0x00400000, 0xc0c00000, 0x9cc00000, 0x25400000},
-    {0x00200000, 0xa0a00000, 0xee600000, 0x59e00000},
-    {0x00100000, 0xf0f00000, 0x55900000, 0xe6d00000},
-    {0x00080000, 0x88880000, 0x80680000, 0x78080000},
-    {0x00040000, 0xcccc0000, 0xc09c0000, 0xb40c0000},
-    {0x00020000, 0xaaaa0000, 0x60ee0000, 0x82020000},
-    {0x00010000, 0xffff0000, 0x90550000, 0xc3050000},
-    {0x00008000, 0x80008000, 0xe8808000, 0x208f8000},
-    {0x00004000, 0xc000c000, 0x5cc0c000, 0x51474000},
-    {0x00002000, 0xa000a000, 0x8e606000, 0xfbea2000},
-    {0x00001000, 0xf000f000, 0xc5909000, 0x75d93000},
-    {0x00000800, 0x88008800, 0x6868e800, 0xa0858800},
-    {0x00000400, 0xcc00cc00, 0x9c9c5c00, 0x914e5400},
-    {0x00000200, 0xaa00aa00, 0xeeee8e00, 0xdbe79e00},
-    {0x00000100, 0xff00ff00, 0x5555c500, 0x25db6d00},
-    {0x00000080, 0x80808080, 0x8000e880, 0x58800080},
-    {0x00000040, 0xc0c0c0c0, 0xc0005cc0, 0xe54000c0},
-    {0x00000020, 0xa0a0a0a0, 0x60008e60, 0x79e00020},
-    {0x00000010, 0xf0f0f0f0, 0x9000c590, 0xb6d00050},
-    {0x00000008, 0x88888888, 0xe8006868, 0x800800f8},
-    {0x00000004, 0xcccccccc, 0x5c009c9c, 0xc00c0074},
-    {0x00000002, 0xaaaaaaaa, 0x8e00eeee, 0x200200a2},
-    {0x00000001, 0xffffffff, 0xc5005555, 0x50050093},
+    {0x00000001, 0x00000001, 0x00000001, 0x00000001},
+    {0x00000002, 0x00000003, 0x00000003, 0x00000003},
+    {0x00000004, 0x00000005, 0x00000006, 0x00000004},
+    {0x00000008, 0x0000000f, 0x00000009, 0x0000000a},
+    {0x00000010, 0x00000011, 0x00000017, 0x0000001f},
+    {0x00000020, 0x00000033, 0x0000003a, 0x0000002e},
+    {0x00000040, 0x00000055, 0x00000071, 0x00000045},
+    {0x00000080, 0x000000ff, 0x000000a3, 0x000000c9},
+    {0x00000100, 0x00000101, 0x00000116, 0x0000011b},
+    {0x00000200, 0x00000303, 0x00000339, 0x000002a4},
+    {0x00000400, 0x00000505, 0x00000677, 0x0000079a},
+    {0x00000800, 0x00000f0f, 0x000009aa, 0x00000b67},
+    {0x00001000, 0x00001111, 0x00001601, 0x0000101e},
+    {0x00002000, 0x00003333, 0x00003903, 0x0000302d},
+    {0x00004000, 0x00005555, 0x00007706, 0x00004041},
+    {0x00008000, 0x0000ffff, 0x0000aa09, 0x0000a0c3},
+    {0x00010000, 0x00010001, 0x00010117, 0x0001f104},
+    {0x00020000, 0x00030003, 0x0003033a, 0x0002e28a},
+    {0x00040000, 0x00050005, 0x00060671, 0x000457df},
+    {0x00080000, 0x000f000f, 0x000909a3, 0x000c9bae},
+    {0x00100000, 0x00110011, 0x00171616, 0x0011a105},
+    {0x00200000, 0x00330033, 0x003a3939, 0x002a7289},
+    {0x00400000, 0x00550055, 0x00717777, 0x0079e7db},
+    {0x00800000, 0x00ff00ff, 0x00a3aaaa, 0x00b6dba4},
+    {0x01000000, 0x01010101, 0x01170001, 0x0100011a},
+    {0x02000000, 0x03030303, 0x033a0003, 0x030002a7},
+    {0x04000000, 0x05050505, 0x06710006, 0x0400079e},
+    {0x08000000, 0x0f0f0f0f, 0x09a30009, 0x0a000b6d},
+    {0x10000000, 0x11111111, 0x16160017, 0x1f001001},
+    {0x20000000, 0x33333333, 0x3939003a, 0x2e003003},
+    {0x40000000, 0x55555555, 0x77770071, 0x45004004},
+    {0x80000000, 0xffffffff, 0xaaaa00a3, 0xc900a00a},
 };
 
 uint32_t sample_hash(uint64_t value)
@@ -57,7 +58,12 @@ uint32_t sample_key(uint64_t seed, uint32_t stream, uint32_t set)
     return sample_hash(seed ^ (uint64_t)purpose << 17 ^ purpose);
 }
 
-static uint32_t reverse_bits(uint32_t x)
+static lanes in_all(uint32_t number)
+{
+    return (lanes){number, number, number, number};
+}
+
+static lanes reverse_bits(lanes x)
 {
     x = (x >> 16) | (x << 16);
     x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
@@ -68,7 +74,7 @@ static uint32_t reverse_bits(uint32_t x)
 
 /* An approximate Owen scramble of bits in reversed order (Vegdahl 2021, "Building a better LK
  * hash"). */
-static uint32_t scramble_reversed(uint32_t x, uint32_t seed)
+static lanes scramble_reversed(lanes x, lanes seed)
 {
     x ^= x * 0x3d20adea;
     x += seed;
@@ -78,17 +84,11 @@ static uint32_t scramble_reversed(uint32_t x, uint32_t seed)
     return x;
 }
 
-static uint32_t owen_scramble(uint32_t x, uint32_t seed)
-{
-    return reverse_bits(scramble_reversed(reverse_bits(x), seed));
-}
-
-/* The point of the four Sobol sequences, as 32-bit fractions, whose index has these bits in reversed
- * order: so the sign tells whether the next one is set. */
-static lanes sobol(uint32_t reversed_index)
+/* The point of the four Sobol sequences, as 32-bit fractions with their bits in reversed order. All lanes
+ * of `bits` hold its index, in reversed order as well: so the sign tells whether the next bit is set. */
+static lanes sobol(lanes bits)
 {
     lanes fractions = {0, 0, 0, 0};
-    lanes bits = {reversed_index, reversed_index, reversed_index, reversed_index};
     for (int bit = 0; bit < 32; bit++) {
         fractions ^= sobol_columns[bit] & (lanes)((signed_lanes)bits >> 31);
         bits += bits;
@@ -99,7 +99,8 @@ static lanes sobol(uint32_t reversed_index)
 /* What scrambles the points of 2^32 indices: past these a fresh one begins. */
 struct scramble {
     uint32_t high; /* half of the indices */
-    uint32_t seed, seeds[4];
+    uint32_t seed;
+    lanes seeds;
 };
 
 static struct scramble scramble_of(uint32_t key, uint32_t high)
@@ -114,12 +115,11 @@ static struct scramble scramble_of(uint32_t key, uint32_t high)
 
 static void scrambled_point(const struct scramble *scramble, uint32_t low, float point[4])
 {
-    lanes fractions = sobol(scramble_reversed(reverse_bits(low), scramble->seed));
+    lanes index = scramble_reversed(reverse_bits(in_all(low)), in_all(scramble->seed));
+    lanes fractions = reverse_bits(scramble_reversed(sobol(index), scramble->seeds)) >> 8;
     /* 24 bits: the float lies in [0, 1) and never rounds up to 1. */
-    for (int d = 0; d < 4; d++) {
-        uint32_t bits = owen_scramble(fractions[d], scramble->seeds[d]);
-        point[d] = (float)(int32_t)(bits >> 8) * 0x1p-24f;
-    }
+    for (int d = 0; d < 4; d++)
+        point[d] = (float)(int32_t)fractions[d] * 0x1p-24f;
 }
 
 void sample_point(uint32_t key, uint64_t index, float point[4])
