@@ -11,6 +11,7 @@
 
 /* Pixels up to so far to each side know of the indirect light at a sample. */
 #define NEIGHBOURHOOD 2
+#define NEIGHBOURHOOD_PIXELS ((2 * NEIGHBOURHOOD + 1) * (2 * NEIGHBOURHOOD + 1))
 
 /* Neighbours that lie off each other's plane by more than this part of their distance (squared) are a
  * step; less may be a normal that is bent or smoothed. */
@@ -196,29 +197,61 @@ static const struct indirect *best_of(const struct indirect *same_surface,
     return same_object->pixels > 0.0f ? same_object : any;
 }
 
-/* Gives a sample the mean of the indirect light that the pixels around found on its surface. */
-static void borrow_indirect(const struct gbuffer *gbuffer, struct looks *looks, uint32_t i)
+/* The pixels around one that see surfaces: its samples all look at the same ones. */
+struct neighbours {
+    size_t count;
+    struct place places[NEIGHBOURHOOD_PIXELS];
+};
+
+static void find_neighbours(const struct gbuffer *gbuffer, uint32_t x, uint32_t y,
+                            struct neighbours *neighbours)
 {
-    const struct place here = {.tile = &looks->tile, .lane = i};
-    struct indirect surface = {.pixels = 0.0f}, object = {.pixels = 0.0f}, any = {.pixels = 0.0f};
+    neighbours->count = 0;
     for (int dy = -NEIGHBOURHOOD; dy <= NEIGHBOURHOOD; dy++)
         for (int dx = -NEIGHBOURHOOD; dx <= NEIGHBOURHOOD; dx++) {
-            struct place there;
-            if (!place_of(gbuffer, (int64_t)looks->x[i] + dx, (int64_t)looks->y[i] + dy, &there) ||
-                !sees_surface(&there))
-                continue;
-            add_indirect(&there, &any);
-            if (same_object(&here, &there))
-                add_indirect(&there, &object);
-            if (same_surface(&here, &there))
-                add_indirect(&there, &surface);
+            struct place *there = &neighbours->places[neighbours->count];
+            if (place_of(gbuffer, (int64_t)x + dx, (int64_t)y + dy, there))
+                neighbours->count += sees_surface(there);
         }
+}
+
+/* Gives a sample the mean of the indirect light that the pixels around found on its surface. */
+static void borrow_indirect(const struct neighbours *neighbours, ps_tile *tile, uint32_t lane)
+{
+    const struct place here = {.tile = tile, .lane = lane};
+    struct indirect surface = {.pixels = 0.0f}, object = {.pixels = 0.0f}, any = {.pixels = 0.0f};
+    for (size_t i = 0; i < neighbours->count; i++) {
+        const struct place *there = &neighbours->places[i];
+        add_indirect(there, &any);
+        if (same_object(&here, there))
+            add_indirect(there, &object);
+        if (same_surface(&here, there))
+            add_indirect(there, &surface);
+    }
     const struct indirect *found = best_of(&surface, &object, &any);
     float scale = found->pixels > 0.0f ? 1.0f / found->pixels : 0.0f;
-    looks->tile.irradiance_r[i] = scale * found->irradiance.r;
-    looks->tile.irradiance_g[i] = scale * found->irradiance.g;
-    looks->tile.irradiance_b[i] = scale * found->irradiance.b;
-    looks->tile.weight[i] = scale * found->weight;
+    tile->irradiance_r[lane] = scale * found->irradiance.r;
+    tile->irradiance_g[lane] = scale * found->irradiance.g;
+    tile->irradiance_b[lane] = scale * found->irradiance.b;
+    tile->weight[lane] = scale * found->weight;
+}
+
+static bool same_pixel(const struct looks *looks, uint32_t i, uint32_t j)
+{
+    return looks->x[i] == looks->x[j] && looks->y[i] == looks->y[j];
+}
+
+/* Those of a pixel lie one after the other. */
+static void add_looks(const struct edge_pass *pass, const struct gbuffer *samples,
+                      struct looks *looks, struct film *film)
+{
+    struct neighbours neighbours;
+    for (uint32_t i = 0; i < looks->points.count; i++) {
+        if (i == 0 || !same_pixel(looks, i, i - 1))
+            find_neighbours(pass->gbuffer, looks->x[i], looks->y[i], &neighbours);
+        borrow_indirect(&neighbours, &looks->tile, i);
+        film_add_sample(film, samples, 0, i, 1.0f / (float)pass->samples, looks->x[i], looks->y[i]);
+    }
 }
 
 /* Traces the samples, adds them to their pixels and forgets them. */
@@ -246,11 +279,7 @@ static void finish_looks(const struct edge_pass *pass, struct looks *looks, stru
     view_trace(&view, &looks->points, 0);
     direct_light_tile(lighting, &gbuffer, 0, view.seed, looks->light_numbers,
                       light_samples_of(pass));
-    for (uint32_t i = 0; i < looks->points.count; i++) {
-        borrow_indirect(pass->gbuffer, looks, i);
-        film_add_sample(film, &gbuffer, 0, i, 1.0f / (float)pass->samples, looks->x[i],
-                        looks->y[i]);
-    }
+    add_looks(pass, &gbuffer, looks, film);
     looks->points.count = 0;
 }
 
