@@ -30,7 +30,7 @@ typedef enum ps_stream {
 /* How large a splat is and where its box begins: the parameters that every visibility shares
  * (PS_BOX_PARAMS in strategy.h gives the rows). Scene units. */
 typedef struct ps_box_settings {
-    double size;      /* half-width R; 0: automatic, by the scene's radius and the light paths */
+    double size;      /* half-width R; 0: automatic, by the scene, its light and the light paths */
     double follow;    /* R is at most follow * distance travelled, or 0.3 * size (0.6 * size after
                          the first bounce), or the interleaved pixels, whichever is largest; 0: no
                          limit. Pixels of a full beam choose for themselves: see ps_splat */
@@ -130,9 +130,9 @@ struct ps_host {
     /* Boxes around the first hits of sources: the geometry that every visibility shares (frame,
      * size that follows distance or, of full beams, holds what all pixels take, step-back, walls
      * beside the source). Automatic sizes go by the pass's number of paths, which begin_splats or
-     * next_sources finds out. A hit at INFINITY gives half_width 0, unless a full beam meets something
-     * beside its axis. After begin_splats, those that may light nothing in view get half_width 0 too.
-     * [any thread] */
+     * next_sources finds out, and by where their light lands, which begin_splats does. A hit at INFINITY
+     * gives half_width 0, unless a full beam meets something beside its axis. After begin_splats, those
+     * that may light nothing in view get half_width 0 too. [any thread] */
     void (*place_boxes)(const ps_host *host, const ps_box_settings *settings,
                         const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats);
 

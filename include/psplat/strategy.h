@@ -154,7 +154,7 @@ typedef struct ps_denoiser_vtable {
 #define PS_BOX_PARAMS(state, step_back_default, walls_default)                                     \
     PS_NUMBER_OR(                                                                                  \
         state, size, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",              \
-        "half-width of the box; auto: by the scene's radius and the number of light paths"),       \
+        "half-width of the box; auto: by the scene, its light and the number of light paths"),     \
         PS_NUMBER(                                                                                 \
             state, follow, "0.6", 0, INFINITY, 0, "",                                              \
             "limit of size, down to a part of it or to the interleaved pixels, as a fraction of "  \

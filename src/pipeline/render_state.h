@@ -24,7 +24,8 @@ struct render {
     struct kernel_variant kernel;
     struct splatter splatter; /* made when an estimator first splats */
     bool has_splatter;
-    bool splatting; /* in this pass */
+    bool splatting;     /* in this pass */
+    float light_spread; /* of the pass, see source_stream_spread */
     struct near_light near_light;
     bool
         counts_splats; /* in place of the filter: tiles' weights count the splats that light them */

@@ -2,6 +2,8 @@
 
 #include "base/clock.h"
 #include "base/parallel.h"
+#include <math.h>
+#include <psplat/math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -63,6 +65,7 @@ void source_stream_rewind(struct source_stream *stream)
     stream->path_count = 0;
     stream->next_path = 0;
     stream->prepared = false;
+    stream->filled = false;
 }
 
 /* Not before sources are asked for: not all estimators do. */
@@ -112,23 +115,75 @@ static void inject_chunk(void *user, uint64_t index, uint32_t worker)
         vtable->emit(strategy->state, stream->host, stream->pass, first, n, &sink);
 }
 
-/* Appends the sources of the next batch of paths to the stream's batch. */
-static ps_result inject(struct source_stream *stream, struct error *error)
+/* Fills the chunks with the sources of the next paths, if they don't hold them yet. */
+static ps_result fill_chunks(struct source_stream *stream, struct error *error)
 {
     ps_result results[BATCH_CHUNKS];
     struct injection injection = {stream, results};
+    if (stream->filled)
+        return PS_OK;
     double start = clock_seconds();
     parallel_for(stream->settings->threads, BATCH_CHUNKS, inject_chunk, &injection);
+    statistics_add_seconds(stream->statistics, "inject", clock_seconds() - start);
+    for (int i = 0; i < BATCH_CHUNKS; i++)
+        if (results[i] != PS_OK)
+            return error_set(error, results[i], "injection failed");
+    stream->filled = true;
+    return PS_OK;
+}
+
+/* Appends the sources of the next paths to the stream's batch. */
+static ps_result inject(struct source_stream *stream, struct error *error)
+{
+    ps_result result = fill_chunks(stream, error);
+    if (result != PS_OK)
+        return result;
+    stream->filled = false;
     stream->next_path += (uint64_t)BATCH_CHUNKS * PS_PATH_CHUNK;
     for (int i = 0; i < BATCH_CHUNKS; i++) {
         const struct source_list *chunk = &stream->chunks[i];
-        if (results[i] != PS_OK)
-            return error_set(error, results[i], "injection failed");
         if (append(&stream->batch, chunk->items, chunk->count) != PS_OK)
             return error_memory(error, chunk->count * sizeof *chunk->items, "sources");
     }
-    statistics_add_seconds(stream->statistics, "inject", clock_seconds() - start);
     return PS_OK;
+}
+
+/* Flux, and first and second moments of where it lands. */
+struct landing {
+    double flux, x, y, z, distance2;
+};
+
+static void add_landing(const ps_source *source, struct landing *sum)
+{
+    double flux = ps_luminance(source->power);
+    ps_vec3 at = source->position;
+    sum->flux += flux;
+    sum->x += flux * (double)at.x;
+    sum->y += flux * (double)at.y;
+    sum->z += flux * (double)at.z;
+    sum->distance2 += flux * (double)ps_dot(at, at);
+}
+
+static float spread_of(const struct landing *sum)
+{
+    if (!(sum->flux > 0.0))
+        return 0.0f;
+    double x = sum->x / sum->flux, y = sum->y / sum->flux, z = sum->z / sum->flux;
+    return (float)sqrt(fmax(sum->distance2 / sum->flux - x * x - y * y - z * z, 0.0));
+}
+
+ps_result source_stream_spread(struct source_stream *stream, float *spread, struct error *error)
+{
+    struct landing sum = {.flux = 0.0};
+    ps_result result = source_stream_prepare(stream, error);
+    if (result == PS_OK)
+        result = fill_chunks(stream, error);
+    for (int i = 0; i < BATCH_CHUNKS && result == PS_OK; i++)
+        for (size_t j = 0; j < stream->chunks[i].count; j++)
+            if (stream->chunks[i].items[j].bounce == 1)
+                add_landing(&stream->chunks[i].items[j], &sum);
+    *spread = spread_of(&sum);
+    return result;
 }
 
 static ps_result stratify(struct source_stream *stream, struct error *error)

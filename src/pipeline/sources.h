@@ -24,6 +24,7 @@ struct source_stream {
     struct source_list batch;   /* what was handed out last */
     uint64_t next_path, path_count;
     bool prepared; /* the injection, for this pass */
+    bool filled;   /* the chunks, with the next paths' sources */
 };
 
 ps_result source_stream_create(struct source_stream *stream, const struct render_settings *settings,
@@ -36,6 +37,11 @@ void source_stream_rewind(struct source_stream *stream);
 
 /* Makes the injection ready for the pass, which tells path_count; does so once a pass. */
 ps_result source_stream_prepare(struct source_stream *stream, struct error *error);
+
+/* How far apart light lands that comes straight from the lights: the root mean square distance from its
+ * middle, weighed by flux, in scene units; 0 where none lands. By the pass's first paths; to be asked before
+ * the first sources are. */
+ps_result source_stream_spread(struct source_stream *stream, float *spread, struct error *error);
 
 /* The next sources; 0 of them after the last. Valid until the next call. */
 ps_result source_stream_next(struct source_stream *stream, const ps_source **sources, size_t *n,

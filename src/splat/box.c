@@ -7,6 +7,11 @@
 #define AUTOMATIC_SIZE 0.138
 #define LARGEST_AUTOMATIC_SIZE 0.25
 
+/* The same as a fraction of the spread of the light, and how much of what the scene's radius gives is left
+ * where light lands in a point. */
+#define SIZE_BY_SPREAD 0.5
+#define LEAST_BY_SPREAD 0.4
+
 /* A size that follows the distance stops at this fraction of `size`. Without a floor, light that
  * crosses a corner from very near makes splats so small and bright that they rule the error: at a fifth,
  * a tenth of the Cornell box's pixels hold two thirds of its variance. What lamps light has the sharp
@@ -15,11 +20,14 @@
 #define SMALLEST_LIT_BY_LAMPS 0.3f
 #define SMALLEST_LIT_BY_SURFACES 0.6f
 
-float box_automatic_size(float scene_radius, uint64_t paths, uint32_t pass)
+float box_automatic_size(float scene_radius, float light_spread, uint64_t paths, uint32_t pass)
 {
+    double by_scene = AUTOMATIC_SIZE * (double)scene_radius;
+    double by_light = light_spread > 0.0f ? SIZE_BY_SPREAD * (double)light_spread : INFINITY;
     double by_paths = pow((double)(paths > 0 ? paths : 1) / 1e5, -0.25);
-    double share = fmin(AUTOMATIC_SIZE * by_paths, LARGEST_AUTOMATIC_SIZE);
-    return (float)(share * (double)scene_radius * pow(pass + 1.0, -1.0 / 6.0));
+    double size = fmin(by_scene, fmax(by_light, LEAST_BY_SPREAD * by_scene)) * by_paths;
+    return (float)(fmin(size, LARGEST_AUTOMATIC_SIZE * (double)scene_radius) *
+                   pow(pass + 1.0, -1.0 / 6.0));
 }
 
 enum step_back_rule { STEP_BACK_NUMBER = -1, STEP_BACK_AUTO = 0, STEP_BACK_FULL = 1 };

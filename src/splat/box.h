@@ -49,8 +49,11 @@ float box_clearance(float surface_offset, float half_width, bool hollow);
  * they grow; measured on the Cornell box the error is least at a size that falls by the fourth root of
  * the paths (47 mm for 400,000, 66 for 100,000). Later passes (from 0) shrink it by
  * p^((alpha - 1) / 2), alpha = 2/3, so that the mean of more and more passes loses noise and blur alike
- * (Knaus and Zwicker 2011, "Progressive photon mapping: a probabilistic approach"). */
-float box_automatic_size(float scene_radius, uint64_t paths, uint32_t pass);
+ * (Knaus and Zwicker 2011, "Progressive photon mapping: a probabilistic approach").
+ *
+ * What lights the scene is `light_spread` wide (sources.h; 0: not known). A narrow pool of light throws sharp
+ * shadows, as a small lamp does, so splats become smaller where that is little beside the scene. */
+float box_automatic_size(float scene_radius, float light_spread, uint64_t paths, uint32_t pass);
 
 /* How near light has to come from for splats to leave it to near rays: as near as they would blur
  * it, one half-width; 0 where beams don't start at their sources and follow the distance. (After the bias

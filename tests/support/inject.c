@@ -114,6 +114,7 @@ static void collect(struct bench *bench, struct injected *injected)
     assert_int_equal(source_stream_create(&stream, &bench->settings, &bench->render.host,
                                           &bench->render.pass, bench->statistics, &error),
                      PS_OK);
+    assert_int_equal(source_stream_spread(&stream, &injected->spread, &error), PS_OK);
     do {
         if (source_stream_next(&stream, &sources, &n, &error) != PS_OK)
             fail_msg("%s", error.text);

@@ -76,13 +76,27 @@ static void test_size(void **state)
 static void test_automatic_size(void **state)
 {
     (void)state;
-    float size = box_automatic_size(RADIUS, 100000, 0);
+    float size = box_automatic_size(RADIUS, 0, 100000, 0);
     assert_true(size > 0.13f * RADIUS && size < 0.15f * RADIUS);
-    expect_near(box_automatic_size(2 * RADIUS, 100000, 0), 2 * (double)size);
-    expect_near(box_automatic_size(RADIUS, 1600000, 0), (double)size / 2);
-    expect_near(box_automatic_size(RADIUS, 100000, 63), (double)size / 2);
-    expect_near(box_automatic_size(RADIUS, 1, 0), 0.25 * RADIUS);
-    expect_near(box_automatic_size(RADIUS, 0, 0), 0.25 * RADIUS);
+    expect_near(box_automatic_size(2 * RADIUS, 0, 100000, 0), 2 * (double)size);
+    expect_near(box_automatic_size(RADIUS, 0, 1600000, 0), (double)size / 2);
+    expect_near(box_automatic_size(RADIUS, 0, 100000, 63), (double)size / 2);
+    expect_near(box_automatic_size(RADIUS, 0, 1, 0), 0.25 * RADIUS);
+    expect_near(box_automatic_size(RADIUS, 0, 0, 0), 0.25 * RADIUS);
+}
+
+/* Light that lands close together makes smaller splats, in proportion; but not without end, and wide light
+ * makes none larger. */
+static void test_size_by_the_spread_of_light(void **state)
+{
+    (void)state;
+    float size = box_automatic_size(RADIUS, 0, 100000, 0);
+    float narrow = box_automatic_size(RADIUS, 0.2f * RADIUS, 100000, 0);
+    assert_true(narrow < 0.9f * size);
+    expect_near(box_automatic_size(RADIUS, 0.16f * RADIUS, 100000, 0), 0.8 * (double)narrow);
+    expect_near(box_automatic_size(RADIUS, 0.2f * RADIUS, 1600000, 0), (double)narrow / 2);
+    expect_near(box_automatic_size(RADIUS, RADIUS, 100000, 0), size);
+    expect_near(box_automatic_size(RADIUS, 1e-6f, 100000, 0), 0.4 * (double)size);
 }
 
 /* R = min(size, follow * d), but no less than three tenths of size. */
@@ -373,6 +387,7 @@ int main(void)
         cmocka_unit_test(test_carries_the_source),
         cmocka_unit_test(test_size),
         cmocka_unit_test(test_automatic_size),
+        cmocka_unit_test(test_size_by_the_spread_of_light),
         cmocka_unit_test(test_size_follows_distance),
         cmocka_unit_test(test_size_follows_less_far_after_the_first_bounce),
         cmocka_unit_test(test_near_light_is_left),
