@@ -12,10 +12,12 @@
  * For the depth tolerance see ps_set_bias.
  */
 #include <psplat/plugin.h>
+#include <string.h>
 
 PS_BOX_CHOICES
 
 #define BLOCK 4 /* texels along the side of a packet */
+#define RAYS (BLOCK * BLOCK)
 
 /* How far before a wall rays start at least, in half-widths. */
 #define BEFORE_WALLS 0.05f
@@ -49,55 +51,69 @@ static void place(const void *opaque, const ps_host *host, const ps_source *sour
     ps_set_bias(state->bias, (uint32_t)state->resolution, splats, n);
 }
 
+/* Places across a bundle, one for each ray of a packet. */
+struct places {
+    float u[RAYS], v[RAYS];
+};
+
+/* Those of texels (left .. left + 3, top .. top + 3); past the border the last repeat. */
+static struct places centres_of(const ps_splat *splat, int side, int left, int top)
+{
+    struct places places;
+    for (int i = 0; i < RAYS; i++) {
+        int column = left + i % BLOCK, row = top + i / BLOCK, last = side - 1;
+        column = column < last ? column : last;
+        row = row < last ? row : last;
+        places.u[i] = ps_texel_centre(splat, (uint32_t)side, (uint32_t)column);
+        places.v[i] = ps_texel_centre(splat, (uint32_t)side, (uint32_t)row);
+    }
+    return places;
+}
+
 /* Twice, for corners: the way out of one wall may lead into the other. */
-static void move_before_walls(const ps_splat *splat, float *u, float *v)
+static void move_before_walls(const ps_splat *splat, struct places *places)
 {
     for (int turn = 0; turn < 2; turn++)
-        for (uint32_t i = 0; i < ps_wall_count(splat); i++) {
-            const ps_wall *wall = &splat->walls[i];
-            float most = (wall->distance - BEFORE_WALLS) * splat->half_width;
-            float past = ps_max(*u * wall->normal_u + *v * wall->normal_v - most, 0.0f);
-            *u -= past * wall->normal_u;
-            *v -= past * wall->normal_v;
+        for (uint32_t k = 0; k < ps_wall_count(splat); k++) {
+            const ps_wall wall = splat->walls[k];
+            float most = (wall.distance - BEFORE_WALLS) * splat->half_width;
+            for (int i = 0; i < RAYS; i++) {
+                float across = places->u[i] * wall.normal_u + places->v[i] * wall.normal_v;
+                float past = ps_max(across - most, 0.0f);
+                places->u[i] -= past * wall.normal_u;
+                places->v[i] -= past * wall.normal_v;
+            }
         }
 }
 
-/* One ray of the map: where it starts, as a depth, and its origin. */
-static float load_ray(const ps_splat *splat, float u, float v, ps_packet *packet, int lane)
+/* The rays of a map, and the depths at which they start. */
+static void load_rays(const ps_splat *restrict splat, const struct places *restrict places,
+                      ps_packet *restrict packet, float *restrict start)
 {
-    float start = ps_bundle_start(splat, u, v);
-    ps_vec3 origin = ps_bundle_point(splat, u, v, start);
-    float length = ps_max(splat->far_depth - start, 0.0f);
-    ps_packet_set(packet, (size_t)lane, (ps_ray){origin, 0.0f, splat->axis_w, length});
-    return start;
+    for (int i = 0; i < RAYS; i++) {
+        float u = places->u[i], v = places->v[i];
+        start[i] = ps_bundle_start(splat, u, v);
+        ps_vec3 origin = ps_bundle_point(splat, u, v, start[i]);
+        float length = ps_max(splat->far_depth - start[i], 0.0f);
+        ps_packet_set(packet, (size_t)i, (ps_ray){origin, 0.0f, splat->axis_w, length});
+    }
 }
 
-static int least(int a, int b)
-{
-    return a < b ? a : b;
-}
-
-/* Texels (left .. left + 3, top .. top + 3); those past the border repeat the last. */
 static void trace_block(const ps_host *host, const ps_splat *splat, int side, int left, int top,
                         float *depths)
 {
     _Alignas(64) ps_packet packet;
-    float start[BLOCK * BLOCK], reach[BLOCK * BLOCK];
-    for (int lane = 0; lane < BLOCK * BLOCK; lane++) {
-        int column = least(left + lane % BLOCK, side - 1),
-            row = least(top + lane / BLOCK, side - 1);
-        float u = ps_texel_centre(splat, (uint32_t)side, (uint32_t)column);
-        float v = ps_texel_centre(splat, (uint32_t)side, (uint32_t)row);
-        move_before_walls(splat, &u, &v);
-        start[lane] = load_ray(splat, u, v, &packet, lane);
-        reach[lane] = packet.tfar[lane];
-    }
+    float start[RAYS], reach[RAYS];
+    struct places places = centres_of(splat, side, left, top);
+    move_before_walls(splat, &places);
+    load_rays(splat, &places, &packet, start);
+    memcpy(reach, packet.tfar, sizeof reach);
     host->intersect_packets(host, &packet, 1, 1);
-    for (int lane = 0; lane < BLOCK * BLOCK; lane++) {
-        int column = left + lane % BLOCK, row = top + lane / BLOCK;
+    for (int i = 0; i < RAYS; i++) {
+        int column = left + i % BLOCK, row = top + i / BLOCK;
         if (column < side && row < side)
             depths[row * side + column] =
-                packet.tfar[lane] < reach[lane] ? start[lane] + packet.tfar[lane] : INFINITY;
+                packet.tfar[i] < reach[i] ? start[i] + packet.tfar[i] : INFINITY;
     }
 }
 
