@@ -129,10 +129,10 @@ struct ps_host {
 
     /* Boxes around the first hits of sources: the geometry that every visibility shares (frame,
      * size that follows distance or, of full beams, holds what all pixels take, step-back, walls
-     * beside the source). Automatic sizes go by the pass's number of paths, which begin_splats or
-     * next_sources finds out, and by where their light lands, which begin_splats does. A hit at INFINITY
-     * gives half_width 0, unless a full beam meets something beside its axis. After begin_splats, those
-     * that may light nothing in view get half_width 0 too. [any thread] */
+     * beside the source). Automatic sizes go by the pass's number of paths and by where the lights' light
+     * lands, which begin_splats or next_sources finds out. A hit at INFINITY gives half_width 0, unless a
+     * full beam meets something beside its axis. After begin_splats, those that may light nothing in view
+     * get half_width 0 too. [any thread] */
     void (*place_boxes)(const ps_host *host, const ps_box_settings *settings,
                         const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats);
 

@@ -30,7 +30,7 @@ static struct box_scene box_scene_of(const struct render *render)
     return (struct box_scene){
         .radius = render->scene->radius,
         .surface_offset = render->scene->surface_offset,
-        .automatic_size = box_automatic_size(render->scene->radius, render->light_spread,
+        .automatic_size = box_automatic_size(render->scene->radius, render->sources.spread,
                                              render->sources.path_count, render->pass.number),
         .seed = render->settings->seed,
         .camera = &render->scene->camera,
@@ -218,8 +218,7 @@ static uint32_t interleave_of(const struct render *render, uint32_t n)
 static ps_result host_begin_splats(const ps_host *host, uint32_t n)
 {
     struct render *render = render_of(host);
-    ps_result result =
-        source_stream_spread(&render->sources, &render->light_spread, &render->error);
+    ps_result result = source_stream_prepare(&render->sources, &render->error);
     if (result == PS_OK && !render->has_splatter)
         result = create_splatter(render, interleave_of(render, n));
     if (result != PS_OK)

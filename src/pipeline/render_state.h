@@ -24,8 +24,7 @@ struct render {
     struct kernel_variant kernel;
     struct splatter splatter; /* made when an estimator first splats */
     bool has_splatter;
-    bool splatting;     /* in this pass */
-    float light_spread; /* of the pass, see source_stream_spread */
+    bool splatting; /* in this pass */
     struct near_light near_light;
     bool
         counts_splats; /* in place of the filter: tiles' weights count the splats that light them */

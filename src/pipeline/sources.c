@@ -68,28 +68,6 @@ void source_stream_rewind(struct source_stream *stream)
     stream->filled = false;
 }
 
-/* Not before sources are asked for: not all estimators do. */
-ps_result source_stream_prepare(struct source_stream *stream, struct error *error)
-{
-    if (stream->prepared)
-        return PS_OK;
-    const struct strategy *injection = &stream->settings->strategies[PS_INJECTION];
-    const ps_injection_vtable *vtable = injection->descriptor->vtable;
-    ps_result result = PS_OK;
-    double start = clock_seconds();
-    if (vtable->prepare)
-        result = vtable->prepare(injection->state, stream->host, stream->pass);
-    statistics_add_seconds(stream->statistics, "inject", clock_seconds() - start);
-    if (result == PS_CANCELLED)
-        return result;
-    if (result != PS_OK)
-        return error_set(error, result, "injection %s failed%s", injection->descriptor->name,
-                         result == PS_ERROR_MEMORY ? ": out of memory" : "");
-    stream->path_count = vtable->path_count(injection->state);
-    stream->prepared = true;
-    return PS_OK;
-}
-
 struct injection {
     struct source_stream *stream;
     ps_result *results; /* of each chunk */
@@ -132,6 +110,73 @@ static ps_result fill_chunks(struct source_stream *stream, struct error *error)
     return PS_OK;
 }
 
+/* Flux, and first and second moments of where it lands. */
+struct landing {
+    double flux, x, y, z, distance2;
+};
+
+static void add_landing(const ps_source *source, struct landing *sum)
+{
+    double flux = (double)ps_luminance(source->power);
+    double x = source->position.x, y = source->position.y, z = source->position.z;
+    sum->flux += flux;
+    sum->x += flux * x;
+    sum->y += flux * y;
+    sum->z += flux * z;
+    sum->distance2 += flux * (x * x + y * y + z * z);
+}
+
+static float spread_of(const struct landing *sum)
+{
+    if (!(sum->flux > 0.0))
+        return 0.0f;
+    double x = sum->x / sum->flux, y = sum->y / sum->flux, z = sum->z / sum->flux;
+    return (float)sqrt(fmax(sum->distance2 / sum->flux - x * x - y * y - z * z, 0.0));
+}
+
+static float find_spread(const struct source_stream *stream)
+{
+    struct landing sum = {.flux = 0.0};
+    for (int i = 0; i < BATCH_CHUNKS; i++)
+        for (size_t j = 0; j < stream->chunks[i].count; j++)
+            if (stream->chunks[i].items[j].bounce == 1)
+                add_landing(&stream->chunks[i].items[j], &sum);
+    return spread_of(&sum);
+}
+
+static ps_result prepare_injection(struct source_stream *stream, struct error *error)
+{
+    const struct strategy *injection = &stream->settings->strategies[PS_INJECTION];
+    const ps_injection_vtable *vtable = injection->descriptor->vtable;
+    ps_result result = PS_OK;
+    double start = clock_seconds();
+    if (vtable->prepare)
+        result = vtable->prepare(injection->state, stream->host, stream->pass);
+    statistics_add_seconds(stream->statistics, "inject", clock_seconds() - start);
+    if (result == PS_CANCELLED)
+        return result;
+    if (result != PS_OK)
+        return error_set(error, result, "injection %s failed%s", injection->descriptor->name,
+                         result == PS_ERROR_MEMORY ? ": out of memory" : "");
+    stream->path_count = vtable->path_count(injection->state);
+    return PS_OK;
+}
+
+/* Not before sources are asked for: not all estimators do. */
+ps_result source_stream_prepare(struct source_stream *stream, struct error *error)
+{
+    if (stream->prepared)
+        return PS_OK;
+    ps_result result = prepare_injection(stream, error);
+    if (result == PS_OK)
+        result = fill_chunks(stream, error);
+    if (result != PS_OK)
+        return result;
+    stream->spread = find_spread(stream);
+    stream->prepared = true;
+    return PS_OK;
+}
+
 /* Appends the sources of the next paths to the stream's batch. */
 static ps_result inject(struct source_stream *stream, struct error *error)
 {
@@ -146,44 +191,6 @@ static ps_result inject(struct source_stream *stream, struct error *error)
             return error_memory(error, chunk->count * sizeof *chunk->items, "sources");
     }
     return PS_OK;
-}
-
-/* Flux, and first and second moments of where it lands. */
-struct landing {
-    double flux, x, y, z, distance2;
-};
-
-static void add_landing(const ps_source *source, struct landing *sum)
-{
-    double flux = ps_luminance(source->power);
-    ps_vec3 at = source->position;
-    sum->flux += flux;
-    sum->x += flux * (double)at.x;
-    sum->y += flux * (double)at.y;
-    sum->z += flux * (double)at.z;
-    sum->distance2 += flux * (double)ps_dot(at, at);
-}
-
-static float spread_of(const struct landing *sum)
-{
-    if (!(sum->flux > 0.0))
-        return 0.0f;
-    double x = sum->x / sum->flux, y = sum->y / sum->flux, z = sum->z / sum->flux;
-    return (float)sqrt(fmax(sum->distance2 / sum->flux - x * x - y * y - z * z, 0.0));
-}
-
-ps_result source_stream_spread(struct source_stream *stream, float *spread, struct error *error)
-{
-    struct landing sum = {.flux = 0.0};
-    ps_result result = source_stream_prepare(stream, error);
-    if (result == PS_OK)
-        result = fill_chunks(stream, error);
-    for (int i = 0; i < BATCH_CHUNKS && result == PS_OK; i++)
-        for (size_t j = 0; j < stream->chunks[i].count; j++)
-            if (stream->chunks[i].items[j].bounce == 1)
-                add_landing(&stream->chunks[i].items[j], &sum);
-    *spread = spread_of(&sum);
-    return result;
 }
 
 static ps_result stratify(struct source_stream *stream, struct error *error)

@@ -23,6 +23,9 @@ struct source_stream {
     struct source_list *chunks; /* one for each chunk of a batch of paths; owned */
     struct source_list batch;   /* what was handed out last */
     uint64_t next_path, path_count;
+    /* How far apart light lands that comes straight from the lights, by the pass's first paths: the root mean
+     * square distance from its middle, weighed by flux, in scene units; 0 where none lands. */
+    float spread;
     bool prepared; /* the injection, for this pass */
     bool filled;   /* the chunks, with the next paths' sources */
 };
@@ -35,13 +38,9 @@ void source_stream_release(struct source_stream *stream);
 /* Starts over with the pass that `pass` now describes. */
 void source_stream_rewind(struct source_stream *stream);
 
-/* Makes the injection ready for the pass, which tells path_count; does so once a pass. */
+/* Makes the injection ready for the pass and injects its first paths, which tells path_count and spread; does
+ * so once a pass. */
 ps_result source_stream_prepare(struct source_stream *stream, struct error *error);
-
-/* How far apart light lands that comes straight from the lights: the root mean square distance from its
- * middle, weighed by flux, in scene units; 0 where none lands. By the pass's first paths; to be asked before
- * the first sources are. */
-ps_result source_stream_spread(struct source_stream *stream, float *spread, struct error *error);
 
 /* The next sources; 0 of them after the last. Valid until the next call. */
 ps_result source_stream_next(struct source_stream *stream, const ps_source **sources, size_t *n,

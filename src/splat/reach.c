@@ -75,9 +75,8 @@ static void find_one(const ps_host *host, const struct box_scene *scene,
     if (!met) {
         float nearest = nearest_of(&packet, source);
         least = nearest < INFINITY ? box_half_width(scene, settings, source, nearest) : 0.0f;
-        if (nearest < INFINITY)
-            box_stand_in(source, ps_max(nearest, widest),
-                         hit); /* beams start before half of that */
+        if (nearest < INFINITY) /* beams start before half of that */
+            box_stand_in(source, ps_max(nearest, widest), hit);
     }
     *half_width = width_for(scene, settings, source, &packet, widest, least);
 }

@@ -8,7 +8,7 @@
 struct injected {
     ps_source *sources;
     size_t count;
-    float spread; /* see source_stream_spread */
+    float spread; /* see sources.h */
     struct statistics *statistics;
 };
 

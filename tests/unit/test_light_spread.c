@@ -1,6 +1,10 @@
-/* test_light_spread.c: how far apart light lands that comes straight from the lights. */
+/* test_light_spread.c: how far apart light lands that comes straight from the lights, and that splats of
+ * automatic size follow it. */
+#include "pipeline/render_state.h"
+#include "splat/box.h"
 #include "support/inject.h"
 #include "support/lit_room.h"
+#include "support/render_scene.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -52,12 +56,49 @@ static void test_darkness(void **state)
     assert_true(spread_of(SCENE_HEAD ROOM, "photon:count=4096") == 0);
 }
 
+static ps_result check_size(void *user, struct render *render, struct error *error)
+{
+    const ps_box_settings automatic = {.size = 0};
+    const ps_hit hit = {.distance = 1, .normal = {0, -1, 0}, .position = {0, 1, 0}};
+    const ps_source *sources;
+    size_t n;
+    double progress;
+    ps_splat splat;
+    (void)user, (void)error;
+    assert_int_equal(render->host.next_sources(&render->host, &sources, &n, &progress), PS_OK);
+    assert_true(n > 0);
+    render->host.place_boxes(&render->host, &automatic, sources, &hit, 1, &splat);
+    float radius = render->scene->radius;
+    float expected = box_automatic_size(radius, 1.4909f, 4096, 0);
+    assert_true(expected < 0.8f * box_automatic_size(radius, 0, 4096, 0));
+    assert_true(fabsf(splat.half_width - expected) < 0.01f * expected);
+    return PS_OK;
+}
+
+static void test_splats_follow_it(void **state)
+{
+    (void)state;
+    static const char *const choices[] = {"injection=photon:count=4096", NULL};
+    struct prepared prepared;
+    struct statistics statistics;
+    struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
+    struct error error;
+    prepare_text(SCENE_HEAD LAMP ROOM, 1, 100, choices, &prepared);
+    statistics_init(&statistics);
+    assert_int_equal(render_inspect(&prepared.scene, &prepared.settings, &callbacks, &statistics,
+                                    check_size, NULL, &error),
+                     PS_OK);
+    statistics_destroy(&statistics);
+    prepared_release(&prepared);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_pool_of_light),
         cmocka_unit_test(test_the_first_surfaces_count),
         cmocka_unit_test(test_darkness),
+        cmocka_unit_test(test_splats_follow_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
