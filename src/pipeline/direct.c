@@ -32,7 +32,7 @@ static void numbers_for_light(const float numbers[4], size_t light, float pair[2
 /* What the receiver makes of irradiance 1 across a beam from `direction`. */
 static ps_rgb response(const struct receivers *to, size_t i, ps_vec3 direction, float light_pdf)
 {
-    float cosine = ps_max(0.0f, ps_dot(direction, to->normals[i]));
+    float cosine = ps_max(ps_dot(direction, to->normals[i]), 0.0f);
     if (!to->hits)
         return (ps_rgb){cosine, cosine, cosine};
     const ps_hit *hit = &to->hits[i];

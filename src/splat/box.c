@@ -210,7 +210,7 @@ void box_cut(ps_splat *splat, const float *depths, uint32_t resolution)
 {
     float farthest = -INFINITY;
     for (uint32_t i = 0; i < resolution * resolution; i++)
-        farthest = ps_max(farthest, depths[i]);
+        farthest = ps_max(depths[i], farthest);
     float tolerance = splat->bias_constant + splat->bias_slope * BOX_STEEPEST;
-    splat->far_depth = ps_min(splat->far_depth, farthest + tolerance);
+    splat->far_depth = ps_min(farthest + tolerance, splat->far_depth);
 }

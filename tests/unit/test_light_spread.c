@@ -33,10 +33,16 @@ static float spread_of(const char *text, const char *choice)
 }
 
 /* The mean of (2 tan(theta))^2 over the cone's solid angle is 4 (1 - c) / c, with c = cos(50 degrees). */
+static double spread_of_pool(void)
+{
+    double c = cos(50 * 3.14159265358979 / 180);
+    return sqrt(4 * (1 - c) / c);
+}
+
 static void test_a_pool_of_light(void **state)
 {
     (void)state;
-    double c = cos(50 * 3.14159265358979 / 180), expected = sqrt(4 * (1 - c) / c);
+    double expected = spread_of_pool();
     float spread = spread_of(SCENE_HEAD LAMP ROOM, "photon:count=4096");
     print_message("spread %.4f, expected %.4f\n", (double)spread, expected);
     assert_true(fabs((double)spread - expected) < 0.01 * expected);
@@ -69,7 +75,7 @@ static ps_result check_size(void *user, struct render *render, struct error *err
     assert_true(n > 0);
     render->host.place_boxes(&render->host, &automatic, sources, &hit, 1, &splat);
     float radius = render->scene->radius;
-    float expected = box_automatic_size(radius, 1.4909f, 4096, 0);
+    float expected = box_automatic_size(radius, (float)spread_of_pool(), 4096, 0);
     assert_true(expected < 0.8f * box_automatic_size(radius, 0, 4096, 0));
     assert_true(fabsf(splat.half_width - expected) < 0.01f * expected);
     return PS_OK;
