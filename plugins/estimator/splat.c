@@ -10,7 +10,7 @@
  * inner loop are the core's (src/splat), shared by whatever splats.
  *
  * A kernel blurs what is smaller than itself, so light from nearer than a half-width is left out of splats and
- * found by short rays (host->gather_near_light).
+ * found by short rays (host->gather_near_light), with many light paths from farther still.
  */
 #include <psplat/plugin.h>
 
@@ -73,7 +73,7 @@ static const char *const near_rays_choices[] = {"auto", NULL};
 static const ps_param params[] = {
     PS_INT(struct state, interleave, "0", 0, PS_MOST_INTERLEAVE, "pixels",
            "n: a splat lights every n-th pixel across and down, and neighbours are averaged; 0: by "
-           "the picture's size, at most 4"),
+           "the picture's size and the number of light paths"),
     PS_NUMBER_OR(
         struct state, near_rays, "auto", 0, 65536, 0, near_rays_choices, "rays",
         "short rays, of each pixel and those that it is averaged with, for light from nearer "

@@ -27,11 +27,13 @@ static void drop_unseen(const struct render *render, ps_splat *splats, size_t n)
 
 static struct box_scene box_scene_of(const struct render *render)
 {
+    float radius = render->scene->radius, spread = render->sources.spread;
+    uint64_t paths = render->sources.path_count;
     return (struct box_scene){
-        .radius = render->scene->radius,
+        .radius = radius,
         .surface_offset = render->scene->surface_offset,
-        .automatic_size = box_automatic_size(render->scene->radius, render->sources.spread,
-                                             render->sources.path_count, render->pass.number),
+        .automatic_size = box_automatic_size(radius, spread, paths, render->pass.number),
+        .automatic_near = box_automatic_near(radius, spread, paths),
         .seed = render->settings->seed,
         .camera = &render->scene->camera,
         .interleave = render->has_splatter ? render->splatter.settings.interleave : 1,
@@ -200,19 +202,29 @@ static ps_result create_splatter(struct render *render, uint32_t interleave)
 #define MANY_PATHS 3000000
 #define MOST_FOR_MANY 4
 
-static uint32_t automatic_interleave(const struct render *render)
+static uint32_t automatic_interleave(const struct render *render, uint32_t most)
 {
     double side = PS_TILE_SIZE * sqrt((double)render->gbuffer.tile_count);
-    uint32_t n = 1,
-             most = render->sources.path_count > MANY_PATHS ? MOST_FOR_MANY : PS_MOST_INTERLEAVE;
+    uint32_t n = 1;
     while (2 * n <= most && 2 * n * SIDE_PER_STEP <= side)
         n *= 2;
     return n;
 }
 
-static uint32_t interleave_of(const struct render *render, uint32_t n)
+static uint32_t interleave_of(const struct render *render, uint32_t n, uint32_t most)
 {
-    return n == 0 ? automatic_interleave(render) : n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
+    if (n == 0)
+        return automatic_interleave(render, most);
+    return n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
+}
+
+/* Near light stays as noisy when splats become small, and is averaged as widely. */
+static ps_result begin_interleaved(struct render *render, uint32_t n)
+{
+    bool many = render->sources.path_count > MANY_PATHS;
+    uint32_t most = many ? MOST_FOR_MANY : PS_MOST_INTERLEAVE;
+    render->near_interleave = interleave_of(render, n, PS_MOST_INTERLEAVE);
+    return create_splatter(render, interleave_of(render, n, most));
 }
 
 static ps_result host_begin_splats(const ps_host *host, uint32_t n)
@@ -220,7 +232,7 @@ static ps_result host_begin_splats(const ps_host *host, uint32_t n)
     struct render *render = render_of(host);
     ps_result result = source_stream_prepare(&render->sources, &render->error);
     if (result == PS_OK && !render->has_splatter)
-        result = create_splatter(render, interleave_of(render, n));
+        result = begin_interleaved(render, n);
     if (result != PS_OK)
         return result;
     struct splatter_pass pass = {render->pass.number, render->sources.path_count};
@@ -250,7 +262,7 @@ static float near_distance(const struct render *render)
         return 0.0f;
     ps_box_settings settings = vtable->boxes(visibility->state);
     struct box_scene scene = box_scene_of(render);
-    return box_near_distance(&scene, &settings);
+    return box_near_distance(&scene, &settings, render->sources.path_count);
 }
 
 static ps_result host_gather_near_light(const ps_host *host, double rays)
@@ -263,9 +275,8 @@ static ps_result host_gather_near_light(const ps_host *host, double rays)
     double start = clock_seconds();
     statistics_set_bytes(render->statistics, "near light",
                          (double)near_light_bytes(&render->gbuffer));
-    ps_result result =
-        near_light_begin(near, &render->gbuffer, distance, render->splatter.settings.interleave,
-                         render->settings->threads, &render->error);
+    ps_result result = near_light_begin(near, &render->gbuffer, distance, render->near_interleave,
+                                        render->settings->threads, &render->error);
     if (result == PS_OK)
         result = near_gather(host, &render->pass, near,
                              rays > 0.0 ? rays : near_light_rays(render->sources.path_count));

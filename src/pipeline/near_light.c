@@ -6,10 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* For 400,000 light paths, and how few and many there may be. Measured at 1600x900: error^2
- * times seconds is a tenth less than with half as many rays for 100,000 paths in the Cornell boxes, a tenth more for
- * 1.6 million in the conference room, and within 7 % between. */
-#define RAYS 240
+/* For 400,000 light paths, and how few and many there may be. Measured at 1600x900: with 120 the error is a
+ * tenth larger in the conference room, with 240 the Cornell boxes and the courtyard take a fifth more time. */
+#define RAYS 170
 #define LEAST_RAYS 16
 #define MOST_RAYS 4096
 
@@ -26,7 +25,8 @@ static size_t lanes_of(const struct gbuffer *gbuffer)
 
 size_t near_light_bytes(const struct gbuffer *gbuffer)
 {
-    return lanes_of(gbuffer) * (2 * sizeof(ps_rgb) + sizeof(uint8_t));
+    size_t of_lane = 2 * sizeof(ps_rgb) + sizeof(uint8_t);
+    return lanes_of(gbuffer) * of_lane + gbuffer->tile_count * 2 * sizeof(float);
 }
 
 ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffer, float distance,
@@ -34,6 +34,7 @@ ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffe
 {
     size_t lanes = lanes_of(gbuffer);
     near->distance = distance;
+    near->tiles_across = gbuffer->tiles_across;
     near->reach = (int)interleave / 2;
     if (!near->averaged)
         near->averaged = malloc(lanes);
@@ -41,7 +42,11 @@ ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffe
         near->found = malloc(lanes * sizeof *near->found);
     if (!near->joined)
         near->joined = malloc(lanes * sizeof *near->joined);
-    if (!near->found || !near->joined || !near->averaged)
+    if (!near->variances)
+        near->variances = malloc(gbuffer->tile_count * sizeof *near->variances);
+    if (!near->shares)
+        near->shares = malloc(gbuffer->tile_count * sizeof *near->shares);
+    if (!near->found || !near->joined || !near->averaged || !near->variances || !near->shares)
         return error_memory(error, near_light_bytes(gbuffer), "near light");
     memset(near->found, 0, lanes * sizeof *near->found);
     struct pair_mean count = {.gbuffer = gbuffer, .reach = near->reach, .counts = near->averaged};
@@ -54,6 +59,8 @@ void near_light_release(struct near_light *near)
     free(near->found);
     free(near->joined);
     free(near->averaged);
+    free(near->variances);
+    free(near->shares);
     *near = (struct near_light){.found = NULL};
 }
 

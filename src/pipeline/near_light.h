@@ -13,7 +13,11 @@ struct near_light {
     ps_rgb *found;     /* irradiance, a value for each lane of each tile; owned; NULL: none yet */
     ps_rgb *joined;    /* room for its means, likewise */
     uint8_t *averaged; /* how many pixels they are taken over, likewise */
-    int reach;         /* pixels to each side of those */
+    /* For near_gather.h, a value for each tile; likewise. */
+    float *variances;      /* of what single rays find there */
+    float *shares;         /* of the rays */
+    int reach;             /* pixels to each side of those */
+    uint32_t tiles_across; /* as in the G-buffer */
 };
 
 /* So many rays a pixel, and those that it is averaged with, have less noise than the splats of so many paths:

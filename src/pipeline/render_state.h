@@ -26,6 +26,7 @@ struct render {
     bool has_splatter;
     bool splatting; /* in this pass */
     struct near_light near_light;
+    uint32_t near_interleave; /* over so many pixels across and down it is averaged */
     bool
         counts_splats; /* in place of the filter: tiles' weights count the splats that light them */
     ps_pass pass;

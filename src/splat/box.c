@@ -3,9 +3,13 @@
 #include "base/sample.h"
 #include <psplat/math.h>
 
-/* Automatic size for 100,000 light paths, as a fraction of the scene's radius, and at most. */
+/* Automatic size for FEW_PATHS, as a fraction of the scene's radius, and at most. With more paths splats shrink
+ * less, since near light stays as near as it is there: little is left of what they would blur. */
+#define FEW_PATHS 100000
 #define AUTOMATIC_SIZE 0.138
 #define LARGEST_AUTOMATIC_SIZE 0.25
+#define POWER_OF_FEW (-0.25)
+#define POWER_OF_MANY (-0.2)
 
 /* The same as a fraction of the spread of the light, and how much of what the scene's radius gives is left
  * where light lands in a point. */
@@ -24,10 +28,16 @@ float box_automatic_size(float scene_radius, float light_spread, uint64_t paths,
 {
     double by_scene = AUTOMATIC_SIZE * (double)scene_radius;
     double by_light = light_spread > 0.0f ? SIZE_BY_SPREAD * (double)light_spread : INFINITY;
-    double by_paths = pow((double)(paths > 0 ? paths : 1) / 1e5, -0.25);
+    double by_paths = pow((double)(paths > 0 ? paths : 1) / FEW_PATHS,
+                          paths < FEW_PATHS ? POWER_OF_FEW : POWER_OF_MANY);
     double size = fmin(by_scene, fmax(by_light, LEAST_BY_SPREAD * by_scene)) * by_paths;
     return (float)(fmin(size, LARGEST_AUTOMATIC_SIZE * (double)scene_radius) *
                    pow(pass + 1.0, -1.0 / 6.0));
+}
+
+float box_automatic_near(float scene_radius, float light_spread, uint64_t paths)
+{
+    return box_automatic_size(scene_radius, light_spread, paths < FEW_PATHS ? paths : FEW_PATHS, 0);
 }
 
 enum step_back_rule { STEP_BACK_NUMBER = -1, STEP_BACK_AUTO = 0, STEP_BACK_FULL = 1 };
@@ -136,10 +146,15 @@ float box_widest(const struct box_scene *scene, const ps_box_settings *settings,
     return bounded(scene, size * (double)growth(settings, source));
 }
 
-float box_near_distance(const struct box_scene *scene, const ps_box_settings *settings)
+float box_near_distance(const struct box_scene *scene, const ps_box_settings *settings,
+                        uint64_t paths)
 {
-    bool starts_at_source = settings->step_back_rule == STEP_BACK_FULL;
-    return starts_at_source && settings->follow > 0 ? box_size(scene, settings) : 0.0f;
+    if (settings->step_back_rule != STEP_BACK_FULL || !(settings->follow > 0))
+        return 0.0f;
+    if (!(settings->size > 0))
+        return scene->automatic_near;
+    double wider = pow(fmax((double)paths / FEW_PATHS, 1), -POWER_OF_MANY);
+    return bounded(scene, wider * settings->size);
 }
 
 float box_half_width(const struct box_scene *scene, const ps_box_settings *settings,

@@ -36,6 +36,7 @@ struct box_scene {
     float radius;         /* of the scene */
     float surface_offset; /* see ps_pass */
     float automatic_size; /* half-width where the settings leave it open */
+    float automatic_near; /* how near light is near there */
     uint64_t seed;        /* rotates the frames */
     const struct camera *camera;
     uint32_t interleave; /* see field.h */
@@ -46,8 +47,8 @@ struct box_scene {
 float box_clearance(float surface_offset, float half_width, bool hollow);
 
 /* The half-width that light paths so many in a pass deserve. Noise grows as splats shrink and blur as
- * they grow; measured on the Cornell box the error is least at a size that falls by the fourth root of
- * the paths (47 mm for 400,000, 66 for 100,000). Later passes (from 0) shrink it by
+ * they grow; measured, the error is least at a size that falls by the fourth root of the paths, and by the
+ * fifth from 100,000 on (in the Cornell box 66 mm there, 50 for 400,000). Later passes (from 0) shrink it by
  * p^((alpha - 1) / 2), alpha = 2/3, so that the mean of more and more passes loses noise and blur alike
  * (Knaus and Zwicker 2011, "Progressive photon mapping: a probabilistic approach").
  *
@@ -55,11 +56,16 @@ float box_clearance(float surface_offset, float half_width, bool hollow);
  * shadows, as a small lamp does, so splats become smaller where that is little beside the scene. */
 float box_automatic_size(float scene_radius, float light_spread, uint64_t paths, uint32_t pass);
 
-/* How near light has to come from for splats to leave it to near rays: as near as they would blur
- * it, one half-width; 0 where beams don't start at their sources and follow the distance. (After the bias
- * compensation of virtual point lights: Kollig and Keller 2006, "Illumination in the presence of weak
- * singularities".) */
-float box_near_distance(const struct box_scene *scene, const ps_box_settings *settings);
+/* How near light has to come from for splats to leave it to near rays: as near as the first pass of 100,000
+ * paths would blur it, one half-width of its splats. More of them have smaller splats; if the distance shrank with
+ * these, what lies just past it would be blurred as much as before, for ever. 0 where beams don't start at their
+ * sources and follow the distance. (After the bias compensation of virtual point lights: Kollig and Keller
+ * 2006, "Illumination in the presence of weak singularities".) */
+float box_near_distance(const struct box_scene *scene, const ps_box_settings *settings,
+                        uint64_t paths);
+
+/* That distance where the settings leave the size open. */
+float box_automatic_near(float scene_radius, float light_spread, uint64_t paths);
 
 /* Half-width of the disc that a source's light may fill. */
 float box_widest(const struct box_scene *scene, const ps_box_settings *settings,

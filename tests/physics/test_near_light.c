@@ -9,6 +9,7 @@
  *
  * Splats of half-width h and more smear that over the crease; short rays find it.
  */
+#include "pipeline/render_state.h"
 #include "support/render_scene.h"
 #include <math.h>
 #include <setjmp.h>
@@ -30,17 +31,19 @@
 #define PICTURE_LEFT 0.01
 #define PICTURE_WIDTH 0.04
 
+#define FLOOR_AND_WALL                                                                             \
+    "materials: {floor: {diffuse: 0.5}, wall: {diffuse: 0.8}}\n"                                   \
+    "lights:\n"                                                                                    \
+    "  - sun: {direction: [-1, 0, 0], irradiance: 2}\n"                                            \
+    "objects:\n"                                                                                   \
+    "  - quad: {corners: [[0, 0, 2], [1, 0, 2], [1, 0, -2], [0, 0, -2]], material: floor}\n"       \
+    "  - quad: {corners: [[0, 0, 2], [0, 0.1, 2], [0, 0.1, -2], [0, 0, -2]], material: wall}\n"
+
 static const char crease[] =
     "psd: 1\n"
     "camera: {location: [0.03, 0.09, 0], look_at: [0.03, 0, 0], up: [0, 0, -1],\n"
     "         projection: orthographic, width: 0.04}\n"
-    "image: {width: 16, height: 8}\n"
-    "materials: {floor: {diffuse: 0.5}, wall: {diffuse: 0.8}}\n"
-    "lights:\n"
-    "  - sun: {direction: [-1, 0, 0], irradiance: 2}\n"
-    "objects:\n"
-    "  - quad: {corners: [[0, 0, 2], [1, 0, 2], [1, 0, -2], [0, 0, -2]], material: floor}\n"
-    "  - quad: {corners: [[0, 0, 2], [0, 0.1, 2], [0, 0.1, -2], [0, 0, -2]], material: wall}\n";
+    "image: {width: 16, height: 8}\n" FLOOR_AND_WALL;
 
 static double expected_at(int column)
 {
@@ -99,12 +102,54 @@ static void test_boxes_leave_nothing(void **state)
     rendering_release(&b);
 }
 
+/* Four tiles before the wall, of which the last is too far off to meet it. */
+static const char strip[] =
+    "psd: 1\n"
+    "camera: {location: [0.4, 0.09, 0], look_at: [0.4, 0, 0], up: [0, 0, -1],\n"
+    "         projection: orthographic, width: 0.8}\n"
+    "image: {width: 64, height: 16}\n" FLOOR_AND_WALL;
+
+static ps_result check_shares(void *user, struct render *render, struct error *error)
+{
+    (void)user;
+    assert_int_equal(render_estimate(render, error), PS_OK);
+    const float *shares = render->near_light.shares;
+    print_message("shares of the rays: %.2f %.2f %.2f %.2f\n", (double)shares[0], (double)shares[1],
+                  (double)shares[2], (double)shares[3]);
+    assert_int_equal(render->gbuffer.tile_count, 4);
+    assert_true(shares[0] > 1.5f && shares[0] > shares[1] && shares[1] > shares[2]);
+    assert_true(shares[3] == 0.25f);
+    float sum = shares[0] + shares[1] + shares[2] + shares[3];
+    assert_true(fabsf(sum - 4) < 1e-5f);
+    return PS_OK;
+}
+
+static void test_rays_go_where_the_noise_is(void **state)
+{
+    (void)state;
+    static const char *const choices[] = {"injection=photon:count=1000",
+                                          "visibility=shadowmap:size=0.4",
+                                          "estimator=splat:near_rays=64", NULL};
+    struct prepared prepared;
+    struct statistics statistics;
+    struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
+    struct error error;
+    prepare_text(strip, 2, 100, choices, &prepared);
+    statistics_init(&statistics);
+    assert_int_equal(render_inspect(&prepared.scene, &prepared.settings, &callbacks, &statistics,
+                                    check_shares, NULL, &error),
+                     PS_OK);
+    statistics_destroy(&statistics);
+    prepared_release(&prepared);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_crease),
         cmocka_unit_test(test_interleaved),
         cmocka_unit_test(test_boxes_leave_nothing),
+        cmocka_unit_test(test_rays_go_where_the_noise_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

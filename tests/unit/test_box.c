@@ -17,6 +17,7 @@ static struct camera camera = {.orthographic = true, .location = {0, 0, -99}, .f
 static const struct box_scene scene = {.radius = RADIUS,
                                        .surface_offset = 0.001f,
                                        .automatic_size = 2,
+                                       .automatic_near = 2,
                                        .seed = 7,
                                        .camera = &camera,
                                        .interleave = 4};
@@ -72,14 +73,16 @@ static void test_size(void **state)
     expect_near(place((ps_box_settings){.size = 0}, 10, 1).half_width, 2);
 }
 
-/* By the fourth root of the paths, the sixth root of the passes; never a large part of the scene. */
+/* By the fourth root of few paths, the fifth root of many, the sixth root of the passes; never a large part of
+ * the scene. */
 static void test_automatic_size(void **state)
 {
     (void)state;
     float size = box_automatic_size(RADIUS, 0, 100000, 0);
     assert_true(size > 0.13f * RADIUS && size < 0.15f * RADIUS);
     expect_near(box_automatic_size(2 * RADIUS, 0, 100000, 0), 2 * (double)size);
-    expect_near(box_automatic_size(RADIUS, 0, 1600000, 0), (double)size / 2);
+    expect_near(box_automatic_size(RADIUS, 0, 6250, 0), fmin(2 * (double)size, 0.25 * RADIUS));
+    expect_near(box_automatic_size(RADIUS, 0, 3200000, 0), (double)size / 2);
     expect_near(box_automatic_size(RADIUS, 0, 100000, 63), (double)size / 2);
     expect_near(box_automatic_size(RADIUS, 0, 1, 0), 0.25 * RADIUS);
     expect_near(box_automatic_size(RADIUS, 0, 0, 0), 0.25 * RADIUS);
@@ -94,7 +97,7 @@ static void test_size_by_the_spread_of_light(void **state)
     float narrow = box_automatic_size(RADIUS, 0.2f * RADIUS, 100000, 0);
     assert_true(narrow < 0.9f * size);
     expect_near(box_automatic_size(RADIUS, 0.16f * RADIUS, 100000, 0), 0.8 * (double)narrow);
-    expect_near(box_automatic_size(RADIUS, 0.2f * RADIUS, 1600000, 0), (double)narrow / 2);
+    expect_near(box_automatic_size(RADIUS, 0.2f * RADIUS, 3200000, 0), (double)narrow / 2);
     expect_near(box_automatic_size(RADIUS, RADIUS, 100000, 0), size);
     expect_near(box_automatic_size(RADIUS, 1e-6f, 100000, 0), 0.4 * (double)size);
 }
@@ -134,11 +137,24 @@ static void test_size_follows_less_far_after_the_first_bounce(void **state)
 static ps_splat place_near(ps_box_settings settings, uint16_t bounce, uint8_t specular)
 {
     struct box_scene own = scene;
-    own.near_distance = box_near_distance(&own, &settings);
+    own.near_distance = box_near_distance(&own, &settings, 100000);
     ps_source source = {
         .normal = {0, 1, 0}, .direction = {0, 1, 0}, .bounce = bounce, .specular = specular};
     ps_hit hit = {.position = {0, 0.01f, 0}, .distance = 0.01f, .normal = {0, -1, 0}};
     return place_one(&own, &settings, &source, &hit);
+}
+
+/* Many paths make smaller splats, and leave near light as near as it was. */
+static void test_near_light_stays_as_near(void **state)
+{
+    (void)state;
+    const ps_box_settings by_hand = {.size = 3, .follow = 0.25, .step_back_rule = 1};
+    expect_near(box_near_distance(&scene, &by_hand, 6250), 3);
+    expect_near(box_near_distance(&scene, &by_hand, 3200000), 6);
+    float size = box_automatic_size(RADIUS, 0, 100000, 0);
+    expect_near(box_automatic_near(RADIUS, 0, 100000), size);
+    expect_near(box_automatic_near(RADIUS, 0, 3200000), size);
+    expect_near(box_automatic_near(RADIUS, 0, 50000), box_automatic_size(RADIUS, 0, 50000, 0));
 }
 
 /* As far as splats are wide, where the light was reflected once, and diffusely; splats may be wide then. */
@@ -390,6 +406,7 @@ int main(void)
         cmocka_unit_test(test_size_by_the_spread_of_light),
         cmocka_unit_test(test_size_follows_distance),
         cmocka_unit_test(test_size_follows_less_far_after_the_first_bounce),
+        cmocka_unit_test(test_near_light_stays_as_near),
         cmocka_unit_test(test_near_light_is_left),
         cmocka_unit_test(test_size_follows_no_further_than_pixels),
         cmocka_unit_test(test_size_grows_with_what_was_merged),

@@ -192,8 +192,8 @@ static void test_determined_without_visibility(void **state)
 static void test_rays_for_near_light(void **state)
 {
     (void)state;
-    assert_int_equal(near_light_rays(400000), 240);
-    assert_int_equal(near_light_rays(1600000), 480);
+    assert_int_equal(near_light_rays(400000), 170);
+    assert_int_equal(near_light_rays(1600000), 340);
     assert_int_equal(near_light_rays(1), 16);
     assert_int_equal(near_light_rays(UINT64_MAX), 4096);
 }
