@@ -133,7 +133,8 @@ typedef struct ps_image_view {
 
 typedef struct ps_denoiser_vtable {
     uint32_t size;
-    uint32_t reserved;
+    uint32_t
+        keeps_all; /* 1: filter leaves all as it is; its view may then lack planes of surfaces */
     /* Filters in place. [main thread] */
     ps_result (*filter)(const void *state, const ps_host *host, const ps_image_view *image);
 } ps_denoiser_vtable;

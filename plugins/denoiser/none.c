@@ -9,7 +9,11 @@ static ps_result filter(const void *state, const ps_host *host, const ps_image_v
     return PS_OK;
 }
 
-static const ps_denoiser_vtable vtable = {.size = sizeof vtable, .filter = filter};
+static const ps_denoiser_vtable vtable = {
+    .size = sizeof vtable,
+    .keeps_all = 1,
+    .filter = filter,
+};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

@@ -222,6 +222,14 @@ static int render_job(struct job *job, struct scene_input *input, struct render_
     return result == PS_ERROR_INVALID ? STATUS_USAGE : STATUS_FAILED;
 }
 
+static bool wants_layers(const struct job *job)
+{
+    bool wanted = false;
+    for (size_t i = 0; i < job->output_count; i++)
+        wanted |= output_holds_layers(job->outputs[i]);
+    return wanted && strcmp(job->layers, "none") != 0;
+}
+
 static int load_and_render(struct job *job)
 {
     struct scene_input input;
@@ -230,6 +238,7 @@ static int load_and_render(struct job *job)
     if (render_options_load(&job->options, &input, &settings)) {
         if (job->passes > 0)
             settings.passes = (uint32_t)job->passes;
+        settings.picture_alone = !wants_layers(job);
         status = render_job(job, &input, &settings);
         settings_release(&settings);
     }

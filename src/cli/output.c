@@ -1,5 +1,6 @@
 #include "cli/output.h"
 
+#include "base/parallel.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "image/tonemap.h"
@@ -22,6 +23,11 @@ bool output_is_writable_format(const char *path)
     return has_suffix(path, ".exr") || has_suffix(path, ".png");
 }
 
+bool output_holds_layers(const char *path)
+{
+    return has_suffix(path, ".exr");
+}
+
 char *output_default_path(const char *scene_path, const char *suffix)
 {
     const char *slash = strrchr(scene_path, '/');
@@ -36,15 +42,31 @@ char *output_default_path(const char *scene_path, const char *suffix)
     return path;
 }
 
-static ps_result write_png(const struct image *image, const char *path, double exposure,
-                           struct error *error)
+struct tone_work {
+    const struct image *image;
+    double exposure;
+    uint8_t *rgb;
+};
+
+static void tonemap_row(void *user, uint64_t y, uint32_t worker)
 {
-    size_t pixels = image->width * image->height;
-    uint8_t *rgb = malloc(pixels * 3);
+    (void)worker;
+    const struct tone_work *work = user;
+    size_t width = work->image->width, first = y * width;
+    tonemap_planes(image_channel(work->image, "R") + first, image_channel(work->image, "G") + first,
+                   image_channel(work->image, "B") + first, width, work->exposure, TONE_FILMIC,
+                   work->rgb + 3 * first);
+}
+
+static ps_result write_png(const struct image *image, const char *path, double exposure,
+                           uint32_t threads, struct error *error)
+{
+    size_t bytes = image->width * image->height * 3;
+    uint8_t *rgb = malloc(bytes);
     if (!rgb)
-        return error_memory(error, pixels * 3, "a PNG");
-    tonemap_planes(image_channel(image, "R"), image_channel(image, "G"), image_channel(image, "B"),
-                   pixels, exposure, TONE_FILMIC, rgb);
+        return error_memory(error, bytes, "a PNG");
+    struct tone_work work = {image, exposure, rgb};
+    parallel_for(threads, image->height, tonemap_row, &work);
     ps_result result = image_write_png(path, image->width, image->height, rgb, image->attributes,
                                        image->attribute_count, error);
     free(rgb);
@@ -54,9 +76,9 @@ static ps_result write_png(const struct image *image, const char *path, double e
 ps_result output_write(const struct image *image, const char *path, double exposure,
                        uint32_t threads, struct error *error)
 {
-    if (has_suffix(path, ".exr"))
+    if (output_holds_layers(path))
         return image_write_exr(image, path, threads, error);
-    return write_png(image, path, exposure, error);
+    return write_png(image, path, exposure, threads, error);
 }
 
 bool output_check(const char *path, struct error *error)

@@ -9,6 +9,9 @@
 /* Whether a name ends in a format that psplat writes: .exr or .png. */
 bool output_is_writable_format(const char *path);
 
+/* Whether files of that name hold layers beside the picture. */
+bool output_holds_layers(const char *path);
+
 /* The scene's name with another suffix, in the current folder; "-" gives "stdin". The caller frees
  * it. */
 char *output_default_path(const char *scene_path, const char *suffix);

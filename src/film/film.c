@@ -15,10 +15,18 @@ static float *plane_create(size_t width, size_t height)
     return plane;
 }
 
-ps_result film_create(size_t width, size_t height, struct film *film, struct error *error)
+static bool is_of_surfaces(int plane)
+{
+    return plane >= FILM_ALBEDO_R && plane <= FILM_DEPTH;
+}
+
+ps_result film_create(size_t width, size_t height, bool surfaces, struct film *film,
+                      struct error *error)
 {
     *film = (struct film){.width = width, .height = height};
     for (int plane = 0; plane < FILM_PLANES; plane++) {
+        if (is_of_surfaces(plane) && !surfaces)
+            continue;
         film->planes[plane] = plane_create(width, height);
         if (!film->planes[plane]) {
             film_release(film);
@@ -37,7 +45,15 @@ void film_release(struct film *film)
 
 size_t film_bytes(const struct film *film)
 {
-    return film->width * film->height * sizeof(float) * FILM_PLANES;
+    size_t planes = 0;
+    for (int plane = 0; plane < FILM_PLANES; plane++)
+        planes += film->planes[plane] != NULL;
+    return film->width * film->height * sizeof(float) * planes;
+}
+
+size_t film_most_bytes(size_t width, size_t height)
+{
+    return width * height * sizeof(float) * FILM_PLANES;
 }
 
 /* A row of a tile's pixels that are in the picture. */
@@ -49,9 +65,11 @@ struct tile_row {
     float shares[PS_TILE_SIZE]; /* of what each gathered, that is added */
 };
 
-/* Adds to a plane what the pixels of a row see; where they see no surface, nothing. */
+/* Adds to a plane, where the film has it, what the pixels of a row see; where they see no surface, nothing. */
 static void add_seen(struct film *film, int plane, const struct tile_row *row, const float *values)
 {
+    if (!film->planes[plane])
+        return;
     const uint32_t *object = row->tile->object + row->lane;
     float *sums = film->planes[plane] + row->pixel;
     for (size_t i = 0; i < row->count; i++)
@@ -205,6 +223,8 @@ void film_average(struct film *film)
 {
     for (int plane = FILM_DIRECT_R; plane <= FILM_DIRECT_B; plane++)
         average_light(film, plane);
+    if (!film->planes[FILM_DEPTH])
+        return;
     for (int plane = FILM_ALBEDO_R; plane <= FILM_DEPTH; plane++)
         average_geometry(film, plane);
     for (size_t i = 0; i < film->width * film->height; i++)

@@ -36,10 +36,14 @@ struct film {
     float *planes[FILM_PLANES]; /* each width * height, owned */
 };
 
-/* A film without passes. */
-ps_result film_create(size_t width, size_t height, struct film *film, struct error *error);
+/* A film without passes. Without `surfaces` it keeps the light alone: planes from FILM_ALBEDO_R to FILM_DEPTH
+ * stay NULL. */
+ps_result film_create(size_t width, size_t height, bool surfaces, struct film *film,
+                      struct error *error);
 void film_release(struct film *film);
 size_t film_bytes(const struct film *film);
+/* With all planes. */
+size_t film_most_bytes(size_t width, size_t height);
 
 /* Adds what one tile of a finished pass gathered, but for the lanes that are `left_out` (NULL: none);
  * call for every tile, then count the pass. Tiles may be added by different threads at once: they touch

@@ -6,7 +6,8 @@
  *
  * zlib looks for runs alone, which its authors made for PNG: once rows are filtered, rendered
  * pictures have little else that repeats. A quarter of the time of the default search, files 0 to 9
- * per cent longer.
+ * per cent longer. All rows have Paeth's filter: trying the others too makes files 0 to 3 per cent
+ * shorter and takes a fifth more time.
  */
 #include "image/image.h"
 #include "image/output_file.h"
@@ -86,6 +87,7 @@ static void write_chunks(struct png_job *job)
                  PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
     png_set_compression_strategy(job->png, Z_RLE);
+    png_set_filter(job->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
     png_set_sRGB(job->png, job->info, PNG_sRGB_INTENT_PERCEPTUAL);
     for (size_t i = 0; i < job->text_count; i++) {
         set_text(job, &job->texts[i]);

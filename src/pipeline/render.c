@@ -55,6 +55,13 @@ static ps_result create_shadow_maps(struct render *render, struct error *error)
     return PS_OK;
 }
 
+/* Those planes of the film are half of its memory, and of the time that adding to it takes. */
+static bool wants_surfaces(const struct render_settings *settings)
+{
+    const ps_denoiser_vtable *denoiser = settings->strategies[PS_DENOISER].descriptor->vtable;
+    return !settings->picture_alone || !denoiser->keeps_all;
+}
+
 static ps_result create_edges(struct render *render, struct error *error)
 {
     size_t count = (size_t)render->gbuffer.tile_count * PS_TILE_PIXELS;
@@ -75,7 +82,8 @@ static ps_result create(struct render *render, struct error *error)
     if (result == PS_OK)
         result = gbuffer_create(scene->width, scene->height, &render->gbuffer, error);
     if (result == PS_OK)
-        result = film_create(scene->width, scene->height, &render->film, error);
+        result = film_create(scene->width, scene->height, wants_surfaces(render->settings),
+                             &render->film, error);
     if (result == PS_OK && render->settings->light_join && scene->has_sized_lights)
         result = gbuffer_prepare_join(&render->gbuffer, error);
     if (result == PS_OK && render->settings->edge_samples > 1)

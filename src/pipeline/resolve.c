@@ -55,6 +55,8 @@ static ps_result move_film_layers(struct film *film, struct image *image, struct
     ps_result result = PS_OK;
     for (size_t i = 0; i < sizeof layers / sizeof layers[0] && result == PS_OK; i++) {
         float **plane = &film->planes[layers[i].plane];
+        if (!*plane)
+            continue;
         result = image_adopt_channel(image, layers[i].name, *plane, error);
         if (result == PS_OK)
             *plane = NULL;

@@ -21,6 +21,7 @@ struct render_settings {
     size_t batch;    /* splats at a time; changes memory, not the picture */
     enum direct_light direct;
     uint32_t direct_resolution; /* pixels along the side of each map of DIRECT_SHADOWMAP */
+    bool picture_alone;         /* nobody wants its layers: those of surfaces may be missing */
     double indirect_exposure;
     ps_rgb ambient;
 };

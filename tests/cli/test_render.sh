@@ -45,6 +45,13 @@ expect_same new/d.exr reference.exr
 expect_same new/c.png reference.png
 expect_same new/e.png reference.png
 
+# Without layers the film keeps no surfaces, unless a denoiser asks for them.
+for denoiser in none bilateral; do
+    run 0 $small --plugin denoiser=$denoiser -o new/with.exr -o new/with.png "$cornell"
+    run 0 $small --plugin denoiser=$denoiser -o new/alone.png "$cornell"
+    expect_same new/alone.png new/with.png
+done
+
 # A picture that is there is replaced, also behind a link; a device is written to.
 echo old >new/a.exr
 ln -s a.exr new/link.exr

@@ -25,7 +25,7 @@ static int open_bench(void **state)
     (void)state;
     struct error error;
     assert_int_equal(gbuffer_create(WIDTH, HEIGHT, &bench.gbuffer, &error), PS_OK);
-    assert_int_equal(film_create(WIDTH, HEIGHT, &bench.film, &error), PS_OK);
+    assert_int_equal(film_create(WIDTH, HEIGHT, true, &bench.film, &error), PS_OK);
     return 0;
 }
 
@@ -244,6 +244,29 @@ static void test_uncovered_pixels(void **state)
     assert_true(isfinite(bench.film.planes[FILM_DEPTH][17 * WIDTH + 10]));
 }
 
+/* The light is the same, and the surfaces are not there. */
+static void test_film_of_light_alone(void **state)
+{
+    (void)state;
+    struct error error;
+    add_pass(10, 1);
+    film_average(&bench.film);
+    struct film whole = bench.film;
+    assert_int_equal(film_create(WIDTH, HEIGHT, false, &bench.film, &error), PS_OK);
+    add_pass(10, 1);
+    film_average(&bench.film);
+    for (int plane = 0; plane < FILM_PLANES; plane++) {
+        bool of_surfaces = plane >= FILM_ALBEDO_R && plane <= FILM_DEPTH;
+        assert_true((bench.film.planes[plane] == NULL) == of_surfaces);
+        if (!of_surfaces)
+            assert_memory_equal(bench.film.planes[plane], whole.planes[plane],
+                                WIDTH * HEIGHT * sizeof(float));
+    }
+    assert_true(film_bytes(&bench.film) < film_bytes(&whole));
+    assert_int_equal(film_bytes(&whole), film_most_bytes(WIDTH, HEIGHT));
+    film_release(&whole);
+}
+
 static void test_clear_indirect(void **state)
 {
     (void)state;
@@ -263,15 +286,11 @@ static void test_clear_indirect(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        FILM_TEST(test_lanes_are_pixels),
-        FILM_TEST(test_new_film_is_empty),
-        FILM_TEST(test_passes_add_up),
-        FILM_TEST(test_average),
-        FILM_TEST(test_partly_covered_pixels),
-        FILM_TEST(test_uncovered_pixels),
-        FILM_TEST(test_emission_is_added),
-        FILM_TEST(test_clear_indirect),
-        FILM_TEST(test_samples_take_the_place_of_a_lane),
+        FILM_TEST(test_lanes_are_pixels),      FILM_TEST(test_new_film_is_empty),
+        FILM_TEST(test_passes_add_up),         FILM_TEST(test_average),
+        FILM_TEST(test_partly_covered_pixels), FILM_TEST(test_uncovered_pixels),
+        FILM_TEST(test_emission_is_added),     FILM_TEST(test_film_of_light_alone),
+        FILM_TEST(test_clear_indirect),        FILM_TEST(test_samples_take_the_place_of_a_lane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
