@@ -48,13 +48,13 @@ static uint64_t power_of_two(double number)
     return power;
 }
 
-/* Rays of a pixel, by its tile's share of them. Those of its window are averaged, n of them in the middle of a surface and c along its
- * rim, where a ray tells c pixels and not n: what noise is left in the picture is least with sqrt(n / c) times
- * as many there. A power of two, since these are spread most evenly. */
+/* Rays of a pixel, by its tile's share of them. Those of its window are averaged, n of them in the middle of a
+ * surface and c along its rim, where a ray tells c pixels and not n: what noise is left in the picture is least
+ * with sqrt(n / c) times as many there. A power of two, since these are spread most evenly. */
 static uint64_t rays_of(const struct gathering *work, uint64_t tile, uint32_t lane)
 {
     double averaged = work->near->averaged[tile * PS_TILE_PIXELS + lane];
-    double rays = work->near->shares[tile] * work->rays;
+    double rays = (double)work->near->shares[tile] * work->rays;
     return power_of_two(rays / sqrt(pair_mean_window(work->near->reach) * averaged));
 }
 
@@ -148,6 +148,13 @@ static void gather(const struct gathering *work, const struct sample_runs *sampl
     }
 }
 
+static void move_point(ps_points *points, size_t from, size_t to)
+{
+    points->positions[to] = points->positions[from];
+    points->normals[to] = points->normals[from];
+    points->lanes[to] = points->lanes[from];
+}
+
 /* Keeps the points that shoot ray `sample`: of those whose scouts are back, the ones of blocks that something
  * is near to. */
 static void keep_looking(const struct sample_runs *samples, uint64_t sample, const uint8_t *near,
@@ -158,9 +165,7 @@ static void keep_looking(const struct sample_runs *samples, uint64_t sample, con
         uint32_t lane = points->lanes[i];
         if (sample >= samples->rays[lane] || (sample >= SCOUTS && !near[block_of(lane)]))
             continue;
-        points->positions[kept] = points->positions[i];
-        points->normals[kept] = points->normals[i];
-        points->lanes[kept++] = lane;
+        move_point(points, i, kept++);
     }
     points->count = kept;
 }
@@ -186,11 +191,8 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
 static void keep_every(uint32_t step, ps_points *points)
 {
     size_t kept = 0;
-    for (size_t i = 0; i < points->count; i += step) {
-        points->positions[kept] = points->positions[i];
-        points->normals[kept] = points->normals[i];
-        points->lanes[kept++] = points->lanes[i];
-    }
+    for (size_t i = 0; i < points->count; i += step)
+        move_point(points, i, kept++);
     points->count = kept;
 }
 
@@ -248,7 +250,7 @@ static double noise_around(const struct near_light *near, uint32_t down, uint32_
     return sqrt(sum / count);
 }
 
-/* A tile's share: for one ray that it would have if all had the same. */
+/* Shares of 1 on average, or a little less where one is cut off. */
 static void share_rays(struct near_light *near, uint32_t tiles)
 {
     double mean = 0;
@@ -287,7 +289,7 @@ ps_result near_gather(const ps_host *host, const ps_pass *pass, struct near_ligh
         .near = near,
         .rays = rays,
         .pilot_rays = (uint64_t)fmax(pilot, 1),
-        .pilot_step = (uint32_t)fmax(1 / pilot, 1) | 1, /* odd, so that rows begin in turn */
+        .pilot_step = (uint32_t)fmin(fmax(1 / pilot, 1), PS_TILE_PIXELS - 1) | 1, /* crosses rows */
     };
     ps_result result = over_tiles(&work, pilot_tile);
     if (result != PS_OK)

@@ -19,7 +19,7 @@
 #include <psplat/host.h>
 
 /* Fills near->found, which near_light_begin zeroed. `rays`: of a pixel in the middle of a surface and those
- * that it is averaged with. PS_CANCELLED when the user stops it. */
+ * that it is averaged with, on average. PS_CANCELLED when the user stops it. */
 ps_result near_gather(const ps_host *host, const ps_pass *pass, struct near_light *near,
                       double rays);
 

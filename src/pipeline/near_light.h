@@ -1,7 +1,7 @@
 /* near_light.h: the light that splats of a pass leave out, pixel by pixel.
  *
- * It is gathered with few rays a pixel (near_gather.h). Where splats are interleaved over n x n pixels, so is
- * this: it becomes a mean over the same window (pair_mean.h).
+ * It is gathered with few rays a pixel (near_gather.h), and becomes a mean over the window that splats are
+ * interleaved over, or would be if they were fewer and larger (pair_mean.h).
  */
 #ifndef PIPELINE_NEAR_LIGHT_H
 #define PIPELINE_NEAR_LIGHT_H
