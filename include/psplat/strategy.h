@@ -133,8 +133,7 @@ typedef struct ps_image_view {
 
 typedef struct ps_denoiser_vtable {
     uint32_t size;
-    uint32_t
-        keeps_all; /* 1: filter leaves all as it is; its view may then lack planes of surfaces */
+    uint32_t keeps_all; /* 1: filter leaves all as it is, and may miss planes of surfaces */
     /* Filters in place. [main thread] */
     ps_result (*filter)(const void *state, const ps_host *host, const ps_image_view *image);
 } ps_denoiser_vtable;

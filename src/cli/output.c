@@ -20,7 +20,7 @@ static bool has_suffix(const char *path, const char *suffix)
 
 bool output_is_writable_format(const char *path)
 {
-    return has_suffix(path, ".exr") || has_suffix(path, ".png");
+    return output_holds_layers(path) || has_suffix(path, ".png");
 }
 
 bool output_holds_layers(const char *path)
@@ -43,7 +43,8 @@ char *output_default_path(const char *scene_path, const char *suffix)
 }
 
 struct tone_work {
-    const struct image *image;
+    const float *red, *green, *blue;
+    size_t width;
     double exposure;
     uint8_t *rgb;
 };
@@ -52,10 +53,9 @@ static void tonemap_row(void *user, uint64_t y, uint32_t worker)
 {
     (void)worker;
     const struct tone_work *work = user;
-    size_t width = work->image->width, first = y * width;
-    tonemap_planes(image_channel(work->image, "R") + first, image_channel(work->image, "G") + first,
-                   image_channel(work->image, "B") + first, width, work->exposure, TONE_FILMIC,
-                   work->rgb + 3 * first);
+    size_t first = y * work->width;
+    tonemap_planes(work->red + first, work->green + first, work->blue + first, work->width,
+                   work->exposure, TONE_FILMIC, work->rgb + 3 * first);
 }
 
 static ps_result write_png(const struct image *image, const char *path, double exposure,
@@ -65,7 +65,14 @@ static ps_result write_png(const struct image *image, const char *path, double e
     uint8_t *rgb = malloc(bytes);
     if (!rgb)
         return error_memory(error, bytes, "a PNG");
-    struct tone_work work = {image, exposure, rgb};
+    struct tone_work work = {
+        .red = image_channel(image, "R"),
+        .green = image_channel(image, "G"),
+        .blue = image_channel(image, "B"),
+        .width = image->width,
+        .exposure = exposure,
+        .rgb = rgb,
+    };
     parallel_for(threads, image->height, tonemap_row, &work);
     ps_result result = image_write_png(path, image->width, image->height, rgb, image->attributes,
                                        image->attribute_count, error);

@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* For 400,000 light paths, and how few and many there may be. Measured at 1600x900: with 120 the error is a
- * tenth larger in the conference room, with 240 the Cornell boxes and the courtyard take a fifth more time. */
+/* For 400,000 light paths, and how few and many there may be. Measured at 1600x900: the conference room has a
+ * fifth more error with 120 than with 240, for which the Cornell boxes and the courtyard take a fifth to a half more
+ * time. */
 #define RAYS 170
 #define LEAST_RAYS 16
 #define MOST_RAYS 4096

@@ -130,17 +130,7 @@ static void test_rays_go_where_the_noise_is(void **state)
     static const char *const choices[] = {"injection=photon:count=1000",
                                           "visibility=shadowmap:size=0.4",
                                           "estimator=splat:near_rays=64", NULL};
-    struct prepared prepared;
-    struct statistics statistics;
-    struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
-    struct error error;
-    prepare_text(strip, 2, 100, choices, &prepared);
-    statistics_init(&statistics);
-    assert_int_equal(render_inspect(&prepared.scene, &prepared.settings, &callbacks, &statistics,
-                                    check_shares, NULL, &error),
-                     PS_OK);
-    statistics_destroy(&statistics);
-    prepared_release(&prepared);
+    inspect_text(strip, choices, check_shares, NULL);
 }
 
 int main(void)

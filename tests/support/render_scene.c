@@ -1,6 +1,7 @@
 #include "support/render_scene.h"
 
 #include "parser/psd.h"
+#include "pipeline/render_state.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -63,6 +64,25 @@ void prepared_release(struct prepared *prepared)
     settings_release(&prepared->settings);
     loader_destroy(prepared->loader);
     scene_description_release(&prepared->description);
+}
+
+void inspect_text(const char *text, const char *const choices[],
+                  ps_result (*inspect)(void *user, struct render *render, struct error *error),
+                  void *user)
+{
+    struct prepared prepared;
+    struct statistics statistics;
+    struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
+    struct error error;
+    prepare_text(text, 2, 100, choices, &prepared);
+    statistics_init(&statistics);
+    ps_result result = render_inspect(&prepared.scene, &prepared.settings, &callbacks, &statistics,
+                                      inspect, user, &error);
+    if (result != PS_OK)
+        print_error("%s\n", error.text);
+    assert_int_equal(result, PS_OK);
+    statistics_destroy(&statistics);
+    prepared_release(&prepared);
 }
 
 struct rendering render_text_in_batches(const char *text, uint32_t threads, size_t batch,

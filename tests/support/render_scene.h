@@ -29,6 +29,12 @@ void prepare_text(const char *text, uint32_t threads, size_t batch, const char *
                   struct prepared *prepared);
 void prepared_release(struct prepared *prepared);
 
+/* Calls `inspect` with a render of the text whose G-buffer is filled (render_inspect), on two threads. */
+struct render;
+void inspect_text(const char *text, const char *const choices[],
+                  ps_result (*inspect)(void *user, struct render *render, struct error *error),
+                  void *user);
+
 /* A scene of the text, with no rendering; the caller releases it with scene_release. */
 struct scene scene_of_text(const char *text);
 

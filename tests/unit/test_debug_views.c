@@ -19,24 +19,6 @@
 #define HEIGHT 32
 #define PIXELS (WIDTH * HEIGHT)
 
-static void inspect(const char *text, const char *const choices[], render_inspector inspector,
-                    void *user)
-{
-    struct prepared prepared;
-    struct statistics statistics;
-    struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
-    struct error error;
-    prepare_text(text, 2, 100, choices, &prepared);
-    statistics_init(&statistics);
-    ps_result result = render_inspect(&prepared.scene, &prepared.settings, &callbacks, &statistics,
-                                      inspector, user, &error);
-    if (result != PS_OK)
-        print_error("%s\n", error.text);
-    assert_int_equal(result, PS_OK);
-    statistics_destroy(&statistics);
-    prepared_release(&prepared);
-}
-
 static ps_result view(const char *name, const char *text, const struct debug_options *options,
                       const char *const choices[], struct canvas *canvas, struct error *error)
 {
@@ -78,7 +60,7 @@ static void expect_weights(const char *text, const char *visibility)
     float *counts = calloc(PIXELS, sizeof *counts);
     double most = 0;
     assert_non_null(counts);
-    inspect(text, choices, count_by_kernel, counts);
+    inspect_text(text, choices, count_by_kernel, counts);
     struct rendering rendering = render_text(text, 2, choices);
     const float *weights = image_channel(&rendering.image, "weight");
     for (size_t i = 0; i < PIXELS; i++) {
@@ -169,8 +151,8 @@ static void test_overlap_is_the_count_by_hand(void **state)
     struct tally tally = {NULL, calloc(PIXELS, sizeof(int)), calloc(PIXELS, sizeof(bool))};
     size_t compared = 0;
     assert_true(counts && tally.counts && tally.borderline);
-    inspect(text, choices, count_by_kernel, counts);
-    inspect(text, choices, count_by_hand, &tally);
+    inspect_text(text, choices, count_by_kernel, counts);
+    inspect_text(text, choices, count_by_hand, &tally);
     for (size_t i = 0; i < PIXELS; i++) {
         if (tally.borderline[i])
             continue;
@@ -237,7 +219,7 @@ static void test_what_pixels_see_is_seen(void **state)
     const char *const choices[] = {"injection=photon:count=10", NULL};
     char *text = cornell_text(WIDTH, HEIGHT);
     size_t seen = 0;
-    inspect(text, choices, check_sight, &seen);
+    inspect_text(text, choices, check_sight, &seen);
     assert_true(seen > PIXELS / 3);
     free(text);
 }

@@ -85,17 +85,7 @@ static void test_splats_follow_it(void **state)
 {
     (void)state;
     static const char *const choices[] = {"injection=photon:count=4096", NULL};
-    struct prepared prepared;
-    struct statistics statistics;
-    struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
-    struct error error;
-    prepare_text(SCENE_HEAD LAMP ROOM, 1, 100, choices, &prepared);
-    statistics_init(&statistics);
-    assert_int_equal(render_inspect(&prepared.scene, &prepared.settings, &callbacks, &statistics,
-                                    check_size, NULL, &error),
-                     PS_OK);
-    statistics_destroy(&statistics);
-    prepared_release(&prepared);
+    inspect_text(SCENE_HEAD LAMP ROOM, choices, check_size, NULL);
 }
 
 int main(void)
