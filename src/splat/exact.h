@@ -1,8 +1,8 @@
 /* exact.h: the inner loop for visibilities that judge every point by itself.
  *
- * The same sums as kernel.h, with V(p) from the visibility's test of the point instead of a depth map.
- * A loop of its own: the rays cost a hundred times what the weights do, and the vector kernel stays as
- * it is.
+ * The same sums as kernel.h, with V(p) from the visibility's test of the point instead of a depth map. The
+ * kernel weighs a tile's pixels as if nothing were in the way; those with weight are asked for, all of a splat
+ * at once, since their rays run side by side.
  */
 #ifndef SPLAT_EXACT_H
 #define SPLAT_EXACT_H
@@ -11,7 +11,8 @@
 #include <psplat/strategy.h>
 
 struct exact_test {
-    const ps_visibility_vtable *vtable; /* with `visible` */
+    const struct kernel_variant *kernel; /* weighs the points */
+    const ps_visibility_vtable *vtable;  /* with `visible` */
     const void *state;
     const ps_host *host;
     float surface_offset; /* see ps_pass */

@@ -8,9 +8,12 @@
     struct kernel_count kernel_accumulate_##name(                                                  \
         struct field_tile *tile, const struct kernel_splat *splats, const uint32_t *indices,       \
         size_t n, uint32_t resolution, const struct kernel_profile *profile);                      \
+    uint32_t kernel_weigh_##name(const struct field_tile *tile, const struct kernel_splat *splat,  \
+                                 const struct kernel_profile *profile,                             \
+                                 struct kernel_weighed *weighed);                                  \
     uint32_t kernel_touch_##name(const struct bounds *bounds, const struct kernel_splat *splat);   \
     static const struct kernel_variant name = {#name, kernel_accumulate_##name,                    \
-                                               kernel_touch_##name};
+                                               kernel_weigh_##name, kernel_touch_##name};
 
 KERNEL_DECLARE(baseline)
 #if defined(PSPLAT_KERNEL_X86)

@@ -113,12 +113,22 @@ struct kernel_count {
     uint64_t lit;   /* those with weight */
 };
 
+/* The pixels of a tile that have weight. */
+struct kernel_weighed {
+    uint32_t lanes[PS_TILE_PIXELS];
+    float weight[PS_TILE_PIXELS], projected[PS_TILE_PIXELS]; /* K, and that times the cosine */
+};
+
 struct kernel_variant {
     const char *name; /* instruction set */
     /* Adds n splats, in order, to the tile. */
     struct kernel_count (*accumulate)(struct field_tile *tile, const struct kernel_splat *splats,
                                       const uint32_t *indices, size_t n, uint32_t resolution,
                                       const struct kernel_profile *profile);
+    /* What a splat would give to a tile with nothing in the way (its map has one texel, at INFINITY); returns
+     * to how many pixels. */
+    uint32_t (*weigh)(const struct field_tile *tile, const struct kernel_splat *splat,
+                      const struct kernel_profile *profile, struct kernel_weighed *weighed);
     /* Which of sixteen boxes the splat's box may touch, as bits. */
     uint32_t (*touch)(const struct bounds *bounds, const struct kernel_splat *splat);
 };

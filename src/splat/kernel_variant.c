@@ -14,11 +14,14 @@
 #define JOIN_NAMES(a, b) a##b
 #define NAME_OF(function, variant) JOIN_NAMES(function, variant)
 #define KERNEL_ACCUMULATE NAME_OF(kernel_accumulate_, KERNEL_VARIANT)
+#define KERNEL_WEIGH NAME_OF(kernel_weigh_, KERNEL_VARIANT)
 #define KERNEL_TOUCH NAME_OF(kernel_touch_, KERNEL_VARIANT)
 
 struct kernel_count KERNEL_ACCUMULATE(struct field_tile *tile, const struct kernel_splat *splats,
                                       const uint32_t *indices, size_t n, uint32_t resolution,
                                       const struct kernel_profile *profile);
+uint32_t KERNEL_WEIGH(const struct field_tile *tile, const struct kernel_splat *splat,
+                      const struct kernel_profile *profile, struct kernel_weighed *weighed);
 uint32_t KERNEL_TOUCH(const struct bounds *bounds, const struct kernel_splat *splat);
 
 #define LANES FIELD_BLOCK
@@ -215,21 +218,49 @@ static inline void add(struct field_tile *tile, int first, ps_rgb power,
     }
 }
 
+/* What a splat gives to a block; returns how many pixels get something. */
+static inline int weigh_block(const struct field_tile *tile, int first,
+                              const struct kernel_splat *splat, int resolution,
+                              const struct kernel_profile *profile, struct block_light *light)
+{
+    _Alignas(64) struct placed_block placed;
+    if (!place_block(tile, first, splat, &placed) || !choose_widths(tile, first, splat, &placed))
+        return 0;
+    int lit = weigh(&placed, splat, resolution, profile->weights, light);
+    if (lit > 0 && splat->wall_count > 0)
+        make_up(&placed, splat, profile->beyond, light);
+    return lit;
+}
+
 /* Adds a splat to a block; returns how many pixels got something. */
 static inline int light_block(struct field_tile *tile, int first, const struct kernel_splat *splat,
                               int resolution, const struct kernel_profile *profile)
 {
-    _Alignas(64) struct placed_block placed;
     _Alignas(64) struct block_light light;
-    if (!place_block(tile, first, splat, &placed) || !choose_widths(tile, first, splat, &placed))
-        return 0;
-    int lit = weigh(&placed, splat, resolution, profile->weights, &light);
-    if (lit == 0)
-        return 0;
-    if (splat->wall_count > 0)
-        make_up(&placed, splat, profile->beyond, &light);
-    add(tile, first, splat->power, &light);
+    int lit = weigh_block(tile, first, splat, resolution, profile, &light);
+    if (lit > 0)
+        add(tile, first, splat->power, &light);
     return lit;
+}
+
+uint32_t KERNEL_WEIGH(const struct field_tile *tile, const struct kernel_splat *splat,
+                      const struct kernel_profile *profile, struct kernel_weighed *weighed)
+{
+    _Alignas(64) struct block_light light;
+    uint32_t count = 0;
+    for (uint32_t mask = KERNEL_TOUCH(&tile->blocks, splat); mask; mask &= mask - 1) {
+        uint32_t first = (uint32_t)lowest_bit(mask) * LANES;
+        if (weigh_block(tile, (int)first, splat, 1, profile, &light) == 0)
+            continue;
+        for (uint32_t i = 0; i < LANES; i++) {
+            if (!(light.weight[i] > 0.0f))
+                continue;
+            weighed->lanes[count] = first + i;
+            weighed->weight[count] = light.weight[i];
+            weighed->projected[count++] = light.projected[i];
+        }
+    }
+    return count;
 }
 
 struct kernel_count KERNEL_ACCUMULATE(struct field_tile *tile, const struct kernel_splat *splats,

@@ -169,8 +169,8 @@ static struct kernel_count splat_exactly(const struct batch *batch, struct field
 {
     const struct splatter *splatter = batch->splatter;
     const struct splatter_settings *settings = &splatter->settings;
-    struct exact_test test = {settings->visibility, settings->visibility_state, settings->host,
-                              settings->surface_offset};
+    struct exact_test test = {&settings->kernel, settings->visibility, settings->visibility_state,
+                              settings->host, settings->surface_offset};
     return exact_accumulate(tile, &test, batch->splats, splatter->prepared, indices, n,
                             &settings->profile);
 }

@@ -253,14 +253,12 @@ size_t trace_bytes(const struct trace *trace)
     return bytes > 0 ? (size_t)bytes : 0;
 }
 
-/* Fills up to 16 lanes; the rest are marked invalid. */
+/* Fills up to 16 lanes; the rest are marked invalid, and hold what Embree's checks accept. */
 static void load_rays(ps_packet *packet, int valid[PACKET], const ps_ray *rays, size_t n,
                       uint32_t mask)
 {
-    memset(packet, 0, sizeof *packet);
-    struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)packet;
-    memset(embree->hit.geomID, 0xff, sizeof embree->hit.geomID);
-    memset(embree->hit.instID, 0xff, sizeof embree->hit.instID);
+    memset(packet->time, 0, sizeof packet->time);
+    memset(packet->flags, 0, sizeof packet->flags);
     for (size_t lane = 0; lane < PACKET; lane++) {
         valid[lane] = lane < n ? -1 : 0;
         packet->mask[lane] = mask;
@@ -293,12 +291,15 @@ void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray
         load_rays(&packet, valid, rays + first, lanes,
                   kind == RAYS_CAMERA ? MASK_CAMERA : MASK_LIGHT);
         struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)&packet;
+        memset(embree->hit.geomID, 0xff, sizeof embree->hit.geomID);
+        memset(embree->hit.instID, 0xff, sizeof embree->hit.instID);
         shim_intersect16(valid, trace->embree, embree, kind != RAYS_INCOHERENT);
         for (size_t lane = 0; lane < lanes; lane++)
             hits[first + lane] = resolve(trace, &rays[first + lane], embree, lane);
     }
 }
 
+/* Never as a coherent packet: with instances or cut-outs Embree 3.13 then may not come back. */
 void trace_occluded(const struct trace *trace, const ps_ray *rays, size_t n, uint8_t *blocked)
 {
     _Alignas(64) ps_packet packet;
