@@ -130,9 +130,10 @@ typedef struct ps_splat {
      * and `widest`; and where that is less than the box's, the bundle starts as much nearer to the
      * source's plane. follow 0: all pixels take all of it, and source_depth says nothing. */
     float source_depth, follow, narrowest, widest;
-    /* Of full beams that follow the distance: what lies nearer than this to the source's plane gets weight but
-     * no light, which is gathered otherwise (host->gather_near_light). 0: all is lit. */
-    float nearest;
+    /* Of full beams that follow the distance: what lies this far from the source's plane, or farther, gets all
+     * of the light; what lies nearer, the less of it, the nearer. The rest is gathered otherwise
+     * (host->gather_near_light). 0: all gets all. */
+    float full_from;
     /* Lit where t <= map + constant + slope * tan(theta), theta between the light and the receiver's
      * normal. */
     float bias_constant, bias_slope;

@@ -9,8 +9,8 @@
  * the surface, has none. The driver multiplies by albedo / pi. Placing, depth maps, bins and the
  * inner loop are the core's (src/splat), shared by whatever splats.
  *
- * A kernel blurs what is smaller than itself, so light from nearer than a half-width is left out of splats and
- * found by short rays (host->gather_near_light), with many light paths from farther still.
+ * A kernel blurs what is smaller than itself, so part of the light from nearby is left out of splats and
+ * found by short rays (host->gather_near_light).
  */
 #include <psplat/plugin.h>
 
@@ -76,9 +76,8 @@ static const ps_param params[] = {
            "the picture's size and the number of light paths"),
     PS_NUMBER_OR(
         struct state, near_rays, "auto", 0, 65536, 0, near_rays_choices, "rays",
-        "short rays, of each pixel and those that it is averaged with, for light from nearer "
-        "than a half-width, which splats would blur; 0: it is splatted, too; auto: by the "
-        "number of light paths"),
+        "short rays, of each pixel and those that it is averaged with, for light from nearby, "
+        "which splats would blur; 0: it is splatted, too; auto: by the number of light paths"),
 };
 
 static const ps_estimator_vtable vtable = {

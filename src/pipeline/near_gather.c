@@ -1,6 +1,7 @@
 #include "pipeline/near_gather.h"
 
 #include "film/pair_mean.h"
+#include "splat/near_share.h"
 #include <math.h>
 #include <psplat/tile.h>
 
@@ -114,7 +115,8 @@ static size_t look(const struct gathering *work, const ps_points *points, uint32
     return met;
 }
 
-/* What one ray of each point finds: radiance[i] comes to point targets[i], for i < what is returned. */
+/* What one ray of each point finds of the light that splats leave out: radiance[i] comes to point targets[i], for
+ * i < what is returned. */
 static size_t find(const struct gathering *work, const ps_points *points, const uint32_t sets[2],
                    uint64_t *indices, uint32_t *targets, ps_rgb *radiance)
 {
@@ -125,6 +127,11 @@ static size_t find(const struct gathering *work, const ps_points *points, const 
         indices[i] = indices[targets[i]]; /* targets[i] >= i */
     work->host->direct_radiance(work->host, rays, hits, PS_STREAM_PATH, sets[1], indices, met,
                                 radiance);
+    struct near_share share = near_share_until(work->near->distance);
+    for (size_t i = 0; i < met; i++) {
+        float left = 1.0f - near_share_of_splats(share, hits[i].distance);
+        radiance[i] = ps_rgb_scale(radiance[i], left);
+    }
     return met;
 }
 

@@ -4,8 +4,8 @@
  * and under what stands close to a wall. There splats would have to be as small as the gaps, and would be so
  * noisy that they rule the error. So what lamps throw onto surfaces nearby is found by short rays, cosine-
  * distributed (after Kollig and Keller 2006, "Illumination in the presence of weak singularities", who make up
- * for the clamped light of near virtual lights), and splats leave it out (ps_splat.nearest). The two parts meet
- * at one distance, so their sum has no seam and counts nothing twice. Light that other surfaces threw there is
+ * for the clamped light of near virtual lights), and splats leave it out, all of it at no distance, and less
+ * and less of it further away (splat/near_share.h). The shares add up to 1, so nothing counts twice. Light that other surfaces threw there is
  * smooth, and caustics are found by light paths alone: both are splatted all the way.
  *
  * Rays are shared out among tiles by their noise (Neyman 1934, "On the two different aspects of the representative

@@ -11,6 +11,10 @@
 #define POWER_OF_FEW (-0.25)
 #define POWER_OF_MANY (-0.2)
 
+/* How far near rays reach, in sizes of that many paths. Farther, they are noisier, and lose more where a pool of
+ * light begins at less than that distance and ends beyond: at 3 sizes `plate` has 2.0 % of error for 1.7. */
+#define NEAR_IN_SIZES 2.5f
+
 /* The same as a fraction of the spread of the light, and how much of what the scene's radius gives is left
  * where light lands in a point. */
 #define SIZE_BY_SPREAD 0.5
@@ -37,7 +41,8 @@ float box_automatic_size(float scene_radius, float light_spread, uint64_t paths,
 
 float box_automatic_near(float scene_radius, float light_spread, uint64_t paths)
 {
-    return box_automatic_size(scene_radius, light_spread, paths < FEW_PATHS ? paths : FEW_PATHS, 0);
+    uint64_t few = paths < FEW_PATHS ? paths : FEW_PATHS;
+    return NEAR_IN_SIZES * box_automatic_size(scene_radius, light_spread, few, 0);
 }
 
 enum step_back_rule { STEP_BACK_NUMBER = -1, STEP_BACK_AUTO = 0, STEP_BACK_FULL = 1 };
@@ -113,9 +118,9 @@ static float growth(const ps_box_settings *settings, const ps_source *source)
     return ps_min(sqrtf(source->merged), (float)fmin(settings->grow, 1e9));
 }
 
-/* How near to its source's plane a splat lights. All the way, where shadow rays would not find the light
+/* From which distance on a splat gives all of its light. All the way, where shadow rays would not find the light
  * that it sends on: caustics, and what other surfaces lit. */
-static float nearest_lit(const struct box_scene *scene, const ps_source *source)
+static float full_from(const struct box_scene *scene, const ps_source *source)
 {
     return source->bounce == 1 && !source->specular ? scene->near_distance : 0.0f;
 }
@@ -128,7 +133,7 @@ static float smallest(const struct box_scene *scene, const ps_source *source, fl
     ps_vec3 lit =
         ps_add_scaled(source->position, ps_min(distance, 4.0f * scene->radius), source->direction);
     float pixels = (float)scene->interleave * camera_pixel_size(scene->camera, lit);
-    bool wide = source->bounce > 1 || nearest_lit(scene, source) > 0.0f;
+    bool wide = source->bounce > 1 || full_from(scene, source) > 0.0f;
     float part = wide ? SMALLEST_LIT_BY_SURFACES : SMALLEST_LIT_BY_LAMPS;
     return ps_max(part * size, ps_min(pixels, size));
 }
@@ -154,7 +159,7 @@ float box_near_distance(const struct box_scene *scene, const ps_box_settings *se
     if (!(settings->size > 0))
         return scene->automatic_near;
     double wider = pow(fmax((double)paths / FEW_PATHS, 1), -POWER_OF_MANY);
-    return bounded(scene, wider * settings->size);
+    return bounded(scene, (double)NEAR_IN_SIZES * wider * settings->size);
 }
 
 float box_half_width(const struct box_scene *scene, const ps_box_settings *settings,
@@ -188,7 +193,7 @@ static void place_full(const struct box_scene *scene, const ps_box_settings *set
                         splat->start_slope_v * splat->start_slope_v);
     splat->near_depth = ps_min(splat->source_depth - slope * splat->half_width, 0.0f);
     splat->follow = (float)fmin(settings->follow, 1e9);
-    splat->nearest = nearest_lit(scene, source);
+    splat->full_from = full_from(scene, source);
     splat->widest = box_widest(scene, settings, source);
     splat->narrowest = smallest(scene, source, distance, splat->widest);
 }

@@ -176,7 +176,7 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
         float narrowing = 1.0f + splat->by_width * (inverse_width * inverse_width - 1.0f);
         float weight = (float)lit * profile[entry] * splat->kernel_scale * narrowing;
         light->weight[i] = weight;
-        light->projected[i] = (float)(placed->above[i] >= splat->nearest) * weight * facing;
+        light->projected[i] = near_share_of_splats(splat->near, placed->above[i]) * weight * facing;
         useful += lit;
     }
     return useful;

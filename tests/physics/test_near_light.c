@@ -128,7 +128,7 @@ static void test_rays_go_where_the_noise_is(void **state)
 {
     (void)state;
     static const char *const choices[] = {"injection=photon:count=1000",
-                                          "visibility=shadowmap:size=0.4",
+                                          "visibility=shadowmap:size=0.16",
                                           "estimator=splat:near_rays=64", NULL};
     inspect_text(strip, choices, check_shares, NULL);
 }

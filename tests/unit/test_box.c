@@ -149,30 +149,31 @@ static void test_near_light_stays_as_near(void **state)
 {
     (void)state;
     const ps_box_settings by_hand = {.size = 3, .follow = 0.25, .step_back_rule = 1};
-    expect_near(box_near_distance(&scene, &by_hand, 6250), 3);
-    expect_near(box_near_distance(&scene, &by_hand, 3200000), 6);
-    float size = box_automatic_size(RADIUS, 0, 100000, 0);
-    expect_near(box_automatic_near(RADIUS, 0, 100000), size);
-    expect_near(box_automatic_near(RADIUS, 0, 3200000), size);
-    expect_near(box_automatic_near(RADIUS, 0, 50000), box_automatic_size(RADIUS, 0, 50000, 0));
+    expect_near(box_near_distance(&scene, &by_hand, 6250), 2.5 * 3);
+    expect_near(box_near_distance(&scene, &by_hand, 3200000), 2.5 * 6);
+    double size = box_automatic_size(RADIUS, 0, 100000, 0);
+    expect_near(box_automatic_near(RADIUS, 0, 100000), 2.5 * size);
+    expect_near(box_automatic_near(RADIUS, 0, 3200000), 2.5 * size);
+    double large = box_automatic_size(RADIUS, 0, 50000, 0);
+    expect_near(box_automatic_near(RADIUS, 0, 50000), 2.5 * large);
 }
 
-/* As far as splats are wide, where the light was reflected once, and diffusely; splats may be wide then. */
+/* As far as splats are wide, and more, where the light was reflected once, and diffusely; splats may be wide then. */
 static void test_near_light_is_left(void **state)
 {
     (void)state;
     const ps_box_settings full = {.size = 3, .follow = 0.25, .step_back_rule = 1};
-    expect_near(place_near(full, 1, 0).nearest, 3);
+    expect_near(place_near(full, 1, 0).full_from, 2.5 * 3);
     expect_near(place_near(full, 1, 0).half_width, 0.6 * 3);
-    expect_near(place_near(full, 1, 1).nearest, 0);
+    expect_near(place_near(full, 1, 1).full_from, 0);
     expect_near(place_near(full, 1, 1).half_width, 0.3 * 3);
-    expect_near(place_near(full, 2, 0).nearest, 0);
+    expect_near(place_near(full, 2, 0).full_from, 0);
     const ps_box_settings automatic = {.follow = 0.25, .step_back_rule = 1};
-    expect_near(place_near(automatic, 1, 0).nearest, 2);
+    expect_near(place_near(automatic, 1, 0).full_from, 2);
     const ps_box_settings sloped = {.size = 3, .follow = 0.25},
                           still = {.size = 3, .step_back_rule = 1};
-    expect_near(place_near(sloped, 1, 0).nearest, 0);
-    expect_near(place_near(still, 1, 0).nearest, 0);
+    expect_near(place_near(sloped, 1, 0).full_from, 0);
+    expect_near(place_near(still, 1, 0).full_from, 0);
 }
 
 /* Nor less than the pixels that are averaged in the end, of which these settings have 4x4. */
