@@ -5,8 +5,9 @@
  * noisy that they rule the error. So what lamps throw onto surfaces nearby is found by short rays, cosine-
  * distributed (after Kollig and Keller 2006, "Illumination in the presence of weak singularities", who make up
  * for the clamped light of near virtual lights), and splats leave it out, all of it at no distance, and less
- * and less of it further away (splat/near_share.h). The shares add up to 1, so nothing counts twice. Light that other surfaces threw there is
- * smooth, and caustics are found by light paths alone: both are splatted all the way.
+ * and less of it further away (splat/near_share.h). The shares add up to 1, so nothing counts twice. Light that
+ * other surfaces threw there is smooth, and caustics are found by light paths alone: both are splatted all the
+ * way.
  *
  * Rays are shared out among tiles by their noise (Neyman 1934, "On the two different aspects of the representative
  * method"), which a pilot of few rays tells: where the sun shines on what is near it is hundreds of times that of
