@@ -8,7 +8,7 @@
 
 /* For 400,000 light paths, and how few and many there may be. Measured at 1600x900: the conference room has a
  * fifth more error with 120 than with 240, for which the Cornell boxes and the courtyard take a fifth to a half more
- * time. */
+ * time; rays reached one half-width then, not two and a half. */
 #define RAYS 170
 #define LEAST_RAYS 16
 #define MOST_RAYS 4096

@@ -56,8 +56,8 @@ float box_clearance(float surface_offset, float half_width, bool hollow);
  * shadows, as a small lamp does, so splats become smaller where that is little beside the scene. */
 float box_automatic_size(float scene_radius, float light_spread, uint64_t paths, uint32_t pass);
 
-/* How near light has to come from for splats to leave it to near rays: as near as the first pass of 100,000
- * paths would blur it, one half-width of its splats. More of them have smaller splats; if the distance shrank with
+/* How near light has to come from for splats to leave part of it to near rays (near_share.h): two and a half
+ * half-widths of the first pass of 100,000 paths. More of them have smaller splats; if the distance shrank with
  * these, what lies just past it would be blurred as much as before, for ever. 0 where beams don't start at their
  * sources and follow the distance. (After the bias compensation of virtual point lights: Kollig and Keller
  * 2006, "Illumination in the presence of weak singularities".) */

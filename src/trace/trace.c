@@ -253,17 +253,35 @@ size_t trace_bytes(const struct trace *trace)
     return bytes > 0 ? (size_t)bytes : 0;
 }
 
+/* What all rays of a packet have in common. */
+static void set_common(ps_packet *packet, uint32_t mask)
+{
+    memset(packet->time, 0, sizeof packet->time);
+    memset(packet->flags, 0, sizeof packet->flags);
+    for (size_t lane = 0; lane < PACKET; lane++)
+        packet->mask[lane] = mask;
+}
+
 /* Fills up to 16 lanes; the rest are marked invalid, and hold what Embree's checks accept. */
 static void load_rays(ps_packet *packet, int valid[PACKET], const ps_ray *rays, size_t n,
                       uint32_t mask)
 {
-    memset(packet->time, 0, sizeof packet->time);
-    memset(packet->flags, 0, sizeof packet->flags);
+    set_common(packet, mask);
     for (size_t lane = 0; lane < PACKET; lane++) {
         valid[lane] = lane < n ? -1 : 0;
-        packet->mask[lane] = mask;
         ps_packet_set(packet, lane, rays[lane < n ? lane : 0]);
     }
+}
+
+/* The packet with its hits, which had none before. */
+static const struct RTCRayHit16 *intersect(const struct trace *trace, const int valid[PACKET],
+                                           ps_packet *packet, bool coherent)
+{
+    struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)packet;
+    memset(embree->hit.geomID, 0xff, sizeof embree->hit.geomID);
+    memset(embree->hit.instID, 0xff, sizeof embree->hit.instID);
+    shim_intersect16(valid, trace->embree, embree, coherent);
+    return embree;
 }
 
 static ps_hit resolve(const struct trace *trace, const ps_ray *ray, const struct RTCRayHit16 *hits,
@@ -290,10 +308,8 @@ void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray
         size_t lanes = n - first < PACKET ? n - first : PACKET;
         load_rays(&packet, valid, rays + first, lanes,
                   kind == RAYS_CAMERA ? MASK_CAMERA : MASK_LIGHT);
-        struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)&packet;
-        memset(embree->hit.geomID, 0xff, sizeof embree->hit.geomID);
-        memset(embree->hit.instID, 0xff, sizeof embree->hit.instID);
-        shim_intersect16(valid, trace->embree, embree, kind != RAYS_INCOHERENT);
+        const struct RTCRayHit16 *embree =
+            intersect(trace, valid, &packet, kind != RAYS_INCOHERENT);
         for (size_t lane = 0; lane < lanes; lane++)
             hits[first + lane] = resolve(trace, &rays[first + lane], embree, lane);
     }
@@ -319,13 +335,7 @@ void trace_packets(const struct trace *trace, ps_packet *packets, size_t n, bool
     _Alignas(64) static const int valid[PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1,
                                                    -1, -1, -1, -1, -1, -1, -1, -1};
     for (size_t i = 0; i < n; i++) {
-        struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)&packets[i];
-        memset(packets[i].time, 0, sizeof packets[i].time);
-        for (size_t lane = 0; lane < PACKET; lane++)
-            packets[i].mask[lane] = MASK_LIGHT;
-        memset(packets[i].flags, 0, sizeof packets[i].flags);
-        memset(embree->hit.geomID, 0xff, sizeof embree->hit.geomID);
-        memset(embree->hit.instID, 0xff, sizeof embree->hit.instID);
-        shim_intersect16(valid, trace->embree, embree, coherent);
+        set_common(&packets[i], MASK_LIGHT);
+        intersect(trace, valid, &packets[i], coherent);
     }
 }

@@ -135,22 +135,44 @@ static uint32_t differing(const struct field_tile *a, const struct field_tile *b
     return count;
 }
 
+static uint64_t run_kernel(const struct bench *bench, struct field_tile *tile)
+{
+    struct kernel_variant variant;
+    assert_true(kernel_choose("baseline", &variant));
+    *tile = bench->tile;
+    return variant.accumulate(tile, bench->prepared, bench->indices, SPLATS, 1, &bench->profile)
+        .lit;
+}
+
 static void test_agrees_with_the_kernel_where_all_is_seen(void **state)
 {
     (void)state;
     static _Alignas(64) struct field_tile exact, kernel;
     const struct bench *bench = make_bench();
-    struct kernel_variant variant;
-    assert_true(kernel_choose("baseline", &variant));
     struct kernel_count count = run(bench, see_all, &exact);
-    kernel = bench->tile;
-    uint64_t lit =
-        variant.accumulate(&kernel, bench->prepared, bench->indices, SPLATS, 1, &bench->profile)
-            .lit;
+    uint64_t lit = run_kernel(bench, &kernel);
     print_message("%llu pairs lit\n", (unsigned long long)lit);
     assert_true(lit > PS_TILE_PIXELS && count.lit == count.tests);
     assert_true(count.lit <= lit); /* which counts pixels behind walls as well */
     assert_int_equal(differing(&exact, &kernel), 0);
+}
+
+static void take_walls_away(struct bench *bench)
+{
+    for (uint32_t s = 0; s < SPLATS; s++)
+        bench->splats[s].wall_count = 0;
+    prepare(bench);
+}
+
+static void test_asks_for_the_pixels_that_the_kernel_lights(void **state)
+{
+    (void)state;
+    static _Alignas(64) struct field_tile exact, kernel;
+    struct bench *bench = make_bench();
+    take_walls_away(bench);
+    struct kernel_count count = run(bench, see_all, &exact);
+    assert_int_equal(count.tests, run_kernel(bench, &kernel));
+    assert_int_equal(count.lit, count.tests);
 }
 
 /* Or else the agreement would say nothing of walls: before one splats weigh more, behind it nothing. */
@@ -160,9 +182,7 @@ static void test_walls_move_weight_before_them(void **state)
     static _Alignas(64) struct field_tile with, without;
     struct bench *bench = make_bench();
     run(bench, see_all, &with);
-    for (uint32_t s = 0; s < SPLATS; s++)
-        bench->splats[s].wall_count = 0;
-    prepare(bench);
+    take_walls_away(bench);
     run(bench, see_all, &without);
     uint32_t more = 0, less = 0;
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
@@ -189,6 +209,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_agrees_with_the_kernel_where_all_is_seen),
+        cmocka_unit_test(test_asks_for_the_pixels_that_the_kernel_lights),
         cmocka_unit_test(test_walls_move_weight_before_them),
         cmocka_unit_test(test_points_that_are_not_seen_get_nothing),
     };
