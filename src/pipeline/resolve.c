@@ -85,13 +85,14 @@ static ps_result normalize(struct render *render, struct rgb_planes out, struct 
     return result == PS_OK ? PS_OK : error_set(error, result, "normalization failed");
 }
 
-/* Pixels that no indirect light reached take the ambient colour (Hoet 2014, section 4.3). */
+/* Pixels that no indirect light reached take the ambient colour (Hoet 2014, section 4.3). Light from nearby has no
+ * weight (near_light.h), so what came out counts, too. */
 static void fill_ambient(struct render *render, struct rgb_planes out)
 {
     const struct film *film = &render->film;
     size_t dark = 0;
     for (size_t i = 0; i < film->width * film->height; i++) {
-        if (film->planes[FILM_WEIGHT][i] > 0.0f)
+        if (film->planes[FILM_WEIGHT][i] > 0.0f || out.r[i] + out.g[i] + out.b[i] > 0.0f)
             continue;
         float covered = film->planes[FILM_COVERAGE][i] / (float)film->passes;
         out.r[i] = covered * render->settings->ambient.r;

@@ -80,7 +80,8 @@ static void test_ambient_fills_dark_pixels(void **state)
 {
     (void)state;
     char *text = cornell_with("ambient: [1.5, 2.5, 3.5]");
-    struct rendering rendering = render(text, "injection=photon:count=8", NULL);
+    struct rendering rendering =
+        render(text, "injection=photon:count=8", "estimator=splat:near_rays=0");
     const struct image *image = &rendering.image;
     const float *weight = image_channel(image, "weight"), *z = image_channel(image, "Z");
     const float *red = image_channel(image, "indirect.R");
