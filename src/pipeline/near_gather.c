@@ -138,10 +138,11 @@ static size_t find(const struct gathering *work, const ps_points *points, const 
 /* Adds what one ray of each point finds; near[block] becomes 1 where it meets something. With directions
  * drawn by the cosine, a ray's irradiance is pi times the radiance that it finds. */
 static void gather(const struct gathering *work, const struct sample_runs *samples,
-                   const ps_points *points, uint64_t sample, ps_rgb *irradiance, uint8_t *near)
+                   const ps_points *points, uint64_t tile, uint64_t sample, uint8_t *near)
 {
     static const uint32_t sets[2] = {DIRECTION_SET, LAMP_SET};
-    ps_rgb radiance[PS_TILE_PIXELS];
+    ps_rgb *irradiance = &work->near->found[tile * PS_TILE_PIXELS], radiance[PS_TILE_PIXELS];
+    float *variances = &work->near->variances[tile * PS_TILE_PIXELS];
     uint64_t indices[PS_TILE_PIXELS];
     uint32_t targets[PS_TILE_PIXELS];
     for (size_t i = 0; i < points->count; i++)
@@ -150,7 +151,9 @@ static void gather(const struct gathering *work, const struct sample_runs *sampl
     for (size_t i = 0; i < met; i++) {
         uint32_t lane = points->lanes[targets[i]];
         ps_rgb found = ps_rgb_scale(radiance[i], PS_PI / (float)samples->rays[lane]);
+        float sum = found.r + found.g + found.b;
         irradiance[lane] = ps_rgb_add(irradiance[lane], found);
+        variances[lane] += sum * sum;
         near[block_of(lane)] = 1;
     }
 }
@@ -177,6 +180,33 @@ static void keep_looking(const struct sample_runs *samples, uint64_t sample, con
     points->count = kept;
 }
 
+/* Standard deviation, by a tile and those around it, of which each saw few of the pilot's rays. */
+static double noise_around(const struct near_light *near, uint32_t down, uint32_t tile)
+{
+    uint32_t across = near->tiles_across, x = tile % across, y = tile / across;
+    double sum = 0, count = 0;
+    for (uint32_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < down; v++)
+        for (uint32_t u = x > 0 ? x - 1 : 0; u <= x + 1 && u < across; u++) {
+            sum += (double)near->ray_variances[v * across + u];
+            count++;
+        }
+    return sqrt(sum / count);
+}
+
+/* What rays of the tiles around tell of the variance of what pixels will find. Their own add to it: all of a
+ * pixel's may meet nothing bright by chance, or one of them what few meet. */
+static void expect_variances(const struct gathering *work, uint64_t tile, const ps_points *points,
+                             const struct sample_runs *samples)
+{
+    uint32_t down = work->pass->tile_count / work->near->tiles_across;
+    double noise = (double)PS_PI * noise_around(work->near, down, (uint32_t)tile);
+    float *variances = &work->near->variances[tile * PS_TILE_PIXELS];
+    for (size_t i = 0; i < points->count; i++) {
+        uint32_t lane = points->lanes[i];
+        variances[lane] = (float)(noise * noise / (double)samples->rays[lane]);
+    }
+}
+
 static void gather_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
@@ -186,12 +216,12 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     ps_points points;
     struct sample_runs samples;
     uint8_t near[BLOCKS] = {0};
-    ps_rgb *irradiance = &work->near->found[tile * PS_TILE_PIXELS];
     ps_collect_points(host->tile(host, (uint32_t)tile), &points);
     share_samples(work, tile, &points, &samples);
+    expect_variances(work, tile, &points, &samples);
     for (uint64_t sample = 0; sample < samples.most && points.count > 0; sample++) {
         keep_looking(&samples, sample, near, &points);
-        gather(work, &samples, &points, sample, irradiance, near);
+        gather(work, &samples, &points, tile, sample, near);
     }
 }
 
@@ -241,20 +271,7 @@ static void pilot_tile(void *user, uint64_t index, uint32_t worker)
         shoot_pilot(work, tile, &points, ray, &findings);
     double rays = fmax((double)(work->pilot_rays * points.count), 1);
     double mean = findings.sum / rays;
-    work->near->variances[tile] = (float)fmax(findings.squares / rays - mean * mean, 0);
-}
-
-/* Standard deviation, by a tile and those around it, of which each saw few of the pilot's rays. */
-static double noise_around(const struct near_light *near, uint32_t down, uint32_t tile)
-{
-    uint32_t across = near->tiles_across, x = tile % across, y = tile / across;
-    double sum = 0, count = 0;
-    for (uint32_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < down; v++)
-        for (uint32_t u = x > 0 ? x - 1 : 0; u <= x + 1 && u < across; u++) {
-            sum += (double)near->variances[v * across + u];
-            count++;
-        }
-    return sqrt(sum / count);
+    work->near->ray_variances[tile] = (float)fmax(findings.squares / rays - mean * mean, 0);
 }
 
 /* Shares of 1 on average, or a little less where one is cut off. */

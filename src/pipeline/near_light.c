@@ -26,7 +26,7 @@ static size_t lanes_of(const struct gbuffer *gbuffer)
 
 size_t near_light_bytes(const struct gbuffer *gbuffer)
 {
-    size_t of_lane = 2 * sizeof(ps_rgb) + sizeof(uint8_t);
+    size_t of_lane = 2 * sizeof(ps_rgb) + sizeof(float) + sizeof(uint8_t);
     return lanes_of(gbuffer) * of_lane + gbuffer->tile_count * 2 * sizeof(float);
 }
 
@@ -44,10 +44,13 @@ ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffe
     if (!near->joined)
         near->joined = malloc(lanes * sizeof *near->joined);
     if (!near->variances)
-        near->variances = malloc(gbuffer->tile_count * sizeof *near->variances);
+        near->variances = malloc(lanes * sizeof *near->variances);
+    if (!near->ray_variances)
+        near->ray_variances = malloc(gbuffer->tile_count * sizeof *near->ray_variances);
     if (!near->shares)
         near->shares = malloc(gbuffer->tile_count * sizeof *near->shares);
-    if (!near->found || !near->joined || !near->averaged || !near->variances || !near->shares)
+    if (!near->found || !near->joined || !near->variances || !near->averaged ||
+        !near->ray_variances || !near->shares)
         return error_memory(error, near_light_bytes(gbuffer), "near light");
     memset(near->found, 0, lanes * sizeof *near->found);
     struct pair_mean count = {.gbuffer = gbuffer, .reach = near->reach, .counts = near->averaged};
@@ -59,15 +62,28 @@ void near_light_release(struct near_light *near)
 {
     free(near->found);
     free(near->joined);
-    free(near->averaged);
     free(near->variances);
+    free(near->averaged);
+    free(near->ray_variances);
     free(near->shares);
     *near = (struct near_light){.found = NULL};
 }
 
+/* So many standard deviations may be chance; squared. */
+#define CHANCE2 4.0f
+
+/* From the mean of a window to what the pixel found itself, as far as that is no chance (near_light.h). */
+static ps_rgb between(ps_rgb mean, ps_rgb own, float variance)
+{
+    ps_rgb apart = {own.r - mean.r, own.g - mean.g, own.b - mean.b};
+    float sum = apart.r + apart.g + apart.b, chance = CHANCE2 * variance;
+    float part = sum * sum > chance ? 1.0f - chance / (sum * sum) : 0.0f;
+    return ps_rgb_add(mean, ps_rgb_scale(apart, part));
+}
+
 struct adding {
     struct gbuffer *gbuffer;
-    const ps_rgb *irradiance;
+    const struct near_light *near;
 };
 
 static void add_tile(void *user, uint64_t index, uint32_t worker)
@@ -75,13 +91,15 @@ static void add_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct adding *adding = user;
     ps_tile *tile = &adding->gbuffer->tiles[index];
-    const ps_rgb *irradiance = &adding->irradiance[index * PS_TILE_PIXELS];
+    const struct near_light *near = adding->near;
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        size_t i = index * PS_TILE_PIXELS + lane;
         if (tile->object[lane] == PS_NO_OBJECT)
             continue;
-        tile->irradiance_r[lane] += irradiance[lane].r;
-        tile->irradiance_g[lane] += irradiance[lane].g;
-        tile->irradiance_b[lane] += irradiance[lane].b;
+        ps_rgb irradiance = between(near->joined[i], near->found[i], near->variances[i]);
+        tile->irradiance_r[lane] += irradiance.r;
+        tile->irradiance_g[lane] += irradiance.g;
+        tile->irradiance_b[lane] += irradiance.b;
     }
 }
 
@@ -92,6 +110,6 @@ void near_light_end(struct near_light *near, struct gbuffer *gbuffer, uint32_t t
     struct pair_mean mean = {
         .gbuffer = gbuffer, .reach = near->reach, .from = near->found, .to = near->joined};
     pair_mean_take(&mean, threads);
-    struct adding adding = {gbuffer, near->joined};
+    struct adding adding = {gbuffer, near};
     parallel_for(threads, gbuffer->tile_count, add_tile, &adding);
 }

@@ -1,7 +1,15 @@
 /* near_light.h: the light that splats of a pass leave out, pixel by pixel.
  *
  * It is gathered with few rays a pixel (near_gather.h), and becomes a mean over the window that splats are
- * interleaved over, or would be if they were fewer and larger (pair_mean.h).
+ * interleaved over, or would be if they were fewer and larger (pair_mean.h). Beside a thing no larger than a
+ * pixel, and along contacts, that is too wide. So a pixel whose own rays found something else than the mean, by
+ * D with a variance of s^2 (both of the sum of its channels), goes from the mean to its own by the part
+ *
+ *     max(0, 1 - (2 s / D)^2)
+ *
+ * which is next to 1 where they surely differ, and 0 where that may be chance (the garrote of Gao 1998, "Wavelet
+ * shrinkage denoising using the non-negative garrote"). Means over 9, 25 and 49 pixels in between gain nothing
+ * more.
  */
 #ifndef PIPELINE_NEAR_LIGHT_H
 #define PIPELINE_NEAR_LIGHT_H
@@ -11,10 +19,11 @@
 struct near_light {
     float distance;    /* from within which it comes, in this pass; 0: none is left */
     ps_rgb *found;     /* irradiance, a value for each lane of each tile; owned; NULL: none yet */
+    float *variances;  /* of that, of its channels' sum; likewise */
     ps_rgb *joined;    /* room for its means, likewise */
     uint8_t *averaged; /* how many pixels they are taken over, likewise */
     /* For near_gather.h, a value for each tile; likewise. */
-    float *variances;      /* of what single rays find there */
+    float *ray_variances;  /* of what single rays find there */
     float *shares;         /* of the rays */
     int reach;             /* pixels to each side of those */
     uint32_t tiles_across; /* as in the G-buffer */

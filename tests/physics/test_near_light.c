@@ -45,12 +45,18 @@ static const char crease[] =
     "         projection: orthographic, width: 0.04}\n"
     "image: {width: 16, height: 8}\n" FLOOR_AND_WALL;
 
+/* Radiance of the floor before one end of a wall that reaches that far to the side. */
+static double radiance_before_end(double d, double height, double length)
+{
+    double c = hypot(d, height);
+    double view_factor = (atan(length / d) - d / c * atan(length / c)) / (2 * PI);
+    return SUN * WALL_ALBEDO * view_factor * FLOOR_ALBEDO / PI;
+}
+
 static double expected_at(int column)
 {
     double d = PICTURE_LEFT + (column + 0.5) * PICTURE_WIDTH / COLUMNS;
-    double c = hypot(d, WALL_HEIGHT), length = WALL_HALF_LENGTH;
-    double view_factor = (atan(length / d) - d / c * atan(length / c)) / PI;
-    return SUN * WALL_ALBEDO * view_factor * FLOOR_ALBEDO / PI;
+    return 2 * radiance_before_end(d, WALL_HEIGHT, WALL_HALF_LENGTH);
 }
 
 /* The largest relative error of a column's mean. */
@@ -85,6 +91,42 @@ static void test_interleaved(void **state)
     (void)state;
     assert_true(worst_column("visibility=shadowmap:size=0.4",
                              "estimator=splat:near_rays=16384,interleave=2") < 0.08);
+}
+
+/* A wall that is two pixels wide and as high, in the middle of the picture. */
+#define POST 0.02
+
+static const char post[] =
+    "psd: 1\n"
+    "camera: {location: [0, 0.5, 0], look_at: [0, 0, 0], up: [0, 0, -1],\n"
+    "         projection: orthographic, width: 0.32}\n"
+    "image: {width: 32, height: 32}\n"
+    "materials: {floor: {diffuse: 0.5}, wall: {diffuse: 0.8}}\n"
+    "lights:\n"
+    "  - sun: {direction: [-1, 0, 0], irradiance: 2, angle: 0}\n"
+    "objects:\n"
+    "  - quad: {corners: [[-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]], material: floor}\n"
+    "  - quad: {corners: [[0, 0, 0.01], [0, 0.02, 0.01], [0, 0.02, -0.01], [0, 0, -0.01]],\n"
+    "           material: wall}\n";
+
+/* Their light stays where it is, even if each pixel shares its rays with the 80 around it; these, of which half lie
+ * behind the post, would leave it a few percent of it. */
+static void test_small_things(void **state)
+{
+    (void)state;
+    static const char *const choices[] = {"injection=photon:count=1000",
+                                          "visibility=shadowmap:size=0.4",
+                                          "estimator=splat:near_rays=65536,interleave=8", NULL};
+    const double d = POST / 4;
+    double expected =
+        radiance_before_end(d, POST, POST / 2 - d) + radiance_before_end(d, POST, POST / 2 + d);
+    struct rendering rendering = render_text(post, 2, choices);
+    double before = mean_of(&rendering.image, "indirect.G", 16, 15, 1, 2);
+    double behind = mean_of(&rendering.image, "indirect.G", 15, 15, 1, 2);
+    rendering_release(&rendering);
+    print_message("beside a post: %.4f, expected %.4f; behind it %.4f\n", before, expected, behind);
+    assert_true(fabs(before / expected - 1) < 0.1);
+    assert_true(behind < 0.05 * expected);
 }
 
 /* Boxes that begin before the first hit cannot tell how near their source is. */
@@ -138,6 +180,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_crease),
         cmocka_unit_test(test_interleaved),
+        cmocka_unit_test(test_small_things),
         cmocka_unit_test(test_boxes_leave_nothing),
         cmocka_unit_test(test_rays_go_where_the_noise_is),
     };
