@@ -1,7 +1,8 @@
 /* kernel_variant.c: the loops of kernel.h, compiled once for each instruction set with
  * KERNEL_VARIANT naming it. Conditions are masks (0 or 1 joined by &), and indices are clamped, so
- * that every lane may run every step. Results go to small arrays of their own, so that no store can
- * alias a gather and any compiler sees it.
+ * that every lane may run every step. Loops over lanes are marked `omp simd`, and results go to arrays that
+ * no gather may alias: where compilers have doubts they leave a loop scalar without a word
+ * (tests/cli/test_vectors.sh).
  *
  * Splats are taken a few at a time: first each is tried on the sixteen blocks' bounds, which gives
  * every block a list; then block after block runs through its list, so that its pixels stay at hand.
@@ -48,6 +49,7 @@ uint32_t KERNEL_TOUCH(const struct bounds *bounds, const struct kernel_splat *sp
 {
     const ps_vec3 u = splat->u, v = splat->v, w = splat->w;
     uint32_t mask = 0;
+#pragma omp simd reduction(| : mask)
     for (int i = 0; i < BOUNDS_WIDTH; i++) {
         float x = bounds->center_x[i] - splat->centre.x;
         float y = bounds->center_y[i] - splat->centre.y;
@@ -109,6 +111,7 @@ static inline int place_block(const struct field_tile *tile, int first,
                               const struct kernel_splat *splat, struct placed_block *placed)
 {
     int any = 0;
+#pragma omp simd reduction(| : any)
     for (int i = 0; i < LANES; i++) {
         float x = tile->position_x[first + i] - splat->centre.x;
         float y = tile->position_y[first + i] - splat->centre.y;
@@ -135,6 +138,7 @@ static inline int choose_widths(const struct field_tile *tile, int first,
                                 const struct kernel_splat *splat, struct placed_block *placed)
 {
     int any = 0;
+#pragma omp simd reduction(| : any)
     for (int i = 0; i < LANES; i++) {
         float x = tile->normal_x[first + i], y = tile->normal_y[first + i],
               z = tile->normal_z[first + i];
@@ -150,12 +154,13 @@ static inline int choose_widths(const struct field_tile *tile, int first,
 
 /* Returns how many pixels have weight. */
 static inline int weigh(const struct placed_block *placed, const struct kernel_splat *splat,
-                        int resolution, const float *profile, struct block_light *light)
+                        int resolution, const float *profile, struct block_light *restrict light)
 {
     const float half_resolution = 0.5f * (float)resolution;
     const float last_texel = (float)resolution - 0.5f;
     const float *depths = splat->depths;
     int useful = 0;
+#pragma omp simd reduction(+ : useful)
     for (int i = 0; i < LANES; i++) {
         float u = placed->u[i], v = placed->v[i], t = placed->t[i], facing = placed->facing[i];
         float r2 = u * u + v * v;
@@ -185,6 +190,7 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
 static inline void look_beyond(const struct placed_block *placed, const ps_wall *wall,
                                const float *beyond, float *parts)
 {
+#pragma omp simd
     for (int i = 0; i < LANES; i++)
         parts[i] =
             kernel_beyond(wall, beyond, placed->u[i], placed->v[i], placed->inverse_width[i]);
@@ -199,6 +205,7 @@ static inline void make_up(const struct placed_block *placed, const struct kerne
     look_beyond(placed, &splat->walls[0], beyond, one);
     if (splat->wall_count > 1)
         look_beyond(placed, &splat->walls[1], beyond, other);
+#pragma omp simd
     for (int i = 0; i < LANES; i++) {
         float in_front = (float)((one[i] < KERNEL_BEHIND) & (other[i] < KERNEL_BEHIND));
         float share = in_front / kernel_left(one[i], other[i], splat->walls_likeness);
@@ -210,6 +217,7 @@ static inline void make_up(const struct placed_block *placed, const struct kerne
 static inline void add(struct field_tile *tile, int first, ps_rgb power,
                        const struct block_light *light)
 {
+#pragma omp simd
     for (int i = 0; i < LANES; i++) {
         tile->irradiance_r[first + i] += light->projected[i] * power.r;
         tile->irradiance_g[first + i] += light->projected[i] * power.g;
