@@ -18,6 +18,7 @@ PS_BOX_CHOICES
 
 #define BLOCK 4 /* texels along the side of a packet */
 #define RAYS (BLOCK * BLOCK)
+#define MOST_TEXELS 64 /* along the side of a map */
 
 /* How far before a wall rays start at least, in half-widths. */
 #define BEFORE_WALLS 0.05f
@@ -51,22 +52,35 @@ static void place(const void *opaque, const ps_host *host, const ps_source *sour
     ps_set_bias(state->bias, (uint32_t)state->resolution, splats, n);
 }
 
+/* Where the centres of texels lie across a bundle of half-width 1; past the border the last repeats. */
+struct centres {
+    float at[MOST_TEXELS + BLOCK - 1];
+};
+
+static struct centres centres_of(int side)
+{
+    static const ps_splat unit = {.half_width = 1.0f};
+    struct centres centres;
+    for (int i = 0; i < side + BLOCK - 1; i++)
+        centres.at[i] = ps_texel_centre(&unit, (uint32_t)side, (uint32_t)(i < side ? i : side - 1));
+    return centres;
+}
+
 /* Places across a bundle, one for each ray of a packet. */
 struct places {
     float u[RAYS], v[RAYS];
 };
 
-/* Those of texels (left .. left + 3, top .. top + 3); past the border the last repeat. */
-static struct places centres_of(const ps_splat *splat, int side, int left, int top)
+/* Those of texels (left .. left + 3, top .. top + 3). */
+static struct places places_of(const ps_splat *splat, const struct centres *centres, int left,
+                               int top)
 {
     struct places places;
-    for (int i = 0; i < RAYS; i++) {
-        int column = left + i % BLOCK, row = top + i / BLOCK, last = side - 1;
-        column = column < last ? column : last;
-        row = row < last ? row : last;
-        places.u[i] = ps_texel_centre(splat, (uint32_t)side, (uint32_t)column);
-        places.v[i] = ps_texel_centre(splat, (uint32_t)side, (uint32_t)row);
-    }
+    for (int row = 0; row < BLOCK; row++)
+        for (int column = 0; column < BLOCK; column++) {
+            places.u[row * BLOCK + column] = splat->half_width * centres->at[left + column];
+            places.v[row * BLOCK + column] = splat->half_width * centres->at[top + row];
+        }
     return places;
 }
 
@@ -77,6 +91,7 @@ static void move_before_walls(const ps_splat *splat, struct places *places)
         for (uint32_t k = 0; k < ps_wall_count(splat); k++) {
             const ps_wall wall = splat->walls[k];
             float most = (wall.distance - BEFORE_WALLS) * splat->half_width;
+#pragma omp simd
             for (int i = 0; i < RAYS; i++) {
                 float across = places->u[i] * wall.normal_u + places->v[i] * wall.normal_v;
                 float past = ps_max(across - most, 0.0f);
@@ -86,10 +101,11 @@ static void move_before_walls(const ps_splat *splat, struct places *places)
         }
 }
 
-/* The rays of a map, and the depths at which they start. */
+/* The rays of a block, and the depths at which they start. */
 static void load_rays(const ps_splat *restrict splat, const struct places *restrict places,
                       ps_packet *restrict packet, float *restrict start)
 {
+#pragma omp simd
     for (int i = 0; i < RAYS; i++) {
         float u = places->u[i], v = places->v[i];
         start[i] = ps_bundle_start(splat, u, v);
@@ -99,40 +115,48 @@ static void load_rays(const ps_splat *restrict splat, const struct places *restr
     }
 }
 
-static void trace_block(const ps_host *host, const ps_splat *splat, int side, int left, int top,
-                        float *depths)
+/* The depths of a block. */
+static void trace_block(const ps_host *host, const ps_splat *splat, struct places places,
+                        float found[RAYS])
 {
     _Alignas(64) ps_packet packet;
     float start[RAYS], reach[RAYS];
-    struct places places = centres_of(splat, side, left, top);
     move_before_walls(splat, &places);
     load_rays(splat, &places, &packet, start);
     memcpy(reach, packet.tfar, sizeof reach);
     host->intersect_packets(host, &packet, 1, 1);
-    for (int i = 0; i < RAYS; i++) {
-        int column = left + i % BLOCK, row = top + i / BLOCK;
-        if (column < side && row < side)
-            depths[row * side + column] =
-                packet.tfar[i] < reach[i] ? start[i] + packet.tfar[i] : INFINITY;
-    }
+#pragma omp simd
+    for (int i = 0; i < RAYS; i++)
+        found[i] = packet.tfar[i] < reach[i] ? start[i] + packet.tfar[i] : INFINITY;
+}
+
+static void trace_map(const ps_host *host, const ps_splat *splat, const struct centres *centres,
+                      int side, float *depths)
+{
+    float found[RAYS];
+    for (int top = 0; top < side; top += BLOCK)
+        for (int left = 0; left < side; left += BLOCK) {
+            int columns = side - left < BLOCK ? side - left : BLOCK;
+            trace_block(host, splat, places_of(splat, centres, left, top), found);
+            for (int row = 0; row < BLOCK && top + row < side; row++)
+                memcpy(&depths[(top + row) * side + left], &found[row * BLOCK],
+                       (size_t)columns * sizeof *depths);
+        }
 }
 
 static void depth_maps(const void *opaque, const ps_host *host, const ps_splat *splats, size_t n,
                        float *depths)
 {
     int side = (int)((const struct state *)opaque)->resolution;
-    for (size_t i = 0; i < n; i++) {
-        if (!(splats[i].half_width > 0.0f))
-            continue;
-        for (int top = 0; top < side; top += BLOCK)
-            for (int left = 0; left < side; left += BLOCK)
-                trace_block(host, &splats[i], side, left, top, depths + i * (size_t)(side * side));
-    }
+    struct centres centres = centres_of(side);
+    for (size_t i = 0; i < n; i++)
+        if (splats[i].half_width > 0.0f)
+            trace_map(host, &splats[i], &centres, side, depths + i * (size_t)(side * side));
 }
 
 static const ps_param params[] = {
     PS_BOX_PARAMS(struct state, "full", "yes"),
-    PS_INT(struct state, resolution, "8", 1, 64, "texels", "side of a depth map"),
+    PS_INT(struct state, resolution, "8", 1, MOST_TEXELS, "texels", "side of a depth map"),
     PS_NUMBER_OR(struct state, bias, "slope", 0, INFINITY, 0, bias_choices, "scene units",
                  "depth tolerance; slope: 0.75 texels times the receiver's slope"),
 };

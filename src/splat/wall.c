@@ -3,6 +3,7 @@
 #include "splat/box.h"
 #include <psplat/math.h>
 #include <stdbool.h>
+#include <string.h>
 
 #define AZIMUTHS 16
 
@@ -31,8 +32,8 @@ static const float sine[AZIMUTHS] = {C7,  C5,  C3,  C1,  C1,  C3,  C5,  C7,
 
 /* How far rays get along the tangent plane of a source. */
 struct star {
-    ps_vec3 directions[AZIMUTHS];
-    float distances[AZIMUTHS]; /* INFINITY: nothing is met */
+    float x[AZIMUTHS], y[AZIMUTHS], z[AZIMUTHS]; /* directions */
+    float distances[AZIMUTHS];                   /* INFINITY: nothing is met */
 };
 
 /* The same across a splat's bundle: where they run, and how far in parts of the way to look; 1: all of it. */
@@ -60,11 +61,16 @@ static struct star look_around(const ps_host *host, const ps_source *source, flo
     struct star star;
     ps_vec3 u, v, origin = ps_add_scaled(source->position, height, source->normal);
     ps_frame(source->normal, &u, &v);
+#pragma omp simd
     for (int i = 0; i < AZIMUTHS; i++) {
-        star.directions[i] = ps_add(ps_scale(u, cosine[i]), ps_scale(v, sine[i]));
-        ps_packet_set(&packet, (size_t)i, (ps_ray){origin, 0.0f, star.directions[i], length});
+        ps_vec3 direction = ps_add(ps_scale(u, cosine[i]), ps_scale(v, sine[i]));
+        ps_packet_set(&packet, (size_t)i, (ps_ray){origin, 0.0f, direction, length});
+        star.x[i] = direction.x;
+        star.y[i] = direction.y;
+        star.z[i] = direction.z;
     }
     host->intersect_packets(host, &packet, 1, 0);
+#pragma omp simd
     for (int i = 0; i < AZIMUTHS; i++)
         star.distances[i] = packet.tfar[i] < length ? packet.tfar[i] : INFINITY;
     return star;
@@ -73,10 +79,12 @@ static struct star look_around(const ps_host *host, const ps_source *source, flo
 static struct free_way way_across(const struct star *star, const ps_splat *splat)
 {
     struct free_way way;
+    ps_vec3 axis_u = splat->axis_u, axis_v = splat->axis_v;
     float nearer = 1.0f / (REACH * splat->half_width);
+#pragma omp simd
     for (int i = 0; i < AZIMUTHS; i++) {
-        float u = ps_dot(star->directions[i], splat->axis_u);
-        float v = ps_dot(star->directions[i], splat->axis_v);
+        float u = star->x[i] * axis_u.x + star->y[i] * axis_u.y + star->z[i] * axis_u.z;
+        float v = star->x[i] * axis_v.x + star->y[i] * axis_v.y + star->z[i] * axis_v.z;
         float across = ps_max(sqrtf(u * u + v * v), 1e-6f);
         way.cosine[i] = u / across;
         way.sine[i] = v / across;
@@ -89,12 +97,13 @@ static struct free_way way_across(const struct star *star, const ps_splat *splat
 static int count_stopped(const struct free_way *way, const struct free_way *other, float part)
 {
     int count = 0;
+#pragma omp simd reduction(+ : count)
     for (int i = 0; i < AZIMUTHS; i++)
-        count += way->reach[i] < 1.0f && way->reach[i] <= part * other->reach[i];
+        count += (way->reach[i] < 1.0f) & (way->reach[i] <= part * other->reach[i]);
     return count;
 }
 
-static float reach_of(const struct wall *wall, const struct free_way *way, int i)
+static inline float reach_of(const struct wall *wall, const struct free_way *way, int i)
 {
     float inverse = wall->a * way->cosine[i] + wall->b * way->sine[i];
     return inverse > 1.0f ? 1.0f / inverse : 1.0f;
@@ -120,25 +129,33 @@ static struct wall through(const struct free_way *way, int i)
 static bool stands(const struct wall *wall, const struct free_way *way)
 {
     int expected = 0, met = 0;
+#pragma omp simd reduction(+ : expected, met)
     for (int i = 0; i < AZIMUTHS; i++) {
         float reach = reach_of(wall, way, i);
         expected += reach < 0.9f;
-        met += reach < 0.9f && way->reach[i] < 1.1f * reach;
+        met += (reach < 0.9f) & (way->reach[i] < 1.1f * reach);
     }
     return 4 * met >= 3 * expected;
 }
 
-/* The ray that is stopped most clearly before the walls found so far; -1: none. */
-static int nearest_unexplained(const struct free_way *way, const struct wall *walls, uint32_t n)
+/* Forgets the rays that a wall stops: how far the others get stays in `left`, 1 for those. */
+static void explain(const struct wall *wall, const struct free_way *way, float left[AZIMUTHS])
+{
+#pragma omp simd
+    for (int i = 0; i < AZIMUTHS; i++)
+        left[i] = way->reach[i] > 0.9f * reach_of(wall, way, i) ? 1.0f : left[i];
+}
+
+/* The ray that is stopped first of those left; -1: none. */
+static int nearest_of(const float left[AZIMUTHS])
 {
     int nearest = -1;
-    for (int i = 0; i < AZIMUTHS; i++) {
-        bool explained = way->reach[i] >= 1.0f;
-        for (uint32_t k = 0; k < n; k++)
-            explained |= way->reach[i] > 0.9f * reach_of(&walls[k], way, i);
-        if (!explained && (nearest < 0 || way->reach[i] < way->reach[nearest]))
+    float least = 1.0f;
+    for (int i = 0; i < AZIMUTHS; i++)
+        if (left[i] < least) {
             nearest = i;
-    }
+            least = left[i];
+        }
     return nearest;
 }
 
@@ -151,15 +168,17 @@ static void add_wall(const struct wall *wall, ps_splat *splat)
 
 static void find(const struct free_way *way, ps_splat *splat)
 {
-    struct wall walls[PS_MOST_WALLS];
+    float left[AZIMUTHS];
+    memcpy(left, way->reach, sizeof left);
     for (uint32_t n = 0; n < PS_MOST_WALLS; n++) {
-        int nearest = nearest_unexplained(way, walls, n);
+        int nearest = nearest_of(left);
         if (nearest < 0)
             return;
-        walls[n] = through(way, nearest);
-        if (!stands(&walls[n], way))
+        struct wall wall = through(way, nearest);
+        if (!stands(&wall, way))
             return;
-        add_wall(&walls[n], splat);
+        add_wall(&wall, splat);
+        explain(&wall, way, left);
     }
 }
 
