@@ -1,5 +1,5 @@
-# The measurements of bench/speed, bench/marks, bench/preview and bench/scaling run, at small sizes, and say what they should
-# of times that are made up. No time is asserted.
+# The measurements of bench/speed, bench/marks, bench/preview, bench/scaling and bench/throughput run, at small
+# sizes, and say what they should of times that are made up. No time is asserted.
 . "$PSPLAT_SOURCE/tests/cli/lib.sh"
 
 command -v python3 >/dev/null || skip "bench/speed needs python3"
@@ -150,5 +150,19 @@ if command -v gnuplot >/dev/null; then
 else
     expect_text err "not drawn: there is no gnuplot"
 fi
+
+# --- bench/throughput ---
+
+sed -e 's/width: 1600, height: 900/width: 96, height: 54/' -e 's/count: [0-9]*/count: 1000/' "$cornell" >small.psd
+last="bench/throughput"
+"$bench/throughput" "$PSPLAT" small.psd >out 2>err
+check_status $? 0
+expect_match out '^baseline +[0-9.]+ G +[0-9.]+ % +[0-9.]+ M$'
+"$bench/throughput" nowhere >out 2>err
+check_status $? 2
+expect_text err "there is no program nowhere"
+"$bench/throughput" --help >out 2>err
+check_status $? 0
+expect_match out 'bench/throughput \[PSPLAT \[SCENE\]\]'
 
 finish
