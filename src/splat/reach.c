@@ -35,7 +35,7 @@ static void trace_disc(const ps_host *host, const struct box_scene *scene, const
 }
 
 /* How wide the box must be for what the rays met: as far out as the outermost of them whose pixels would
- * take in the axis, and no narrower than `least`; 0 where they met nothing. */
+ * take in the axis, and no narrower than `least`. */
 static float width_for(const struct box_scene *scene, const ps_box_settings *settings,
                        const ps_source *source, const ps_packet *packet, float widest, float least)
 {
@@ -74,9 +74,10 @@ static void find_one(const ps_host *host, const struct box_scene *scene,
     trace_disc(host, scene, source, widest, &packet);
     if (!met) {
         float nearest = nearest_of(&packet, source);
-        least = nearest < INFINITY ? box_half_width(scene, settings, source, nearest) : 0.0f;
-        if (nearest < INFINITY) /* beams start before half of that */
-            box_stand_in(source, ps_max(nearest, widest), hit);
+        bool any = nearest < INFINITY;
+        least = any ? box_half_width(scene, settings, source, nearest) : widest;
+        box_stand_in(source, any ? ps_max(nearest, widest) : widest,
+                     hit); /* beams start before half of that */
     }
     *half_width = width_for(scene, settings, source, &packet, widest, least);
 }

@@ -16,7 +16,8 @@
 /* Narrows the half-widths of n full beams, which hold the widest (or 0: left out), to what the pixels of
  * anything that the beam meets may ask for. A beam that meets nothing gets a hit on its axis, as far
  * away as the nearest thing beside it (but no nearer than its half-width), with a normal of 0, as its
- * slope is anything; one whose disc meets nothing either, a half-width of 0. Any thread. */
+ * slope is anything. One whose disc meets nothing either stays as wide: what is thinner than the space between
+ * the rays may stand there, as mullions before the sky do, which lost a sixth of their light. Any thread. */
 void reach_find(const ps_host *host, const struct box_scene *scene, const ps_box_settings *settings,
                 const ps_source *sources, size_t n, ps_hit *hits, float *half_widths);
 
