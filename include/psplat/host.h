@@ -205,9 +205,10 @@ struct ps_host {
      * lights shine on reflect, diffusely and only once, over less than two and a half half-widths of the
      * boxes, automatic or given, which splats would blur; the less of it, the farther it comes from. It is
      * found by short rays instead, so many for a pixel in the middle of a surface and those that it is
-     * averaged with; 0: as many as find it about as well as the pass's splats find the rest. When the pass ends it is added to the tiles, without weight. Does nothing where beams don't
-     * start at their sources and follow the distance. After begin_splats, before place_splats. [main thread,
-     * inside accumulate] */
+     * averaged with; 0: as many as find it about as well as the pass's splats find the rest. When the
+     * pass ends it is added to the tiles, without weight. Does nothing where beams don't start at their
+     * sources and follow the distance. After begin_splats, before place_splats. [main thread, inside
+     * accumulate] */
     ps_result (*gather_near_light)(const ps_host *host, double rays);
 };
 

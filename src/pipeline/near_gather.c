@@ -141,8 +141,9 @@ static void gather(const struct gathering *work, const struct sample_runs *sampl
                    const ps_points *points, uint64_t tile, uint64_t sample, uint8_t *near)
 {
     static const uint32_t sets[2] = {DIRECTION_SET, LAMP_SET};
-    ps_rgb *irradiance = &work->near->found[tile * PS_TILE_PIXELS], radiance[PS_TILE_PIXELS];
+    ps_rgb *irradiance = &work->near->found[tile * PS_TILE_PIXELS];
     float *variances = &work->near->variances[tile * PS_TILE_PIXELS];
+    ps_rgb radiance[PS_TILE_PIXELS];
     uint64_t indices[PS_TILE_PIXELS];
     uint32_t targets[PS_TILE_PIXELS];
     for (size_t i = 0; i < points->count; i++)
@@ -181,9 +182,10 @@ static void keep_looking(const struct sample_runs *samples, uint64_t sample, con
 }
 
 /* Standard deviation, by a tile and those around it, of which each saw few of the pilot's rays. */
-static double noise_around(const struct near_light *near, uint32_t down, uint32_t tile)
+static double noise_around(const struct near_light *near, uint32_t tiles, uint32_t tile)
 {
-    uint32_t across = near->tiles_across, x = tile % across, y = tile / across;
+    uint32_t across = near->tiles_across, down = tiles / across;
+    uint32_t x = tile % across, y = tile / across;
     double sum = 0, count = 0;
     for (uint32_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < down; v++)
         for (uint32_t u = x > 0 ? x - 1 : 0; u <= x + 1 && u < across; u++) {
@@ -198,8 +200,7 @@ static double noise_around(const struct near_light *near, uint32_t down, uint32_
 static void expect_variances(const struct gathering *work, uint64_t tile, const ps_points *points,
                              const struct sample_runs *samples)
 {
-    uint32_t down = work->pass->tile_count / work->near->tiles_across;
-    double noise = (double)PS_PI * noise_around(work->near, down, (uint32_t)tile);
+    double noise = (double)PS_PI * noise_around(work->near, work->pass->tile_count, (uint32_t)tile);
     float *variances = &work->near->variances[tile * PS_TILE_PIXELS];
     for (size_t i = 0; i < points->count; i++) {
         uint32_t lane = points->lanes[i];
@@ -279,7 +280,7 @@ static void share_rays(struct near_light *near, uint32_t tiles)
 {
     double mean = 0;
     for (uint32_t tile = 0; tile < tiles; tile++) {
-        double noise = noise_around(near, tiles / near->tiles_across, tile);
+        double noise = noise_around(near, tiles, tile);
         near->shares[tile] = (float)noise;
         mean += noise / tiles;
     }

@@ -74,10 +74,9 @@ static void find_one(const ps_host *host, const struct box_scene *scene,
     trace_disc(host, scene, source, widest, &packet);
     if (!met) {
         float nearest = nearest_of(&packet, source);
-        bool any = nearest < INFINITY;
-        least = any ? box_half_width(scene, settings, source, nearest) : widest;
-        box_stand_in(source, any ? ps_max(nearest, widest) : widest,
-                     hit); /* beams start before half of that */
+        least = box_half_width(scene, settings, source, nearest);
+        /* Beams start before half of that. */
+        box_stand_in(source, nearest < INFINITY ? ps_max(nearest, widest) : widest, hit);
     }
     *half_width = width_for(scene, settings, source, &packet, widest, least);
 }

@@ -83,8 +83,8 @@ static struct free_way way_across(const struct star *star, const ps_splat *splat
     float nearer = 1.0f / (REACH * splat->half_width);
 #pragma omp simd
     for (int i = 0; i < AZIMUTHS; i++) {
-        float u = star->x[i] * axis_u.x + star->y[i] * axis_u.y + star->z[i] * axis_u.z;
-        float v = star->x[i] * axis_v.x + star->y[i] * axis_v.y + star->z[i] * axis_v.z;
+        ps_vec3 direction = {star->x[i], star->y[i], star->z[i]};
+        float u = ps_dot(direction, axis_u), v = ps_dot(direction, axis_v);
         float across = ps_max(sqrtf(u * u + v * v), 1e-6f);
         way.cosine[i] = u / across;
         way.sine[i] = v / across;
@@ -147,7 +147,7 @@ static void explain(const struct wall *wall, const struct free_way *way, float l
 }
 
 /* The ray that is stopped first of those left; -1: none. */
-static int nearest_of(const float left[AZIMUTHS])
+static int first_stopped(const float left[AZIMUTHS])
 {
     int nearest = -1;
     float least = 1.0f;
@@ -171,7 +171,7 @@ static void find(const struct free_way *way, ps_splat *splat)
     float left[AZIMUTHS];
     memcpy(left, way->reach, sizeof left);
     for (uint32_t n = 0; n < PS_MOST_WALLS; n++) {
-        int nearest = nearest_of(left);
+        int nearest = first_stopped(left);
         if (nearest < 0)
             return;
         struct wall wall = through(way, nearest);
