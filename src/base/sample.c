@@ -2,45 +2,56 @@
 
 /* The four dimensions of a point: a vector register of nearly all processors. */
 typedef uint32_t lanes __attribute__((vector_size(16)));
-typedef int32_t signed_lanes __attribute__((vector_size(16)));
+
+/* What four columns of four dimensions sum up to (exclusive or), for each choice of them, the first by the
+ * highest bit. */
+#define SUM(choice, a, b, c, d)                                                                    \
+    (((choice)&8 ? (a) : 0) ^ ((choice)&4 ? (b) : 0) ^ ((choice)&2 ? (c) : 0) ^                    \
+     ((choice)&1 ? (d) : 0))
+#define CHOICE(choice, a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3, d0, d1, d2, d3)             \
+    {                                                                                              \
+        SUM(choice, a0, b0, c0, d0), SUM(choice, a1, b1, c1, d1), SUM(choice, a2, b2, c2, d2),     \
+            SUM(choice, a3, b3, c3, d3)                                                            \
+    }
+#define CHOICES(...)                                                                               \
+    {                                                                                              \
+        CHOICE(0, __VA_ARGS__), CHOICE(1, __VA_ARGS__), CHOICE(2, __VA_ARGS__),                    \
+            CHOICE(3, __VA_ARGS__), CHOICE(4, __VA_ARGS__), CHOICE(5, __VA_ARGS__),                \
+            CHOICE(6, __VA_ARGS__), CHOICE(7, __VA_ARGS__), CHOICE(8, __VA_ARGS__),                \
+            CHOICE(9, __VA_ARGS__), CHOICE(10, __VA_ARGS__), CHOICE(11, __VA_ARGS__),              \
+            CHOICE(12, __VA_ARGS__), CHOICE(13, __VA_ARGS__), CHOICE(14, __VA_ARGS__),             \
+            CHOICE(15, __VA_ARGS__)                                                                \
+    }
 
 /* Direction numbers of the first four Sobol dimensions, from the initial numbers of Joe and Kuo
  * 2008, "Constructing Sobol sequences with better two-dimensional projections": column i of
- * dimensions 0 to 3, which lie together so that one operation serves all four. Their bits run in
- * reversed order, in which they are scrambled. */
-static const lanes sobol_columns[32] = {
-    {0x00000001, 0x00000001, 0x00000001, 0x00000001},
-    {0x00000002, 0x00000003, 0x00000003, 0x00000003},
-    {0x00000004, 0x00000005, 0x00000006, 0x00000004},
-    {0x00000008, 0x0000000f, 0x00000009, 0x0000000a},
-    {0x00000010, 0x00000011, 0x00000017, 0x0000001f},
-    {0x00000020, 0x00000033, 0x0000003a, 0x0000002e},
-    {0x00000040, 0x00000055, 0x00000071, 0x00000045},
-    {0x00000080, 0x000000ff, 0x000000a3, 0x000000c9},
-    {0x00000100, 0x00000101, 0x00000116, 0x0000011b},
-    {0x00000200, 0x00000303, 0x00000339, 0x000002a4},
-    {0x00000400, 0x00000505, 0x00000677, 0x0000079a},
-    {0x00000800, 0x00000f0f, 0x000009aa, 0x00000b67},
-    {0x00001000, 0x00001111, 0x00001601, 0x0000101e},
-    {0x00002000, 0x00003333, 0x00003903, 0x0000302d},
-    {0x00004000, 0x00005555, 0x00007706, 0x00004041},
-    {0x00008000, 0x0000ffff, 0x0000aa09, 0x0000a0c3},
-    {0x00010000, 0x00010001, 0x00010117, 0x0001f104},
-    {0x00020000, 0x00030003, 0x0003033a, 0x0002e28a},
-    {0x00040000, 0x00050005, 0x00060671, 0x000457df},
-    {0x00080000, 0x000f000f, 0x000909a3, 0x000c9bae},
-    {0x00100000, 0x00110011, 0x00171616, 0x0011a105},
-    {0x00200000, 0x00330033, 0x003a3939, 0x002a7289},
-    {0x00400000, 0x00550055, 0x00717777, 0x0079e7db},
-    {0x00800000, 0x00ff00ff, 0x00a3aaaa, 0x00b6dba4},
-    {0x01000000, 0x01010101, 0x01170001, 0x0100011a},
-    {0x02000000, 0x03030303, 0x033a0003, 0x030002a7},
-    {0x04000000, 0x05050505, 0x06710006, 0x0400079e},
-    {0x08000000, 0x0f0f0f0f, 0x09a30009, 0x0a000b6d},
-    {0x10000000, 0x11111111, 0x16160017, 0x1f001001},
-    {0x20000000, 0x33333333, 0x3939003a, 0x2e003003},
-    {0x40000000, 0x55555555, 0x77770071, 0x45004004},
-    {0x80000000, 0xffffffff, 0xaaaa00a3, 0xc900a00a},
+ * dimensions 0 to 3 in line i, which lie together so that one operation serves all four. Their bits run in
+ * reversed order, in which they are scrambled. Summed up by fours, a point takes 8 steps, not 32. */
+static const lanes sobol_sums[8][16] = {
+    CHOICES(0x00000001, 0x00000001, 0x00000001, 0x00000001, 0x00000002, 0x00000003, 0x00000003,
+            0x00000003, 0x00000004, 0x00000005, 0x00000006, 0x00000004, 0x00000008, 0x0000000f,
+            0x00000009, 0x0000000a),
+    CHOICES(0x00000010, 0x00000011, 0x00000017, 0x0000001f, 0x00000020, 0x00000033, 0x0000003a,
+            0x0000002e, 0x00000040, 0x00000055, 0x00000071, 0x00000045, 0x00000080, 0x000000ff,
+            0x000000a3, 0x000000c9),
+    CHOICES(0x00000100, 0x00000101, 0x00000116, 0x0000011b, 0x00000200, 0x00000303, 0x00000339,
+            0x000002a4, 0x00000400, 0x00000505, 0x00000677, 0x0000079a, 0x00000800, 0x00000f0f,
+            0x000009aa, 0x00000b67),
+    CHOICES(0x00001000, 0x00001111, 0x00001601, 0x0000101e, 0x00002000, 0x00003333, 0x00003903,
+            0x0000302d, 0x00004000, 0x00005555, 0x00007706, 0x00004041, 0x00008000, 0x0000ffff,
+            0x0000aa09, 0x0000a0c3),
+    CHOICES(0x00010000, 0x00010001, 0x00010117, 0x0001f104, 0x00020000, 0x00030003, 0x0003033a,
+            0x0002e28a, 0x00040000, 0x00050005, 0x00060671, 0x000457df, 0x00080000, 0x000f000f,
+            0x000909a3, 0x000c9bae),
+    CHOICES(0x00100000, 0x00110011, 0x00171616, 0x0011a105, 0x00200000, 0x00330033, 0x003a3939,
+            0x002a7289, 0x00400000, 0x00550055, 0x00717777, 0x0079e7db, 0x00800000, 0x00ff00ff,
+            0x00a3aaaa, 0x00b6dba4),
+    CHOICES(0x01000000, 0x01010101, 0x01170001, 0x0100011a, 0x02000000, 0x03030303, 0x033a0003,
+            0x030002a7, 0x04000000, 0x05050505, 0x06710006, 0x0400079e, 0x08000000, 0x0f0f0f0f,
+            0x09a30009, 0x0a000b6d),
+    CHOICES(0x10000000, 0x11111111, 0x16160017, 0x1f001001, 0x20000000, 0x33333333, 0x3939003a,
+            0x2e003003, 0x40000000, 0x55555555, 0x77770071, 0x45004004, 0x80000000, 0xffffffff,
+            0xaaaa00a3, 0xc900a00a),
 };
 
 uint32_t sample_hash(uint64_t value)
@@ -58,12 +69,7 @@ uint32_t sample_key(uint64_t seed, uint32_t stream, uint32_t set)
     return sample_hash(seed ^ (uint64_t)purpose << 17 ^ purpose);
 }
 
-static lanes in_all(uint32_t number)
-{
-    return (lanes){number, number, number, number};
-}
-
-static lanes reverse_bits(lanes x)
+static lanes reverse_lanes(lanes x)
 {
     x = (x >> 16) | (x << 16);
     x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
@@ -72,27 +78,29 @@ static lanes reverse_bits(lanes x)
     return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
 }
 
-/* An approximate Owen scramble of bits in reversed order (Vegdahl 2021, "Building a better LK
- * hash"). */
-static lanes scramble_reversed(lanes x, lanes seed)
+static uint32_t reverse_bits(uint32_t x)
 {
-    x ^= x * 0x3d20adea;
-    x += seed;
-    x *= (seed >> 16) | 1;
-    x ^= x * 0x05526c56;
-    x ^= x * 0x53a22864;
-    return x;
+    return reverse_lanes((lanes){x})[0];
 }
 
-/* The point of the four Sobol sequences, as 32-bit fractions with their bits in reversed order. All lanes
- * of `bits` hold its index, in reversed order as well: so the sign tells whether the next bit is set. */
-static lanes sobol(lanes bits)
+/* An approximate Owen scramble of bits in reversed order (Vegdahl 2021, "Building a better LK
+ * hash"), of a number or of four. */
+#define SCRAMBLE_REVERSED(x, seed)                                                                 \
+    do {                                                                                           \
+        (x) ^= (x)*0x3d20adea;                                                                     \
+        (x) += (seed);                                                                             \
+        (x) *= ((seed) >> 16) | 1;                                                                 \
+        (x) ^= (x)*0x05526c56;                                                                     \
+        (x) ^= (x)*0x53a22864;                                                                     \
+    } while (0)
+
+/* The point of the four Sobol sequences, as 32-bit fractions. Their bits run in reversed order, and so do
+ * those of the index. */
+static lanes sobol(uint32_t index)
 {
-    lanes fractions = {0, 0, 0, 0};
-    for (int bit = 0; bit < 32; bit++) {
-        fractions ^= sobol_columns[bit] & (lanes)((signed_lanes)bits >> 31);
-        bits += bits;
-    }
+    lanes fractions = sobol_sums[0][index >> 28];
+    for (int i = 1; i < 8; i++)
+        fractions ^= sobol_sums[i][index >> (28 - 4 * i) & 15u];
     return fractions;
 }
 
@@ -115,8 +123,11 @@ static struct scramble scramble_of(uint32_t key, uint32_t high)
 
 static void scrambled_point(const struct scramble *scramble, uint32_t low, float point[4])
 {
-    lanes index = scramble_reversed(reverse_bits(in_all(low)), in_all(scramble->seed));
-    lanes fractions = reverse_bits(scramble_reversed(sobol(index), scramble->seeds)) >> 8;
+    uint32_t index = reverse_bits(low);
+    SCRAMBLE_REVERSED(index, scramble->seed);
+    lanes fractions = sobol(index);
+    SCRAMBLE_REVERSED(fractions, scramble->seeds);
+    fractions = reverse_lanes(fractions) >> 8;
     /* 24 bits: the float lies in [0, 1) and never rounds up to 1. */
     for (int d = 0; d < 4; d++)
         point[d] = (float)(int32_t)fractions[d] * 0x1p-24f;
