@@ -11,18 +11,39 @@
 #include <psplat/math.h>
 #include <string.h>
 
-/* Before more is done for them: of a large scene little is in view. What lies past the first hit counts,
- * since part of a beam may pass beside it. */
-static void drop_unseen(const struct render *render, ps_splat *splats, size_t n)
+/* Splats that can light nothing in view are dropped before more is done for them: of a large scene little is in
+ * view. Where few are dropped, asking takes longer than what it saves; then one batch in so many is asked. */
+#define ASK_EVERY 16
+#define ENOUGH_UNSEEN 0.125
+
+/* What lies past the first hit counts, since part of a beam may pass beside it. */
+static void drop_unseen(struct render *render, ps_splat *splats, size_t n)
 {
-    if (!render->splatting)
-        return;
+    uint64_t unseen = 0;
     for (size_t i = 0; i < n; i++) {
         ps_splat open = splats[i];
         open.far_depth = INFINITY;
-        if (!splatter_touches(&render->splatter, &open))
-            splats[i].half_width = 0.0f;
+        if (splatter_touches(&render->splatter, &open))
+            continue;
+        splats[i].half_width = 0.0f;
+        unseen++;
     }
+    atomic_fetch_add(&render->unseen.in_batch, unseen);
+}
+
+static void begin_batch(struct render *render)
+{
+    struct unseen *unseen = &render->unseen;
+    unseen->asked = render->splatting && (unseen->many || unseen->batches % ASK_EVERY == 0);
+    unseen->batches++;
+    atomic_store(&unseen->in_batch, 0);
+}
+
+static void end_batch(struct render *render, size_t n)
+{
+    struct unseen *unseen = &render->unseen;
+    if (unseen->asked)
+        unseen->many = (double)atomic_load(&unseen->in_batch) > ENOUGH_UNSEEN * (double)n;
 }
 
 static struct box_scene box_scene_of(const struct render *render)
@@ -43,7 +64,7 @@ static struct box_scene box_scene_of(const struct render *render)
 
 /* What places up to PS_PATH_CHUNK boxes. */
 struct placing {
-    const struct render *render;
+    struct render *render;
     struct box_scene scene;
     const ps_box_settings *settings;
     const ps_source *sources;
@@ -58,23 +79,30 @@ static void place(const struct placing *placing, ps_splat *splats)
               placing->half_widths, placing->n, splats);
 }
 
-/* Beams that start at their sources. The widest that they may be shows whether they are seen at all. */
-static void place_full(const struct placing *placing, ps_splat *splats)
+/* The widest that beams may be shows whether they are seen at all. */
+static void drop_unseen_full(const struct placing *placing, ps_splat *splats)
 {
-    const ps_host *host = &placing->render->host;
     ps_hit stand_ins[PS_PATH_CHUNK];
     memcpy(stand_ins, placing->hits, placing->n * sizeof *stand_ins);
-    for (size_t i = 0; i < placing->n; i++) {
-        placing->half_widths[i] =
-            box_widest(&placing->scene, placing->settings, &placing->sources[i]);
+    for (size_t i = 0; i < placing->n; i++)
         if (!(placing->hits[i].distance < INFINITY))
             box_stand_in(&placing->sources[i], placing->half_widths[i], &stand_ins[i]);
-    }
     box_place(&placing->scene, placing->settings, placing->sources, stand_ins, placing->half_widths,
               placing->n, splats);
     drop_unseen(placing->render, splats, placing->n);
     for (size_t i = 0; i < placing->n; i++)
         placing->half_widths[i] = splats[i].half_width;
+}
+
+/* Beams that start at their sources. */
+static void place_full(const struct placing *placing, ps_splat *splats)
+{
+    const ps_host *host = &placing->render->host;
+    for (size_t i = 0; i < placing->n; i++)
+        placing->half_widths[i] =
+            box_widest(&placing->scene, placing->settings, &placing->sources[i]);
+    if (placing->render->unseen.asked)
+        drop_unseen_full(placing, splats);
     reach_find(host, &placing->scene, placing->settings, placing->sources, placing->n,
                placing->hits, placing->half_widths);
     place(placing, splats);
@@ -88,11 +116,12 @@ static void place_others(const struct placing *placing, ps_splat *splats)
         placing->half_widths[i] = box_half_width(&placing->scene, placing->settings,
                                                  &placing->sources[i], placing->hits[i].distance);
     place(placing, splats);
-    drop_unseen(placing->render, splats, placing->n);
+    if (placing->render->unseen.asked)
+        drop_unseen(placing->render, splats, placing->n);
 }
 
 /* At most PS_PATH_CHUNK. */
-static void place_some(const struct render *render, const ps_box_settings *settings,
+static void place_some(struct render *render, const ps_box_settings *settings,
                        const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats)
 {
     ps_hit met[PS_PATH_CHUNK];
@@ -150,7 +179,9 @@ static ps_result host_place_splats(const ps_host *host, const ps_source *sources
     struct placement placement = {render, sources, n, splats};
     double start = clock_seconds();
     uint64_t chunks = (n + PS_PATH_CHUNK - 1) / PS_PATH_CHUNK;
+    begin_batch(render);
     parallel_for(render->settings->threads, chunks, place_chunk, &placement);
+    end_batch(render, n);
     statistics_add_seconds(render->statistics, "place", clock_seconds() - start);
     return PS_OK;
 }
@@ -238,6 +269,8 @@ static ps_result host_begin_splats(const ps_host *host, uint32_t n)
     struct splatter_pass pass = {render->pass.number, render->sources.path_count};
     splatter_begin_pass(&render->splatter, &render->gbuffer, pass);
     render->near_light.distance = 0.0f;
+    render->unseen.many = false;
+    render->unseen.batches = 0;
     render->splatting = true;
     return PS_OK;
 }

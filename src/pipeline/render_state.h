@@ -9,6 +9,15 @@
 #include "pipeline/shadow_maps.h"
 #include "pipeline/sources.h"
 #include "splat/splatter.h"
+#include <stdatomic.h>
+
+/* Whether it pays to ask which splats light nothing in view (host_splat.c). */
+struct unseen {
+    uint64_t batches; /* placed so far in the pass */
+    bool asked;       /* in this batch */
+    bool many;        /* of those that were last asked */
+    _Atomic(uint64_t) in_batch;
+};
 
 struct render {
     const struct scene *scene;
@@ -25,6 +34,7 @@ struct render {
     struct splatter splatter; /* made when an estimator first splats */
     bool has_splatter;
     bool splatting; /* in this pass */
+    struct unseen unseen;
     struct near_light near_light;
     uint32_t near_interleave; /* over so many pixels across and down it is averaged */
     bool
