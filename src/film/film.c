@@ -189,13 +189,23 @@ void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t in
     }
 }
 
-void film_add_sample(struct film *film, const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane,
-                     float share, size_t x, size_t y)
+void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t first,
+                      uint32_t count, float share, size_t x, size_t y)
 {
-    struct tile_row row = row_of(gbuffer, tile, lane, y * film->width + x, 1);
-    row.shares[0] = share;
-    add_light(film, &row);
-    add_geometry(film, &row);
+    float sums[FILM_PLANES][PS_TILE_SIZE] = {{0.0f}};
+    struct film row_of_sums = {.width = PS_TILE_SIZE, .height = 1};
+    for (int plane = 0; plane < FILM_PLANES; plane++)
+        row_of_sums.planes[plane] = film->planes[plane] ? sums[plane] : NULL;
+    for (uint32_t done = 0; done < count; done += PS_TILE_SIZE) {
+        struct tile_row row = row_of(gbuffer, 0, first + done, 0, at_most_a_tile(count - done));
+        for (size_t i = 0; i < row.count; i++)
+            row.shares[i] = share;
+        add_light(&row_of_sums, &row);
+        add_geometry(&row_of_sums, &row);
+    }
+    for (int plane = 0; plane < FILM_PLANES; plane++)
+        for (size_t i = 0; i < PS_TILE_SIZE && film->planes[plane]; i++)
+            film->planes[plane][y * film->width + x] += sums[plane][i];
 }
 
 void film_count_pass(struct film *film)

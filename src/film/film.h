@@ -51,9 +51,10 @@ size_t film_most_bytes(size_t width, size_t height);
 void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t tile,
                    const bool left_out[PS_TILE_PIXELS]);
 
-/* Adds `share` of what a lane of a tile gathered to pixel (x, y), whose own lane was left out. */
-void film_add_sample(struct film *film, const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane,
-                     float share, size_t x, size_t y);
+/* Adds `share` of what each of `count` lanes of a G-buffer's only tile gathered, from lane `first` on, to pixel
+ * (x, y) of the film, whose own lane was left out. */
+void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t first,
+                      uint32_t count, float share, size_t x, size_t y);
 void film_count_pass(struct film *film);
 
 /* Turns the sums of geometry and direct light into means: per pass for light, per covered pass for

@@ -4,6 +4,7 @@
 #include "scene/heuristic.h"
 #include <psplat/host.h>
 #include <psplat/tile.h>
+#include <string.h>
 
 #define CHUNK 256
 
@@ -23,6 +24,10 @@ struct receivers {
 static void numbers_for_light(const float numbers[4], size_t light, float pair[2])
 {
     size_t first = light % 2 * 2, turn = light / 2;
+    if (turn == 0) {
+        memcpy(pair, numbers + first, 2 * sizeof *pair);
+        return;
+    }
     float turns = (float)turn;
     float a = numbers[first] + 0.7548777f * turns, b = numbers[first + 1] + 0.5698403f * turns;
     pair[0] = ps_min(a - floorf(a), 0x1.fffffep-1f);
@@ -46,25 +51,33 @@ static ps_rgb response(const struct receivers *to, size_t i, ps_vec3 direction, 
                                                 direction, light_pdf));
 }
 
-/* The shadow ray from a receiver to a light, and what arrives where nothing is in the way. */
-static ps_rgb connect(const struct receivers *to, size_t i, size_t light, ps_ray *ray)
+/* A point of the light for each receiver, as seen from where its shadow ray begins. */
+static void choose_points(const struct receivers *to, size_t light, ps_vec3 *origins,
+                          struct light_sample *samples)
 {
-    static const ps_rgb nothing = {0, 0, 0};
     const struct scene *scene = to->lighting->scene;
-    ps_vec3 away = to->hits ? to->hits[i].geometric_normal : to->normals[i];
-    ps_vec3 origin = ps_add_scaled(to->positions[i], scene->surface_offset, away);
-    float pair[2] = {0, 0};
-    if (to->numbers)
-        numbers_for_light(to->numbers[i], light, pair);
-    struct light_sample sample;
-    if (!light_sample(&scene->lights[light], origin, pair[0], pair[1], &sample))
-        return nothing;
-    if (!(ps_dot(sample.direction, to->normals[i]) > 0.0f))
-        return nothing;
+    float pairs[CHUNK][2];
+    for (size_t i = 0; i < to->n; i++) {
+        ps_vec3 away = to->hits ? to->hits[i].geometric_normal : to->normals[i];
+        origins[i] = ps_add_scaled(to->positions[i], scene->surface_offset, away);
+        pairs[i][0] = pairs[i][1] = 0.0f;
+        if (to->numbers)
+            numbers_for_light(to->numbers[i], light, pairs[i]);
+    }
+    light_sample(&scene->lights[light], origins, (const float(*)[2])pairs, to->n, samples);
+}
+
+/* The shadow ray from a receiver to a point of a light, and what arrives where nothing is in the way. */
+static ps_rgb connect(const struct receivers *to, size_t i, ps_vec3 origin,
+                      const struct light_sample *sample, ps_ray *ray)
+{
+    if (!(ps_rgb_maximum(sample->weight) > 0.0f &&
+          ps_dot(sample->direction, to->normals[i]) > 0.0f))
+        return (ps_rgb){0, 0, 0};
     /* A lamp may lie on a surface, which must not shadow it. */
-    float reach = ps_max(sample.distance - scene->surface_offset, 0.0f);
-    *ray = (ps_ray){origin, 0.0f, sample.direction, reach};
-    return ps_rgb_multiply(sample.weight, response(to, i, sample.direction, sample.pdf));
+    float reach = ps_max(sample->distance - to->lighting->scene->surface_offset, 0.0f);
+    *ray = (ps_ray){origin, 0.0f, sample->direction, reach};
+    return ps_rgb_multiply(sample->weight, response(to, i, sample->direction, sample->pdf));
 }
 
 /* The share of a light that gets along each of n shadow rays, to points of these normals. */
@@ -86,12 +99,14 @@ static void add_light(const struct receivers *to, size_t light, ps_rgb *sums)
 {
     ps_ray rays[CHUNK];
     ps_rgb unshadowed[CHUNK];
-    ps_vec3 normals[CHUNK];
+    ps_vec3 origins[CHUNK], normals[CHUNK];
+    struct light_sample samples[CHUNK];
     size_t targets[CHUNK];
     float lit[CHUNK];
     size_t count = 0;
+    choose_points(to, light, origins, samples);
     for (size_t i = 0; i < to->n; i++) {
-        unshadowed[count] = connect(to, i, light, &rays[count]);
+        unshadowed[count] = connect(to, i, origins[i], &samples[i], &rays[count]);
         normals[count] = to->normals[i];
         targets[count] = i;
         count += ps_rgb_maximum(unshadowed[count]) > 0.0f;
@@ -190,30 +205,48 @@ void emitted_radiance(const struct scene *scene, const ps_ray *rays, const ps_hi
     }
 }
 
-void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer, uint32_t index,
-                       uint64_t seed, const uint64_t first_indices[PS_TILE_PIXELS],
-                       uint32_t samples)
+/* Number `sample` of each run, for the points that have it. */
+static void draw_runs(const struct light_runs *runs, uint64_t seed, uint32_t sample,
+                      const ps_points *points, float (*numbers)[4])
 {
-    const struct scene *scene = lighting->scene;
+    uint64_t indices[PS_TILE_PIXELS];
+    float drawn[PS_TILE_PIXELS][4];
+    for (size_t run = 0; run < runs->count; run++)
+        indices[run] = runs->first[run] + sample;
+    sample_points(sample_key(seed, PS_STREAM_LIGHT, 0), indices, runs->count, drawn);
+    for (size_t i = 0; i < points->count; i++)
+        memcpy(numbers[i], drawn[runs->of_lane[points->lanes[i]]], sizeof numbers[i]);
+}
+
+/* Sums over the points of a tile, `samples` shadow rays each. */
+static void add_samples(struct receivers *to, uint64_t seed, const struct light_runs *runs,
+                        const ps_points *points, uint32_t samples, ps_rgb *irradiance)
+{
+    float numbers[PS_TILE_PIXELS][4];
+    for (uint32_t sample = 0; sample < samples && points->count > 0; sample++) {
+        if (to->lighting->scene->has_sized_lights) {
+            draw_runs(runs, seed, sample, points, numbers);
+            to->numbers = numbers;
+        }
+        add_lights(to, irradiance);
+    }
+}
+
+void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer, uint32_t index,
+                       uint64_t seed, const struct light_runs *runs, uint32_t samples)
+{
     ps_rgb *direct = &gbuffer->direct[(size_t)index * PS_TILE_PIXELS];
     ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}};
-    uint64_t indices[PS_TILE_PIXELS], met[PS_TILE_PIXELS] = {0};
-    float room[PS_TILE_PIXELS][4];
-    samples = scene->has_sized_lights ? samples : 1;
+    uint64_t met[PS_TILE_PIXELS] = {0};
+    samples = lighting->scene->has_sized_lights ? samples : 1;
     ps_points points;
     ps_collect_points(&gbuffer->tiles[index], &points);
-    struct light_numbers numbers = {seed, PS_STREAM_LIGHT, 0, indices};
     struct receivers to = {.lighting = lighting,
                            .n = points.count,
                            .positions = points.positions,
                            .normals = points.normals,
                            .met = gbuffer->met ? met : NULL};
-    for (uint32_t sample = 0; sample < samples; sample++) {
-        for (size_t i = 0; i < points.count; i++)
-            indices[i] = first_indices[points.lanes[i]] + sample;
-        to.numbers = draw(scene, &numbers, 0, points.count, room);
-        add_lights(&to, irradiance);
-    }
+    add_samples(&to, seed, runs, &points, samples, irradiance);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         direct[lane] = (ps_rgb){0, 0, 0};
     for (size_t i = 0; i < points.count; i++)

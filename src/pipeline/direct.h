@@ -32,11 +32,16 @@ void direct_radiance(const struct lighting *lighting, const ps_ray *rays, const 
 void emitted_radiance(const struct scene *scene, const ps_ray *rays, const ps_hit *hits,
                       const float *pdfs, size_t n, ps_rgb *radiance);
 
+/* The random numbers of a tile's lanes: runs of indices, each for one lane or several. */
+struct light_runs {
+    size_t count;
+    uint64_t first[PS_TILE_PIXELS];  /* where each run begins */
+    uint8_t of_lane[PS_TILE_PIXELS]; /* which run a lane has */
+};
+
 /* Fills in the direct irradiance of a tile's lanes: the mean of `samples` shadow rays for each light that
- * has a size. `first_indices`: of each lane's random numbers, of which it takes as many. And
- * what they met, where the G-buffer has room for it. */
+ * has a size, with as many numbers of their runs. And what they met, where the G-buffer has room for it. */
 void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer, uint32_t tile,
-                       uint64_t seed, const uint64_t first_indices[PS_TILE_PIXELS],
-                       uint32_t samples);
+                       uint64_t seed, const struct light_runs *runs, uint32_t samples);
 
 #endif

@@ -6,7 +6,8 @@
  * differs from a neighbour: in its surface, in its albedo, or in the light that comes from it straight
  * from the lights. Each further sample has surface, emission and direct light of its own. Its indirect
  * light, which is smooth and dear, is the mean of what the pixels around found on the same surface, so that
- * estimators are not asked again. Tracing at a higher resolution would cost everywhere.
+ * estimators are not asked again. All pixels look at the same places in them. Tracing at a higher resolution would
+ * cost everywhere.
  *
  * The first pass decides for all. If each decided for itself, looks that are rare (at things thinner than a
  * pixel, at what glass mirrors) would be replaced by a mean, and common ones kept: light would go missing,
@@ -23,6 +24,8 @@
 #include "film/film.h"
 #include "pipeline/direct.h"
 
+#define EDGES_MOST_SAMPLES 1024
+
 /* A pass whose G-buffer has all its light. */
 struct edge_pass {
     const struct lighting *lighting;
@@ -30,7 +33,7 @@ struct edge_pass {
     bool *edges; /* which lanes of its tiles are edges; set by the first pass */
     uint64_t seed;
     uint32_t number;  /* of the pass */
-    uint32_t samples; /* of a pixel at an edge */
+    uint32_t samples; /* of a pixel at an edge, at most EDGES_MOST_SAMPLES */
 };
 
 /* Which pixels of a tile differ from a neighbour to the left, right, top or bottom, or show what they do by

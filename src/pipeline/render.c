@@ -151,18 +151,30 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
     view_trace(&work->view, &points, (uint32_t)index);
 }
 
+/* A run for each pixel. */
+static void runs_of_tile(uint32_t tile, uint32_t pass, uint32_t samples, struct light_runs *runs)
+{
+    runs->count = PS_TILE_PIXELS;
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        runs->first[lane] = ps_sample_block(tile, lane) + (uint64_t)pass * samples;
+        runs->of_lane[lane] = (uint8_t)lane;
+    }
+}
+
 static void light_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct tile_work *work = user;
     struct render *render = work->render;
     struct lighting lighting = lighting_of(render);
+    uint32_t tile = (uint32_t)index, pass = render->pass.number;
     uint32_t samples = render->scene->light_samples;
-    uint64_t indices[PS_TILE_PIXELS];
-    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
-        indices[lane] = ps_sample_block(index, lane) + (uint64_t)render->pass.number * samples;
-    direct_light_tile(&lighting, &render->gbuffer, (uint32_t)index, render->settings->seed, indices,
-                      samples);
+    struct light_runs runs;
+    if (render->gbuffer.met)
+        light_join_runs(&render->gbuffer, tile, pass, samples, &runs);
+    else
+        runs_of_tile(tile, pass, samples, &runs);
+    direct_light_tile(&lighting, &render->gbuffer, tile, render->settings->seed, &runs, samples);
 }
 
 static void add_tile(void *user, uint64_t index, uint32_t worker)

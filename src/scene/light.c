@@ -166,30 +166,37 @@ ps_rgb light_emit(const struct light *light, const float u[4], ps_ray *ray, ps_v
     return is_light(flux) ? flux : black;
 }
 
-static bool sample_kind(const struct light *light, ps_vec3 position, float u1, float u2,
-                        struct light_sample *sample)
+static bool sample_one(const struct light *light, ps_vec3 position, const float u[2],
+                       struct light_sample *sample)
 {
     switch (light->emitter) {
     case EMITTER_SPOT:
         return light_spot_sample(&light->spot, position, sample);
     case EMITTER_SUN:
-        light_sun_sample(&light->sun, u1, u2, sample);
+        light_sun_sample(&light->sun, u[0], u[1], sample);
         return true;
-    case EMITTER_MESH:
-        return light_surface_sample(&light->surface, position, u1, u2, sample);
     case EMITTER_SPHERE:
-        return light_sphere_sample(&light->sphere, position, u1, u2, sample);
+        return light_sphere_sample(&light->sphere, position, u[0], u[1], sample);
     case EMITTER_SKY:
-        light_sky_sample(&light->sky, u1, u2, sample);
+        light_sky_sample(&light->sky, u[0], u[1], sample);
         return true;
+    case EMITTER_MESH: /* many at once */
+        break;
     }
     return false;
 }
 
-bool light_sample(const struct light *light, ps_vec3 position, float u1, float u2,
-                  struct light_sample *sample)
+void light_sample(const struct light *light, const ps_vec3 *positions, const float (*numbers)[2],
+                  size_t n, struct light_sample *samples)
 {
-    return sample_kind(light, position, u1, u2, sample) && is_light(sample->weight);
+    if (light->emitter == EMITTER_MESH)
+        light_surface_sample(&light->surface, positions, numbers, n, samples);
+    for (size_t i = 0; i < n; i++) {
+        bool any = light->emitter == EMITTER_MESH ||
+                   sample_one(light, positions[i], numbers[i], &samples[i]);
+        if (!any || !is_light(samples[i].weight))
+            samples[i].weight = black;
+    }
 }
 
 float light_pdf(const struct light *light, ps_vec3 position, ps_vec3 direction, float distance,

@@ -176,10 +176,10 @@ struct light_sample {
     float pdf;         /* 0: the light is a delta */
 };
 
-/* Chooses a point of the light by two numbers in [0,1), and tells what it gives to `position` if
- * nothing is between. False where that is nothing. */
-bool light_sample(const struct light *light, ps_vec3 position, float u1, float u2,
-                  struct light_sample *sample);
+/* For each of n positions chooses a point of the light by two numbers in [0,1), and tells what it gives there
+ * if nothing is between. Where that is nothing, the weight is 0. */
+void light_sample(const struct light *light, const ps_vec3 *positions, const float (*numbers)[2],
+                  size_t n, struct light_sample *samples);
 
 /* The density by which light_sample chooses `direction` from `position`, if a ray in that direction
  * meets the light at `distance`, where its front's unit normal is `normal`; of sun and sky these

@@ -48,8 +48,8 @@ void light_surface_release(struct light_surface *surface);
 ps_rgb light_surface_power(const struct light_surface *surface);
 ps_rgb light_surface_emit(const struct light_surface *surface, const float u[4], ps_ray *ray,
                           ps_vec3 *normal);
-bool light_surface_sample(const struct light_surface *surface, ps_vec3 position, float u1, float u2,
-                          struct light_sample *sample);
+void light_surface_sample(const struct light_surface *surface, const ps_vec3 *positions,
+                          const float (*numbers)[2], size_t n, struct light_sample *samples);
 float light_surface_pdf(const struct light_surface *surface, ps_vec3 direction, float distance,
                         ps_vec3 normal);
 
@@ -72,8 +72,14 @@ void light_sky_sample(const struct light_sky *sky, float u1, float u2, struct li
 float light_sky_pdf(const struct light_sky *sky, ps_vec3 direction);
 
 /* Emission and sampling that surfaces share: density by solid angle of a point chosen uniformly
- * over an area, seen from `distance` at `cosine` to its normal; 0 where that is not positive. */
-float light_pdf_of_area(float area, float distance, float cosine);
+ * over an area, seen from `distance` at `cosine` to its normal; 0 where that is not positive. Compilers make
+ * vectors of it. */
+static inline float light_pdf_of_area(float area, float distance, float cosine)
+{
+    float pdf = distance * distance / (cosine * area);
+    bool any = (cosine > 0.0f) & (pdf < INFINITY);
+    return any ? pdf : 0.0f;
+}
 
 /* Splits a number in [0,1) in two: which half it is in, and where in that half. */
 bool light_take_half(float *u);

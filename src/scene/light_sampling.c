@@ -63,12 +63,6 @@ ps_vec3 light_any_direction(float u1, float u2)
     return light_cone_direction((ps_vec3){0, 0, 1}, 2.0f, u1, u2);
 }
 
-float light_pdf_of_area(float area, float distance, float cosine)
-{
-    float pdf = distance * distance / (cosine * area);
-    return cosine > 0.0f && isfinite(pdf) ? pdf : 0.0f;
-}
-
 bool light_take_half(float *u)
 {
     bool second = *u >= 0.5f;

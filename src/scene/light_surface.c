@@ -10,6 +10,7 @@
 #include "scene/light_kinds.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* How many points, over all triangles, a pattern's mean is made from, and the most along an edge.
  */
@@ -210,75 +211,89 @@ ps_rgb light_surface_emit(const struct light_surface *surface, const float u[4],
 
 /* Cosine at the light towards a point that looks along `direction`; not above 0 where it sees a
  * back that does not shine. */
-static float cosine_at_light(const struct light_surface *surface, ps_vec3 direction, ps_vec3 normal)
+static inline float cosine_at_light(ps_vec3 direction, ps_vec3 normal, bool both_sides)
 {
     float cosine = -ps_dot(direction, normal);
-    return surface->both_sides ? fabsf(cosine) : cosine;
-}
-
-bool light_surface_sample(const struct light_surface *surface, ps_vec3 position, float u1, float u2,
-                          struct light_sample *sample)
-{
-    if (!(surface->area > 0.0f))
-        return false;
-    struct surface_point point = choose_point(surface, u1, u2);
-    ps_vec3 to_light = ps_subtract(point.position, position);
-    float distance = ps_length(to_light);
-    if (!(distance > 0.0f))
-        return false;
-    ps_vec3 direction = ps_scale(to_light, 1.0f / distance);
-    float pdf = light_surface_pdf(surface, direction, distance, point.normal);
-    ps_rgb radiance = ps_rgb_multiply(surface->radiance, point.pattern);
-    *sample = (struct light_sample){direction, distance, ps_rgb_scale(radiance, 1.0f / pdf), pdf};
-    return pdf > 0.0f;
+    return both_sides ? fabsf(cosine) : cosine;
 }
 
 float light_surface_pdf(const struct light_surface *surface, ps_vec3 direction, float distance,
                         ps_vec3 normal)
 {
-    return light_pdf_of_area(surface->area, distance, cosine_at_light(surface, direction, normal));
+    return light_pdf_of_area(surface->area, distance,
+                             cosine_at_light(direction, normal, surface->both_sides));
 }
 
-ps_rgb light_surface_radiance(const struct light_description *description, double area)
-{
-    bool is_flat = description->kind == LIGHT_RECTANGLE || description->kind == LIGHT_DISC;
-    double sides = is_flat && description->both_sides ? 2.0 : 1.0;
-    if (description->unit != UNIT_POWER)
-        return description->amount;
-    if (!(area > 0.0))
-        return (ps_rgb){0, 0, 0};
-    return ps_rgb_scale(description->amount, (float)(1.0 / (PI_DOUBLE * area * sides)));
-}
+/* Points of the light seen from as many places, which are divided by four numbers at once. */
+#define LANES 16
 
-void light_rectangle_triangles(const struct light_description *description, ps_vec3 vertices[4],
-                               uint32_t triangles[2][3])
+struct sights {
+    float x[LANES], y[LANES], z[LANES]; /* the way there; then its direction */
+    float normal_x[LANES], normal_y[LANES], normal_z[LANES];
+    float distance[LANES], pdf[LANES], inverse_pdf[LANES];
+    ps_rgb pattern[LANES];
+};
+
+static void choose_points(const struct light_surface *surface, const ps_vec3 *positions,
+                          const float (*numbers)[2], size_t n, struct sights *sights)
 {
-    static const float corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-    static const uint32_t halves[2][3] = {{0, 1, 2}, {0, 2, 3}};
-    for (int i = 0; i < 4; i++) {
-        ps_vec3 along = ps_scale(description->half_edges[0], corners[i][0]);
-        along = ps_add_scaled(along, corners[i][1], description->half_edges[1]);
-        vertices[i] = ps_add(description->location, along);
+    for (size_t i = 0; i < n; i++) {
+        struct surface_point point = choose_point(surface, numbers[i][0], numbers[i][1]);
+        ps_vec3 way = ps_subtract(point.position, positions[i]);
+        sights->x[i] = way.x;
+        sights->y[i] = way.y;
+        sights->z[i] = way.z;
+        sights->normal_x[i] = point.normal.x;
+        sights->normal_y[i] = point.normal.y;
+        sights->normal_z[i] = point.normal.z;
+        sights->pattern[i] = point.pattern;
     }
-    for (int i = 0; i < 6; i++)
-        triangles[i / 3][i % 3] = halves[i / 3][i % 3];
 }
 
-void light_disc_triangles(const struct light_description *description, size_t segments,
-                          ps_vec3 *vertices, uint32_t (*triangles)[3])
+static void find_densities(float area, bool both_sides, size_t n, struct sights *sights)
 {
-    ps_vec3 u, v;
-    ps_frame(ps_normalize(description->direction), &u, &v);
-    double step = 2.0 * PI_DOUBLE / (double)segments;
-    /* A polygon's area is N/2 R^2 sin(2 pi / N). */
-    double radius = description->radius * sqrt(step / sin(step));
-    vertices[0] = description->location;
-    for (size_t i = 0; i < segments; i++) {
-        ps_vec3 along = ps_scale(u, (float)(radius * cos(step * (double)i)));
-        along = ps_add_scaled(along, (float)(radius * sin(step * (double)i)), v);
-        vertices[i + 1] = ps_add(description->location, along);
-        triangles[i][0] = 0;
-        triangles[i][1] = (uint32_t)i + 1;
-        triangles[i][2] = (uint32_t)((i + 1) % segments) + 1;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        ps_vec3 way = {sights->x[i], sights->y[i], sights->z[i]};
+        ps_vec3 normal = {sights->normal_x[i], sights->normal_y[i], sights->normal_z[i]};
+        float distance = ps_length(way);
+        ps_vec3 direction = ps_scale(way, distance > 0.0f ? 1.0f / distance : 0.0f);
+        float pdf =
+            light_pdf_of_area(area, distance, cosine_at_light(direction, normal, both_sides));
+        sights->x[i] = direction.x;
+        sights->y[i] = direction.y;
+        sights->z[i] = direction.z;
+        sights->distance[i] = distance;
+        sights->pdf[i] = pdf;
+        sights->inverse_pdf[i] = pdf > 0.0f ? 1.0f / pdf : 0.0f;
+    }
+}
+
+static void sample_some(const struct light_surface *surface, const ps_vec3 *positions,
+                        const float (*numbers)[2], size_t n, struct light_sample *samples)
+{
+    struct sights sights;
+    choose_points(surface, positions, numbers, n, &sights);
+    find_densities(surface->area, surface->both_sides, n, &sights);
+    for (size_t i = 0; i < n; i++) {
+        ps_rgb radiance = ps_rgb_multiply(surface->radiance, sights.pattern[i]);
+        samples[i] = (struct light_sample){
+            .direction = {sights.x[i], sights.y[i], sights.z[i]},
+            .distance = sights.distance[i],
+            .weight = ps_rgb_scale(radiance, sights.inverse_pdf[i]),
+            .pdf = sights.pdf[i],
+        };
+    }
+}
+
+void light_surface_sample(const struct light_surface *surface, const ps_vec3 *positions,
+                          const float (*numbers)[2], size_t n, struct light_sample *samples)
+{
+    for (size_t first = 0; first < n; first += LANES) {
+        size_t some = n - first < LANES ? n - first : LANES;
+        if (surface->area > 0.0f)
+            sample_some(surface, positions + first, numbers + first, some, samples + first);
+        else
+            memset(samples + first, 0, some * sizeof *samples);
     }
 }

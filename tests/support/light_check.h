@@ -29,6 +29,10 @@ struct light_view {
     bool of_emission; /* the directions of light_emit, backwards, instead of light_sample's */
 };
 
+/* light_sample for one position; whether there is any light. */
+bool sample_light(const struct light *light, ps_vec3 position, float u1, float u2,
+                  struct light_sample *sample);
+
 /* How likely the directions that are chosen are, by light_pdf: chi-squared over cells of the cone.
  * Fails where the pdf does not integrate to the share of samples that give light, or where a
  * direction leaves the cone. */

@@ -115,13 +115,27 @@ static void test_samples_take_the_place_of_a_lane(void **state)
     expect(FILM_DIRECT_R, 1, 0, 0);
     expect(FILM_COVERAGE, 1, 0, 0);
     see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[2], 2, 9);
-    film_add_sample(&bench.film, &bench.gbuffer, 0, 0, 0.75f, 1, 0);
-    film_add_sample(&bench.film, &bench.gbuffer, 0, 2, 0.25f, 1, 0);
+    film_add_samples(&bench.film, &bench.gbuffer, 0, 1, 0.75f, 1, 0);
+    film_add_samples(&bench.film, &bench.gbuffer, 2, 1, 0.25f, 1, 0);
     expect(FILM_DIRECT_R, 1, 0, 1 + 5 * 0.5 / PI * (0.75 + 0.25 * 9));
     expect(FILM_COLOR_G, 1, 0, 2 * 0.25 / PI * (0.75 + 0.25 * 9));
     expect(FILM_POSITION_X, 1, 0, 0.75 + 0.25 * 9);
     expect(FILM_COVERAGE, 1, 0, 1);
     expect(FILM_COVERAGE, 0, 0, 1);
+}
+
+/* More samples than a row of a tile has. */
+static void test_many_samples_of_a_pixel(void **state)
+{
+    (void)state;
+    enum { MANY = 2 * PS_TILE_SIZE + 5 };
+    gbuffer_clear_tile(&bench.gbuffer, 0);
+    for (uint32_t lane = 0; lane < MANY + 3; lane++)
+        see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[lane], lane, (float)lane);
+    film_add_samples(&bench.film, &bench.gbuffer, 3, MANY, 1.0f / MANY, 1, 1);
+    expect(FILM_POSITION_X, 1, 1, 3 + (MANY - 1) / 2.0);
+    expect(FILM_COVERAGE, 1, 1, 1);
+    expect(FILM_COVERAGE, 0, 1, 0);
 }
 
 /* What is emitted joins the direct light, also where no surface is seen. */
@@ -286,11 +300,12 @@ static void test_clear_indirect(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        FILM_TEST(test_lanes_are_pixels),      FILM_TEST(test_new_film_is_empty),
-        FILM_TEST(test_passes_add_up),         FILM_TEST(test_average),
-        FILM_TEST(test_partly_covered_pixels), FILM_TEST(test_uncovered_pixels),
-        FILM_TEST(test_emission_is_added),     FILM_TEST(test_film_of_light_alone),
-        FILM_TEST(test_clear_indirect),        FILM_TEST(test_samples_take_the_place_of_a_lane),
+        FILM_TEST(test_lanes_are_pixels),        FILM_TEST(test_new_film_is_empty),
+        FILM_TEST(test_passes_add_up),           FILM_TEST(test_average),
+        FILM_TEST(test_partly_covered_pixels),   FILM_TEST(test_uncovered_pixels),
+        FILM_TEST(test_emission_is_added),       FILM_TEST(test_film_of_light_alone),
+        FILM_TEST(test_clear_indirect),          FILM_TEST(test_samples_take_the_place_of_a_lane),
+        FILM_TEST(test_many_samples_of_a_pixel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -234,7 +234,7 @@ static void test_samples(void **state)
         ps_rgb intensity = light_intensity(light, from);
         assert_true(light_is_delta(light));
         assert_true(light_pdf(light, position, ps_scale(from, -1), distance, from) == 0);
-        if (!light_sample(light, position, 0.3f, 0.7f, &sample)) {
+        if (!sample_light(light, position, 0.3f, 0.7f, &sample)) {
             assert_true(intensity.r < 1e-3f);
             continue;
         }
@@ -247,8 +247,8 @@ static void test_samples(void **state)
     }
     assert_true(lit > 5000 && lit < 9000);
     struct light_sample sample;
-    assert_false(light_sample(&lights[0], (ps_vec3){1, 9, 3}, 0, 0, &sample)); /* behind it */
-    assert_false(light_sample(&lights[1], (ps_vec3){1, 2, 3}, 0, 0, &sample)); /* at it */
+    assert_false(sample_light(&lights[0], (ps_vec3){1, 9, 3}, 0, 0, &sample)); /* behind it */
+    assert_false(sample_light(&lights[1], (ps_vec3){1, 2, 3}, 0, 0, &sample)); /* at it */
 }
 
 /* --- tightness, power --- */

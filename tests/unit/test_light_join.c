@@ -163,6 +163,34 @@ static void test_edges_stay_sharp(void **state)
     }
 }
 
+/* --- numbers ------------------------------------------------------------------------------------ */
+
+static uint64_t first_number(uint32_t x, uint32_t y, uint32_t pass)
+{
+    uint32_t lane, tile = gbuffer_tile_of(&gbuffer, x, y, &lane);
+    struct light_runs runs;
+    light_join_runs(&gbuffer, tile, pass, 4, &runs);
+    assert_true(runs.of_lane[lane] < runs.count);
+    return runs.first[runs.of_lane[lane]];
+}
+
+/* Any 5x5 pixels, also of several tiles, have all numbers of a pass, each once; the next pass goes on. */
+static void test_a_window_shares_a_run(void **state)
+{
+    (void)state;
+    for (uint32_t pass = 0; pass < 2; pass++)
+        for (uint32_t top = 9; top <= HEIGHT - 5; top += 2)
+            for (uint32_t left = 0; left <= WIDTH - 5; left++) {
+                uint32_t seen = 0;
+                for (uint32_t i = 0; i < 25; i++) {
+                    uint64_t first = first_number(left + i % 5, top + i / 5, pass);
+                    assert_true(first % 4 == 0 && first / 4 / 25 == pass);
+                    seen |= 1u << first / 4 % 25;
+                }
+                assert_int_equal(seen, (1u << 25) - 1);
+            }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -170,6 +198,7 @@ int main(void)
         cmocka_unit_test(test_a_window_of_5_by_5),
         cmocka_unit_test(test_what_falls_off_evenly_stays),
         cmocka_unit_test(test_edges_stay_sharp),
+        cmocka_unit_test(test_a_window_shares_a_run),
     };
     return cmocka_run_group_tests(tests, open_gbuffer, close_gbuffer);
 }

@@ -54,7 +54,7 @@ static void check_light(const struct light *light, struct random *random)
         assert_true(is_light(light_emit(light, u, &ray, &normal)));
         assert_true(is_finite(ray.origin) && fabsf(ps_length(ray.direction) - 1) < 1e-4f);
         struct light_sample sample;
-        if (light_sample(light, position, u[0], u[1], &sample)) {
+        if (sample_light(light, position, u[0], u[1], &sample)) {
             assert_true(is_light(sample.weight) && ps_rgb_maximum(sample.weight) > 0);
             assert_true(fabsf(ps_length(sample.direction) - 1) < 1e-4f);
             assert_true(sample.distance >= 0 && sample.pdf >= 0 && isfinite(sample.pdf));
@@ -149,7 +149,7 @@ static void test_points_of_a_sphere(void **state)
         float off = 0.5f * (1 + random_between(&random, -3e-7f, 3e-7f));
         ps_vec3 position = ps_add_scaled((ps_vec3){1, 2, 3}, off, random_direction(&random));
         struct light_sample sample;
-        if (light_sample(&light, position, hostile_unit(&random), hostile_unit(&random), &sample)) {
+        if (sample_light(&light, position, hostile_unit(&random), hostile_unit(&random), &sample)) {
             assert_true(is_light(sample.weight) && isfinite(sample.pdf) && sample.distance >= 0);
             assert_true(fabsf(ps_length(sample.direction) - 1) < 1e-4f);
         }

@@ -82,7 +82,7 @@ static void test_samples(void **state)
         ps_vec3 any = random_direction(&random), nowhere = {0, 0, 0};
         assert_true(light_radiance_from(light, any).g == 0 ||
                     light_pdf(light, nowhere, any, INFINITY, nowhere) > 0);
-        if (!light_sample(light, nowhere, u1, u2, &sample))
+        if (!sample_light(light, nowhere, u1, u2, &sample))
             continue;
         ps_rgb radiance = light_radiance_from(light, sample.direction);
         assert_true(isinf(sample.distance));
@@ -104,7 +104,7 @@ static void test_density_of_samples_is_that_of_their_direction(void **state)
     for (int i = 0; i < 100000; i++) {
         struct light_sample sample;
         ps_vec3 nowhere = {0, 0, 0};
-        light_sample(&light, nowhere, random_unit(&random), random_unit(&random), &sample);
+        sample_light(&light, nowhere, random_unit(&random), random_unit(&random), &sample);
         float pdf = light_pdf(&light, nowhere, sample.direction, INFINITY, nowhere);
         different += fabsf(pdf - sample.pdf) > 1e-5f * sample.pdf;
     }
@@ -238,7 +238,7 @@ static void test_negative_and_black_pictures(void **state)
     ps_vec3 normal;
     const float u[4] = {0.1f, 0.9f, 0.4f, 0.4f};
     assert_true(light_power(&light).r == 0 && light_power(&light).g == 0);
-    assert_false(light_sample(&light, up, 0.2f, 0.4f, &sample));
+    assert_false(sample_light(&light, up, 0.2f, 0.4f, &sample));
     assert_true(light_emit(&light, u, &ray, &normal).r == 0);
     light_release(&light);
     light_release(&light);

@@ -192,8 +192,8 @@ static void test_no_size(void **state)
     struct light light = ball(0, true);
     struct light_sample sample;
     assert_true(light_power(&light).r == 0);
-    assert_false(light_sample(&light, (ps_vec3){0, 0, 0}, 0.5f, 0.5f, &sample));
-    assert_false(light_sample(&light, center, 0.5f, 0.5f, &sample));
+    assert_false(sample_light(&light, (ps_vec3){0, 0, 0}, 0.5f, 0.5f, &sample));
+    assert_false(sample_light(&light, center, 0.5f, 0.5f, &sample));
     assert_true(light_pdf(&light, center, (ps_vec3){0, 0, 1}, 0, (ps_vec3){0, 0, 1}) == 0);
 }
 

@@ -76,7 +76,7 @@ static void test_a_point(void **state)
     struct light light = sun(0, UNIT_IRRADIANCE);
     struct light_sample sample;
     assert_true(light_is_delta(&light));
-    assert_true(light_sample(&light, center, 0.2f, 0.9f, &sample));
+    assert_true(sample_light(&light, center, 0.2f, 0.9f, &sample));
     assert_true(isinf(sample.distance) && sample.pdf == 0);
     assert_true(sample.weight.r == 6 && sample.weight.g == 3 && sample.weight.b == 2);
     expect_close(ps_dot(sample.direction, towards), 1, 1e-6);

@@ -290,12 +290,52 @@ static void test_a_rectangle_stays_stratified(void **state)
         for (int k = 0; k < EDGE; k++) {
             struct light_sample sample;
             assert_true(
-                light_sample(&light, position, (i + 0.5f) / EDGE, (k + 0.5f) / EDGE, &sample));
+                sample_light(&light, position, (i + 0.5f) / EDGE, (k + 0.5f) / EDGE, &sample));
             ps_vec3 at = ps_add_scaled(position, sample.distance, sample.direction);
             counts[(int)(at.x * 0.4999f * EDGE / 2)][(int)((at.z - 1.5f) * 0.9999f * EDGE / 2)]++;
         }
     for (int i = 0; i < EDGE * EDGE / 4; i++)
         assert_in_range(counts[i / (EDGE / 2)][i % (EDGE / 2)], 1, 8);
+    light_release(&light);
+}
+
+/* --- many at once --- */
+
+static void expect_same_samples(const struct light_sample *a, const struct light_sample *b)
+{
+    expect_close(a->distance, b->distance, 1e-6);
+    expect_close(a->weight.r, b->weight.r, 1e-5);
+    expect_close(a->pdf, b->pdf, 1e-5);
+    assert_true(ps_length(ps_subtract(a->direction, b->direction)) < 1e-5f);
+}
+
+/* More places than are looked at in one go, in front of the lamp, behind it and in its plane. */
+static void test_many_positions(void **state)
+{
+    (void)state;
+    enum { MANY = 37 };
+    struct light_mesh lamp = rectangle_mesh();
+    struct light light = light_of_mesh(&lamp, false);
+    ps_vec3 positions[MANY];
+    float numbers[MANY][2];
+    struct light_sample samples[MANY];
+    struct random random = {43};
+    int dark = 0;
+    for (int i = 0; i < MANY; i++) {
+        positions[i] = (ps_vec3){random_unit(&random), (float)(i % 5), random_unit(&random)};
+        numbers[i][0] = random_unit(&random);
+        numbers[i][1] = random_unit(&random);
+    }
+    light_sample(&light, positions, (const float(*)[2])numbers, MANY, samples);
+    for (int i = 0; i < MANY; i++) {
+        struct light_sample alone;
+        bool lit = sample_light(&light, positions[i], numbers[i][0], numbers[i][1], &alone);
+        assert_int_equal(lit, ps_rgb_maximum(samples[i].weight) > 0);
+        if (lit)
+            expect_same_samples(&samples[i], &alone);
+        dark += !lit;
+    }
+    assert_in_range(dark, 5, 20);
     light_release(&light);
 }
 
@@ -334,7 +374,7 @@ static void test_pattern(void **state)
         ps_rgb flux = light_emit(&light, u, &ray, &normal);
         assert_true(fabs(flux.r - PI * 2 * 6 * ray.origin.x / 2) < 1e-3);
         red += flux.r / 100000;
-        if (!light_sample(&light, position, u[0], u[1], &sample))
+        if (!sample_light(&light, position, u[0], u[1], &sample))
             continue;
         double x = position.x + sample.distance * sample.direction.x;
         assert_true(fabs(sample.weight.r * sample.pdf - 6 * x / 2) < 1e-3);
@@ -370,7 +410,7 @@ static void test_degenerate_meshes(void **state)
         ps_vec3 normal;
         struct light_sample sample;
         assert_true(light_power(&light).r == 0 && light_emit(&light, u, &ray, &normal).r == 0);
-        assert_false(light_sample(&light, (ps_vec3){0, 0, 1}, 0.3f, 0.6f, &sample));
+        assert_false(sample_light(&light, (ps_vec3){0, 0, 1}, 0.3f, 0.6f, &sample));
         light_release(&light);
     }
 }
@@ -386,7 +426,7 @@ static void test_tiny_lamp(void **state)
     struct light_sample sample;
     const ps_vec3 position = {0, 0, 2};
     expect_close(light.surface.area, 1e-25, 1e-5);
-    assert_true(light_sample(&light, position, 0.3f, 0.6f, &sample));
+    assert_true(sample_light(&light, position, 0.3f, 0.6f, &sample));
     expect_close(sample.weight.r, 6 * 1e-25 / 4, 1e-5);
     expect_flux_is_power(&light, 1e-5);
     light_release(&light);
@@ -404,6 +444,7 @@ int main(void)
         cmocka_unit_test(test_emission_is_lambertian),
         cmocka_unit_test(test_photons_agree_with_samples),
         cmocka_unit_test(test_a_rectangle_stays_stratified),
+        cmocka_unit_test(test_many_positions),
         cmocka_unit_test(test_pattern),
         cmocka_unit_test(test_degenerate_meshes),
         cmocka_unit_test(test_tiny_lamp),
