@@ -21,26 +21,42 @@ struct row_sums {
     float r[SIDE], g[SIDE], b[SIDE], count[SIDE];
 };
 
-/* What lies outside of the picture stays as it is. */
-static void load_pixel(const struct pair_mean *mean, int64_t x, int64_t y, int row, int column,
-                       struct apron *apron)
+/* `count` pixels beside each other in one row of a tile. */
+static void load_run(const struct pair_mean *mean, uint32_t tile, uint32_t lane, int count, int row,
+                     int column, struct apron *apron)
 {
-    uint32_t tile, lane;
-    if (!gbuffer_find(mean->gbuffer, x, y, &tile, &lane))
-        return;
     const ps_tile *from = &mean->gbuffer->tiles[tile];
-    size_t index = (size_t)tile * PS_TILE_PIXELS + lane;
-    apron->at.position_x[row][column] = from->position_x[lane];
-    apron->at.position_y[row][column] = from->position_y[lane];
-    apron->at.position_z[row][column] = from->position_z[lane];
-    apron->at.normal_x[row][column] = from->normal_x[lane];
-    apron->at.normal_y[row][column] = from->normal_y[lane];
-    apron->at.normal_z[row][column] = from->normal_z[lane];
-    ps_rgb found = mean->from ? mean->from[index] : (ps_rgb){0, 0, 0};
-    apron->r[row][column] = found.r;
-    apron->g[row][column] = found.g;
-    apron->b[row][column] = found.b;
-    apron->met[row][column] = mean->met ? mean->met[index] : 0;
+    size_t first = (size_t)tile * PS_TILE_PIXELS + lane, floats = (size_t)count * sizeof(float);
+    memcpy(&apron->at.position_x[row][column], &from->position_x[lane], floats);
+    memcpy(&apron->at.position_y[row][column], &from->position_y[lane], floats);
+    memcpy(&apron->at.position_z[row][column], &from->position_z[lane], floats);
+    memcpy(&apron->at.normal_x[row][column], &from->normal_x[lane], floats);
+    memcpy(&apron->at.normal_y[row][column], &from->normal_y[lane], floats);
+    memcpy(&apron->at.normal_z[row][column], &from->normal_z[lane], floats);
+    if (mean->met)
+        memcpy(&apron->met[row][column], &mean->met[first], (size_t)count * sizeof *mean->met);
+    for (int i = 0; i < count && mean->from; i++) {
+        apron->r[row][column + i] = mean->from[first + (size_t)i].r;
+        apron->g[row][column + i] = mean->from[first + (size_t)i].g;
+        apron->b[row][column + i] = mean->from[first + (size_t)i].b;
+    }
+}
+
+/* What lies outside of the picture stays as it is. */
+static void load_row(const struct pair_mean *mean, int64_t left, int64_t y, int row,
+                     struct apron *apron)
+{
+    int first = APRON_MARGIN - mean->reach, end = APRON_MARGIN + SIDE + mean->reach;
+    for (int column = first, next; column < end; column = next) {
+        int64_t x = left + column;
+        next = column < APRON_MARGIN ? APRON_MARGIN : column + SIDE;
+        next = next < end ? next : end;
+        int64_t there = (int64_t)mean->gbuffer->width - x;
+        int count = there < next - column ? (int)there : next - column;
+        uint32_t tile, lane;
+        if (gbuffer_find(mean->gbuffer, x, y, &tile, &lane))
+            load_run(mean, tile, lane, count, row, column, apron);
+    }
 }
 
 static void load_apron(const struct pair_mean *mean, uint32_t tile, struct apron *apron)
@@ -49,8 +65,7 @@ static void load_apron(const struct pair_mean *mean, uint32_t tile, struct apron
     int64_t top = (int64_t)(tile / mean->gbuffer->tiles_across) * SIDE - APRON_MARGIN;
     int first = APRON_MARGIN - mean->reach, end = APRON_MARGIN + SIDE + mean->reach;
     for (int row = first; row < end; row++)
-        for (int column = first; column < end; column++)
-            load_pixel(mean, left + column, top + row, row, column, apron);
+        load_row(mean, left, top + row, row, apron);
 }
 
 /* Which pixels of a row are like their neighbours at (dx, dy): 1 or 0. */

@@ -94,17 +94,21 @@ static void locate_texture(const struct shape *shape, ps_vec3 outward,
     mesh_uv(shape, at->triangle, at->u, at->v, hit->uv);
 }
 
-/* Fills in position and texture coordinates, and gives the front's smoothed normal in the shape's
- * space. */
-static ps_vec3 locate(const struct placed *placed, const ps_ray *ray, const struct intersection *at,
-                      ps_hit *hit)
+/* Fills in position and texture coordinates. */
+static void locate(const struct placed *placed, const ps_ray *ray, const struct intersection *at,
+                   ps_hit *hit)
 {
-    const struct shape *shape = placed->shape;
-    bool sphere = shape->kind == SHAPE_SPHERE;
-    locate_texture(shape, sphere ? sphere_outward(placed, ray, at) : at->normal, at, hit);
+    bool sphere = placed->shape->kind == SHAPE_SPHERE;
+    ps_vec3 outward = sphere ? sphere_outward(placed, ray, at) : at->normal;
+    locate_texture(placed->shape, outward, at, hit);
     hit->position = placed->instance
                         ? affine_point(&placed->instance->placement, hit->texture_point)
                         : hit->texture_point;
+}
+
+/* The front's smoothed normal in the shape's space. */
+static ps_vec3 smooth_normal(const struct shape *shape, const struct intersection *at)
+{
     if (shape->normals)
         return unit(interpolate(shape->normals, shape->triangles[at->triangle], at->u, at->v));
     return unit(at->normal);
@@ -153,11 +157,15 @@ ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray, const struc
         .flags = (material->specular ? PS_HIT_SPECULAR : 0u) |
                  (material->emissive ? PS_HIT_EMISSIVE : 0u),
     };
-    ps_vec3 normal = locate(&placed, ray, at, &hit);
-    if (material->normal_map || material->has_bump)
-        normal = bend(&placed, material, at, &hit, normal);
-    bool smoothed = placed.shape->normals || material->normal_map || material->has_bump;
-    hit.normal = smoothed ? normal_to_world(&placed, normal) : hit.geometric_normal;
+    locate(&placed, ray, at, &hit);
+    hit.normal = hit.geometric_normal;
+    bool bent = material->normal_map || material->has_bump;
+    if (bent || placed.shape->normals) {
+        ps_vec3 normal = smooth_normal(placed.shape, at);
+        if (bent)
+            normal = bend(&placed, material, at, &hit, normal);
+        hit.normal = normal_to_world(&placed, normal);
+    }
     face_ray(ray, &hit);
     hit.albedo = material_albedo(material, scene->microfacets, &hit, ray->direction);
     return hit;
