@@ -65,7 +65,8 @@ static ps_result write_difference(const struct request *request, struct picture_
         result = image_set_attribute(difference, names[i], request->paths[i], error);
     if (result != PS_OK)
         return result;
-    return image_write_exr(difference, request->output, parallel_processor_count(), error);
+    return image_write_exr(difference, request->output, IMAGE_ZIP, parallel_processor_count(),
+                           error);
 }
 
 static int run(const struct argument *arguments, size_t count)

@@ -17,6 +17,8 @@
 static const struct option options[] = {
     {'o', "output", "FILE", "write FILE (.exr or .png); may be given several times"},
     {0, "layers", "NAME,...", "layers of EXR files beside the picture; or all (default), none"},
+    {0, "compression", "NAME",
+     "of EXR files, none with loss: " IMAGE_COMPRESSIONS "; default: zip"},
     RENDER_OPTIONS,
     {0, "preview", NULL, "a quick look: small, few light paths, coarse shadows"},
     {0, "passes", "N", "number of passes; more smooth edges and lessen noise"},
@@ -27,8 +29,9 @@ struct job {
     struct render_options options;
     const char *outputs[MOST_OUTPUTS];
     size_t output_count;
-    char *default_outputs[2]; /* owned */
-    const char *layers;       /* a list of layers.h */
+    char *default_outputs[2];    /* owned */
+    const char *layers;          /* a list of layers.h */
+    struct output_format format; /* its exposure is the scene's */
     const char *stats_path;
     double passes; /* negative: not given */
     struct progress progress;
@@ -72,6 +75,16 @@ static bool take_output(struct job *job, const char *path)
     return true;
 }
 
+static bool take_compression(struct job *job, const char *name)
+{
+    if (image_compression_named(name, &job->format.compression))
+        return true;
+    fprintf(stderr,
+            "psplat: error: --compression: expected one of " IMAGE_COMPRESSIONS ", got '%s'\n",
+            name);
+    return false;
+}
+
 static bool take_option(struct job *job, const struct argument *argument)
 {
     const char *name = argument->option->name, *value = argument->value;
@@ -81,6 +94,8 @@ static bool take_option(struct job *job, const struct argument *argument)
         job->layers = value;
         return layers_check(value);
     }
+    if (strcmp(name, "compression") == 0)
+        return take_compression(job, value);
     if (strcmp(name, "stats") == 0)
         job->stats_path = value;
     else if (strcmp(name, "passes") == 0)
@@ -148,14 +163,14 @@ static void tell_of_dark_pixels(const struct job *job, const struct statistics *
 }
 
 /* Writes all that can be written; the error is the first one's. */
-static ps_result write_files(struct job *job, const struct image *image, double exposure,
-                             uint32_t threads, struct statistics *statistics, struct error *error)
+static ps_result write_files(struct job *job, const struct image *image, uint32_t threads,
+                             struct statistics *statistics, struct error *error)
 {
     double start = clock_seconds();
     ps_result first = PS_OK;
     for (size_t i = 0; i < job->output_count; i++) {
         struct error reason;
-        ps_result result = output_write(image, job->outputs[i], exposure, threads, &reason);
+        ps_result result = output_write(image, job->outputs[i], &job->format, threads, &reason);
         if (result == PS_OK && !job->options.quiet)
             fprintf(stderr, "psplat: wrote %s\n", job->outputs[i]);
         if (result != PS_OK && first == PS_OK) {
@@ -189,9 +204,9 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     ps_result written = output_describe(&image, description->path, &job->options.scene, settings,
                                         description->image.exposure, error);
     layers_keep(&image, job->layers);
+    job->format.exposure = description->image.exposure;
     if (written == PS_OK)
-        written = write_files(job, &image, description->image.exposure, settings->threads,
-                              statistics, error);
+        written = write_files(job, &image, settings->threads, statistics, error);
     image_release(&image);
     if (written == PS_OK && result == PS_CANCELLED)
         return error_set(error, PS_CANCELLED,

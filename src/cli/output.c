@@ -80,12 +80,12 @@ static ps_result write_png(const struct image *image, const char *path, double e
     return result;
 }
 
-ps_result output_write(const struct image *image, const char *path, double exposure,
-                       uint32_t threads, struct error *error)
+ps_result output_write(const struct image *image, const char *path,
+                       const struct output_format *format, uint32_t threads, struct error *error)
 {
     if (output_holds_layers(path))
-        return image_write_exr(image, path, threads, error);
-    return write_png(image, path, exposure, threads, error);
+        return image_write_exr(image, path, format->compression, threads, error);
+    return write_png(image, path, format->exposure, threads, error);
 }
 
 bool output_check(const char *path, struct error *error)

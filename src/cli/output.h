@@ -16,10 +16,15 @@ bool output_holds_layers(const char *path);
  * it. */
 char *output_default_path(const char *scene_path, const char *suffix);
 
-/* Writes the picture by its name's suffix; exposure in stops, for PNG; the threads change its time,
- * not the file. */
-ps_result output_write(const struct image *image, const char *path, double exposure,
-                       uint32_t threads, struct error *error);
+/* What files are made like. */
+struct output_format {
+    enum image_compression compression; /* EXR */
+    double exposure;                    /* PNG; stops */
+};
+
+/* Writes the picture by its name's suffix; the threads change its time, not the file. */
+ps_result output_write(const struct image *image, const char *path,
+                       const struct output_format *format, uint32_t threads, struct error *error);
 
 /* Attributes that say how the picture was made: version, scene, every setting, and the command that
  * repeats it. */

@@ -25,7 +25,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define LINES_PER_CHUNK 16   /* of ZIP compression */
+#define MOST_LINES 16        /* of a chunk */
 #define SHORT_NAME_LENGTH 31 /* longer names need a flag that readers before 2012 lack */
 #define PART 0               /* the file's only part */
 #define SAMPLE_SIZE ((int32_t)sizeof(float))
@@ -37,6 +37,18 @@
 /* ITU-R BT.709-6: x and y of red, green, blue, and of white (D65). */
 static const exr_attr_chromaticities_t rec709 = {0.64f, 0.33f, 0.30f,   0.60f,
                                                  0.15f, 0.06f, 0.3127f, 0.3290f};
+
+/* By enum image_compression: how the library calls it, and how many lines make a chunk. */
+static const struct {
+    const char *name;
+    exr_compression_t code;
+    size_t lines;
+} compressions[] = {
+    [IMAGE_ZIP] = {"zip", EXR_COMPRESSION_ZIP, MOST_LINES},
+    [IMAGE_ZIPS] = {"zips", EXR_COMPRESSION_ZIPS, 1},
+    [IMAGE_RLE] = {"rle", EXR_COMPRESSION_RLE, 1},
+    [IMAGE_UNCOMPRESSED] = {"none", EXR_COMPRESSION_NONE, 1},
+};
 
 struct exr_sink {
     struct output_file file;
@@ -85,7 +97,7 @@ static ps_result check_picture(const struct image *image, const char *path, stru
     if (image->width == 0 || image->height == 0 || image->channel_count == 0) {
         return error_set(error, PS_ERROR_INVALID, "cannot write '%s': the picture is empty", path);
     }
-    size_t bytes_per_column = image->channel_count * LINES_PER_CHUNK * sizeof(float);
+    size_t bytes_per_column = image->channel_count * MOST_LINES * sizeof(float);
     if (image->height > INT32_MAX || image->channel_count > INT16_MAX ||
         image->width > INT32_MAX / bytes_per_column) {
         return error_set(error, PS_ERROR_INVALID,
@@ -116,7 +128,7 @@ static bool needs_long_names(const struct image *image)
 }
 
 static ps_result write_header(exr_context_t context, const struct image *image,
-                              const struct exr_sink *sink)
+                              enum image_compression compression, const struct exr_sink *sink)
 {
     exr_result_t code = exr_set_longname_support(context, needs_long_names(image));
     if (code == EXR_ERR_SUCCESS) {
@@ -124,7 +136,8 @@ static ps_result write_header(exr_context_t context, const struct image *image,
     }
     if (code == EXR_ERR_SUCCESS) {
         code = exr_initialize_required_attr_simple(context, PART, (int32_t)image->width,
-                                                   (int32_t)image->height, EXR_COMPRESSION_ZIP);
+                                                   (int32_t)image->height,
+                                                   compressions[compression].code);
     }
     if (code == EXR_ERR_SUCCESS) {
         code = exr_set_zip_compression_level(context, PART, ZIP_LEVEL);
@@ -168,6 +181,7 @@ static void point_at_line(exr_encode_pipeline_t *encoder, const struct image *im
 struct chunk_queue {
     exr_context_t context;
     const struct image *image;
+    size_t lines;         /* of each */
     pthread_mutex_t lock; /* of what follows */
     pthread_cond_t moved; /* `written` or `code` has changed */
     size_t handed_out;    /* lines that were given to threads */
@@ -180,7 +194,7 @@ static bool take_chunk(struct chunk_queue *queue, size_t *line)
     pthread_mutex_lock(&queue->lock);
     bool left = queue->code == EXR_ERR_SUCCESS && queue->handed_out < queue->image->height;
     *line = queue->handed_out;
-    queue->handed_out += left ? LINES_PER_CHUNK : 0;
+    queue->handed_out += left ? queue->lines : 0;
     pthread_mutex_unlock(&queue->lock);
     return left;
 }
@@ -211,7 +225,7 @@ static exr_result_t await_turn(exr_encode_pipeline_t *encoder)
 static void end_turn(struct chunk_queue *queue)
 {
     pthread_mutex_lock(&queue->lock);
-    queue->written += LINES_PER_CHUNK;
+    queue->written += queue->lines;
     pthread_cond_broadcast(&queue->moved);
     pthread_mutex_unlock(&queue->lock);
 }
@@ -274,11 +288,12 @@ static void work_off_chunks(void *user, uint64_t index, uint32_t worker)
     exr_encoding_destroy(queue->context, &encoder);
 }
 
-static ps_result write_chunks(exr_context_t context, const struct image *image, uint32_t threads,
-                              const struct exr_sink *sink)
+static ps_result write_chunks(exr_context_t context, const struct image *image, size_t lines,
+                              uint32_t threads, const struct exr_sink *sink)
 {
-    struct chunk_queue queue = {.context = context, .image = image, .code = EXR_ERR_SUCCESS};
-    size_t chunks = (image->height + LINES_PER_CHUNK - 1) / LINES_PER_CHUNK;
+    struct chunk_queue queue = {
+        .context = context, .image = image, .lines = lines, .code = EXR_ERR_SUCCESS};
+    size_t chunks = (image->height + lines - 1) / lines;
     uint32_t workers = threads < chunks ? threads : (uint32_t)chunks;
     pthread_mutex_init(&queue.lock, NULL);
     pthread_cond_init(&queue.moved, NULL);
@@ -288,7 +303,8 @@ static ps_result write_chunks(exr_context_t context, const struct image *image, 
     return explain(sink, queue.code, "the", "pixels");
 }
 
-static ps_result write_picture(const struct image *image, uint32_t threads, struct exr_sink *sink)
+static ps_result write_picture(const struct image *image, enum image_compression compression,
+                               uint32_t threads, struct exr_sink *sink)
 {
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = drop_message;
@@ -301,16 +317,26 @@ static ps_result write_picture(const struct image *image, uint32_t threads, stru
     if (result != PS_OK) {
         return result;
     }
-    result = write_header(context, image, sink);
+    result = write_header(context, image, compression, sink);
     if (result == PS_OK) {
-        result = write_chunks(context, image, threads, sink);
+        result = write_chunks(context, image, compressions[compression].lines, threads, sink);
     }
     exr_result_t code = exr_finish(&context);
     return result == PS_OK ? explain(sink, code, "the", "end") : result;
 }
 
-ps_result image_write_exr(const struct image *image, const char *path, uint32_t threads,
-                          struct error *error)
+bool image_compression_named(const char *name, enum image_compression *compression)
+{
+    for (size_t i = 0; i < sizeof compressions / sizeof compressions[0]; i++)
+        if (strcmp(name, compressions[i].name) == 0) {
+            *compression = (enum image_compression)i;
+            return true;
+        }
+    return false;
+}
+
+ps_result image_write_exr(const struct image *image, const char *path,
+                          enum image_compression compression, uint32_t threads, struct error *error)
 {
     struct exr_sink sink = {.error = error};
     ps_result result = check_picture(image, path, error);
@@ -320,7 +346,7 @@ ps_result image_write_exr(const struct image *image, const char *path, uint32_t 
     if (result != PS_OK) {
         return result;
     }
-    result = write_picture(image, threads, &sink);
+    result = write_picture(image, compression, threads, &sink);
     if (result != PS_OK) {
         output_file_discard(&sink.file);
         return result;

@@ -52,11 +52,20 @@ ps_result image_set_attribute(struct image *image, const char *name, const char 
 const float *image_channel(const struct image *image, const char *name);
 const char *image_attribute(const struct image *image, const char *name);
 
-/* Writes a scan-line OpenEXR, 32-bit float, ZIP compression, channels in the alphabetical order
+/* How an OpenEXR file holds its samples, always without loss: by deflating 16 lines together or each alone, by
+ * run lengths, or as they are. */
+enum image_compression { IMAGE_ZIP, IMAGE_ZIPS, IMAGE_RLE, IMAGE_UNCOMPRESSED };
+
+/* The names of these in OpenEXR's words. */
+#define IMAGE_COMPRESSIONS "zip, zips, rle, none"
+bool image_compression_named(const char *name, enum image_compression *compression);
+
+/* Writes a scan-line OpenEXR, 32-bit float, channels in the alphabetical order
  * that the format demands, string attributes as they stand. The same image gives the same bytes,
  * whatever the number of threads, of which it uses `threads`, at least 1. Channels' names must
  * differ. */
-ps_result image_write_exr(const struct image *image, const char *path, uint32_t threads,
+ps_result image_write_exr(const struct image *image, const char *path,
+                          enum image_compression compression, uint32_t threads,
                           struct error *error);
 
 /* Reads a single-part scan-line or tiled (one level) OpenEXR, half, float or uint channels, into

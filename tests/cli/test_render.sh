@@ -127,6 +127,20 @@ for wrong in "" , N, ,N N,,Z indirect.R R "N Z" nothing; do
     expect_text err "got '$wrong'"
 done
 
+# --compression packs the same samples otherwise.
+for name in zip zips rle none; do
+    run 0 $small --compression $name -o packed-$name.exr "$cornell"
+    run 0 compare packed-$name.exr reference.exr --fail 'rel_rmse>0'
+done
+expect_same packed-zip.exr reference.exr
+expect_different packed-zips.exr packed-zip.exr
+[ "$(wc -c <packed-none.exr)" -gt "$(wc -c <packed-rle.exr)" ] || fail "--compression none packs"
+[ "$(wc -c <packed-rle.exr)" -gt "$(wc -c <packed-zip.exr)" ] || fail "--compression rle deflates"
+for wrong in "" piz ZIP "zip,rle"; do
+    run 2 --compression "$wrong" "$cornell"
+    expect_text err "--compression: expected one of zip, zips, rle, none, got '$wrong'"
+done
+
 # The command line goes before the scene's own size, passes, seed and exposure.
 sed 's/^image:.*/image: {width: 48, height: 27, exposure: 2}/
      s/^render:.*/&\n  passes: 3\n  seed: 7/' "$cornell" >own.psd

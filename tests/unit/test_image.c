@@ -45,17 +45,18 @@ static void assert_same(const struct image *a, const struct image *b)
     }
 }
 
-static void write_with_threads(const struct image *image, const char *path, uint32_t threads)
+static void write_with_threads(const struct image *image, const char *path,
+                               enum image_compression compression, uint32_t threads)
 {
     struct error error = {{0}};
-    if (image_write_exr(image, path, threads, &error) != PS_OK) {
+    if (image_write_exr(image, path, compression, threads, &error) != PS_OK) {
         fail_msg("%s", error.text);
     }
 }
 
 static void write_picture(const struct image *image, const char *path)
 {
-    write_with_threads(image, path, 3);
+    write_with_threads(image, path, IMAGE_ZIP, 3);
 }
 
 static struct image read_picture(const char *path)
@@ -68,16 +69,32 @@ static struct image read_picture(const char *path)
     return image;
 }
 
-/* Writes, reads back, compares and releases. */
+/* Writes with each compression, reads back, compares and releases. */
 static void assert_round_trip(void **state, struct image *image)
 {
     const char *path = scratch_path(state, "round trip.exr");
-    write_picture(image, path);
-    struct image back = read_picture(path);
-    assert_same(image, &back);
+    for (int i = IMAGE_ZIP; i <= IMAGE_UNCOMPRESSED; i++) {
+        write_with_threads(image, path, (enum image_compression)i, 3);
+        struct image back = read_picture(path);
+        assert_same(image, &back);
+        image_release(&back);
+    }
     image_release(image);
-    image_release(&back);
     assert_int_equal(scratch_file_count(state), 1);
+}
+
+static void test_names_of_compressions(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"zip", "zips", "rle", "none"};
+    enum image_compression compression = IMAGE_ZIP;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        assert_true(image_compression_named(names[i], &compression));
+        assert_int_equal(compression, i);
+        assert_non_null(strstr(IMAGE_COMPRESSIONS, names[i]));
+    }
+    assert_false(image_compression_named("piz", &compression));
+    assert_false(image_compression_named("", &compression));
 }
 
 static void test_channels_in_memory(void **state)
@@ -184,8 +201,8 @@ static void test_reserved_attributes(void **state)
         struct image image = picture(2, 2, 1);
         struct error error = {{0}};
         assert_int_equal(image_set_attribute(&image, names[i], "x", &error), PS_OK);
-        assert_int_not_equal(image_write_exr(&image, scratch_path(state, "a.exr"), 1, &error),
-                             PS_OK);
+        assert_int_not_equal(
+            image_write_exr(&image, scratch_path(state, "a.exr"), IMAGE_ZIP, 1, &error), PS_OK);
         assert_non_null(strstr(error.text, names[i]));
         assert_int_equal(scratch_file_count(state), 0);
         image_release(&image);
@@ -214,10 +231,10 @@ static void test_same_bytes_whatever_the_threads(void **state)
         }
     }
     const char *one = scratch_path(state, "one.exr");
-    write_with_threads(&image, one, 1);
+    write_with_threads(&image, one, IMAGE_ZIP, 1);
     for (size_t i = 0; i < sizeof threads / sizeof *threads; i++) {
         const char *other = scratch_path(state, "other.exr");
-        write_with_threads(&image, other, threads[i]);
+        write_with_threads(&image, other, IMAGE_ZIP, threads[i]);
         assert_same_bytes(one, other);
     }
     image_release(&image);
@@ -293,6 +310,7 @@ static void test_other_programs_can_read_it(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_names_of_compressions),
         cmocka_unit_test(test_channels_in_memory),
         cmocka_unit_test(test_attributes_in_memory),
         SCRATCH_TEST(test_sizes),
