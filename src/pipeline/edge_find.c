@@ -1,7 +1,12 @@
-/* edge_find.c: which pixels are edges; see edges.h. */
+/* edge_find.c: which pixels are edges; see edges.h.
+ *
+ * A tile and the pixels around it lie in plain arrays, so that compilers make vectors of the loop over a row.
+ */
 #include "pipeline/edges.h"
 
-#include <psplat/tile.h>
+#include <math.h>
+#include <psplat/math.h>
+#include <string.h>
 
 /* Radiance and albedo differ where they do by more than this share of the larger one. */
 #define CONTRAST 0.25f
@@ -10,107 +15,102 @@
  * step; less may be a normal that is bent or smoothed. */
 #define STEP2 0.25f
 
-/* A pixel of the G-buffer. */
-struct place {
-    const ps_tile *tile; /* NULL: outside of the picture */
-    uint32_t lane;
-    ps_rgb albedo, radiance;
+#define LEAST_COSINE 0.9f /* between normals of one surface */
+
+#define SIDE (PS_TILE_SIZE + 2)
+
+struct sights {
+    int there[SIDE][SIDE]; /* 0: outside of the picture */
+    uint32_t object[SIDE][SIDE];
+    float x[SIDE][SIDE], y[SIDE][SIDE], z[SIDE][SIDE];
+    float normal_x[SIDE][SIDE], normal_y[SIDE][SIDE], normal_z[SIDE][SIDE];
+    float albedo[3][SIDE][SIDE], radiance[3][SIDE][SIDE];
 };
 
-static ps_rgb albedo_of(const ps_tile *tile, uint32_t lane)
+static void load_pixel(const struct gbuffer *gbuffer, int64_t x, int64_t y, int row, int column,
+                       struct sights *sights)
 {
-    return (ps_rgb){tile->albedo_r[lane] * tile->throughput_r[lane],
-                    tile->albedo_g[lane] * tile->throughput_g[lane],
-                    tile->albedo_b[lane] * tile->throughput_b[lane]};
+    uint32_t number, lane;
+    if (!gbuffer_find(gbuffer, x, y, &number, &lane))
+        return;
+    const ps_tile *tile = &gbuffer->tiles[number];
+    size_t pixel = (size_t)number * PS_TILE_PIXELS + lane;
+    ps_rgb albedo = {tile->albedo_r[lane] * tile->throughput_r[lane],
+                     tile->albedo_g[lane] * tile->throughput_g[lane],
+                     tile->albedo_b[lane] * tile->throughput_b[lane]};
+    ps_rgb reflected = ps_rgb_scale(ps_rgb_multiply(albedo, gbuffer->direct[pixel]), 1.0f / PS_PI);
+    ps_rgb radiance = ps_rgb_add(gbuffer->emitted[pixel], reflected);
+    sights->there[row][column] = 1;
+    sights->object[row][column] = tile->object[lane];
+    sights->x[row][column] = tile->position_x[lane];
+    sights->y[row][column] = tile->position_y[lane];
+    sights->z[row][column] = tile->position_z[lane];
+    sights->normal_x[row][column] = tile->normal_x[lane];
+    sights->normal_y[row][column] = tile->normal_y[lane];
+    sights->normal_z[row][column] = tile->normal_z[lane];
+    sights->albedo[0][row][column] = albedo.r;
+    sights->albedo[1][row][column] = albedo.g;
+    sights->albedo[2][row][column] = albedo.b;
+    sights->radiance[0][row][column] = radiance.r;
+    sights->radiance[1][row][column] = radiance.g;
+    sights->radiance[2][row][column] = radiance.b;
 }
 
-static struct place place_of(const struct gbuffer *gbuffer, int64_t x, int64_t y)
+static inline int contrast(float a, float b)
 {
-    uint32_t tile, lane;
-    if (!gbuffer_find(gbuffer, x, y, &tile, &lane))
-        return (struct place){.tile = NULL};
-    size_t pixel = (size_t)tile * PS_TILE_PIXELS + lane;
-    ps_rgb albedo = albedo_of(&gbuffer->tiles[tile], lane);
-    ps_rgb reflected = ps_rgb_multiply(albedo, gbuffer->direct[pixel]);
-    return (struct place){
-        &gbuffer->tiles[tile], lane, albedo,
-        ps_rgb_add(gbuffer->emitted[pixel], ps_rgb_scale(reflected, 1.0f / PS_PI))};
+    return fabsf(a - b) > CONTRAST * ps_max(a, b);
 }
 
-static bool sees_surface(const struct place *place)
+/* Marks the pixels of a row whose neighbours at (dx, dy) see another surface, or another colour of it or from it. */
+static void compare_row(const struct sights *sights, int row, int dx, int dy,
+                        int differs[PS_TILE_SIZE])
 {
-    return place->tile->object[place->lane] != PS_NO_OBJECT;
-}
-
-static bool same_object(const struct place *a, const struct place *b)
-{
-    return a->tile->object[a->lane] == b->tile->object[b->lane];
-}
-
-/* How far b lies off the plane of a, how far away (squared), and the cosine between both normals. */
-struct offset {
-    float off_plane, distance2, cosine;
-};
-
-static struct offset offset_of(const struct place *a, const struct place *b)
-{
-    ps_vec3 normal = ps_tile_normal(a->tile, a->lane);
-    ps_vec3 way =
-        ps_subtract(ps_tile_position(b->tile, b->lane), ps_tile_position(a->tile, a->lane));
-    return (struct offset){ps_dot(normal, way), ps_dot(way, way),
-                           ps_dot(normal, ps_tile_normal(b->tile, b->lane))};
-}
-
-static bool surfaces_differ(const struct place *a, const struct place *b)
-{
-    struct offset offset = offset_of(a, b);
-    return !same_object(a, b) || offset.cosine < 0.9f ||
-           offset.off_plane * offset.off_plane > STEP2 * offset.distance2;
-}
-
-static bool numbers_differ(float a, float b)
-{
-    return fabsf(a - b) > CONTRAST * fmaxf(a, b);
-}
-
-static bool colors_differ(ps_rgb a, ps_rgb b)
-{
-    return numbers_differ(a.r, b.r) || numbers_differ(a.g, b.g) || numbers_differ(a.b, b.b);
-}
-
-static bool places_differ(const struct place *a, const struct place *b)
-{
-    if (sees_surface(a) != sees_surface(b))
-        return true;
-    if (sees_surface(a) && surfaces_differ(a, b))
-        return true;
-    return colors_differ(a->albedo, b->albedo) || colors_differ(a->radiance, b->radiance);
-}
-
-#define SIDE (PS_TILE_SIZE + 2) /* of a tile and the pixels around it */
-
-/* One of SIDE x SIDE places, and not at their rim. */
-static bool differs_from_around(const struct place *here)
-{
-    const struct place *around[4] = {here - 1, here + 1, here - SIDE, here + SIDE};
-    for (int i = 0; i < 4; i++)
-        if (around[i]->tile && places_differ(here, around[i]))
-            return true;
-    return false;
+    int here_row = row + 1, there_row = here_row + dy;
+#pragma omp simd
+    for (int i = 0; i < PS_TILE_SIZE; i++) {
+        int here = i + 1, there = here + dx;
+        float normal_x = sights->normal_x[here_row][here],
+              normal_y = sights->normal_y[here_row][here],
+              normal_z = sights->normal_z[here_row][here];
+        float x = sights->x[there_row][there] - sights->x[here_row][here];
+        float y = sights->y[there_row][there] - sights->y[here_row][here];
+        float z = sights->z[there_row][there] - sights->z[here_row][here];
+        float off_plane = normal_x * x + normal_y * y + normal_z * z;
+        float cosine = normal_x * sights->normal_x[there_row][there] +
+                       normal_y * sights->normal_y[there_row][there] +
+                       normal_z * sights->normal_z[there_row][there];
+        int bent =
+            (cosine < LEAST_COSINE) | (off_plane * off_plane > STEP2 * (x * x + y * y + z * z));
+        uint32_t object = sights->object[here_row][here];
+        int other =
+            (object != sights->object[there_row][there]) | ((object != PS_NO_OBJECT) & bent);
+        for (int k = 0; k < 3; k++)
+            other |=
+                contrast(sights->albedo[k][here_row][here], sights->albedo[k][there_row][there]) |
+                contrast(sights->radiance[k][here_row][here],
+                         sights->radiance[k][there_row][there]);
+        differs[i] |= other & sights->there[there_row][there];
+    }
 }
 
 void edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE_PIXELS])
 {
-    struct place places[SIDE][SIDE];
+    static const int around[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    struct sights sights;
     int64_t left = (int64_t)(tile % gbuffer->tiles_across) * PS_TILE_SIZE - 1;
     int64_t top = (int64_t)(tile / gbuffer->tiles_across) * PS_TILE_SIZE - 1;
+    memset(&sights, 0, sizeof sights);
     for (int row = 0; row < SIDE; row++)
         for (int column = 0; column < SIDE; column++)
-            places[row][column] = place_of(gbuffer, left + column, top + row);
-    const bool *by_chance = &gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
-    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-        uint32_t row = lane / PS_TILE_SIZE + 1, column = lane % PS_TILE_SIZE + 1;
-        const struct place *here = &places[row][column];
-        edges[lane] = here->tile && (by_chance[lane] || differs_from_around(here));
+            load_pixel(gbuffer, left + column, top + row, row, column, &sights);
+    for (int row = 0; row < PS_TILE_SIZE; row++) {
+        int differs[PS_TILE_SIZE] = {0};
+        for (int i = 0; i < 4; i++)
+            compare_row(&sights, row, around[i][0], around[i][1], differs);
+        for (int i = 0; i < PS_TILE_SIZE; i++) {
+            int lane = row * PS_TILE_SIZE + i;
+            bool by_chance = gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS + (size_t)lane];
+            edges[lane] = sights.there[row + 1][i + 1] && (differs[i] || by_chance);
+        }
     }
 }

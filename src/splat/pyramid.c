@@ -3,6 +3,9 @@
 #include "base/parallel.h"
 #include <stdlib.h>
 
+/* Of two nodes no third one is made: to ask it takes as long as to ask one of them. */
+#define MOST_ON_TOP 2
+
 size_t pyramid_bytes(const struct pyramid *pyramid)
 {
     return pyramid->each * pyramid->subsets * sizeof *pyramid->nodes;
@@ -24,7 +27,7 @@ ps_result pyramid_create(const struct field *field, struct pyramid *pyramid, str
         pyramid->across[level] = across;
         pyramid->down[level] = down;
         pyramid->each += (size_t)across * down;
-    } while (pyramid->levels < PYRAMID_LEVELS && (across > 1 || down > 1));
+    } while (pyramid->levels < PYRAMID_LEVELS && across * down > MOST_ON_TOP);
     size_t bytes = pyramid_bytes(pyramid);
     pyramid->nodes = aligned_alloc(64, bytes);
     return pyramid->nodes ? PS_OK : error_memory(error, bytes, "tile bounds");

@@ -39,15 +39,16 @@ static void trace_disc(const ps_host *host, const struct box_scene *scene, const
 static float width_for(const struct box_scene *scene, const ps_box_settings *settings,
                        const ps_source *source, const ps_packet *packet, float widest, float least)
 {
-    float width = least;
-    for (int i = 0; i < RAYS; i++) {
-        if (!(packet->tfar[i] < INFINITY))
-            continue;
+    for (int i = RAYS - 1; i >= 0; i--) { /* inwards */
         float aside = widest * sqrtf(place_u[i] * place_u[i] + place_v[i] * place_v[i]);
-        float wanted = box_half_width(scene, settings, source, packet->tfar[i]);
-        width = ps_max(width, wanted > aside ? ps_min(MARGIN * aside, widest) : 0.0f);
+        float width = ps_min(MARGIN * aside, widest);
+        if (width <= least)
+            break;
+        if (packet->tfar[i] < INFINITY &&
+            box_half_width(scene, settings, source, packet->tfar[i]) > aside)
+            return width;
     }
-    return width;
+    return least;
 }
 
 /* How far away along the axis the nearest thing lies that the rays met; INFINITY: they met nothing. */
