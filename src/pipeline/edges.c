@@ -189,15 +189,20 @@ static void finish_looks(const struct edge_pass *pass, struct looks *looks, stru
     looks->points.count = 0;
 }
 
-void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *film)
+static bool has_edges(const bool edges[PS_TILE_PIXELS])
 {
-    bool *edges = &pass->edges[(size_t)tile * PS_TILE_PIXELS];
+    bool any = false;
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
+        any |= edges[lane];
+    return any;
+}
+
+static void look_again(const struct edge_pass *pass, uint32_t tile, const bool *edges,
+                       struct film *film)
+{
     struct looks looks;
     looks.points.count = 0;
     draw_pattern(pass, &looks);
-    if (pass->number == 0)
-        edges_find(pass->gbuffer, tile, edges);
-    film_add_tile(film, pass->gbuffer, tile, edges);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         for (uint32_t sample = 0; sample < pass->samples && edges[lane]; sample++) {
             add_look(pass, tile, lane, sample, &looks);
@@ -206,4 +211,14 @@ void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *fi
         }
     if (looks.points.count > 0)
         finish_looks(pass, &looks, film);
+}
+
+void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *film)
+{
+    bool *edges = &pass->edges[(size_t)tile * PS_TILE_PIXELS];
+    if (pass->number == 0)
+        edges_find(pass->gbuffer, tile, edges);
+    film_add_tile(film, pass->gbuffer, tile, edges);
+    if (has_edges(edges))
+        look_again(pass, tile, edges, film);
 }

@@ -2,6 +2,7 @@
 #include "base/parallel.h"
 #include "base/sample.h"
 #include "pipeline/host_light.h"
+#include "pipeline/host_place.h"
 #include "pipeline/host_splat.h"
 #include "pipeline/render_state.h"
 #include <psplat/math.h>
@@ -164,5 +165,6 @@ void host_create(struct render *render)
         .camera = host_camera,
     };
     host_add_light_transport(&render->host);
+    host_add_placing(&render->host);
     host_add_splatting(&render->host);
 }

@@ -11,7 +11,7 @@
 #include "splat/splatter.h"
 #include <stdatomic.h>
 
-/* Whether it pays to ask which splats light nothing in view (host_splat.c). */
+/* Whether it pays to ask which splats light nothing in view (host_place.c). */
 struct unseen {
     uint64_t batches; /* placed so far in the pass */
     bool asked;       /* in this batch */

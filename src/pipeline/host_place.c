@@ -1,0 +1,196 @@
+#include "pipeline/host_place.h"
+
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "splat/reach.h"
+#include "splat/wall.h"
+#include <math.h>
+#include <psplat/math.h>
+#include <string.h>
+
+/* Splats that can light nothing in view are dropped before more is done for them: of a large scene little is in
+ * view. Where few are dropped, asking takes longer than what it saves; then one batch in so many is asked. */
+#define ASK_EVERY 16
+#define ENOUGH_UNSEEN 0.125
+
+/* What lies past the first hit counts, since part of a beam may pass beside it. */
+static void drop_unseen(struct render *render, ps_splat *splats, size_t n)
+{
+    uint64_t unseen = 0;
+    for (size_t i = 0; i < n; i++) {
+        ps_splat open = splats[i];
+        open.far_depth = INFINITY;
+        if (splatter_touches(&render->splatter, &open))
+            continue;
+        splats[i].half_width = 0.0f;
+        unseen++;
+    }
+    atomic_fetch_add(&render->unseen.in_batch, unseen);
+}
+
+void host_begin_placing(struct render *render)
+{
+    render->unseen.many = false;
+    render->unseen.batches = 0;
+}
+
+static void begin_batch(struct render *render)
+{
+    struct unseen *unseen = &render->unseen;
+    unseen->asked = render->splatting && (unseen->many || unseen->batches % ASK_EVERY == 0);
+    unseen->batches++;
+    atomic_store(&unseen->in_batch, 0);
+}
+
+static void end_batch(struct render *render, size_t n)
+{
+    struct unseen *unseen = &render->unseen;
+    if (unseen->asked)
+        unseen->many = (double)atomic_load(&unseen->in_batch) > ENOUGH_UNSEEN * (double)n;
+}
+
+struct box_scene host_box_scene(const struct render *render)
+{
+    float radius = render->scene->radius, spread = render->sources.spread;
+    uint64_t paths = render->sources.path_count;
+    return (struct box_scene){
+        .radius = radius,
+        .surface_offset = render->scene->surface_offset,
+        .automatic_size = box_automatic_size(radius, spread, paths, render->pass.number),
+        .automatic_near = box_automatic_near(radius, spread, paths),
+        .seed = render->settings->seed,
+        .camera = &render->scene->camera,
+        .interleave = render->has_splatter ? render->splatter.settings.interleave : 1,
+        .near_distance = render->near_light.distance,
+    };
+}
+
+/* What places up to PS_PATH_CHUNK boxes. */
+struct placing {
+    struct render *render;
+    struct box_scene scene;
+    const ps_box_settings *settings;
+    const ps_source *sources;
+    size_t n;
+    ps_hit *hits;
+    float *half_widths; /* 0: no box */
+};
+
+static void place(const struct placing *placing, ps_splat *splats)
+{
+    box_place(&placing->scene, placing->settings, placing->sources, placing->hits,
+              placing->half_widths, placing->n, splats);
+}
+
+/* The widest that beams may be shows whether they are seen at all. */
+static void drop_unseen_full(const struct placing *placing, ps_splat *splats)
+{
+    ps_hit stand_ins[PS_PATH_CHUNK];
+    memcpy(stand_ins, placing->hits, placing->n * sizeof *stand_ins);
+    for (size_t i = 0; i < placing->n; i++)
+        if (!(placing->hits[i].distance < INFINITY))
+            box_stand_in(&placing->sources[i], placing->half_widths[i], &stand_ins[i]);
+    box_place(&placing->scene, placing->settings, placing->sources, stand_ins, placing->half_widths,
+              placing->n, splats);
+    drop_unseen(placing->render, splats, placing->n);
+    for (size_t i = 0; i < placing->n; i++)
+        placing->half_widths[i] = splats[i].half_width;
+}
+
+/* Beams that start at their sources. */
+static void place_full(const struct placing *placing, ps_splat *splats)
+{
+    const ps_host *host = &placing->render->host;
+    for (size_t i = 0; i < placing->n; i++)
+        placing->half_widths[i] =
+            box_widest(&placing->scene, placing->settings, &placing->sources[i]);
+    if (placing->render->unseen.asked)
+        drop_unseen_full(placing, splats);
+    reach_find(host, &placing->scene, placing->settings, placing->sources, placing->n,
+               placing->hits, placing->half_widths);
+    place(placing, splats);
+    if (placing->settings->walls)
+        wall_find(host, placing->scene.surface_offset, placing->sources, placing->n, splats);
+}
+
+static void place_others(const struct placing *placing, ps_splat *splats)
+{
+    for (size_t i = 0; i < placing->n; i++)
+        placing->half_widths[i] = box_half_width(&placing->scene, placing->settings,
+                                                 &placing->sources[i], placing->hits[i].distance);
+    place(placing, splats);
+    if (placing->render->unseen.asked)
+        drop_unseen(placing->render, splats, placing->n);
+}
+
+/* At most PS_PATH_CHUNK. */
+static void place_some(struct render *render, const ps_box_settings *settings,
+                       const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats)
+{
+    ps_hit met[PS_PATH_CHUNK];
+    float half_widths[PS_PATH_CHUNK];
+    const struct placing placing = {
+        render, host_box_scene(render), settings, sources, n, met, half_widths,
+    };
+    memcpy(met, hits, n * sizeof *hits);
+    if (settings->step_back_rule == 1)
+        place_full(&placing, splats);
+    else
+        place_others(&placing, splats);
+}
+
+static void host_place_boxes(const ps_host *host, const ps_box_settings *settings,
+                             const ps_source *sources, const ps_hit *hits, size_t n,
+                             ps_splat *splats)
+{
+    for (size_t first = 0; first < n; first += PS_PATH_CHUNK) {
+        size_t some = n - first < PS_PATH_CHUNK ? n - first : PS_PATH_CHUNK;
+        place_some(render_of(host), settings, sources + first, hits + first, some, splats + first);
+    }
+}
+
+struct placement {
+    struct render *render;
+    const ps_source *sources;
+    size_t n;
+    ps_splat *splats;
+};
+
+static void place_chunk(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct placement *placement = user;
+    struct render *render = placement->render;
+    ps_ray rays[PS_PATH_CHUNK];
+    ps_hit hits[PS_PATH_CHUNK];
+    size_t first = index * PS_PATH_CHUNK, left = placement->n - first;
+    size_t n = left < PS_PATH_CHUNK ? left : PS_PATH_CHUNK;
+    const ps_source *sources = placement->sources + first;
+    for (size_t i = 0; i < n; i++)
+        rays[i] = ps_leave_surface(sources[i].position, sources[i].normal, sources[i].direction,
+                                   render->scene->surface_offset);
+    trace_intersect(render->trace, RAYS_INCOHERENT, rays, n, hits);
+    const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
+    const ps_visibility_vtable *vtable = visibility->descriptor->vtable;
+    vtable->place(visibility->state, &render->host, sources, hits, n, placement->splats + first);
+}
+
+static ps_result host_place_splats(const ps_host *host, const ps_source *sources, size_t n,
+                                   ps_splat *splats)
+{
+    struct render *render = render_of(host);
+    struct placement placement = {render, sources, n, splats};
+    double start = clock_seconds();
+    uint64_t chunks = (n + PS_PATH_CHUNK - 1) / PS_PATH_CHUNK;
+    begin_batch(render);
+    parallel_for(render->settings->threads, chunks, place_chunk, &placement);
+    end_batch(render, n);
+    statistics_add_seconds(render->statistics, "place", clock_seconds() - start);
+    return PS_OK;
+}
+
+void host_add_placing(ps_host *host)
+{
+    host->place_boxes = host_place_boxes;
+    host->place_splats = host_place_splats;
+}
