@@ -10,110 +10,12 @@
 #include "pipeline/render_state.h"
 #include "pipeline/view.h"
 #include <psplat/tile.h>
-#include <stdlib.h>
-#include <string.h>
 
 static void report_progress(const struct render *render, const char *stage, double fraction)
 {
     const struct render_callbacks *callbacks = render->callbacks;
     if (callbacks->progress)
         callbacks->progress(callbacks->user, stage, fraction);
-}
-
-static ps_result start_strategies(struct render *render, struct error *error)
-{
-    for (int kind = 0; kind < PS_KINDS; kind++) {
-        struct strategy *strategy = &render->settings->strategies[kind];
-        ps_result result = strategy_start(strategy, &render->host, error);
-        if (result != PS_OK)
-            return result;
-    }
-    return PS_OK;
-}
-
-static ps_result choose_instruction_set(struct render *render, struct error *error)
-{
-    const char *isa = render->settings->isa;
-    if (kernel_choose(isa, &render->kernel))
-        return PS_OK;
-    return error_set(error, PS_ERROR_INVALID, "this processor has no instruction set '%s'", isa);
-}
-
-static ps_result create_shadow_maps(struct render *render, struct error *error)
-{
-    const struct render_settings *settings = render->settings;
-    if (settings->direct != DIRECT_SHADOWMAP)
-        return PS_OK;
-    double start = clock_seconds();
-    ps_result result = shadow_maps_create(render->scene, render->trace, settings->direct_resolution,
-                                          settings->threads, &render->shadow_maps, error);
-    if (result != PS_OK)
-        return result;
-    statistics_add_seconds(render->statistics, "direct maps", clock_seconds() - start);
-    statistics_set_bytes(render->statistics, "direct maps",
-                         (double)shadow_maps_bytes(render->shadow_maps));
-    return PS_OK;
-}
-
-/* Those planes of the film are half of its memory, and of the time that adding to it takes. */
-static bool wants_surfaces(const struct render_settings *settings)
-{
-    const ps_denoiser_vtable *denoiser = settings->strategies[PS_DENOISER].descriptor->vtable;
-    return !settings->picture_alone || !denoiser->keeps_all;
-}
-
-static ps_result create_edges(struct render *render, struct error *error)
-{
-    size_t count = (size_t)render->gbuffer.tile_count * PS_TILE_PIXELS;
-    render->edges = calloc(count, sizeof *render->edges);
-    return render->edges ? PS_OK : error_memory(error, count * sizeof *render->edges, "edges");
-}
-
-static ps_result create(struct render *render, struct error *error)
-{
-    const struct scene *scene = render->scene;
-    double start = clock_seconds();
-    ps_result result = choose_instruction_set(render, error);
-    if (result == PS_OK)
-        result = trace_create(scene, render->settings->isa, &render->trace, error);
-    statistics_add_seconds(render->statistics, "build", clock_seconds() - start);
-    if (result == PS_OK)
-        result = create_shadow_maps(render, error);
-    if (result == PS_OK)
-        result = gbuffer_create(scene->width, scene->height, &render->gbuffer, error);
-    if (result == PS_OK)
-        result = film_create(scene->width, scene->height, wants_surfaces(render->settings),
-                             &render->film, error);
-    if (result == PS_OK && render->settings->light_join && scene->has_sized_lights)
-        result = gbuffer_prepare_join(&render->gbuffer, error);
-    if (result == PS_OK && render->settings->edge_samples > 1)
-        result = create_edges(render, error);
-    if (result == PS_OK)
-        result = start_strategies(render, error);
-    if (result == PS_OK)
-        result = source_stream_create(&render->sources, render->settings, &render->host,
-                                      &render->pass, render->statistics, error);
-    if (result != PS_OK)
-        return result;
-    statistics_set_bytes(render->statistics, "ray tracer", (double)trace_bytes(render->trace));
-    statistics_set_bytes(render->statistics, "G-buffer", (double)gbuffer_bytes(&render->gbuffer));
-    statistics_set_bytes(render->statistics, "film", (double)film_bytes(&render->film));
-    return PS_OK;
-}
-
-static void destroy(struct render *render)
-{
-    if (render->has_splatter)
-        splatter_release(&render->splatter);
-    near_light_release(&render->near_light);
-    source_stream_release(&render->sources);
-    for (int kind = 0; kind < PS_KINDS; kind++)
-        strategy_stop(&render->settings->strategies[kind]);
-    free(render->edges);
-    film_release(&render->film);
-    gbuffer_release(&render->gbuffer);
-    shadow_maps_destroy(render->shadow_maps);
-    trace_destroy(render->trace);
 }
 
 /* Where in its pixels a pass looks: the first at their centres, later ones at points spread over
@@ -325,7 +227,7 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
         .statistics = statistics,
     };
     host_create(&render);
-    ps_result result = create(&render, error);
+    ps_result result = render_create(&render, error);
     if (result == PS_OK)
         result = run_passes(&render, error);
     if (result == PS_OK || result == PS_CANCELLED) {
@@ -333,7 +235,7 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
         result = resolved == PS_OK ? result : resolved;
     }
     host_report_splatter(&render);
-    destroy(&render);
+    render_destroy(&render);
     return result;
 }
 
@@ -349,13 +251,13 @@ ps_result render_inspect(const struct scene *scene, struct render_settings *sett
     };
     settings->passes = settings->edge_samples = 1;
     host_create(&render);
-    ps_result result = create(&render, error);
+    ps_result result = render_create(&render, error);
     if (result == PS_OK) {
         struct tile_work work = begin_pass(&render, 0);
         end_pass(&work, false);
         film_average(&render.film);
         result = inspect(user, &render, error);
     }
-    destroy(&render);
+    render_destroy(&render);
     return result;
 }

@@ -50,6 +50,11 @@ static inline struct render *render_of(const ps_host *host)
     return host->core;
 }
 
+/* Makes all that passes share, and starts the strategies; needs scene, settings, callbacks, statistics and host.
+ * Whether it succeeds or not, destroy it. */
+ps_result render_create(struct render *render, struct error *error);
+void render_destroy(struct render *render);
+
 /* Fills render->host with the services of host.c. */
 void host_create(struct render *render);
 
