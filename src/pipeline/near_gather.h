@@ -9,9 +9,7 @@
  * other surfaces threw there is smooth, and caustics are found by light paths alone: both are splatted all the
  * way.
  *
- * Rays are shared out among tiles by their noise (Neyman 1934, "On the two different aspects of the representative
- * method"), which a pilot of few rays tells: where the sun shines on what is near it is hundreds of times that of
- * a dark corner.
+ * Rays are shared out among tiles by their noise (near_pilot.h).
  */
 #ifndef PIPELINE_NEAR_GATHER_H
 #define PIPELINE_NEAR_GATHER_H

@@ -47,10 +47,10 @@ ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffe
         near->variances = malloc(lanes * sizeof *near->variances);
     if (!near->ray_variances)
         near->ray_variances = malloc(gbuffer->tile_count * sizeof *near->ray_variances);
-    if (!near->shares)
-        near->shares = malloc(gbuffer->tile_count * sizeof *near->shares);
+    if (!near->noises)
+        near->noises = malloc(gbuffer->tile_count * sizeof *near->noises);
     if (!near->found || !near->joined || !near->variances || !near->averaged ||
-        !near->ray_variances || !near->shares)
+        !near->ray_variances || !near->noises)
         return error_memory(error, near_light_bytes(gbuffer), "near light");
     memset(near->found, 0, lanes * sizeof *near->found);
     struct pair_mean count = {.gbuffer = gbuffer, .reach = near->reach, .counts = near->averaged};
@@ -65,7 +65,7 @@ void near_light_release(struct near_light *near)
     free(near->variances);
     free(near->averaged);
     free(near->ray_variances);
-    free(near->shares);
+    free(near->noises);
     *near = (struct near_light){.found = NULL};
 }
 

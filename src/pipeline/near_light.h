@@ -22,10 +22,11 @@ struct near_light {
     float *variances;  /* of that, of its channels' sum; likewise */
     ps_rgb *joined;    /* room for its means, likewise */
     uint8_t *averaged; /* how many pixels they are taken over, likewise */
-    /* For near_gather.h, a value for each tile; likewise. */
-    float *ray_variances;  /* of what single rays find there */
-    float *shares;         /* of the rays */
-    int reach;             /* pixels to each side of those */
+    /* For near_pilot.h, a value for each tile; likewise. */
+    float *ray_variances; /* of what single rays find there */
+    float *noises;        /* its root, there and around */
+    double mean_noise;
+    int reach;             /* pixels to each side of those means' windows */
     uint32_t tiles_across; /* as in the G-buffer */
 };
 
