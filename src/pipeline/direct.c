@@ -219,16 +219,17 @@ static void draw_runs(const struct light_runs *runs, uint64_t seed, uint32_t sam
 }
 
 /* Sums over the points of a tile, `samples` shadow rays each. */
-static void add_samples(struct receivers *to, uint64_t seed, const struct light_runs *runs,
-                        const ps_points *points, uint32_t samples, ps_rgb *irradiance)
+static void add_samples(const struct receivers *receivers, uint64_t seed,
+                        const struct light_runs *runs, const ps_points *points, uint32_t samples,
+                        ps_rgb *irradiance)
 {
     float numbers[PS_TILE_PIXELS][4];
+    struct receivers to = *receivers;
+    to.numbers = to.lighting->scene->has_sized_lights ? numbers : NULL;
     for (uint32_t sample = 0; sample < samples && points->count > 0; sample++) {
-        if (to->lighting->scene->has_sized_lights) {
+        if (to.numbers)
             draw_runs(runs, seed, sample, points, numbers);
-            to->numbers = numbers;
-        }
-        add_lights(to, irradiance);
+        add_lights(&to, irradiance);
     }
 }
 
@@ -241,11 +242,11 @@ void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer,
     samples = lighting->scene->has_sized_lights ? samples : 1;
     ps_points points;
     ps_collect_points(&gbuffer->tiles[index], &points);
-    struct receivers to = {.lighting = lighting,
-                           .n = points.count,
-                           .positions = points.positions,
-                           .normals = points.normals,
-                           .met = gbuffer->met ? met : NULL};
+    const struct receivers to = {.lighting = lighting,
+                                 .n = points.count,
+                                 .positions = points.positions,
+                                 .normals = points.normals,
+                                 .met = gbuffer->met ? met : NULL};
     add_samples(&to, seed, runs, &points, samples, irradiance);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         direct[lane] = (ps_rgb){0, 0, 0};

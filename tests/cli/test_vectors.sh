@@ -1,12 +1,19 @@
 #!/bin/sh
-# test_vectors.sh: compilers make vectors of all loops that are marked for it. Where they don't, nothing is wrong but
-# the time: a pointer that might alias another once made the inner loop scalar, and it took twice as long.
+# test_vectors.sh: compilers make vectors of all loops that are marked for it, clang of those of the kernel (it unrolls
+# some of the others). Where they don't, nothing is wrong but the time: a pointer that might alias another once made
+# the inner loop scalar, and it took twice as long.
 . "$PSPLAT_SOURCE/tests/cli/lib.sh"
 
 is_on PSPLAT_SANITIZE && skip "sanitizers change what compilers do"
-$CC --version | grep -q clang && remarks=-Rpass=loop-vectorize || remarks=-fopt-info-vec-optimized
+remarks=-fopt-info-vec-optimized
+marked=$(cd "$PSPLAT_SOURCE" && grep -rl '^#pragma omp simd' src plugins)
+[ "$(echo "$marked" | wc -l)" -ge 5 ] || fail "few files have marked loops"
+if $CC --version | grep -q clang; then
+    remarks=-Rpass=loop-vectorize
+    marked=src/splat/kernel_variant.c
+fi
 
-# command_of FILE: how it is compiled; the kernel, which is compiled several times, for AVX2.
+# command_of FILE: how it is compiled; the kernel, which is compiled several times, for AVX2, or not at all.
 command_of() {
     sed -n "s|.*\"command\": \"\(.* -c [^ ]*/$1\)\",*\$|\1|p" "$PSPLAT_BUILD/compile_commands.json" |
         grep -v -e "-DKERNEL_VARIANT=[^ ]*[^2] " | head -n 1
@@ -15,7 +22,7 @@ command_of() {
 # expect_vectors FILE
 expect_vectors() {
     command=$(command_of "$1")
-    [ -n "$command" ] || fail "$1 is not compiled"
+    [ -n "$command" ] || return 0 # another kind of processor
     case $command in *-O3*) ;; *) skip "not an optimized build" ;; esac
     # The last -o counts.
     sh -c "$command $remarks -Wno-error -o $scratch/object.o" >out 2>err || fail "$command"
@@ -26,8 +33,6 @@ expect_vectors() {
     done
 }
 
-marked=$(cd "$PSPLAT_SOURCE" && grep -rl '^#pragma omp simd' src plugins)
-[ "$(echo "$marked" | wc -l)" -ge 5 ] || fail "few files have marked loops"
 for file in $marked; do
     expect_vectors "$file"
 done
