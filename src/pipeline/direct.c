@@ -51,11 +51,23 @@ static ps_rgb response(const struct receivers *to, size_t i, ps_vec3 direction, 
                                                 direction, light_pdf));
 }
 
+/* The normals of receivers to which light counts by the cosine alone. */
+static const ps_vec3 *normals_of_diffuse(const struct receivers *to, ps_vec3 *room)
+{
+    static const ps_vec3 none = {0, 0, 0};
+    if (!to->hits)
+        return to->normals;
+    for (size_t i = 0; i < to->n; i++)
+        room[i] = to->hits[i].flags & PS_HIT_SPECULAR ? none : to->normals[i];
+    return room;
+}
+
 /* A point of the light for each receiver, as seen from where its shadow ray begins. */
 static void choose_points(const struct receivers *to, size_t light, ps_vec3 *origins,
                           struct light_sample *samples)
 {
     const struct scene *scene = to->lighting->scene;
+    ps_vec3 normals[CHUNK];
     float pairs[CHUNK][2];
     for (size_t i = 0; i < to->n; i++) {
         ps_vec3 away = to->hits ? to->hits[i].geometric_normal : to->normals[i];
@@ -64,7 +76,8 @@ static void choose_points(const struct receivers *to, size_t light, ps_vec3 *ori
         if (to->numbers)
             numbers_for_light(to->numbers[i], light, pairs[i]);
     }
-    light_sample(&scene->lights[light], origins, (const float(*)[2])pairs, to->n, samples);
+    light_sample(&scene->lights[light], origins, normals_of_diffuse(to, normals),
+                 (const float(*)[2])pairs, to->n, samples);
 }
 
 /* The shadow ray from a receiver to a point of a light, and what arrives where nothing is in the way. */

@@ -166,8 +166,8 @@ ps_rgb light_emit(const struct light *light, const float u[4], ps_ray *ray, ps_v
     return is_light(flux) ? flux : black;
 }
 
-static bool sample_one(const struct light *light, ps_vec3 position, const float u[2],
-                       struct light_sample *sample)
+static bool sample_one(const struct light *light, ps_vec3 position, ps_vec3 normal,
+                       const float u[2], struct light_sample *sample)
 {
     switch (light->emitter) {
     case EMITTER_SPOT:
@@ -178,7 +178,7 @@ static bool sample_one(const struct light *light, ps_vec3 position, const float 
     case EMITTER_SPHERE:
         return light_sphere_sample(&light->sphere, position, u[0], u[1], sample);
     case EMITTER_SKY:
-        light_sky_sample(&light->sky, u[0], u[1], sample);
+        light_sky_sample(&light->sky, normal, u, sample);
         return true;
     case EMITTER_MESH: /* many at once */
         break;
@@ -186,14 +186,16 @@ static bool sample_one(const struct light *light, ps_vec3 position, const float 
     return false;
 }
 
-void light_sample(const struct light *light, const ps_vec3 *positions, const float (*numbers)[2],
-                  size_t n, struct light_sample *samples)
+void light_sample(const struct light *light, const ps_vec3 *positions, const ps_vec3 *normals,
+                  const float (*numbers)[2], size_t n, struct light_sample *samples)
 {
+    static const ps_vec3 unknown = {0, 0, 0};
     if (light->emitter == EMITTER_MESH)
         light_surface_sample(&light->surface, positions, numbers, n, samples);
     for (size_t i = 0; i < n; i++) {
         bool any = light->emitter == EMITTER_MESH ||
-                   sample_one(light, positions[i], numbers[i], &samples[i]);
+                   sample_one(light, positions[i], normals ? normals[i] : unknown, numbers[i],
+                              &samples[i]);
         if (!any || !is_light(samples[i].weight))
             samples[i].weight = black;
     }

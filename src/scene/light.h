@@ -177,9 +177,11 @@ struct light_sample {
 };
 
 /* For each of n positions chooses a point of the light by two numbers in [0,1), and tells what it gives there
- * if nothing is between. Where that is nothing, the weight is 0. */
-void light_sample(const struct light *light, const ps_vec3 *positions, const float (*numbers)[2],
-                  size_t n, struct light_sample *samples);
+ * if nothing is between. Where that is nothing, the weight is 0. `normals`: unit, of surfaces to which light
+ * counts by the cosine and nothing else, and 0 for others; NULL: of none. Where one is given, a sky of one radiance is
+ * looked at by that cosine, and light_pdf does not tell the density. */
+void light_sample(const struct light *light, const ps_vec3 *positions, const ps_vec3 *normals,
+                  const float (*numbers)[2], size_t n, struct light_sample *samples);
 
 /* The density by which light_sample chooses `direction` from `position`, if a ray in that direction
  * meets the light at `distance`, where its front's unit normal is `normal`; of sun and sky these

@@ -5,8 +5,9 @@
  * infinite lights): the chance of a cell is the luminance that the interpolated picture has in it
  * on average, times its solid angle, so a cell is dark only where all of the picture in it is.
  * Inside a cell directions are uniform by solid angle (even in longitude and in the cosine of the
- * polar angle), which leaves no sine to divide by at the poles. Light paths start as those of a
- * sun.
+ * polar angle), which leaves no sine to divide by at the poles. A sky of one radiance is looked at
+ * by the cosine at the surface that it lights, where only that counts: each sample then tells the
+ * same, or meets what is in the way. Light paths start as those of a sun.
  */
 #include "scene/light_kinds.h"
 
@@ -231,15 +232,19 @@ static ps_vec3 direction_in_cell(const struct light_sky *sky, const struct distr
                      (float)(-sine * cos(longitude))};
 }
 
-void light_sky_sample(const struct light_sky *sky, float u1, float u2, struct light_sample *sample)
+void light_sky_sample(const struct light_sky *sky, ps_vec3 normal, const float u[2],
+                      struct light_sample *sample)
 {
     *sample = (struct light_sample){.distance = INFINITY, .pdf = 0.25f / PS_PI};
     if (sky->picture.rgb) {
-        struct distribution_cell cell = distribution_2d_choose(&sky->by_radiance, u1, u2);
+        struct distribution_cell cell = distribution_2d_choose(&sky->by_radiance, u[0], u[1]);
         sample->direction = direction_in_cell(sky, &cell);
         sample->pdf = cell_pdf(sky, cell.row, cell.probability);
+    } else if (ps_dot(normal, normal) > 0.0f) {
+        sample->direction = ps_cosine_direction(normal, u[0], u[1]);
+        sample->pdf = ps_max(ps_dot(sample->direction, normal), 0.0f) / PS_PI;
     } else {
-        sample->direction = light_any_direction(u1, u2);
+        sample->direction = light_any_direction(u[0], u[1]);
     }
     ps_rgb radiance = light_sky_radiance(sky, sample->direction);
     sample->weight = ps_rgb_scale(radiance, 1.0f / sample->pdf);
@@ -248,7 +253,7 @@ void light_sky_sample(const struct light_sky *sky, float u1, float u2, struct li
 ps_rgb light_sky_emit(const struct light_sky *sky, const float u[4], ps_ray *ray)
 {
     struct light_sample sample;
-    light_sky_sample(sky, u[0], u[1], &sample);
+    light_sky_sample(sky, (ps_vec3){0, 0, 0}, u, &sample);
     *ray = light_ray_into_scene(&sky->bounds, sample.direction, u[2], u[3]);
     return ps_rgb_scale(sample.weight, light_scene_area(&sky->bounds));
 }

@@ -14,7 +14,7 @@ bool sample_light(const struct light *light, ps_vec3 position, float u1, float u
                   struct light_sample *sample)
 {
     float numbers[1][2] = {{u1, u2}};
-    light_sample(light, &position, (const float(*)[2])numbers, 1, sample);
+    light_sample(light, &position, NULL, (const float(*)[2])numbers, 1, sample);
     return ps_rgb_maximum(sample->weight) > 0.0f;
 }
 

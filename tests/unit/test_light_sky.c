@@ -112,6 +112,32 @@ static void test_density_of_samples_is_that_of_their_direction(void **state)
     light_release(&light);
 }
 
+/* Before a surface that takes light by the cosine, all samples of an even sky tell its irradiance; those of a
+ * picture do not change. */
+static void test_by_the_cosine(void **state)
+{
+    (void)state;
+    struct sky_picture picture = spotted(0);
+    struct light lights[] = {sky_of(NULL, 0), sky_of(&picture, 0)};
+    struct random random = {59};
+    ps_vec3 nowhere = {0, 0, 0}, normal = ps_normalize((ps_vec3){1, 2, -2});
+    ps_rgb radiance = light_radiance_from(&lights[0], normal);
+    for (int i = 0; i < 1000; i++) {
+        float numbers[1][2] = {{random_unit(&random), random_unit(&random)}};
+        struct light_sample sample, other;
+        light_sample(&lights[0], &nowhere, &normal, (const float(*)[2])numbers, 1, &sample);
+        float cosine = ps_dot(sample.direction, normal);
+        assert_true(cosine > 0);
+        expect_close(sample.weight.r * cosine, PI * radiance.r, 1e-4);
+        expect_close(sample.pdf, cosine / PI, 1e-4);
+        light_sample(&lights[1], &nowhere, &normal, (const float(*)[2])numbers, 1, &sample);
+        bool lit = sample_light(&lights[1], nowhere, numbers[0][0], numbers[0][1], &other);
+        assert_true(!lit ||
+                    (sample.pdf == other.pdf && ps_same(sample.direction, other.direction)));
+    }
+    light_release(&lights[1]);
+}
+
 /* --- the picture's place --- */
 
 static struct sky_picture compass(void)
@@ -274,6 +300,7 @@ int main(void)
         cmocka_unit_test(test_directions_have_their_density),
         cmocka_unit_test(test_samples),
         cmocka_unit_test(test_density_of_samples_is_that_of_their_direction),
+        cmocka_unit_test(test_by_the_cosine),
         cmocka_unit_test(test_place_of_the_picture),
         cmocka_unit_test(test_even_sky),
         cmocka_unit_test(test_even_picture),

@@ -326,7 +326,7 @@ static void test_many_positions(void **state)
         numbers[i][0] = random_unit(&random);
         numbers[i][1] = random_unit(&random);
     }
-    light_sample(&light, positions, (const float(*)[2])numbers, MANY, samples);
+    light_sample(&light, positions, NULL, (const float(*)[2])numbers, MANY, samples);
     for (int i = 0; i < MANY; i++) {
         struct light_sample alone;
         bool lit = sample_light(&light, positions[i], numbers[i][0], numbers[i][1], &alone);
