@@ -186,19 +186,26 @@ static bool sample_one(const struct light *light, ps_vec3 position, ps_vec3 norm
     return false;
 }
 
+static void sample_each(const struct light *light, const ps_vec3 *positions, const ps_vec3 *normals,
+                        const float (*numbers)[2], size_t n, struct light_sample *samples)
+{
+    static const ps_vec3 unknown = {0, 0, 0};
+    for (size_t i = 0; i < n; i++)
+        if (!sample_one(light, positions[i], normals ? normals[i] : unknown, numbers[i],
+                        &samples[i]))
+            samples[i].weight = black;
+}
+
 void light_sample(const struct light *light, const ps_vec3 *positions, const ps_vec3 *normals,
                   const float (*numbers)[2], size_t n, struct light_sample *samples)
 {
-    static const ps_vec3 unknown = {0, 0, 0};
     if (light->emitter == EMITTER_MESH)
         light_surface_sample(&light->surface, positions, numbers, n, samples);
-    for (size_t i = 0; i < n; i++) {
-        bool any = light->emitter == EMITTER_MESH ||
-                   sample_one(light, positions[i], normals ? normals[i] : unknown, numbers[i],
-                              &samples[i]);
-        if (!any || !is_light(samples[i].weight))
+    else
+        sample_each(light, positions, normals, numbers, n, samples);
+    for (size_t i = 0; i < n; i++)
+        if (!is_light(samples[i].weight))
             samples[i].weight = black;
-    }
 }
 
 float light_pdf(const struct light *light, ps_vec3 position, ps_vec3 direction, float distance,
