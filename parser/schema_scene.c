@@ -92,7 +92,7 @@ static const struct schema_row render_rows[] = {
         "light_join", offsetof(struct render_description, light_join), "no",
         "whether pixels take in what their neighbours' shadow rays found, where they met the same"),
     VALUE(PS_INT(
-        struct render_description, edge_samples, "1", 1, 1024, "",
+        struct render_description, edge_samples, "1", 1, MOST_EDGE_SAMPLES, "",
         "how many points of a pixel that differs from its neighbours are looked at in each pass")),
     VALUE(PS_CHOICE(struct render_description, direct, "rays", direct_ways,
                     "how it is found what lights reach; those that have a size: by rays alone")),

@@ -24,7 +24,7 @@ struct receivers {
 static void numbers_for_light(const float numbers[4], size_t light, float pair[2])
 {
     size_t first = light % 2 * 2, turn = light / 2;
-    if (turn == 0) {
+    if (turn == 0) { /* as below, without two calls; few scenes have more lights */
         memcpy(pair, numbers + first, 2 * sizeof *pair);
         return;
     }
@@ -236,10 +236,12 @@ static void add_samples(const struct receivers *receivers, uint64_t seed,
                         const struct light_runs *runs, const ps_points *points, uint32_t samples,
                         ps_rgb *irradiance)
 {
+    if (points->count == 0)
+        return;
     float numbers[PS_TILE_PIXELS][4];
     struct receivers to = *receivers;
     to.numbers = to.lighting->scene->has_sized_lights ? numbers : NULL;
-    for (uint32_t sample = 0; sample < samples && points->count > 0; sample++) {
+    for (uint32_t sample = 0; sample < samples; sample++) {
         if (to.numbers)
             draw_runs(runs, seed, sample, points, numbers);
         add_lights(&to, irradiance);

@@ -97,12 +97,13 @@ void edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE
 {
     static const int around[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     struct sights sights;
-    int64_t left = (int64_t)(tile % gbuffer->tiles_across) * PS_TILE_SIZE - 1;
-    int64_t top = (int64_t)(tile / gbuffer->tiles_across) * PS_TILE_SIZE - 1;
+    uint32_t left, top;
+    gbuffer_pixel(gbuffer, tile, 0, &left, &top);
     memset(&sights, 0, sizeof sights);
     for (int row = 0; row < SIDE; row++)
         for (int column = 0; column < SIDE; column++)
-            load_pixel(gbuffer, left + column, top + row, row, column, &sights);
+            load_pixel(gbuffer, (int64_t)left + column - 1, (int64_t)top + row - 1, row, column,
+                       &sights);
     for (int row = 0; row < PS_TILE_SIZE; row++) {
         int differs[PS_TILE_SIZE] = {0};
         for (int i = 0; i < 4; i++)

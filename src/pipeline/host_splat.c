@@ -5,7 +5,6 @@
 #include "pipeline/near_gather.h"
 #include "pipeline/render_state.h"
 #include <math.h>
-#include <psplat/math.h>
 
 static ps_result tabulate_filter(struct render *render, struct kernel_profile *profile)
 {

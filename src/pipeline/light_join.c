@@ -8,13 +8,12 @@
 void light_join_runs(const struct gbuffer *gbuffer, uint32_t tile, uint32_t pass, uint32_t samples,
                      struct light_runs *runs)
 {
-    uint32_t left = tile % gbuffer->tiles_across * PS_TILE_SIZE;
-    uint32_t top = tile / gbuffer->tiles_across * PS_TILE_SIZE;
     runs->count = SIDE * SIDE;
     for (uint32_t run = 0; run < SIDE * SIDE; run++)
         runs->first[run] = ((uint64_t)pass * SIDE * SIDE + run) * samples;
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-        uint32_t x = left + lane % PS_TILE_SIZE, y = top + lane / PS_TILE_SIZE;
+        uint32_t x, y;
+        gbuffer_pixel(gbuffer, tile, lane, &x, &y);
         runs->of_lane[lane] = (uint8_t)(y % SIDE * SIDE + x % SIDE);
     }
 }

@@ -11,12 +11,12 @@
 #define BLOCK 4 /* pixels along the side of a block */
 #define BLOCKS (PS_TILE_PIXELS / (BLOCK * BLOCK))
 
-static const struct near_numbers numbers = {1, 2};
+static const struct near_numbers numbers = {NEAR_DIRECTIONS, NEAR_LAMPS};
 
 struct gathering {
     struct near_rays rays;
-    double
-        window_rays; /* of a pixel in the middle of a surface and those that it is averaged with */
+    /* Of a pixel in the middle of a surface and those that it is averaged with. */
+    double window_rays;
 };
 
 static uint32_t block_of(uint32_t lane)

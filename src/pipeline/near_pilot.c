@@ -8,7 +8,7 @@
 /* A tile gets some rays in any case, the others by the standard deviation of what single rays find there. */
 #define EVEN_SHARE 0.25
 
-static const struct near_numbers numbers = {3, 4};
+static const struct near_numbers numbers = {NEAR_PILOT_DIRECTIONS, NEAR_PILOT_LAMPS};
 
 struct pilot {
     struct near_rays *rays;

@@ -14,7 +14,10 @@ struct near_rays {
     uint64_t first_tile; /* of those that are at work */
 };
 
-/* Sets of random numbers: for directions, and for points on lamps. */
+/* Sets of random numbers. */
+enum { NEAR_DIRECTIONS = 1, NEAR_LAMPS, NEAR_PILOT_DIRECTIONS, NEAR_PILOT_LAMPS };
+
+/* Those for directions, and for points on lamps. */
 struct near_numbers {
     uint32_t directions, lamps;
 };

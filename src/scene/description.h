@@ -244,6 +244,8 @@ struct strategy_choice {
 /* How it is found what the lights reach. */
 enum direct_light { DIRECT_RAYS, DIRECT_SHADOWMAP };
 
+#define MOST_EDGE_SAMPLES 1024
+
 struct render_description {
     struct strategy_choice strategies[STRATEGY_KINDS];
     int64_t passes;

@@ -224,7 +224,8 @@ float light_surface_pdf(const struct light_surface *surface, ps_vec3 direction, 
                              cosine_at_light(direction, normal, surface->both_sides));
 }
 
-/* Points of the light seen from as many places, which are divided by four numbers at once. */
+/* Points of the light, seen from as many places at once: a point costs four divisions and a root, each of which
+ * waits for the one before. */
 #define LANES 16
 
 struct sights {
