@@ -83,19 +83,6 @@ static inline float kernel_above(const struct kernel_splat *splat, float u, floa
 /* Where a start lies behind a wall; before it, no more than half of the kernel lies beyond. */
 #define KERNEL_BEHIND 1.0f
 
-/* The part of the kernel around the start at (u, v) that lies beyond a wall, or KERNEL_BEHIND; `beyond`: the
- * profile's. Compilers make vectors of it. */
-static inline float kernel_beyond(const ps_wall *wall, const float *beyond, float u, float v,
-                                  float inverse_width)
-{
-    float distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
-    float within = distance * inverse_width;
-    within = within > 0.0f ? within : 0.0f;
-    within = within < 1.0f ? within : 1.0f;
-    float part = beyond[(int)(within * (float)(KERNEL_BOUNDARY_SIZE - 1))];
-    return distance > 0.0f ? part : KERNEL_BEHIND;
-}
-
 /* The part of a kernel that two straight borders leave, of which `one` and `other` lie beyond each;
  * `likeness` as kernel_splat.walls_likeness. Beyond both lies nothing where the borders face each other
  * (-1), the product where they stand at right angles (0; exact for a Gaussian), the lesser part where they

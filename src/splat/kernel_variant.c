@@ -9,6 +9,7 @@
  */
 #include "splat/box.h"
 #include "splat/kernel.h"
+#include "splat/lanes.h"
 
 #include <math.h>
 
@@ -25,7 +26,8 @@ uint32_t KERNEL_WEIGH(const struct field_tile *tile, const struct kernel_splat *
                       const struct kernel_profile *profile, struct kernel_weighed *weighed);
 uint32_t KERNEL_TOUCH(const struct bounds *bounds, const struct kernel_splat *splat);
 
-#define LANES FIELD_BLOCK
+_Static_assert(LANES == FIELD_BLOCK, "pixels of a block");
+_Static_assert(LANES == BOUNDS_WIDTH, "blocks of a tile");
 #define AT_A_TIME 64 /* splats */
 
 static inline float clamp(float x, float low, float high)
@@ -33,23 +35,11 @@ static inline float clamp(float x, float low, float high)
     return ps_min(ps_max(x, low), high);
 }
 
-static inline int lowest_bit(uint32_t mask)
-{
-#if defined(__GNUC__)
-    return __builtin_ctz(mask);
-#else
-    int bit = 0;
-    while (!(mask >> bit & 1u))
-        bit++;
-    return bit;
-#endif
-}
-
-uint32_t KERNEL_TOUCH(const struct bounds *bounds, const struct kernel_splat *splat)
+static inline uint32_t touch(const struct bounds *bounds, const struct kernel_splat *splat)
 {
     const ps_vec3 u = splat->u, v = splat->v, w = splat->w;
-    uint32_t mask = 0;
-#pragma omp simd reduction(| : mask)
+    _Alignas(64) int32_t touches[LANES];
+#pragma omp simd
     for (int i = 0; i < BOUNDS_WIDTH; i++) {
         float x = bounds->center_x[i] - splat->centre.x;
         float y = bounds->center_y[i] - splat->centre.y;
@@ -66,12 +56,15 @@ uint32_t KERNEL_TOUCH(const struct bounds *bounds, const struct kernel_splat *sp
         float facing = ps_min(bounds->normal_low_x[i] * w.x, bounds->normal_high_x[i] * w.x) +
                        ps_min(bounds->normal_low_y[i] * w.y, bounds->normal_high_y[i] * w.y) +
                        ps_min(bounds->normal_low_z[i] * w.z, bounds->normal_high_z[i] * w.z);
-        uint32_t touches = (off_u * off_u + off_v * off_v < 1.0f) & (facing < 0.0f) &
-                           (depth - reach <= splat->far_depth) &
-                           (depth + reach >= splat->near_depth);
-        mask |= touches << i;
+        touches[i] = -((off_u * off_u + off_v * off_v < 1.0f) & (facing < 0.0f) &
+                       (depth - reach <= splat->far_depth) & (depth + reach >= splat->near_depth));
     }
-    return mask;
+    return lanes_mask(touches);
+}
+
+uint32_t KERNEL_TOUCH(const struct bounds *bounds, const struct kernel_splat *splat)
+{
+    return touch(bounds, splat);
 }
 
 /* The splats, of AT_A_TIME, that may light each block. */
@@ -86,8 +79,8 @@ static inline void list_by_block(const struct bounds *blocks, const struct kerne
     for (int block = 0; block < BOUNDS_WIDTH; block++)
         lists->count[block] = 0;
     for (size_t i = 0; i < n; i++)
-        for (uint32_t mask = KERNEL_TOUCH(blocks, &splats[indices[i]]); mask; mask &= mask - 1) {
-            int block = lowest_bit(mask);
+        for (uint32_t mask = touch(blocks, &splats[indices[i]]); mask; mask &= mask - 1) {
+            int block = lanes_first(mask);
             lists->splats[block][lists->count[block]++] = indices[i];
         }
 }
@@ -110,8 +103,8 @@ struct block_light {
 static inline int place_block(const struct field_tile *tile, int first,
                               const struct kernel_splat *splat, struct placed_block *placed)
 {
-    int any = 0;
-#pragma omp simd reduction(| : any)
+    _Alignas(64) int32_t inside[LANES];
+#pragma omp simd
     for (int i = 0; i < LANES; i++) {
         float x = tile->position_x[first + i] - splat->centre.x;
         float y = tile->position_y[first + i] - splat->centre.y;
@@ -128,17 +121,18 @@ static inline int place_block(const struct field_tile *tile, int first,
         placed->t[i] = t;
         placed->above[i] = above;
         placed->facing[i] = facing;
-        any |= (u * u + v * v < 1.0f) & (facing > 0.0f) & (t <= splat->far_depth) & (above >= 0.0f);
+        inside[i] =
+            -((u * u + v * v < 1.0f) & (facing > 0.0f) & (t <= splat->far_depth) & (above >= 0.0f));
     }
-    return any;
+    return lanes_mask(inside) != 0;
 }
 
 /* The parts of the disc that pixels take; whether some pixel lies in its own. */
 static inline int choose_widths(const struct field_tile *tile, int first,
                                 const struct kernel_splat *splat, struct placed_block *placed)
 {
-    int any = 0;
-#pragma omp simd reduction(| : any)
+    _Alignas(64) int32_t inside[LANES];
+#pragma omp simd
     for (int i = 0; i < LANES; i++) {
         float x = tile->normal_x[first + i], y = tile->normal_y[first + i],
               z = tile->normal_z[first + i];
@@ -147,53 +141,102 @@ static inline int choose_widths(const struct field_tile *tile, int first,
                                x * splat->v.x + y * splat->v.y + z * splat->v.z);
         placed->width[i] = width;
         placed->inverse_width[i] = 1.0f / width;
-        any |= placed->u[i] * placed->u[i] + placed->v[i] * placed->v[i] < width * width;
+        inside[i] = -(placed->u[i] * placed->u[i] + placed->v[i] * placed->v[i] < width * width);
     }
-    return any;
+    return lanes_mask(inside) != 0;
 }
 
-/* Returns how many pixels have weight. */
-static inline int weigh(const struct placed_block *placed, const struct kernel_splat *splat,
-                        int resolution, const float *profile, struct block_light *restrict light)
-{
-    const float half_resolution = 0.5f * (float)resolution;
-    const float last_texel = (float)resolution - 0.5f;
-    const float *depths = splat->depths;
-    int useful = 0;
-#pragma omp simd reduction(+ : useful)
-    for (int i = 0; i < LANES; i++) {
-        float u = placed->u[i], v = placed->v[i], t = placed->t[i], facing = placed->facing[i];
-        float r2 = u * u + v * v;
-        float inverse_width = placed->inverse_width[i];
-        float in_width2 = r2 * inverse_width * inverse_width;
-        float least_above = splat->clearance * ps_min(placed->width[i], 1.0f);
-        float cosine = clamp(facing, WIDTH_LEAST_FACING, 1.0f);
-        float slope = sqrtf(1.0f - cosine * cosine) / cosine;
-        float bias = splat->bias_constant + splat->bias_slope * ps_min(slope, BOX_STEEPEST);
-        int column = (int)clamp((u + 1.0f) * half_resolution, 0.0f, last_texel);
-        int line = (int)clamp((v + 1.0f) * half_resolution, 0.0f, last_texel);
-        float past = t - depths[line * resolution + column];
-        int entry = (int)(clamp(in_width2, 0.0f, 0.99999f) * (float)KERNEL_PROFILE_SIZE);
-        int lit = (r2 < 1.0f) & (in_width2 < 1.0f) & (facing > 0.0f) & (t >= splat->near_depth) &
-                  (t <= splat->far_depth) & (placed->above[i] >= least_above) & (past <= bias);
-        /* A product, not a choice: compilers would make the load conditional and the loop scalar.
-         */
-        float narrowing = 1.0f + splat->by_width * (inverse_width * inverse_width - 1.0f);
-        float weight = (float)lit * profile[entry] * splat->kernel_scale * narrowing;
-        light->weight[i] = weight;
-        light->projected[i] = near_share_of_splats(splat->near, placed->above[i]) * weight * facing;
-        useful += lit;
-    }
-    return useful;
-}
-
-static inline void look_beyond(const struct placed_block *placed, const ps_wall *wall,
-                               const float *beyond, float *parts)
+/* Loops that look into tables do nothing else: where the index is a choice, compilers choose between
+ * addresses, and gather slowly or not at all. */
+static inline void look_up(const float *table, const int32_t *entries, float *restrict values)
 {
 #pragma omp simd
     for (int i = 0; i < LANES; i++)
-        parts[i] =
-            kernel_beyond(wall, beyond, placed->u[i], placed->v[i], placed->inverse_width[i]);
+        values[i] = table[entries[i]];
+}
+
+/* How deep the map sees at the texel that each pixel lies in, or the nearest one. */
+static inline void look_into_map(const struct placed_block *placed, const float *depths,
+                                 int resolution, float *restrict seen)
+{
+    const float half_resolution = 0.5f * (float)resolution;
+    const float last_texel = (float)resolution - 0.5f;
+    _Alignas(64) int32_t texels[LANES];
+#pragma omp simd
+    for (int i = 0; i < LANES; i++) {
+        int column = (int)clamp((placed->u[i] + 1.0f) * half_resolution, 0.0f, last_texel);
+        int line = (int)clamp((placed->v[i] + 1.0f) * half_resolution, 0.0f, last_texel);
+        texels[i] = line * resolution + column;
+    }
+    look_up(depths, texels, seen);
+}
+
+/* The profile at each pixel, and the squared radius there; past 1 any entry will do. */
+static inline void look_into_profile(const struct placed_block *placed, const float *profile,
+                                     float *restrict radius2, float *restrict values)
+{
+    _Alignas(64) int32_t entries[LANES];
+#pragma omp simd
+    for (int i = 0; i < LANES; i++) {
+        float u = placed->u[i], v = placed->v[i], inverse_width = placed->inverse_width[i];
+        radius2[i] = ps_min(u * u + v * v, 1.0f) * inverse_width * inverse_width;
+        entries[i] = (int)(radius2[i] * (float)KERNEL_PROFILE_SIZE) & (KERNEL_PROFILE_SIZE - 1);
+    }
+    look_up(profile, entries, values);
+}
+
+#define LEAST_COSINE (1.0f / sqrtf(1.0f + BOX_STEEPEST * BOX_STEEPEST))
+
+/* Returns how many pixels have weight. A pixel may lie past the map by the bias, c + s * tangent of the angle
+ * under which the light meets it; both sides times the cosine need no root. */
+static inline int weigh(const struct placed_block *placed, const struct kernel_splat *splat,
+                        int resolution, const float *profile, struct block_light *restrict light)
+{
+    const float slope2 = splat->bias_slope * splat->bias_slope;
+    _Alignas(64) float seen[LANES];
+    _Alignas(64) float radius2[LANES];
+    _Alignas(64) float height[LANES];
+    _Alignas(64) int32_t lit[LANES];
+    look_into_map(placed, splat->depths, resolution, seen);
+    look_into_profile(placed, profile, radius2, height);
+#pragma omp simd
+    for (int i = 0; i < LANES; i++) {
+        float u = placed->u[i], v = placed->v[i], t = placed->t[i], facing = placed->facing[i];
+        float inverse_width = placed->inverse_width[i];
+        float least_above = splat->clearance * ps_min(placed->width[i], 1.0f);
+        float cosine = ps_max(facing, LEAST_COSINE);
+        float past = ps_max(t - seen[i] - splat->bias_constant, 0.0f) * cosine;
+        int is_lit = (u * u + v * v < 1.0f) & (radius2[i] < 1.0f) & (facing > 0.0f) &
+                     (t >= splat->near_depth) & (t <= splat->far_depth) &
+                     (placed->above[i] >= least_above) &
+                     (past * past <= slope2 * (1.0f - cosine * cosine));
+        float narrowing = 1.0f + splat->by_width * (inverse_width * inverse_width - 1.0f);
+        /* A product, not a choice, which would make the loop scalar. */
+        float weight = (float)is_lit * height[i] * splat->kernel_scale * narrowing;
+        light->weight[i] = weight;
+        light->projected[i] = near_share_of_splats(splat->near, placed->above[i]) * weight * facing;
+        lit[i] = -is_lit;
+    }
+    return lanes_count(lanes_mask(lit));
+}
+
+/* The part of the kernel around each pixel's start that lies beyond a wall, or KERNEL_BEHIND. */
+static inline void look_beyond(const struct placed_block *placed, const ps_wall *wall,
+                               const float *beyond, float *restrict parts)
+{
+    _Alignas(64) int32_t entries[LANES];
+    _Alignas(64) float distances[LANES];
+#pragma omp simd
+    for (int i = 0; i < LANES; i++) {
+        distances[i] =
+            wall->distance - (placed->u[i] * wall->normal_u + placed->v[i] * wall->normal_v);
+        float within = clamp(distances[i] * placed->inverse_width[i], 0.0f, 1.0f);
+        entries[i] = (int)(within * (float)(KERNEL_BOUNDARY_SIZE - 1));
+    }
+    look_up(beyond, entries, parts);
+#pragma omp simd
+    for (int i = 0; i < LANES; i++)
+        parts[i] = distances[i] > 0.0f ? parts[i] : KERNEL_BEHIND;
 }
 
 /* Divides by the part of the kernel that the walls beside the source leave; behind them there is no such
@@ -256,8 +299,8 @@ uint32_t KERNEL_WEIGH(const struct field_tile *tile, const struct kernel_splat *
 {
     _Alignas(64) struct block_light light;
     uint32_t count = 0;
-    for (uint32_t mask = KERNEL_TOUCH(&tile->blocks, splat); mask; mask &= mask - 1) {
-        uint32_t first = (uint32_t)lowest_bit(mask) * LANES;
+    for (uint32_t mask = touch(&tile->blocks, splat); mask; mask &= mask - 1) {
+        uint32_t first = (uint32_t)lanes_first(mask) * LANES;
         if (weigh_block(tile, (int)first, splat, 1, profile, &light) == 0)
             continue;
         for (uint32_t i = 0; i < LANES; i++) {
