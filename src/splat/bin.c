@@ -13,6 +13,8 @@ struct bin_chunk {
     size_t count, capacity;
     uint32_t *counts; /* per tile; becomes the place of the next pair */
     bool failed;
+    uint32_t first_subset, end_subset; /* what its splats light lies between */
+    size_t lighting;                   /* how many light anything */
 };
 
 ps_result bins_create(uint32_t tile_count, struct bins *bins, struct error *error)
@@ -88,6 +90,11 @@ struct sort {
     size_t n;
 };
 
+static size_t first_of_part(const struct sort *sort, uint64_t index)
+{
+    return sort->n * index / CHUNKS;
+}
+
 /* The splat that is being binned, and where its pairs go. */
 struct binning {
     struct bin_chunk *chunk;
@@ -111,8 +118,7 @@ static void bin_part(void *user, uint64_t index, uint32_t worker)
     const struct bins *bins = sort->bins;
     memset(chunk->counts + bins->first_tile, 0,
            (bins->end_tile - bins->first_tile) * sizeof *chunk->counts);
-    size_t first = sort->n * index / CHUNKS, last = sort->n * (index + 1) / CHUNKS;
-    for (size_t i = first; i < last; i++) {
+    for (size_t i = first_of_part(sort, index); i < first_of_part(sort, index + 1); i++) {
         struct binning binning = {chunk, (uint32_t)i};
         if (sort->splats[i].kernel_scale > 0.0f)
             pyramid_visit(sort->pyramid, sort->kernel, &sort->splats[i], visit, &binning);
@@ -162,19 +168,40 @@ static ps_result reserve_indices(struct bins *bins, uint64_t pairs, struct error
     return PS_OK;
 }
 
-static void find_range(const struct sort *sort)
+static void look_at_part(void *user, uint64_t index, uint32_t worker)
 {
-    uint32_t each = sort->pyramid->tiles_across * sort->pyramid->tiles_down;
-    uint32_t first = sort->pyramid->subsets, end = 0;
-    for (size_t i = 0; i < sort->n; i++) {
+    (void)worker;
+    const struct sort *sort = user;
+    struct bin_chunk *chunk = &sort->bins->chunks[index];
+    chunk->first_subset = sort->pyramid->subsets;
+    chunk->end_subset = 0;
+    chunk->lighting = 0;
+    for (size_t i = first_of_part(sort, index); i < first_of_part(sort, index + 1); i++) {
         const struct kernel_splat *splat = &sort->splats[i];
         if (!(splat->kernel_scale > 0.0f))
             continue;
-        first = splat->subset < first ? splat->subset : first;
-        end = splat->subset >= end ? splat->subset + 1 : end;
+        uint32_t subset = splat->subset;
+        chunk->lighting++;
+        chunk->first_subset = subset < chunk->first_subset ? subset : chunk->first_subset;
+        chunk->end_subset = subset >= chunk->end_subset ? subset + 1 : chunk->end_subset;
     }
-    sort->bins->first_tile = first < end ? first * each : 0;
-    sort->bins->end_tile = end * each;
+}
+
+static void find_range(struct sort *sort, uint32_t threads)
+{
+    struct bins *bins = sort->bins;
+    uint32_t each = sort->pyramid->tiles_across * sort->pyramid->tiles_down;
+    uint32_t first = sort->pyramid->subsets, end = 0;
+    parallel_for(threads, CHUNKS, look_at_part, sort);
+    bins->lighting = 0;
+    for (int i = 0; i < CHUNKS; i++) {
+        const struct bin_chunk *chunk = &bins->chunks[i];
+        bins->lighting += chunk->lighting;
+        first = chunk->first_subset < first ? chunk->first_subset : first;
+        end = chunk->end_subset > end ? chunk->end_subset : end;
+    }
+    bins->first_tile = first < end ? first * each : 0;
+    bins->end_tile = end * each;
 }
 
 ps_result bins_sort(struct bins *bins, const struct pyramid *pyramid,
@@ -182,7 +209,7 @@ ps_result bins_sort(struct bins *bins, const struct pyramid *pyramid,
                     size_t n, uint32_t threads, struct error *error)
 {
     struct sort sort = {bins, pyramid, kernel, splats, n};
-    find_range(&sort);
+    find_range(&sort, threads);
     parallel_for(threads, CHUNKS, bin_part, &sort);
     for (int i = 0; i < CHUNKS; i++)
         if (bins->chunks[i].failed)

@@ -15,6 +15,7 @@
  * batch lights, which are few: light paths that follow each other share one. */
 struct bins {
     uint32_t first_tile, end_tile;
+    size_t lighting;   /* splats that light anything, in view or not */
     uint32_t *offsets; /* tile_count + 1, owned */
     uint32_t *indices; /* owned */
     size_t capacity;   /* of indices */

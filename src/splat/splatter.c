@@ -197,15 +197,6 @@ static void splat_tile(void *user, uint64_t index, uint32_t worker)
     batch->counts[number].lit += count.lit;
 }
 
-/* Those that light nothing have no map. */
-static uint64_t count_maps(const struct batch *batch)
-{
-    uint64_t maps = 0;
-    for (size_t i = 0; i < batch->n; i++)
-        maps += batch->splats[i].half_width > 0.0f;
-    return maps;
-}
-
 static ps_result add_batch(const struct batch *batch, struct error *error)
 {
     struct splatter *splatter = batch->splatter;
@@ -224,7 +215,7 @@ static ps_result add_batch(const struct batch *batch, struct error *error)
     splatter->map_seconds += mapped - start;
     splatter->bin_seconds += binned - mapped;
     splatter->kernel_seconds += clock_seconds() - binned;
-    splatter->map_rays += count_maps(&work) * map_texels(splatter);
+    splatter->map_rays += splatter->bins.lighting * map_texels(splatter); /* others have no map */
     splatter->splats += work.n;
     return PS_OK;
 }
