@@ -1,6 +1,6 @@
 /* kernel_variant.c: the loops of kernel.h, compiled once for each instruction set with
- * KERNEL_VARIANT naming it. Conditions are masks (0 or 1 joined by &), and indices are clamped, so
- * that every lane may run every step. Loops over lanes are marked `omp simd`, and results go to arrays that
+ * KERNEL_VARIANT naming it. Conditions are masks (0 or 1 joined by &), and indices stay in their tables,
+ * so that every lane may run every step. Loops over lanes are marked `omp simd`, and results go to arrays that
  * no gather may alias: where compilers have doubts they leave a loop scalar without a word
  * (tests/cli/test_vectors.sh).
  *
@@ -171,7 +171,8 @@ static inline void look_into_map(const struct placed_block *placed, const float 
     look_up(depths, texels, seen);
 }
 
-/* The profile at each pixel, and the squared radius there; past 1 any entry will do. */
+/* The profile at each pixel, and the squared radius there, 1e6 at most (LEAST_WIDTH); past 1 any entry will
+ * do. */
 static inline void look_into_profile(const struct placed_block *placed, const float *profile,
                                      float *restrict radius2, float *restrict values)
 {
@@ -204,7 +205,7 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
         float u = placed->u[i], v = placed->v[i], t = placed->t[i], facing = placed->facing[i];
         float inverse_width = placed->inverse_width[i];
         float least_above = splat->clearance * ps_min(placed->width[i], 1.0f);
-        float cosine = ps_max(facing, LEAST_COSINE);
+        float cosine = clamp(facing, LEAST_COSINE, 1.0f);
         float past = ps_max(t - seen[i] - splat->bias_constant, 0.0f) * cosine;
         int is_lit = (u * u + v * v < 1.0f) & (radius2[i] < 1.0f) & (facing > 0.0f) &
                      (t >= splat->near_depth) & (t <= splat->far_depth) &

@@ -374,9 +374,46 @@ static void test_adds_to_what_is_there(void **state)
     }
 }
 
+/* A normal may be a little longer than 1, and then its cosine with light from straight ahead is, too. */
+static void test_light_from_straight_ahead_is_seen(void **state)
+{
+    (void)state;
+    static _Alignas(64) struct field_tile tile;
+    struct kernel_variant variants[4];
+    size_t count = kernel_variants(variants);
+    struct bench *bench = make_bench(1, 7);
+    const ps_splat ahead = {
+        .axis_u = {1, 0, 0},
+        .axis_v = {0, 1, 0},
+        .axis_w = {0, 0, -1},
+        .half_width = 4,
+        .near_depth = -1,
+        .start_depth = -1,
+        .far_depth = 1,
+        .bias_slope = 0.1f,
+        .power = {1, 1, 1},
+    };
+    for (uint32_t s = 0; s < SPLATS; s++) {
+        bench->splats[s] = ahead;
+        bench->depths[s][0] = 1;
+    }
+    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
+        bench->tile.normal_x[i] = bench->tile.normal_y[i] = 0;
+        bench->tile.normal_z[i] = 1.000001f;
+    }
+    for (uint32_t block = 0; block < BOUNDS_WIDTH; block++)
+        bound_block(&bench->tile, block);
+    for (size_t v = 0; v < count; v++) {
+        run(&variants[v], bench, &tile);
+        for (uint32_t i = 0; i < PS_TILE_PIXELS; i++)
+            assert_true(tile.weight[i] > 0 || !sees_surface(&tile, i));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_light_from_straight_ahead_is_seen),
         cmocka_unit_test(test_variants_agree_with_the_formulas),
         cmocka_unit_test(test_pixels_without_surface_get_nothing),
         cmocka_unit_test(test_adds_to_what_is_there),
