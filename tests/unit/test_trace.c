@@ -1,0 +1,141 @@
+/* test_trace.c: what rays meet. A scene of few triangles has a tree for each shape, one of many has one for all of
+ * them (trace.c): both must find the same, and let nothing through where triangles touch. */
+#include "trace/trace.h"
+
+#include "support/random.h"
+#include "support/render_scene.h"
+#include <psplat/math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define RAYS 4096
+#define SIDE 10.0f /* of the room, from the origin on */
+
+#define ROOM                                                                                       \
+    "psd: 1\n"                                                                                     \
+    "camera: {location: [5, 5, 1], look_at: [5, 5, 5]}\n"                                          \
+    "materials: {white: {diffuse: [0.7, 0.7, 0.7]}}\n"                                             \
+    "objects:\n"                                                                                   \
+    "  - box: {corners: [[0, 0, 0], [10, 10, 10]], material: white}\n"                             \
+    "  - box: {corners: [[1, 0.5, 2], [4, 3, 5]], material: white}\n"                                \
+    "  - box: {corners: [[3, 2, 3], [6, 6, 8]], material: white, rotate: [0, 20, 0]}\n"            \
+    "  - sphere: {center: [7, 2, 4], radius: 2, material: white}\n"                                \
+    "  - cylinder: {from: [8, 0.5, 8], to: [8, 7, 8], radius: 1, material: white}\n"
+
+/* Far from the room, and more than trees of their own are made for. */
+#define MANY_TRIANGLES                                                                             \
+    "  - {for: i, from: 0, to: 19, do: {torus: {radius: 3, minor_radius: 1, material: white,\n"    \
+    "      translate: [0, =0 - 100 - 10 * i, 0]}}}\n"
+
+struct traced {
+    struct scene scene;
+    struct trace *trace;
+};
+
+static struct traced trace_text(const char *text)
+{
+    struct traced traced = {.scene = scene_of_text(text)};
+    struct error error;
+    assert_int_equal(trace_create(&traced.scene, NULL, &traced.trace, &error), PS_OK);
+    return traced;
+}
+
+static void traced_release(struct traced *traced)
+{
+    trace_destroy(traced->trace);
+    scene_release(&traced->scene);
+}
+
+static size_t triangles_of(const struct scene *scene)
+{
+    size_t triangles = 0;
+    for (size_t i = 0; i < scene->world_shape_count; i++)
+        triangles += scene->shapes[i].triangle_count;
+    return triangles;
+}
+
+static ps_vec3 point_in_room(struct random *random)
+{
+    return (ps_vec3){random_between(random, 0, SIDE), random_between(random, 0, SIDE),
+                     random_between(random, 0, SIDE)};
+}
+
+static void test_both_trees_find_the_same(void **state)
+{
+    (void)state;
+    static ps_ray rays[RAYS];
+    static ps_hit few_hits[RAYS], many_hits[RAYS];
+    static uint8_t few_blocked[RAYS], many_blocked[RAYS];
+    struct traced few = trace_text(ROOM), many = trace_text(ROOM MANY_TRIANGLES);
+    struct random random = {1};
+    assert_true(triangles_of(&few.scene) < 10000 && triangles_of(&many.scene) > 70000);
+    for (size_t i = 0; i < RAYS; i++)
+        rays[i] = (ps_ray){point_in_room(&random), 0, random_direction(&random),
+                           random_between(&random, 1, 10)};
+    trace_intersect(few.trace, RAYS_INCOHERENT, rays, RAYS, few_hits);
+    trace_intersect(many.trace, RAYS_INCOHERENT, rays, RAYS, many_hits);
+    trace_occluded(few.trace, rays, RAYS, few_blocked);
+    trace_occluded(many.trace, rays, RAYS, many_blocked);
+    size_t met = 0;
+    for (size_t i = 0; i < RAYS; i++) {
+        met += few_hits[i].distance < INFINITY;
+        assert_true(few_hits[i].distance == many_hits[i].distance);
+        assert_true(few_hits[i].object == many_hits[i].object);
+        assert_true(ps_same(few_hits[i].position, many_hits[i].position));
+        assert_true(ps_same(few_hits[i].normal, many_hits[i].normal));
+        assert_true(few_blocked[i] == (few_hits[i].distance < INFINITY));
+        assert_true(few_blocked[i] == many_blocked[i]);
+    }
+    assert_true(met > RAYS / 2 && met < RAYS);
+    traced_release(&few);
+    traced_release(&many);
+}
+
+/* A point on an edge of the room, or one of its corners. */
+static ps_vec3 point_on_edge(struct random *random)
+{
+    float along = random_unit(random) < 0.1f ? 0.0f : random_between(random, 0, SIDE);
+    float a = random_unit(random) < 0.5f ? 0.0f : SIDE,
+          b = random_unit(random) < 0.5f ? 0.0f : SIDE;
+    float axis = random_between(random, 0, 3);
+    if (axis < 1)
+        return (ps_vec3){along, a, b};
+    return axis < 2 ? (ps_vec3){a, along, b} : (ps_vec3){a, b, along};
+}
+
+static void expect_closed(const char *text)
+{
+    static ps_ray rays[RAYS];
+    static ps_hit hits[RAYS];
+    struct traced traced = trace_text(text);
+    struct random random = {2};
+    for (size_t i = 0; i < RAYS; i++) {
+        ps_vec3 from = point_in_room(&random);
+        ps_vec3 way = ps_subtract(point_on_edge(&random), from);
+        rays[i] = (ps_ray){from, 0, ps_normalize(way), INFINITY};
+    }
+    trace_intersect(traced.trace, RAYS_INCOHERENT, rays, RAYS, hits);
+    for (size_t i = 0; i < RAYS; i++)
+        assert_true(hits[i].distance < 2 * SIDE);
+    traced_release(&traced);
+}
+
+static void test_nothing_gets_through_edges(void **state)
+{
+    (void)state;
+    expect_closed(ROOM);
+    expect_closed(ROOM MANY_TRIANGLES);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_both_trees_find_the_same),
+        cmocka_unit_test(test_nothing_gets_through_edges),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
