@@ -134,8 +134,8 @@ typedef struct ps_splat {
      * of the light; what lies nearer, the less of it, the nearer. The rest is gathered otherwise
      * (host->gather_near_light). 0: all gets all. */
     float full_from;
-    /* Lit where t <= map + constant + slope * tan(theta), theta between the light and the receiver's
-     * normal. */
+    /* Lit where t <= map + constant + slope * tan(theta), slope >= 0, theta between the light and the
+     * receiver's normal. */
     float bias_constant, bias_slope;
     ps_rgb power;  /* W */
     float merged;  /* sources that it stands for: how often its weight counts; 0 is as 1 */

@@ -146,44 +146,32 @@ static inline int choose_widths(const struct field_tile *tile, int first,
     return lanes_mask(inside) != 0;
 }
 
-/* Loops that look into tables do nothing else: where the index is a choice, compilers choose between
- * addresses, and gather slowly or not at all. */
-static inline void look_up(const float *table, const int32_t *entries, float *restrict values)
-{
-#pragma omp simd
-    for (int i = 0; i < LANES; i++)
-        values[i] = table[entries[i]];
-}
-
 /* How deep the map sees at the texel that each pixel lies in, or the nearest one. */
 static inline void look_into_map(const struct placed_block *placed, const float *depths,
                                  int resolution, float *restrict seen)
 {
     const float half_resolution = 0.5f * (float)resolution;
     const float last_texel = (float)resolution - 0.5f;
-    _Alignas(64) int32_t texels[LANES];
 #pragma omp simd
     for (int i = 0; i < LANES; i++) {
         int column = (int)clamp((placed->u[i] + 1.0f) * half_resolution, 0.0f, last_texel);
         int line = (int)clamp((placed->v[i] + 1.0f) * half_resolution, 0.0f, last_texel);
-        texels[i] = line * resolution + column;
+        seen[i] = depths[line * resolution + column];
     }
-    look_up(depths, texels, seen);
 }
 
-/* The profile at each pixel, and the squared radius there, 1e6 at most (LEAST_WIDTH); past 1 any entry will
- * do. */
+/* The profile at each pixel, and the squared radius there, 1e6 at most (LEAST_WIDTH). Past 1 any entry will do,
+ * and must not be chosen: compilers then choose between addresses, and gather slowly. */
 static inline void look_into_profile(const struct placed_block *placed, const float *profile,
                                      float *restrict radius2, float *restrict values)
 {
-    _Alignas(64) int32_t entries[LANES];
 #pragma omp simd
     for (int i = 0; i < LANES; i++) {
         float u = placed->u[i], v = placed->v[i], inverse_width = placed->inverse_width[i];
         radius2[i] = ps_min(u * u + v * v, 1.0f) * inverse_width * inverse_width;
-        entries[i] = (int)(radius2[i] * (float)KERNEL_PROFILE_SIZE) & (KERNEL_PROFILE_SIZE - 1);
+        values[i] =
+            profile[(int)(radius2[i] * (float)KERNEL_PROFILE_SIZE) & (KERNEL_PROFILE_SIZE - 1)];
     }
-    look_up(profile, entries, values);
 }
 
 #define LEAST_COSINE (1.0f / sqrtf(1.0f + BOX_STEEPEST * BOX_STEEPEST))
@@ -206,7 +194,7 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
         float inverse_width = placed->inverse_width[i];
         float least_above = splat->clearance * ps_min(placed->width[i], 1.0f);
         float cosine = clamp(facing, LEAST_COSINE, 1.0f);
-        float past = ps_max(t - seen[i] - splat->bias_constant, 0.0f) * cosine;
+        float past = ps_max(0.0f, t - seen[i] - splat->bias_constant) * cosine;
         int is_lit = (u * u + v * v < 1.0f) & (radius2[i] < 1.0f) & (facing > 0.0f) &
                      (t >= splat->near_depth) & (t <= splat->far_depth) &
                      (placed->above[i] >= least_above) &
@@ -225,19 +213,14 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
 static inline void look_beyond(const struct placed_block *placed, const ps_wall *wall,
                                const float *beyond, float *restrict parts)
 {
-    _Alignas(64) int32_t entries[LANES];
-    _Alignas(64) float distances[LANES];
 #pragma omp simd
     for (int i = 0; i < LANES; i++) {
-        distances[i] =
+        float distance =
             wall->distance - (placed->u[i] * wall->normal_u + placed->v[i] * wall->normal_v);
-        float within = clamp(distances[i] * placed->inverse_width[i], 0.0f, 1.0f);
-        entries[i] = (int)(within * (float)(KERNEL_BOUNDARY_SIZE - 1));
+        float within = clamp(distance * placed->inverse_width[i], 0.0f, 1.0f);
+        float part = beyond[(int)(within * (float)(KERNEL_BOUNDARY_SIZE - 1))];
+        parts[i] = distance > 0.0f ? part : KERNEL_BEHIND;
     }
-    look_up(beyond, entries, parts);
-#pragma omp simd
-    for (int i = 0; i < LANES; i++)
-        parts[i] = distances[i] > 0.0f ? parts[i] : KERNEL_BEHIND;
 }
 
 /* Divides by the part of the kernel that the walls beside the source leave; behind them there is no such

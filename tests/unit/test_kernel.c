@@ -374,13 +374,10 @@ static void test_adds_to_what_is_there(void **state)
     }
 }
 
-/* A normal may be a little longer than 1, and then its cosine with light from straight ahead is, too. */
-static void test_light_from_straight_ahead_is_seen(void **state)
+/* Splats from straight above a floor whose maps hold `depth`. Its normals are a little longer than 1, as by
+ * rounding, and so is their cosine with the light. */
+static struct bench *bench_from_above(float depth)
 {
-    (void)state;
-    static _Alignas(64) struct field_tile tile;
-    struct kernel_variant variants[4];
-    size_t count = kernel_variants(variants);
     struct bench *bench = make_bench(1, 7);
     const ps_splat ahead = {
         .axis_u = {1, 0, 0},
@@ -395,7 +392,7 @@ static void test_light_from_straight_ahead_is_seen(void **state)
     };
     for (uint32_t s = 0; s < SPLATS; s++) {
         bench->splats[s] = ahead;
-        bench->depths[s][0] = 1;
+        bench->depths[s][0] = depth;
     }
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
         bench->tile.normal_x[i] = bench->tile.normal_y[i] = 0;
@@ -403,17 +400,42 @@ static void test_light_from_straight_ahead_is_seen(void **state)
     }
     for (uint32_t block = 0; block < BOUNDS_WIDTH; block++)
         bound_block(&bench->tile, block);
+    return bench;
+}
+
+static void expect_from_above(float depth, bool lit)
+{
+    static _Alignas(64) struct field_tile tile;
+    struct kernel_variant variants[4];
+    size_t count = kernel_variants(variants);
+    struct bench *bench = bench_from_above(depth);
     for (size_t v = 0; v < count; v++) {
         run(&variants[v], bench, &tile);
         for (uint32_t i = 0; i < PS_TILE_PIXELS; i++)
-            assert_true(tile.weight[i] > 0 || !sees_surface(&tile, i));
+            assert_true((tile.weight[i] > 0) == (lit && sees_surface(&tile, i)));
     }
+}
+
+static void test_light_from_straight_ahead_is_seen(void **state)
+{
+    (void)state;
+    expect_from_above(1, true);
+    expect_from_above(INFINITY, true);
+    expect_from_above(-1, false);
+}
+
+/* Maps are what plugins say. */
+static void test_maps_that_hold_no_number_hide(void **state)
+{
+    (void)state;
+    expect_from_above(NAN, false);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_light_from_straight_ahead_is_seen),
+        cmocka_unit_test(test_maps_that_hold_no_number_hide),
         cmocka_unit_test(test_variants_agree_with_the_formulas),
         cmocka_unit_test(test_pixels_without_surface_get_nothing),
         cmocka_unit_test(test_adds_to_what_is_there),

@@ -21,7 +21,7 @@
     "materials: {white: {diffuse: [0.7, 0.7, 0.7]}}\n"                                             \
     "objects:\n"                                                                                   \
     "  - box: {corners: [[0, 0, 0], [10, 10, 10]], material: white}\n"                             \
-    "  - box: {corners: [[1, 0.5, 2], [4, 3, 5]], material: white}\n"                                \
+    "  - box: {corners: [[1, 0.5, 2], [4, 3, 5]], material: white}\n"                              \
     "  - box: {corners: [[3, 2, 3], [6, 6, 8]], material: white, rotate: [0, 20, 0]}\n"            \
     "  - sphere: {center: [7, 2, 4], radius: 2, material: white}\n"                                \
     "  - cylinder: {from: [8, 0.5, 8], to: [8, 7, 8], radius: 1, material: white}\n"
