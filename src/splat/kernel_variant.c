@@ -1,6 +1,6 @@
 /* kernel_variant.c: the loops of kernel.h, compiled once for each instruction set with
- * KERNEL_VARIANT naming it. Conditions are masks (0 or 1 joined by &), and indices stay in their tables,
- * so that every lane may run every step. Loops over lanes are marked `omp simd`, and results go to arrays that
+ * KERNEL_VARIANT naming it. Conditions are joined by &, not &&, and indices stay in their tables, so that every
+ * lane may run every step. Loops over lanes are marked `omp simd`, and results go to arrays that
  * no gather may alias: where compilers have doubts they leave a loop scalar without a word
  * (tests/cli/test_vectors.sh).
  *
@@ -209,7 +209,8 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
     return lanes_count(lanes_mask(lit));
 }
 
-/* The part of the kernel around each pixel's start that lies beyond a wall, or KERNEL_BEHIND. */
+/* The part of the kernel around each pixel's start that lies beyond a wall, or KERNEL_BEHIND. (Here the entry is
+ * chosen, at both ends: the table's length is no power of two.) */
 static inline void look_beyond(const struct placed_block *placed, const ps_wall *wall,
                                const float *beyond, float *restrict parts)
 {
