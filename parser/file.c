@@ -1,8 +1,8 @@
 /* file.c: reads in blocks that double, since the size of a pipe cannot be asked for. */
 #include "parser/file.h"
 
+#include "base/input_file.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,53 +44,37 @@ static ps_result read_stream(FILE *stream, size_t most, struct file_text *text, 
     return text->length > most ? fail_size(error, most) : PS_OK;
 }
 
-static void identify(int descriptor, struct file_text *text)
-{
-    struct stat status;
-    if (fstat(descriptor, &status) == 0) {
-        text->device = (uint64_t)status.st_dev;
-        text->serial = (uint64_t)status.st_ino;
-    }
-}
-
 ps_result file_read(const char *path, struct file_text *text, struct error *error)
 {
+    struct stat status;
     bool standard_input = strcmp(path, "-") == 0;
     FILE *stream = standard_input ? stdin : fopen(path, "rb");
     if (!stream)
         return error_set(error, PS_ERROR_IO, "cannot open: %s", strerror(errno));
-    identify(fileno(stream), text);
+    if (fstat(fileno(stream), &status) == 0) {
+        text->device = (uint64_t)status.st_dev;
+        text->serial = (uint64_t)status.st_ino;
+    }
     ps_result result = read_stream(stream, FILE_LARGEST, text, error);
     if (!standard_input)
         fclose(stream);
     return result;
 }
 
-/* Looked at after opening, so that nothing can be put in its place in between. */
-static ps_result check_regular(int descriptor, struct error *error)
+ps_result file_read_regular(const char *path, const char *folder, size_t most,
+                            struct file_text *text, struct error *error)
 {
-    struct stat status;
-    if (fstat(descriptor, &status) != 0)
-        return error_set(error, PS_ERROR_IO, "%s", strerror(errno));
-    if (S_ISREG(status.st_mode))
-        return PS_OK;
-    return error_set(error, PS_ERROR_INVALID, "it is %s",
-                     S_ISDIR(status.st_mode) ? "a directory" : "no regular file");
-}
-
-ps_result file_read_regular(const char *path, size_t most, struct file_text *text,
-                            struct error *error)
-{
-    int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
-    if (descriptor < 0)
-        return error_set(error, PS_ERROR_IO, "%s", strerror(errno));
-    ps_result result = check_regular(descriptor, error);
-    FILE *stream = result == PS_OK ? fdopen(descriptor, "rb") : NULL;
+    struct input_file file;
+    ps_result result = input_file_open(path, folder, &file, error);
+    if (result != PS_OK)
+        return result;
+    text->device = file.device;
+    text->serial = file.serial;
+    FILE *stream = fdopen(file.descriptor, "rb");
     if (!stream) {
-        close(descriptor);
-        return result != PS_OK ? result : error_memory(error, BUFSIZ, "a file");
+        close(file.descriptor);
+        return error_memory(error, BUFSIZ, "a file");
     }
-    identify(descriptor, text);
     result = read_stream(stream, most, text, error);
     fclose(stream);
     return result;

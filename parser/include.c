@@ -76,13 +76,31 @@ static bool is_other_version(const struct reader *reader, const struct node *roo
     return true;
 }
 
-/* The main file is checked by the table of its keys. */
-static void check_included(const struct reader *reader, const struct node *root)
+static bool is_blank(char c)
 {
-    if (root->kind != NODE_MAP)
-        reader_error(reader, root, "expected a map for scene, got %s", node_kind_name(root));
-    else if (!node_find(root, "psd"))
-        reader_error(reader, root, "missing key 'psd' in scene");
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+/* Whether the text goes on as the key "psd" does: a quote perhaps, blanks, a colon, a blank. */
+static bool ends_key(const char *text, const char *end)
+{
+    bool quoted = text < end && (*text == '"' || *text == '\'');
+    text += quoted;
+    while (text < end && is_blank(*text))
+        text++;
+    return text < end && *text == ':' && (quoted || text + 1 == end || is_blank(text[1]));
+}
+
+/* Whether "psd" stands before a colon somewhere, as it does in every scene. */
+static bool may_be_scene(const struct file_text *text)
+{
+    const char *end = text->bytes + text->length, *at = text->bytes;
+    while (at && end - at > 3) {
+        if (memcmp(at, "psd", 3) == 0 && ends_key(at + 3, end))
+            return true;
+        at = memchr(at + 1, 'p', (size_t)(end - at - 1));
+    }
+    return false;
 }
 
 static ps_result parse(struct inclusion *inclusion, const struct source *source, const char *text,
@@ -101,29 +119,6 @@ static ps_result parse(struct inclusion *inclusion, const struct source *source,
     return result;
 }
 
-static void include_all(struct inclusion *inclusion, const struct source *by,
-                        const struct node *root);
-
-static void take_file(struct inclusion *inclusion, struct source *source, const char *text,
-                      size_t length)
-{
-    const struct node *root = NULL;
-    ps_result result = parse(inclusion, source, text, length, &root);
-    if (result == PS_ERROR_MEMORY)
-        inclusion->out_of_memory = true;
-    if (result != PS_OK) {
-        inclusion->failed = true;
-        return;
-    }
-    if (source->by)
-        check_included(inclusion->reader, root);
-    source->open = true;
-    include_all(inclusion, source, root);
-    source->open = false;
-    if (root->kind == NODE_MAP || !source->by)
-        merge_add(inclusion->reader, &inclusion->merge, root);
-}
-
 static void fail(struct inclusion *inclusion, const struct node *at, const char *format, ...)
     PRINTF_LIKE(3, 4);
 
@@ -135,6 +130,38 @@ static void fail(struct inclusion *inclusion, const struct node *at, const char 
     reader_error_list(inclusion->reader, at, format, arguments);
     va_end(arguments);
     inclusion->failed = true;
+}
+
+/* At the place that includes it: a file that is no scene may hold secrets, and no line of it is shown. */
+static void fail_no_scene(struct inclusion *inclusion, const struct node *at, const char *name)
+{
+    fail(inclusion, at, "can't include '%s': it is no scene, since it has no key 'psd'", name);
+}
+
+static void include_all(struct inclusion *inclusion, const struct source *by,
+                        const struct node *root);
+
+/* `at` is the place that includes the file; NULL for the main file, which the table of its keys checks. */
+static void take_file(struct inclusion *inclusion, struct source *source, const struct node *at,
+                      const char *text, size_t length)
+{
+    const struct node *root = NULL;
+    ps_result result = parse(inclusion, source, text, length, &root);
+    if (result == PS_ERROR_MEMORY)
+        inclusion->out_of_memory = true;
+    if (result != PS_OK) {
+        inclusion->failed = true;
+        return;
+    }
+    if (at && !node_find(root, "psd")) {
+        fail_no_scene(inclusion, at, source->name);
+        return;
+    }
+    source->open = true;
+    include_all(inclusion, source, root);
+    source->open = false;
+    if (root->kind == NODE_MAP || !source->by)
+        merge_add(inclusion->reader, &inclusion->merge, root);
 }
 
 static void report_cycle(struct inclusion *inclusion, const struct source *by,
@@ -174,7 +201,7 @@ static void take_once(struct inclusion *inclusion, const struct source *source,
         return;
     struct origin from = reader_origin(inclusion->reader, at);
     diagnostics_set_includer(inclusion->reader->sink, kept->name, &from);
-    take_file(inclusion, kept, text->bytes, text->length);
+    take_file(inclusion, kept, at, text->bytes, text->length);
 }
 
 static void include_path(struct inclusion *inclusion, const struct source *by,
@@ -192,6 +219,8 @@ static void include_path(struct inclusion *inclusion, const struct source *by,
         inclusion->out_of_memory = true;
     else if (result != PS_OK)
         fail(inclusion, at, "can't include '%s': %s", path, error.text);
+    else if (!may_be_scene(&text))
+        fail_no_scene(inclusion, at, path);
     else
         take_once(inclusion, &source, &text, at);
     file_release(&text);
@@ -241,14 +270,14 @@ static void include_all(struct inclusion *inclusion, const struct source *by,
 static ps_result read_file(void *user, const char *path, size_t most, struct file_text *text,
                            struct error *error)
 {
-    (void)user;
-    return file_read_regular(path, most, text, error);
+    const char *folder = user;
+    return file_read_regular(path, folder, most, text, error);
 }
 
 ps_result include_read(struct reader *reader, const struct psd_files *files, struct budget *budget,
                        const struct main_text *main, const struct node **root)
 {
-    static const struct psd_files file_system = {NULL, read_file};
+    const struct psd_files file_system = {reader->description->folder, read_file};
     struct inclusion *inclusion = calloc(1, sizeof *inclusion);
     if (!inclusion)
         return PS_ERROR_MEMORY;
@@ -260,7 +289,7 @@ ps_result include_read(struct reader *reader, const struct psd_files *files, str
     inclusion->sources[0] =
         (struct source){.name = reader->file, .device = main->device, .serial = main->serial};
     inclusion->bytes_left -= main->length < FILE_LARGEST ? main->length : FILE_LARGEST;
-    take_file(inclusion, &inclusion->sources[0], main->text, main->length);
+    take_file(inclusion, &inclusion->sources[0], NULL, main->text, main->length);
     bool out_of_memory = reader->out_of_memory || inclusion->out_of_memory;
     ps_result result = out_of_memory       ? PS_ERROR_MEMORY
                        : inclusion->failed ? PS_ERROR_INVALID

@@ -5,11 +5,11 @@
  */
 #include "parser/mesh_files.h"
 
+#include "base/input_file.h"
 #include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 static const struct mesh_memory_file *find_in_memory(const struct mesh_files *files,
                                                      const char *path)
@@ -20,22 +20,11 @@ static const struct mesh_memory_file *find_in_memory(const struct mesh_files *fi
     return NULL;
 }
 
-static ps_result check_size(const char *path, size_t length, struct error *error)
+static ps_result check_size(const char *path, uint64_t length, struct error *error)
 {
     if (length > MESH_FILE_LARGEST)
         return error_set(error, PS_ERROR_INVALID, "%s is larger than 4 GiB", path);
     return PS_OK;
-}
-
-static struct mesh_file *create_file(const char *path, size_t length)
-{
-    struct mesh_file *file = calloc(1, sizeof *file);
-    if (!file)
-        return NULL;
-    file->path = strdup(path);
-    file->bytes = malloc(length + 1);
-    file->length = length;
-    return file;
 }
 
 static void destroy_file(struct mesh_file *file)
@@ -45,54 +34,64 @@ static void destroy_file(struct mesh_file *file)
     free(file);
 }
 
-static ps_result check_regular(const char *path, size_t *length, struct error *error)
+/* NULL: out of memory. */
+static struct mesh_file *create_file(const char *path, size_t length)
 {
-    struct stat status;
-    if (stat(path, &status) != 0)
-        return error_set(error, PS_ERROR_IO, "cannot open %s: %s", path, strerror(errno));
-    if (S_ISDIR(status.st_mode))
-        return error_set(error, PS_ERROR_IO, "cannot read %s: it is a directory", path);
-    if (!S_ISREG(status.st_mode))
-        return error_set(error, PS_ERROR_IO, "cannot read %s: it is not a regular file", path);
-    *length = (size_t)status.st_size;
-    return check_size(path, *length, error);
+    struct mesh_file *file = calloc(1, sizeof *file);
+    if (!file)
+        return NULL;
+    file->path = strdup(path);
+    file->bytes = malloc(length + 1);
+    file->length = length;
+    if (file->path && file->bytes)
+        return file;
+    destroy_file(file);
+    return NULL;
 }
 
-static ps_result fill_from_disk(struct mesh_file *file, struct error *error)
+static ps_result fill(struct mesh_file *file, int descriptor, struct error *error)
 {
-    FILE *stream = fopen(file->path, "rb");
-    if (!stream)
-        return error_set(error, PS_ERROR_IO, "cannot open %s: %s", file->path, strerror(errno));
-    errno = 0;
-    size_t length = fread(file->bytes, 1, file->length, stream);
-    ps_result result = PS_OK;
-    if (ferror(stream))
-        result = error_set(error, PS_ERROR_IO, "cannot read %s: %s", file->path, strerror(errno));
-    fclose(stream);
-    file->length = length;
+    size_t done = 0;
+    ssize_t count = 1;
+    while (count != 0 && done < file->length) {
+        count = read(descriptor, file->bytes + done, file->length - done);
+        if (count < 0 && errno != EINTR)
+            return error_set(error, PS_ERROR_IO, "%s: cannot read: %s", file->path,
+                             strerror(errno));
+        done += count > 0 ? (size_t)count : 0;
+    }
+    file->length = done;
+    return PS_OK;
+}
+
+static ps_result read_from_disk(const char *path, const char *folder, struct mesh_file **file,
+                                struct error *error)
+{
+    struct input_file input;
+    struct error reason;
+    ps_result result = input_file_open(path, folder, &input, &reason);
+    if (result != PS_OK)
+        return error_set(error, result, "%s: %.1000s", path, reason.text);
+    result = check_size(path, input.size, error);
+    if (result == PS_OK && !(*file = create_file(path, (size_t)input.size)))
+        result = error_memory(error, (size_t)input.size, "a mesh file");
+    if (result == PS_OK)
+        result = fill(*file, input.descriptor, error);
+    close(input.descriptor);
     return result;
 }
 
-static ps_result read_new(const struct mesh_files *files, const char *path, struct mesh_file **file,
-                          struct error *error)
+static ps_result read_from_memory(const struct mesh_files *files, const char *path,
+                                  struct mesh_file **file, struct error *error)
 {
     const struct mesh_memory_file *source = find_in_memory(files, path);
-    size_t length = source ? source->length : 0;
-    ps_result result = PS_OK;
-    if (!files->memory)
-        result = check_regular(path, &length, error);
-    else if (!source)
-        result = error_set(error, PS_ERROR_IO, "cannot open %s: no such file", path);
-    if (result != PS_OK)
-        return result;
-    *file = create_file(path, length);
-    if (!*file || !(*file)->path || !(*file)->bytes)
-        return error_memory(error, length, "a mesh file");
     if (!source)
-        result = fill_from_disk(*file, error);
-    else if (length > 0)
-        memcpy((*file)->bytes, source->bytes, length);
-    (*file)->bytes[(*file)->length] = '\0';
+        return error_set(error, PS_ERROR_IO, "%s: cannot open: no such file", path);
+    ps_result result = check_size(path, source->length, error);
+    if (result == PS_OK && !(*file = create_file(path, source->length)))
+        result = error_memory(error, source->length, "a mesh file");
+    if (result == PS_OK && source->length > 0)
+        memcpy((*file)->bytes, source->bytes, source->length);
     return result;
 }
 
@@ -102,8 +101,10 @@ ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mes
     for (*file = files->read; *file; *file = (*file)->next)
         if (strcmp((*file)->path, path) == 0)
             return PS_OK;
-    ps_result result = read_new(files, path, file, error);
+    ps_result result = files->memory ? read_from_memory(files, path, file, error)
+                                     : read_from_disk(path, files->folder, file, error);
     if (result == PS_OK) {
+        (*file)->bytes[(*file)->length] = '\0';
         (*file)->next = files->read;
         files->read = *file;
     } else if (*file) {
@@ -115,10 +116,8 @@ ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mes
 
 bool mesh_files_exist(const struct mesh_files *files, const char *path)
 {
-    struct stat status;
-    if (files->memory)
-        return find_in_memory(files, path) != NULL;
-    return stat(path, &status) == 0 && S_ISREG(status.st_mode);
+    return files->memory ? find_in_memory(files, path) != NULL
+                         : input_file_exists(path, files->folder);
 }
 
 void mesh_files_release(struct mesh_files *files)

@@ -17,6 +17,7 @@ struct mesh_file {
 struct mesh_files {
     const struct mesh_memory_file *memory; /* NULL: the disk */
     size_t memory_count;
+    const char *folder;     /* the only one to read from (input_file.h), or NULL */
     struct mesh_file *read; /* the newest first */
 };
 

@@ -131,7 +131,8 @@ static ps_result import(const struct mesh_request *request, struct mesh_files fi
 ps_result mesh_import(const struct mesh_request *request, struct scene_description *fragment,
                       struct mesh_report *report, struct error *error)
 {
-    return import(request, (struct mesh_files){0}, fragment, report, error);
+    const struct mesh_files disk = {.folder = request->folder};
+    return import(request, disk, fragment, report, error);
 }
 
 ps_result mesh_import_memory(const struct mesh_request *request,

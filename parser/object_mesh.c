@@ -129,6 +129,7 @@ void object_mesh_read(struct reader *reader, const struct item *item,
         return;
     const struct mesh_request request = {
         .path = path,
+        .folder = reader->description->folder,
         .geometry = keys->use & USE_GEOMETRY,
         .materials = (keys->use & USE_MATERIALS && keys->object.material == NO_INDEX) ||
                      keys->materials != NULL,

@@ -58,11 +58,14 @@ static void report_memory(struct diagnostics *sink, const char *name)
     diagnostics_report(sink, SEVERITY_ERROR, &origin, 0, "out of memory while reading the scene");
 }
 
-/* The name that origins refer to, and the path. */
-static void set_names(struct reader *reader, const char *name)
+/* The name that origins refer to, the path, and the limits on what the scene may name. */
+static void prepare(struct reader *reader, const char *name, const struct psd_options *options)
 {
     reader->description->path = reader_copy(reader, name);
     reader->file = reader_add_file(reader, name);
+    if (options->folder)
+        reader->description->folder = reader_copy(reader, options->folder);
+    reader->allow_plugin_paths = options->allow_plugin_paths;
 }
 
 static ps_result read_scene(const char *name, const struct main_text *text,
@@ -78,7 +81,7 @@ static ps_result read_scene(const char *name, const struct main_text *text,
     struct reader reader = {.sink = sink, .description = description, .arena = &arena};
     if (!full.options)
         full.options = &no_options;
-    set_names(&reader, name);
+    prepare(&reader, name, full.options);
     if (!reader.out_of_memory)
         result = read_tree(&reader, &full, text);
     arena_release(&arena);

@@ -1,5 +1,6 @@
 /* strategy.c: see strategy.h. Values stay text, because only the plugin knows what they mean and
  * the parser loads no plugins; but arithmetic is done here, as it is the scene file's.
+ * Scenes are passed around, so a path to a plugin is refused here, before anything can load it.
  */
 #include "parser/strategy.h"
 
@@ -81,6 +82,13 @@ bool strategy_read(struct reader *reader, struct subject subject, const struct n
                      "%s in %s: expected a plugin's name or {NAME: {PARAMETER: VALUE}}, got %s",
                      subject.key, subject.section,
                      node->kind == NODE_MAP ? "another map" : node_kind_name(node));
+        return false;
+    }
+    if (strchr(name->text, '/') && !reader->allow_plugin_paths) {
+        reader_error(reader, name,
+                     "%s in %s: a plugin is a program, and a scene names it without a path; to run "
+                     "this file all the same, use --plugin or --allow-scene-plugins",
+                     subject.key, subject.section);
         return false;
     }
     choice->name = reader_copy(reader, name->text);

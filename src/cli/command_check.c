@@ -108,7 +108,7 @@ static int check_scenes(const struct argument *arguments, size_t count,
 static int run(const struct argument *arguments, size_t count)
 {
     struct scene_options scene_options;
-    int status = STATUS_FAILED;
+    int status = STATUS_USAGE;
     if (scene_options_take(&scene_options, arguments, count))
         status = check_scenes(arguments, count, &scene_options);
     scene_options_release(&scene_options);

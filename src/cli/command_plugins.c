@@ -80,9 +80,10 @@ static int run(const struct argument *arguments, size_t count)
 {
     struct loader *loader;
     struct error error;
-    if (loader_create(&loader, &error) != PS_OK) {
+    ps_result created = loader_create(&loader, &error);
+    if (created != PS_OK) {
         print_error(error.text);
-        return STATUS_FAILED;
+        return created == PS_ERROR_INVALID ? STATUS_USAGE : STATUS_FAILED;
     }
     int status = STATUS_OK;
     for (size_t i = 0; i < count && status == STATUS_OK; i++)

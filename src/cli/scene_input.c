@@ -11,8 +11,12 @@ bool scene_input_read(struct scene_input *input, const char *path,
 {
     struct error error;
     *input = (struct scene_input){.sink = diagnostics_create()};
-    if (!input->sink || loader_create(&input->loader, &error) != PS_OK) {
+    if (!input->sink) {
         print_error("out of memory");
+        return false;
+    }
+    if (loader_create(&input->loader, &error) != PS_OK) {
+        print_error(error.text);
         return false;
     }
     ps_result result = psd_read_file_with(path, &options->psd, input->sink, &input->description);

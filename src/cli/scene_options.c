@@ -1,5 +1,6 @@
 #include "cli/scene_options.h"
 
+#include "base/input_file.h"
 #include "parser/suggestion.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,6 +21,30 @@ static size_t collect(const struct argument *arguments, size_t count, const char
     return found;
 }
 
+static const char *last_value(const struct argument *arguments, size_t count, const char *name)
+{
+    while (count > 0 && !is_called(&arguments[count - 1], name))
+        count--;
+    return count > 0 ? arguments[count - 1].value : NULL;
+}
+
+/* A plugin can read any file, so that it makes no sense to limit which ones the scene names. */
+static bool restrict_to(struct scene_options *options, const char *path)
+{
+    struct error error;
+    if (!path)
+        return true;
+    if (options->psd.allow_plugin_paths) {
+        print_error("--restrict and --allow-scene-plugins exclude each other");
+        return false;
+    }
+    options->folder = input_folder_resolve(path, &error);
+    options->psd.folder = options->folder;
+    if (!options->folder)
+        fprintf(stderr, "psplat: error: --restrict: %s\n", error.text);
+    return options->folder != NULL;
+}
+
 bool scene_options_take(struct scene_options *options, const struct argument *arguments,
                         size_t count)
 {
@@ -33,15 +58,17 @@ bool scene_options_take(struct scene_options *options, const struct argument *ar
     options->psd.sets = options->words + options->psd.parameter_count;
     options->psd.set_count =
         collect(arguments, count, "set", options->words + options->psd.parameter_count);
+    options->camera = last_value(arguments, count, "camera");
     for (size_t i = 0; i < count; i++)
-        if (is_called(&arguments[i], "camera"))
-            options->camera = arguments[i].value;
-    return true;
+        if (is_called(&arguments[i], "allow-scene-plugins"))
+            options->psd.allow_plugin_paths = true;
+    return restrict_to(options, last_value(arguments, count, "restrict"));
 }
 
 void scene_options_release(struct scene_options *options)
 {
     free(options->words);
+    free(options->folder);
     *options = (struct scene_options){0};
 }
 
@@ -95,4 +122,6 @@ void scene_options_each_word(const struct scene_options *options,
     each_option("--param", options->psd.parameters, options->psd.parameter_count, each, user);
     each_option("--set", options->psd.sets, options->psd.set_count, each, user);
     each_option("--camera", &options->camera, options->camera ? 1 : 0, each, user);
+    if (options->psd.allow_plugin_paths)
+        each(user, "--allow-scene-plugins");
 }

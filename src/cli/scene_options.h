@@ -10,18 +10,21 @@
 #define SCENE_OPTIONS                                                                              \
     {0, "param", "NAME=VALUE", "give a parameter of the scene a value"},                           \
         {0, "set", "KEY.KEY=VALUE", "set a value in the scene; items of lists count from 0"},      \
+        {0, "camera", "NAME", "look through another camera of the scene"},                         \
+        {0, "restrict", "DIR", "refuse files outside of DIR to the scene"},                        \
     {                                                                                              \
-        0, "camera", "NAME", "look through another camera of the scene"                            \
+        0, "allow-scene-plugins", NULL, "let the scene run plugins that it names by a path"        \
     }
 
 struct scene_options {
     struct psd_options psd;
     const char *camera; /* NULL: the first */
     const char **words; /* owned: those of `psd` */
+    char *folder;       /* owned: that of `psd`; NULL: any */
 };
 
-/* Picks them from the arguments, whose values must outlive this. False, printed, when out of memory;
- * to be released in any case. */
+/* Picks them from the arguments, whose values must outlive this. False, printed, where one is wrong; to
+ * be released in any case. */
 bool scene_options_take(struct scene_options *options, const struct argument *arguments,
                         size_t count);
 void scene_options_release(struct scene_options *options);

@@ -4,11 +4,10 @@
  */
 #include "image/raster_decode.h"
 
+#include "base/input_file.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 typedef ps_result (*raster_reader)(const struct raster_source *source, struct raster *raster,
@@ -125,23 +124,6 @@ static ps_result decode_or_release(const struct raster_source *source, struct ra
     return PS_OK;
 }
 
-static ps_result refuse_system(const char *path, const char *what, struct error *error)
-{
-    return error_set(error, PS_ERROR_IO, "%s: cannot %s: %s", path, what, strerror(errno));
-}
-
-/* Only files have a size to be known beforehand; a pipe could make the program wait for ever. */
-static ps_result check_regular(const char *path, const struct stat *status, struct error *error)
-{
-    if (S_ISDIR(status->st_mode)) {
-        return error_set(error, PS_ERROR_IO, "%s: it is a directory", path);
-    }
-    if (!S_ISREG(status->st_mode)) {
-        return error_set(error, PS_ERROR_IO, "%s: it is not a regular file", path);
-    }
-    return PS_OK;
-}
-
 static ps_result read_bytes(int descriptor, const char *path, unsigned char *bytes, size_t size,
                             struct error *error)
 {
@@ -151,7 +133,7 @@ static ps_result read_bytes(int descriptor, const char *path, unsigned char *byt
             continue;
         }
         if (count < 0) {
-            return refuse_system(path, "read", error);
+            return error_set(error, PS_ERROR_IO, "%s: cannot read: %s", path, strerror(errno));
         }
         if (count == 0) {
             return error_set(error, PS_ERROR_IO, "%s: it became shorter while it was read", path);
@@ -161,23 +143,15 @@ static ps_result read_bytes(int descriptor, const char *path, unsigned char *byt
     return PS_OK;
 }
 
-static ps_result read_descriptor(int descriptor, const char *path, struct raster *raster,
-                                 struct error *error)
+static ps_result read_file(const char *path, const struct input_file *file, struct raster *raster,
+                           struct error *error)
 {
-    struct stat status;
-    if (fstat(descriptor, &status) != 0) {
-        return refuse_system(path, "read", error);
-    }
-    ps_result result = check_regular(path, &status, error);
-    if (result != PS_OK) {
-        return result;
-    }
-    size_t size = (size_t)status.st_size;
+    size_t size = (size_t)file->size;
     unsigned char *bytes = malloc(size + 1);
     if (!bytes) {
         return error_set(error, PS_ERROR_MEMORY, "%s: out of memory: wanted %zu bytes", path, size);
     }
-    result = read_bytes(descriptor, path, bytes, size, error);
+    ps_result result = read_bytes(file->descriptor, path, bytes, size, error);
     if (result == PS_OK) {
         struct raster_source source = {path, bytes, size};
         result = decode_or_release(&source, raster, error);
@@ -186,18 +160,23 @@ static ps_result read_descriptor(int descriptor, const char *path, struct raster
     return result;
 }
 
-ps_result raster_read(const char *path, const unsigned char *bytes, size_t size,
-                      struct raster *raster, struct error *error)
+ps_result raster_read(const char *path, const char *folder, struct raster *raster,
+                      struct error *error)
 {
-    if (bytes) {
-        struct raster_source source = {path, bytes, size};
-        return decode_or_release(&source, raster, error);
+    struct input_file file;
+    struct error reason;
+    ps_result result = input_file_open(path, folder, &file, &reason);
+    if (result != PS_OK) {
+        return error_set(error, result, "%s: %.1000s", path, reason.text);
     }
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0) {
-        return refuse_system(path, "open", error);
-    }
-    ps_result result = read_descriptor(descriptor, path, raster, error);
-    close(descriptor);
+    result = read_file(path, &file, raster, error);
+    close(file.descriptor);
     return result;
+}
+
+ps_result raster_decode(const char *path, const unsigned char *bytes, size_t size,
+                        struct raster *raster, struct error *error)
+{
+    struct raster_source source = {path, bytes, size};
+    return decode_or_release(&source, raster, error);
 }

@@ -31,7 +31,8 @@ struct raster {
     void *samples; /* row-major, top row first, native byte order */
 };
 
-/* Reads a PNG, JPEG or OpenEXR picture: from `bytes` where that is not NULL, else from the file.
+/* Reads a PNG, JPEG or OpenEXR picture from a file, which lies in `folder` where that is not NULL
+ * (input_file_open); raster_decode has one from the bytes of a file inside of another.
  *
  * PNG: every colour type and depth, interlaced or not; a palette becomes colours, a transparent
  * colour alpha, 1 to 4 bits become 8. Gamma and colour profiles are ignored.
@@ -45,8 +46,10 @@ struct raster {
  * PS_ERROR_IO: the file cannot be read, is truncated or damaged; PS_ERROR_INVALID: no picture of a
  * known kind or size; PS_ERROR_MEMORY. Messages start with `path`. `raster` is written only on
  * success, and what it held is not released: pass an empty one. Any number of threads. */
-ps_result raster_read(const char *path, const unsigned char *bytes, size_t size,
-                      struct raster *raster, struct error *error);
+ps_result raster_read(const char *path, const char *folder, struct raster *raster,
+                      struct error *error);
+ps_result raster_decode(const char *path, const unsigned char *bytes, size_t size,
+                        struct raster *raster, struct error *error);
 
 void raster_release(struct raster *raster);
 

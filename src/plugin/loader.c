@@ -35,16 +35,31 @@ static bool add_folder(struct loader *loader, const char *path, size_t length)
     return true;
 }
 
-static bool add_environment(struct loader *loader)
+/* A relative entry would take plugins, which are programs, from wherever psplat is started; and so does an
+ * empty one, by the habit of $PATH. */
+static ps_result refuse_entry(const char *entry, size_t length, struct error *error)
+{
+    return error_set(
+        error, PS_ERROR_INVALID,
+        "PSPLAT_PLUGIN_PATH: expected absolute folders with ':' between them, got %s%.*s%s",
+        length ? "'" : "an empty entry", (int)(length < 200 ? length : 200), entry,
+        length ? "'" : "");
+}
+
+static ps_result add_environment(struct loader *loader, struct error *error)
 {
     const char *path = getenv("PSPLAT_PLUGIN_PATH");
-    while (path && *path) {
+    bool more = path && *path;
+    while (more) {
         size_t length = strcspn(path, ":");
-        if (length && !add_folder(loader, path, length))
-            return false;
-        path += length + (path[length] == ':');
+        if (*path != '/')
+            return refuse_entry(path, length, error);
+        if (!add_folder(loader, path, length))
+            return error_memory(error, length, "the plugin path");
+        more = path[length] == ':';
+        path += length + 1;
     }
-    return true;
+    return PS_OK;
 }
 
 /* psplat's own plugins lie beside libpsplat, so that an installed tree runs from any place. */
@@ -65,12 +80,16 @@ static bool add_own_folder(struct loader *loader)
 ps_result loader_create(struct loader **created, struct error *error)
 {
     struct loader *loader = calloc(1, sizeof *loader);
-    if (!loader || !add_environment(loader) || !add_own_folder(loader)) {
-        loader_destroy(loader);
+    if (!loader)
         return error_memory(error, sizeof *loader, "the plugin loader");
-    }
-    *created = loader;
-    return PS_OK;
+    ps_result result = add_environment(loader, error);
+    if (result == PS_OK && !add_own_folder(loader))
+        result = error_memory(error, LONGEST_PATH, "the plugin path");
+    if (result == PS_OK)
+        *created = loader;
+    else
+        loader_destroy(loader);
+    return result;
 }
 
 void loader_destroy(struct loader *loader)

@@ -1,7 +1,7 @@
 /* loader.h: finds strategies by name in shared objects.
  *
  * A name is looked for as <folder>/<kind>/<name>.so in the folders of $PSPLAT_PLUGIN_PATH
- * (colon-separated), then in psplat's own folder; a name with a slash is a path. A module is judged
+ * (absolute, colon-separated), then in psplat's own folder; a name with a slash is a path. A module is judged
  * (magic, ABI, layout, descriptors) before any of its code runs. Modules are never unloaded:
  * descriptors and their strings stay valid.
  */
@@ -14,6 +14,7 @@
 
 struct loader;
 
+/* PS_ERROR_INVALID: $PSPLAT_PLUGIN_PATH is wrong; PS_ERROR_MEMORY. */
 ps_result loader_create(struct loader **loader, struct error *error);
 void loader_destroy(struct loader *loader);
 

@@ -78,5 +78,6 @@ void scene_description_release(struct scene_description *description)
         free(description->files[i]);
     free(description->files);
     free(description->path);
+    free(description->folder);
     *description = (struct scene_description){0};
 }

@@ -260,7 +260,8 @@ struct render_description {
 };
 
 struct scene_description {
-    char *path;                         /* of the main file */
+    char *path;   /* of the main file */
+    char *folder; /* the only one to read meshes and pictures from (input_file.h), or NULL */
     struct camera_description *cameras; /* the first is the default; at least one */
     size_t camera_count;
     struct image_description image;

@@ -13,8 +13,8 @@ static ps_result load_textures(struct assembly *assembly)
         return PS_ERROR_MEMORY;
     for (size_t i = 0; i < description->texture_count; i++) {
         assembly->where = description->textures[i].origin;
-        ps_result result =
-            texture_load(&description->textures[i], &scene->textures[i], assembly->error);
+        ps_result result = texture_load(&description->textures[i], description->folder,
+                                        &scene->textures[i], assembly->error);
         if (result != PS_OK)
             return result;
         scene->texture_count++;

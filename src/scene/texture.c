@@ -85,12 +85,14 @@ static ps_result prepare_values(struct texture *texture, const char *path, bool 
     return PS_OK;
 }
 
-ps_result texture_load(const struct texture_description *description, struct texture *texture,
-                       struct error *error)
+ps_result texture_load(const struct texture_description *description, const char *folder,
+                       struct texture *texture, struct error *error)
 {
     struct texture loaded = {.wrap = description->wrap, .nearest = description->nearest};
-    ps_result result = raster_read(description->path, description->bytes, description->byte_count,
-                                   &loaded.raster, error);
+    ps_result result = description->bytes
+                           ? raster_decode(description->path, description->bytes,
+                                           description->byte_count, &loaded.raster, error)
+                           : raster_read(description->path, folder, &loaded.raster, error);
     if (result != PS_OK)
         return result;
     bool srgb = description->encoding == ENCODING_SRGB ||

@@ -26,10 +26,10 @@ struct texture {
 /* Loads what raster_read can read. The encoding "auto" takes the colours of PNG and JPEG for sRGB
  * (IEC 61966-2-1) and those of OpenEXR for linear; pictures that hold no colours, such as normal
  * maps, want ENCODING_LINEAR. Alpha is linear, and colours are not divided by it: those of OpenEXR
- * are premultiplied. Messages start with the description's path; codes are raster_read's. `texture`
+ * are premultiplied. `folder`: the only one to read from (input_file.h), or NULL. Messages start with the description's path; codes are raster_read's. `texture`
  * is written only on success, and what it held is not released. */
-ps_result texture_load(const struct texture_description *description, struct texture *texture,
-                       struct error *error);
+ps_result texture_load(const struct texture_description *description, const char *folder,
+                       struct texture *texture, struct error *error);
 void texture_release(struct texture *texture);
 
 /* The linear colour and alpha at (u, v), any numbers; grey is three times the same, alpha 1 where

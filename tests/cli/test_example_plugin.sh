@@ -50,7 +50,7 @@ render:
   filter: {mine/filter/cosine.so: {sharpness: =1+2}}
   visibility: {shadowmap: {size: 30, resolution: 4}}
 END
-run 0 -q $small -o scene.png scene.psd
+run 0 -q $small -o scene.png scene.psd --allow-scene-plugins
 pixels scene.png >scene
 expect_same scene sharp
 run 2 -q $small -p denoiser=./mine/filter/cosine.so "$cornell"

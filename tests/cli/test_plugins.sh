@@ -40,7 +40,7 @@ expect_match err "^psplat: error: no filter ''"
 # --- a name that is not there ---
 
 mkdir -p mine/filter other "with space/filter"
-export PSPLAT_PLUGIN_PATH="$PWD/mine:$PWD/other::$PWD/with space"
+export PSPLAT_PLUGIN_PATH="$PWD/mine:$PWD/other:$PWD/with space"
 echo text >mine/filter/wrong.so
 run 2 $small -p filter=wrong "$cornell"
 expect_text err "psplat: error: no filter 'wrong' (there are: box, "

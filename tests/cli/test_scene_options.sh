@@ -114,7 +114,7 @@ expect_text err "    2 | materials: {white: {diffus: 0.8}}"
 last="a scene on standard input that includes a file"
 printf 'psd: 1\ninclude: gone.psd\n' | "$PSPLAT" check - >out 2>err
 check_status $? 2
-expect_text err "<stdin>:2:10: error: can't include 'gone.psd': No such file or directory"
+expect_text err "<stdin>:2:10: error: can't include 'gone.psd': cannot open: No such file or directory"
 cd .. || exit 1
 
 finish

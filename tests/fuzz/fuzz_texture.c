@@ -49,7 +49,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     };
     struct texture texture = {0};
     struct error error = {{0}};
-    ps_result result = texture_load(&description, &texture, &error);
+    ps_result result = texture_load(&description, NULL, &texture, &error);
     if (result == PS_OK)
         check_texture(&texture);
     else

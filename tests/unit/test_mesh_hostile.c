@@ -23,7 +23,7 @@ static void write_bytes(const char *path, const void *bytes, size_t length)
 static void absent_file_is_named(void **state)
 {
     struct imported imported = import_path(scratch_path(state, "none.obj"));
-    expect_failure(&imported, PS_ERROR_IO, "none.obj: No such file");
+    expect_failure(&imported, PS_ERROR_IO, "none.obj: cannot open: No such file");
 }
 
 static void folders_and_pipes_are_refused(void **state)

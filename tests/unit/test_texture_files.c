@@ -178,7 +178,7 @@ static struct texture load_path(const char *path, enum texture_encoding encoding
     struct texture_description description = {.path = (char *)path, .encoding = encoding};
     struct texture texture;
     struct error error;
-    if (texture_load(&description, &texture, &error) != PS_OK) {
+    if (texture_load(&description, NULL, &texture, &error) != PS_OK) {
         fail_msg("%s", error.text);
     }
     return texture;
@@ -272,7 +272,7 @@ static void assert_file_refused(const char *path, ps_result code, const char *re
     struct texture_description description = {.path = (char *)path};
     struct texture texture = {.width = 77};
     struct error error = {{0}};
-    assert_int_equal(texture_load(&description, &texture, &error), code);
+    assert_int_equal(texture_load(&description, NULL, &texture, &error), code);
     assert_int_equal(texture.width, 77);
     if (strncmp(error.text, path, strlen(path)) != 0 || !strstr(error.text, reason)) {
         fail_msg("'%s' does not start with '%s' or say '%s'", error.text, path, reason);

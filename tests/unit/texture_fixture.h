@@ -22,7 +22,7 @@ static inline struct texture load_data(const char *name, enum texture_encoding e
         .path = (char *)data_path(name), .encoding = encoding, .nearest = true};
     struct texture texture = {0};
     struct error error = {{0}};
-    if (texture_load(&description, &texture, &error) != PS_OK) {
+    if (texture_load(&description, NULL, &texture, &error) != PS_OK) {
         fail_msg("%s", error.text);
     }
     return texture;
@@ -35,7 +35,7 @@ static inline ps_result load_bytes(const unsigned char *bytes, size_t size, stru
         .path = "some.picture", .bytes = (unsigned char *)bytes, .byte_count = size};
     *error = (struct error){{0}};
     *texture = (struct texture){0};
-    ps_result result = texture_load(&description, texture, error);
+    ps_result result = texture_load(&description, NULL, texture, error);
     if (result != PS_OK) {
         assert_null(texture->raster.samples);
         assert_int_equal(strncmp(error->text, "some.picture: ", 14), 0);
