@@ -41,6 +41,20 @@ def make_parser(description, files):
     return parser
 
 
+def add_mesh(parser):
+    parser.add_argument("--mesh", metavar="FILE",
+                        help="conference.obj of the LBNL conference room; default: that scene is left out")
+
+
+def present(scenes, skipped):
+    """The scenes that can be rendered; of the others one line each, and an entry in the dictionary `skipped`."""
+    for scene in scenes:
+        if scene.missing():
+            skipped[scene.name] = scene.missing()
+            say(f"left out: {scene.name}: {scene.missing()}")
+    return [scene for scene in scenes if scene.name not in skipped]
+
+
 def parse(parser, full, quick):
     """Options that were not given are those of the full or of the quick measurement."""
     plan = parser.parse_args()

@@ -49,7 +49,7 @@ def _digest(scene):
         with open(path, "rb") as file:
             digest.update(file.read())
     if scene.needs:
-        digest.update(f"{scene.needs} {os.path.getsize(scene.needs)}".encode())
+        digest.update(f"{scene.mesh} {os.path.getsize(scene.mesh)}".encode())
     return digest.hexdigest()
 
 

@@ -34,14 +34,18 @@ class Scene:
     def __init__(self, name, section, mesh=None):
         self.name = name
         self.file = os.path.join(ROOT, section["file"])
-        self.needs = os.path.join(ROOT, section["needs"]) if "needs" in section else None
-        if self.needs and mesh:
-            self.needs = os.path.abspath(mesh)
+        self.needs = section.get("needs")
+        self.mesh = os.path.abspath(mesh) if mesh else None
         options = section.get("options", "").split()
-        self.words = [self.file] + [word.format(needs=self.needs) for word in options]
+        self.words = [self.file] + [word.format(mesh=self.mesh) for word in options]
 
-    def is_there(self):
-        return not self.needs or os.path.exists(self.needs)
+    def missing(self):
+        """Why the scene can't be rendered, or None."""
+        if not self.needs:
+            return None
+        if not self.mesh:
+            return f"--mesh names no {self.needs}"
+        return None if os.path.exists(self.mesh) else f"there is no {self.mesh}"
 
 
 def read_scenes(wanted=None, mesh=None):

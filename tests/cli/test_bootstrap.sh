@@ -40,12 +40,12 @@ check_usage() {
 }
 
 check_usage_errors() {
-    for word in rendr --render 'render test'; do
-        expect 2 "$word"
+    for word in rendr --render 'render test' 'test --everything' 'render --all'; do
+        # shellcheck disable=SC2086 # words
+        expect 2 $word
         grep -q "unknown command '$word'" err || fail "'$word' is not named as the mistake"
         [ ! -s out ] || fail "the mistake '$word' writes to standard output"
     done
-    expect 2 render test
 }
 
 check_packages() {
@@ -85,8 +85,17 @@ check_refusal() {
     status=0
     PATH=$scratch/tools checkout/bootstrap render >out 2>err </dev/null || status=$?
     [ "$status" -eq 1 ] || fail "without root and sudo it ended with $status, not with 1"
-    for package in cmake libembree-dev libcmocka-dev; do
+    for package in cmake libembree-dev; do
         grep -q "$package" err || fail "without root and sudo it does not name $package"
+    done
+    for package in libcmocka-dev python3; do
+        ! grep -q "$package" err || fail "it wants $package to render, which only tests need"
+    done
+    status=0
+    PATH=$scratch/tools checkout/bootstrap test >out 2>err </dev/null || status=$?
+    [ "$status" -eq 1 ] || fail "tests without root and sudo ended with $status, not with 1"
+    for package in cmake libembree-dev libcmocka-dev python3; do
+        grep -q "$package" err || fail "without root and sudo it does not name $package to test"
     done
     [ ! -e calls ] || fail "without root and sudo it called apt-get"
     [ ! -e checkout/build ] || fail "without root and sudo it made a build folder"

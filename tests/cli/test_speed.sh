@@ -129,12 +129,15 @@ expect_match out '^\| psplat dark: light=0 \| [0-9.]+ \| 100 % \| 0\.5[0-9]* \|$
 expect_text out "| Another renderer, 16 samples | 3.2 | 35 % | 1.000 |"
 expect_no_text out "no mark"
 python3 -m json.tool results/marks.json >/dev/null || fail "marks.json is no JSON"
+measure 0 marks --quick
+expect_text out 'skipped: --reference names no folder'
 measure 0 marks --quick --reference nowhere
 expect_match out '^skipped: there is no .*A_full.exr'
 
 # --- bench/preview ---
 
 measure 0 preview --quick
+expect_text err "left out: conference: --mesh names no conference.obj"
 expect_match out '^\| cornell \| [0-9.]+ \| [0-9.]+ \| [0-9.]+ \| [0-9.]+ \|$'
 true_of "preview.json" "$(number results/preview.json "d['scenes'][0]['picture'] > 0 < d['scenes'][0]['loading']")"
 

@@ -12,6 +12,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define WIDTH 96
 #define HEIGHT 54
 
@@ -92,7 +94,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_single_bounce),
-        cmocka_unit_test(test_all_bounces),
+        SLOW_TEST(test_all_bounces),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

@@ -20,6 +20,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define PI 3.14159265358979323846
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define SEEDS 4
@@ -221,9 +223,11 @@ static void test_metal_ring(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mirror),          cmocka_unit_test(test_mirror_and_point_light),
-        cmocka_unit_test(test_absorbing_plate), cmocka_unit_test(test_glass_ball),
-        cmocka_unit_test(test_metal_ring),
+        SLOW_TEST(test_mirror),
+        cmocka_unit_test(test_mirror_and_point_light),
+        cmocka_unit_test(test_absorbing_plate),
+        SLOW_TEST(test_glass_ball),
+        SLOW_TEST(test_metal_ring),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define MOST_STEPS 4
 
 /* The same light paths for all, where they are by photons. */
@@ -122,8 +124,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_stratifications_converge_to_none),
-        cmocka_unit_test(test_visibilities_converge_to_raycast),
+        SLOW_TEST(test_visibilities_converge_to_raycast),
         cmocka_unit_test(test_injections_converge_to_photon),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

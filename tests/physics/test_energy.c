@@ -15,6 +15,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define WIDTH 96
 #define HEIGHT 54
 #define STEP 3 /* every third pixel in x and y */
@@ -143,10 +145,10 @@ static void test_fixed_step_back_loses_energy(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_converges_to_the_gather),
+        SLOW_TEST(test_converges_to_the_gather),
         cmocka_unit_test(test_full_beams_keep_the_energy),
-        cmocka_unit_test(test_walls_give_back_what_creases_lose),
+        SLOW_TEST(test_walls_give_back_what_creases_lose),
         cmocka_unit_test(test_fixed_step_back_loses_energy),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

@@ -13,6 +13,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define PI 3.14159265358979323846
 #define SEEDS 6
 
@@ -165,8 +167,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_furnace),
         cmocka_unit_test(test_lit_patch),
-        cmocka_unit_test(test_receiver_cosine),
+        SLOW_TEST(test_receiver_cosine),
         cmocka_unit_test(test_ambient),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

@@ -14,6 +14,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define PI 3.14159265358979323846
 
 /* Of the lamp, by W/sr; chosen so that E0 is 1. */
@@ -109,11 +111,9 @@ static void test_even_light_in_a_box(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_bounce),
-        cmocka_unit_test(test_two_bounces),
-        cmocka_unit_test(test_all_bounces),
-        cmocka_unit_test(test_russian_roulette_keeps_the_mean),
-        cmocka_unit_test(test_even_light_in_a_box),
+        cmocka_unit_test(test_one_bounce),   cmocka_unit_test(test_two_bounces),
+        cmocka_unit_test(test_all_bounces),  cmocka_unit_test(test_russian_roulette_keeps_the_mean),
+        SLOW_TEST(test_even_light_in_a_box),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

@@ -13,6 +13,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define SEEDS 5
 
@@ -193,11 +195,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_hidden_is_not_seen),
         cmocka_unit_test(test_hidden_shadows),
-        cmocka_unit_test(test_hidden_lights),
+        SLOW_TEST(test_hidden_lights),
         cmocka_unit_test(test_holes_let_half_of_the_light_through),
-        cmocka_unit_test(test_photons_through_holes),
-        cmocka_unit_test(test_lamp_with_holes),
+        SLOW_TEST(test_photons_through_holes),
+        SLOW_TEST(test_lamp_with_holes),
         cmocka_unit_test(test_spheres_with_holes),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

@@ -12,6 +12,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define WIDTH 96
 #define HEIGHT 54
 #define SMALL_SPLATS "visibility=shadowmap:size=10,resolution=8"
@@ -111,8 +113,8 @@ static void test_threads_and_batches_change_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mean_is_that_of_path_tracing),
+        SLOW_TEST(test_mean_is_that_of_path_tracing),
         cmocka_unit_test(test_threads_and_batches_change_nothing),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

@@ -13,6 +13,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define SEEDS 4
 
@@ -125,9 +127,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_mirror_wall),
-        cmocka_unit_test(test_glossy_floor),
-        cmocka_unit_test(test_glass_slab),
-        cmocka_unit_test(test_metal_sphere),
+        SLOW_TEST(test_glossy_floor),
+        SLOW_TEST(test_glass_slab),
+        SLOW_TEST(test_metal_sphere),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

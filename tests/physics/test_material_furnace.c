@@ -15,6 +15,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define SEEDS 5
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -135,9 +137,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_path_tracing_under_a_sky),
-        cmocka_unit_test(test_path_tracing_enclosed),
-        cmocka_unit_test(test_photons_enclosed),
+        SLOW_TEST(test_path_tracing_enclosed),
+        SLOW_TEST(test_photons_enclosed),
         cmocka_unit_test(test_virtual_lights),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

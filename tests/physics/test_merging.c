@@ -11,6 +11,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define WIDTH 100
 #define HEIGHT 56
 #define SEEDS 24
@@ -203,12 +205,12 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_has_no_drift),
+        SLOW_TEST(test_random_has_no_drift),
         cmocka_unit_test(test_defaults_have_no_drift),
-        cmocka_unit_test(test_drift_of_the_others),
+        SLOW_TEST(test_drift_of_the_others),
         cmocka_unit_test(test_threads_and_batches_change_nothing),
         cmocka_unit_test(test_fine_cells_change_nothing),
         cmocka_unit_test(test_memory),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

@@ -19,6 +19,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define PI 3.14159265358979323846
 #define SEEDS 3
 #define SIDE 12 /* pixels */
@@ -149,9 +151,9 @@ static void test_mix(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mirror), cmocka_unit_test(test_rough_metal),
-        cmocka_unit_test(test_gloss),  cmocka_unit_test(test_glass),
-        cmocka_unit_test(test_mix),
+        SLOW_TEST(test_mirror), cmocka_unit_test(test_rough_metal),
+        SLOW_TEST(test_gloss),  SLOW_TEST(test_glass),
+        SLOW_TEST(test_mix),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

@@ -14,6 +14,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define SEEDS 4
 
@@ -168,7 +170,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_no_light_of_its_own),
         cmocka_unit_test(test_bumpy_floor),
-        cmocka_unit_test(test_smooth_sphere),
+        SLOW_TEST(test_smooth_sphere),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

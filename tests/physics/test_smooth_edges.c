@@ -12,6 +12,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 static const char scene[] =
     "psd: 1\n"
     "camera: {location: [0, 1.6, -4], look_at: [0, 0.6, 0], angle: 50}\n"
@@ -150,8 +152,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_pass_comes_close_to_many),
-        cmocka_unit_test(test_passes_add_to_it),
+        SLOW_TEST(test_passes_add_to_it),
         cmocka_unit_test(test_the_mean_stays),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

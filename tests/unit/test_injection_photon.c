@@ -12,6 +12,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 /* A floor that reflects a half, all that the lamp lights. */
 static const char floor_text[] = SCENE_HEAD
     "  half: {diffuse: 0.5}\n"
@@ -135,9 +137,9 @@ int main(void)
         cmocka_unit_test(test_paths_of_a_walk_share_its_place),
         cmocka_unit_test(test_walks_that_runs_cut),
         cmocka_unit_test(test_a_mirror_leaves_one_source),
-        cmocka_unit_test(test_power_does_not_depend_on_it),
+        SLOW_TEST(test_power_does_not_depend_on_it),
         cmocka_unit_test(test_bumps),
         cmocka_unit_test(test_refusals),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

@@ -11,6 +11,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 static void test_power_is_that_of_photons(void **state)
 {
     (void)state;
@@ -274,9 +276,9 @@ static void test_host_tells_of_lights(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_power_is_that_of_photons),
+        SLOW_TEST(test_power_is_that_of_photons),
         cmocka_unit_test(test_mirrors_and_glass_are_as_for_photons),
-        cmocka_unit_test(test_convergence),
+        SLOW_TEST(test_convergence),
         cmocka_unit_test(test_choice_goes_by_flux),
         cmocka_unit_test(test_sources_are_even),
         cmocka_unit_test(test_directions),
@@ -286,5 +288,5 @@ int main(void)
         cmocka_unit_test(test_too_many_pixels),
         cmocka_unit_test(test_host_tells_of_lights),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

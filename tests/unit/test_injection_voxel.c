@@ -11,6 +11,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define PI 3.14159265358979323846
 
 static void test_power_is_that_of_photons(void **state)
@@ -219,17 +221,17 @@ static void test_too_many_lines(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_power_is_that_of_photons),
+        SLOW_TEST(test_power_is_that_of_photons),
         cmocka_unit_test(test_areas),
         cmocka_unit_test(test_gloss),
         cmocka_unit_test(test_places_are_on_surfaces),
         cmocka_unit_test(test_one_source_a_voxel),
         cmocka_unit_test(test_dark_sides_and_shadows),
-        cmocka_unit_test(test_finer_is_steadier),
+        SLOW_TEST(test_finer_is_steadier),
         cmocka_unit_test(test_threads_change_nothing),
         cmocka_unit_test(test_no_light),
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_too_many_lines),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

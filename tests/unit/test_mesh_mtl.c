@@ -246,61 +246,6 @@ static void a_mesh_is_not_its_own_library(void **state)
     release_imported(&imported);
 }
 
-static struct imported import_shared(const char *name, bool *there)
-{
-    static char path[4096];
-    const char *shared = getenv("PSPLAT_SHARED");
-    snprintf(path, sizeof path, "%s/scenes/%s", shared ? shared : "/nowhere", name);
-    FILE *stream = fopen(path, "rb");
-    *there = stream != NULL;
-    if (!stream) {
-        print_message("skipped: there is no %s\n", path);
-        return (struct imported){.result = PS_ERROR_IO};
-    }
-    fclose(stream);
-    struct mesh_request request = request_all(path);
-    struct imported imported = import_disk(&request);
-    expect_success(&imported);
-    return imported;
-}
-
-static void cornell_boxes_come_out_right(void **state)
-{
-    (void)state;
-    bool there;
-    struct imported imported = import_shared("cornell-mcguire/CornellBox-Mirror.obj", &there);
-    if (!there)
-        skip();
-    assert_int_equal(material_named(&imported, "tallBox")->kind, MATERIAL_MIRROR);
-    expect_color(material_named(&imported, "light")->emission.colors[0], 17, 12, 4);
-    assert_true(front_of(&imported, 7, 0).y < -0.9f); /* the lamp shines down */
-    release_imported(&imported);
-    imported = import_shared("cornell-mcguire/CornellBox-Sphere.obj", &there);
-    assert_int_equal(material_named(&imported, "leftSphere")->kind, MATERIAL_MIRROR);
-    assert_int_equal(material_named(&imported, "rightSphere")->kind, MATERIAL_DIELECTRIC);
-    expect_near(material_named(&imported, "rightSphere")->ior, 2.5, 1e-6);
-    release_imported(&imported);
-    imported = import_shared("cornell-mcguire/CornellBox-Glossy.obj", &there);
-    assert_int_equal(material_named(&imported, "shortBox")->kind, MATERIAL_GLOSSY);
-    assert_int_equal(material_named(&imported, "floor")->kind, MATERIAL_DIFFUSE);
-    release_imported(&imported);
-}
-
-static void conference_room_is_whole(void **state)
-{
-    (void)state;
-    bool there;
-    struct imported imported = import_shared("conference/conference.obj", &there);
-    if (!there)
-        skip();
-    size_t triangles = 0;
-    for (size_t i = 0; i < imported.fragment.object_count; i++)
-        triangles += mesh_of(&imported, i)->triangle_count;
-    assert_int_equal(triangles + imported.report.dropped_triangles, 331179);
-    assert_int_equal(imported.fragment.material_count, 35);
-    release_imported(&imported);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -318,8 +263,6 @@ int main(void)
         cmocka_unit_test(absent_material_has_but_a_name),
         cmocka_unit_test(statements_before_the_first_material_are_harmless),
         cmocka_unit_test(a_mesh_is_not_its_own_library),
-        cmocka_unit_test(cornell_boxes_come_out_right),
-        cmocka_unit_test(conference_room_is_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

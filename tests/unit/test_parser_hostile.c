@@ -2,7 +2,6 @@
 #include "parser_fixture.h"
 
 #include <stdlib.h>
-#include <time.h>
 
 /* Fills a text of `count` copies of a piece. */
 static char *repeat(const char *piece, size_t count)
@@ -53,10 +52,10 @@ static void test_yaml(void **state)
 static void test_caps(void **state)
 {
     (void)state;
-    clock_t start = clock();
-    expect_repeated("[", 80000, "1:65: error: nested deeper than 64 levels\n");
-    expect_repeated("{a: ", 80000, "1:257: error: nested deeper than 64 levels\n");
-    expect_repeated("- ", 80000, "1:129: error: nested deeper than 64 levels\n");
+    /* libyaml alone takes time by the square of the depth: it would not end within the test's limit. */
+    expect_repeated("[", 4000000, "1:65: error: nested deeper than 64 levels\n");
+    expect_repeated("{a: ", 1000000, "1:257: error: nested deeper than 64 levels\n");
+    expect_repeated("- ", 1000000, "1:129: error: nested deeper than 64 levels\n");
     expect_repeated("%TAG !a! b\n", 80000, "17:1: error: more than 16 directives ('%')\n");
     const char *bomb = "a: &a [x, x, x, x, x, x, x, x, x, x]\n"
                        "b: &b [*a, *a, *a, *a, *a, *a, *a, *a, *a, *a]\n"
@@ -69,7 +68,6 @@ static void test_caps(void **state)
     const char *tower = "a: &a [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]\n"
                         "b: [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[*a]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]\n";
     expect_bytes(tower, strlen(tower), "2:36: error: nested deeper than 64 levels\n");
-    assert_true((double)(clock() - start) / CLOCKS_PER_SEC < 5); /* milliseconds, or quadratic */
     expect_repeated("- 1\n", 4000000, "4000000:3: error: more than 4000000 values in one scene\n");
 }
 

@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define PHOTONS "injection=photon:count=4000"
 
 /* A floor lit by way of the ceiling, and a plate close above it, seen from below the plate. */
@@ -160,11 +162,11 @@ static void test_hardly_any_surface(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_converges_to_shadow_maps),
+        SLOW_TEST(test_converges_to_shadow_maps),
         cmocka_unit_test(test_threads_and_batches_change_nothing),
         cmocka_unit_test(test_pull_push_fills_holes),
         cmocka_unit_test(test_points_are_counted),
         cmocka_unit_test(test_hardly_any_surface),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

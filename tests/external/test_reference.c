@@ -7,6 +7,7 @@
  * and no block of 25 x 25 pixels may be off by more than its noise and its anti-aliased edges explain.
  * Splatting's means must agree within its own bias.
  */
+#include "external.h"
 #include "image/image.h"
 #include "support/render_scene.h"
 #include <math.h>
@@ -20,20 +21,12 @@
 #define BLOCK 25
 #define LAMP 6.0f /* radiance that nothing but a lamp has */
 
-/* Skips the test with a line where the pictures are absent. */
 static struct image load_reference(const char *name)
 {
     char path[4096];
-    const char *shared = getenv("PSPLAT_SHARED");
     struct image image = {0};
     struct error error;
-    snprintf(path, sizeof path, "%s/reference/cornell/%s", shared ? shared : "", name);
-    FILE *file = fopen(path, "rb");
-    if (!file) {
-        print_message("skipped: there is no %s\n", path);
-        skip();
-    }
-    fclose(file);
+    snprintf(path, sizeof path, "%s/reference/cornell/%s", getenv("PSPLAT_SHARED"), name);
     assert_int_equal(image_read_exr(path, &image, &error), PS_OK);
     return image;
 }
@@ -179,27 +172,15 @@ static void test_lamp_by_splatting(void **state)
     compare_scene("A_full.exr", "cornell-area.psd", 2, choices, 0.01, 0.25);
 }
 
-/* Sanitizers make these renders ten times slower, and find nothing here that smaller tests don't
- * run into. */
-#if defined(__SANITIZE_ADDRESS__)
-#define SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define SANITIZED 1
-#endif
-#endif
-
 int main(void)
 {
-#ifdef SANITIZED
-    print_message("skipped: too slow under sanitizers\n");
-    return 0;
-#endif
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_spot_direct),       cmocka_unit_test(test_spot_one_bounce),
         cmocka_unit_test(test_spot_all_bounces),  cmocka_unit_test(test_lamp_direct),
         cmocka_unit_test(test_lamp_one_bounce),   cmocka_unit_test(test_lamp_all_bounces),
         cmocka_unit_test(test_lamp_by_splatting),
     };
+    if (!external_files_are_there("reference/cornell"))
+        return EXTERNAL_SKIPPED;
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
