@@ -1,10 +1,10 @@
 /* psd.c: the steps from a text to a scene description: YAML, files, names, formulas, tables. */
 #include "parser/psd.h"
 
-#include "parser/definitions.h"
-#include "parser/include.h"
-#include "parser/override.h"
-#include "parser/scene.h"
+#include "parser/language/definitions.h"
+#include "parser/language/include.h"
+#include "parser/language/override.h"
+#include "parser/sections/sections.h"
 #include <string.h>
 
 /* What a reading is for: a description, or a list of parameters where `each` is set. */

@@ -9,17 +9,8 @@
 #ifndef PARSER_PSD_H
 #define PARSER_PSD_H
 
-#include "parser/diagnostic.h"
-#include "parser/file.h"
-#include "scene/description.h"
-
-/* Where included files come from. */
-struct psd_files {
-    void *user;
-    /* Reads a file of at most `most` bytes, as file_read_regular. */
-    ps_result (*read)(void *user, const char *path, size_t most, struct file_text *text,
-                      struct error *error);
-};
+#include "parser/language/include.h"
+#include "parser/language/parameter.h"
 
 /* Zeroed: nothing of this. */
 struct psd_options {
@@ -50,14 +41,6 @@ ps_result psd_read_text_with(const char *name, const char *text, size_t length,
                              struct scene_description *description);
 ps_result psd_read_text(const char *name, const char *text, size_t length, struct diagnostics *sink,
                         struct scene_description *description);
-
-/* A parameter that a scene declares, for lists of them; texts are valid during the call. */
-struct psd_parameter {
-    const char *name;
-    const char *type;          /* "number", "vector" or "string" */
-    const char *default_value; /* as text; NULL: it must be given */
-    const char *help;          /* NULL: there is none */
-};
 
 /* Calls back for each parameter that the scene, or a file that it includes, declares, in their
  * order, and reads the scene no further: what else is wrong with it is not looked at. */

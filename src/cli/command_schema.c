@@ -1,6 +1,6 @@
 /* command_schema.c: psplat schema: the scene language, for editors. */
 #include "cli/command.h"
-#include "parser/schema_json.h"
+#include "parser/schema/schema_json.h"
 
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
 #include "cli/scene_options.h"
 
 #include "base/input_file.h"
-#include "parser/suggestion.h"
+#include "base/suggestion.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -16,9 +16,9 @@
  * cannot ask for our data; result codes with what was being written tell as much. No capDate: the
  * same picture gives the same bytes.
  */
+#include "base/output_file.h"
 #include "base/parallel.h"
 #include "image/image.h"
-#include "image/output_file.h"
 
 #include <OpenEXR/openexr.h>
 #include <pthread.h>

@@ -9,8 +9,8 @@
  * per cent longer. All rows have Paeth's filter: trying the others too makes files 0 to 3 per cent
  * shorter and takes a fifth more time.
  */
+#include "base/output_file.h"
 #include "image/image.h"
-#include "image/output_file.h"
 
 #include <png.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 #include "pipeline/host_light.h"
 
-#include "pipeline/direct.h"
+#include "direct/direct.h"
 #include "pipeline/render_state.h"
 
 static void host_intersect(const ps_host *host, const ps_ray *rays, size_t n, ps_hit *hits)

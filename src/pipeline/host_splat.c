@@ -1,8 +1,8 @@
 #include "pipeline/host_splat.h"
 
 #include "base/clock.h"
+#include "gather/near_gather.h"
 #include "pipeline/host_place.h"
-#include "pipeline/near_gather.h"
 #include "pipeline/render_state.h"
 #include <math.h>
 

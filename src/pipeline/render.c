@@ -3,12 +3,12 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/sample.h"
-#include "pipeline/direct.h"
-#include "pipeline/edges.h"
-#include "pipeline/light_join.h"
-#include "pipeline/pixel_filter.h"
+#include "direct/direct.h"
+#include "direct/light_join.h"
 #include "pipeline/render_state.h"
-#include "pipeline/view.h"
+#include "view/edges.h"
+#include "view/pixel_filter.h"
+#include "view/view.h"
 #include <psplat/tile.h>
 
 static void report_progress(const struct render *render, const char *stage, double fraction)

@@ -9,9 +9,9 @@
 #ifndef PIPELINE_RENDER_H
 #define PIPELINE_RENDER_H
 
+#include "base/statistics.h"
 #include "image/image.h"
 #include "pipeline/settings.h"
-#include "pipeline/statistics.h"
 #include "scene/scene.h"
 
 /* How a render talks to its user. All members may be NULL; all are called on the calling thread but

@@ -3,10 +3,10 @@
 #ifndef PIPELINE_RENDER_STATE_H
 #define PIPELINE_RENDER_STATE_H
 
+#include "direct/shadow_maps.h"
 #include "film/film.h"
-#include "pipeline/near_light.h"
+#include "gather/near_light.h"
 #include "pipeline/render.h"
-#include "pipeline/shadow_maps.h"
 #include "pipeline/sources.h"
 #include "splat/splatter.h"
 #include <stdatomic.h>

@@ -7,8 +7,8 @@
 #ifndef PIPELINE_SOURCES_H
 #define PIPELINE_SOURCES_H
 
+#include "base/statistics.h"
 #include "pipeline/settings.h"
-#include "pipeline/statistics.h"
 
 struct source_list {
     ps_source *items; /* owned */

@@ -8,19 +8,13 @@
 #ifndef SCENE_DESCRIPTION_H
 #define SCENE_DESCRIPTION_H
 
+#include "base/origin.h"
 #include "scene/affine.h"
 #include <psplat/param.h>
 #include <stdbool.h>
 
 /* "No such thing", where an index is expected. */
 #define NO_INDEX SIZE_MAX
-
-/* Where something was written, for errors found after parsing. `file` is owned by the description;
- * line and column count from 1; line 0 means "not from a file". */
-struct origin {
-    const char *file;
-    int line, column;
-};
 
 /* --- camera and picture ------------------------------------------------------------------------ */
 

@@ -8,6 +8,7 @@ interrupt() {
     shift 2
     last="psplat $* and SIG$signal"
     rm -rf new && mkdir new
+    : >err # the last one's lines don't count
     "$PSPLAT" "$@" --stats new/a.json -o new/a.exr -o new/a.png "$cornell" >out 2>err &
     process=$!
     while [ "$(grep -c "indirect light" err)" -lt "$times" ] && kill -0 $process; do

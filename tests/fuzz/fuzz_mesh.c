@@ -6,7 +6,7 @@
  * finite, and a failure says why and leaves nothing. Sound files of each format, and what broke the
  * importer once, are in tests/fuzz/corpus_mesh.
  */
-#include "parser/mesh_memory.h"
+#include "import/import.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,7 @@
  * spread over the picture is compared with the splatted layer's mean over the same pixels.
  */
 #include "base/sample.h"
-#include "pipeline/direct.h"
+#include "direct/direct.h"
 #include "support/render_scene.h"
 #include "trace/trace.h"
 #include <psplat/math.h>

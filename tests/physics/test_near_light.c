@@ -9,7 +9,7 @@
  *
  * Splats of half-width h and more smear that over the crease; short rays find it.
  */
-#include "pipeline/near_pilot.h"
+#include "gather/near_pilot.h"
 #include "pipeline/render_state.h"
 #include "support/render_scene.h"
 #include <math.h>

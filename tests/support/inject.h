@@ -2,7 +2,7 @@
 #ifndef TESTS_SUPPORT_INJECT_H
 #define TESTS_SUPPORT_INJECT_H
 
-#include "pipeline/statistics.h"
+#include "base/statistics.h"
 #include <psplat/host.h>
 
 struct injected {

@@ -2,7 +2,7 @@
 #ifndef TESTS_SUPPORT_STRATIFY_H
 #define TESTS_SUPPORT_STRATIFY_H
 
-#include "pipeline/statistics.h"
+#include "base/statistics.h"
 #include <psplat/plugin.h>
 #include <stdbool.h>
 

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "parser/mesh_memory.h"
+#include "import/import.h"
 
 struct imported {
     ps_result result;

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "parser/diagnostic.h"
+#include "parser/yaml/diagnostic.h"
 #include <string.h>
 
 #define LONGEST_OUTPUT 16384

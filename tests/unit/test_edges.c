@@ -1,6 +1,6 @@
 /* test_edges.c: which pixels differ from their neighbours. The picture is wider than a tile, and its right
  * half differs from its left one in one thing at a time. */
-#include "pipeline/edges.h"
+#include "view/edges.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

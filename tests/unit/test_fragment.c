@@ -1,7 +1,7 @@
 /* test_fragment.c: what a mesh file brought joins a description; see fragment.h. */
 #include "parser_fixture.h"
 
-#include "parser/fragment.h"
+#include "parser/sections/object.h"
 #include <stdlib.h>
 
 /* A reader with a description that has one material, one texture, one mesh and one camera. */

@@ -1,6 +1,6 @@
 /* test_image_output.c: files that cannot be written leave nothing behind, and PNG. */
+#include "base/output_file.h"
 #include "image/image.h"
-#include "image/output_file.h"
 #include "scratch.h"
 
 #include <errno.h>

@@ -1,7 +1,7 @@
 /* test_language.c: names, formulas, loops and conditions in scenes. */
 #include "language_fixture.h"
 
-#include "parser/arithmetic.h"
+#include "parser/language/arithmetic.h"
 #include <math.h>
 
 static const struct reading alone = {.files = NULL};

@@ -1,5 +1,5 @@
 /* test_light_join.c: which pixels join their direct light: on synthetic G-buffers, wider than a tile. */
-#include "pipeline/light_join.h"
+#include "direct/light_join.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* test_mesh_hostile.c: files that are no good, and what is mended. */
+#include "import/json.h"
 #include "mesh_fixture.h"
-#include "parser/json.h"
 #include "scratch.h"
 #include <sys/stat.h>
 

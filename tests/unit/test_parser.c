@@ -1,8 +1,8 @@
 /* test_parser.c: what the scene parser accepts, and the tables of its language. */
 #include "parser_fixture.h"
 
-#include "parser/arithmetic.h"
-#include "parser/schema.h"
+#include "parser/language/arithmetic.h"
+#include "parser/schema/schema.h"
 #include <math.h>
 
 static void assert_vector(ps_vec3 v, double x, double y, double z)

@@ -1,6 +1,6 @@
 /* test_pipeline.c: the driver: sources pass through, dark pixels are filled and counted, layers
  * join, and the picture depends on neither threads nor batches. */
-#include "pipeline/near_light.h"
+#include "gather/near_light.h"
 #include "support/render_scene.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "parser/reader.h"
+#include "parser/sections/reader.h"
 #include <stdlib.h>
 
 static void expect_path(const char *file, const char *text, const char *expected)

@@ -1,6 +1,6 @@
 /* Every section and key of the scene language is in psd(5), with its range, unit and default, and
  * no other is. */
-#include "parser/schema.h"
+#include "parser/schema/schema.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

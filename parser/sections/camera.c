@@ -1,0 +1,65 @@
+/* camera.c: see camera.h. */
+#include "parser/sections/sections.h"
+
+#include "parser/schema/keys.h"
+#include "parser/sections/check.h"
+#include "parser/sections/fill.h"
+#include <string.h>
+
+/* POV-Ray's default: as wide as a picture of 4/3 at distance 1. */
+#define DEFAULT_ANGLE 67.38
+
+/* The name of the camera that has none. */
+#define UNNAMED "camera"
+
+struct camera_description *camera_add(struct reader *reader)
+{
+    struct scene_description *description = reader->description;
+    struct camera_description *cameras =
+        reader_extend(reader, description->cameras, description->camera_count, 1, sizeof *cameras);
+    if (!cameras)
+        return NULL;
+    description->cameras = cameras;
+    return &cameras[description->camera_count++];
+}
+
+bool camera_exists(const struct reader *reader, const char *name)
+{
+    const struct scene_description *description = reader->description;
+    for (size_t i = 0; i < description->camera_count; i++)
+        if (description->cameras[i].name && strcmp(description->cameras[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+static void read_camera(struct reader *reader, const struct item *item, const char *name)
+{
+    struct camera_keys keys = {.projection = CAMERA_PERSPECTIVE};
+    struct camera_description *camera = camera_add(reader);
+    if (!camera)
+        return;
+    bool good = fill_section(reader, schema_only("camera"), item->key, item->value, &keys);
+    *camera = keys.camera;
+    camera->kind = (enum camera_kind)keys.projection;
+    camera->name = reader_copy(reader, name);
+    camera->origin = reader_origin(reader, item->key);
+    if (good)
+        check_camera(reader, item->key, item->value, camera);
+    if (camera->kind == CAMERA_PERSPECTIVE && camera->angle == 0 && camera->vertical_angle == 0)
+        camera->angle = DEFAULT_ANGLE;
+}
+
+void cameras_read(struct reader *reader, const struct node *root)
+{
+    const struct item *camera = node_find(root, "camera"), *cameras = node_find(root, "cameras");
+    if (camera)
+        read_camera(reader, camera, UNNAMED);
+    if (!cameras || !fill_expect(reader, "cameras", cameras->value, NODE_MAP))
+        return;
+    for (const struct item *item = cameras->value->first; item; item = item->next) {
+        if (camera && strcmp(item->key->text, UNNAMED) == 0)
+            reader_error(reader, item->key, "the camera without a name is called '%s' already",
+                         UNNAMED);
+        read_camera(reader, item, item->key->text);
+    }
+}

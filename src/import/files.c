@@ -1,0 +1,130 @@
+/* files.c: reads whole files, from the disk or from a list.
+ *
+ * Whole, since OBJ and glTF are looked at before assimp gets them, and so that a pipe or a device
+ * under the name of a mesh is refused before anything waits for it.
+ */
+#include "import/files.h"
+
+#include "base/input_file.h"
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const struct mesh_memory_file *find_in_memory(const struct mesh_files *files,
+                                                     const char *path)
+{
+    for (size_t i = 0; i < files->memory_count; i++)
+        if (strcmp(files->memory[i].path, path) == 0)
+            return &files->memory[i];
+    return NULL;
+}
+
+static ps_result check_size(const char *path, uint64_t length, struct error *error)
+{
+    if (length > MESH_FILE_LARGEST)
+        return error_set(error, PS_ERROR_INVALID, "%s is larger than 4 GiB", path);
+    return PS_OK;
+}
+
+static void destroy_file(struct mesh_file *file)
+{
+    free(file->path);
+    free(file->bytes);
+    free(file);
+}
+
+/* NULL: out of memory. */
+static struct mesh_file *create_file(const char *path, size_t length)
+{
+    struct mesh_file *file = calloc(1, sizeof *file);
+    if (!file)
+        return NULL;
+    file->path = strdup(path);
+    file->bytes = malloc(length + 1);
+    file->length = length;
+    if (file->path && file->bytes)
+        return file;
+    destroy_file(file);
+    return NULL;
+}
+
+static ps_result fill(struct mesh_file *file, int descriptor, struct error *error)
+{
+    size_t done = 0;
+    ssize_t count = 1;
+    while (count != 0 && done < file->length) {
+        count = read(descriptor, file->bytes + done, file->length - done);
+        if (count < 0 && errno != EINTR)
+            return error_set(error, PS_ERROR_IO, "%s: cannot read: %s", file->path,
+                             strerror(errno));
+        done += count > 0 ? (size_t)count : 0;
+    }
+    file->length = done;
+    return PS_OK;
+}
+
+static ps_result read_from_disk(const char *path, const char *folder, struct mesh_file **file,
+                                struct error *error)
+{
+    struct input_file input;
+    struct error reason;
+    ps_result result = input_file_open(path, folder, &input, &reason);
+    if (result != PS_OK)
+        return error_set(error, result, "%s: %.1000s", path, reason.text);
+    result = check_size(path, input.size, error);
+    if (result == PS_OK && !(*file = create_file(path, (size_t)input.size)))
+        result = error_memory(error, (size_t)input.size, "a mesh file");
+    if (result == PS_OK)
+        result = fill(*file, input.descriptor, error);
+    close(input.descriptor);
+    return result;
+}
+
+static ps_result read_from_memory(const struct mesh_files *files, const char *path,
+                                  struct mesh_file **file, struct error *error)
+{
+    const struct mesh_memory_file *source = find_in_memory(files, path);
+    if (!source)
+        return error_set(error, PS_ERROR_IO, "%s: cannot open: no such file", path);
+    ps_result result = check_size(path, source->length, error);
+    if (result == PS_OK && !(*file = create_file(path, source->length)))
+        result = error_memory(error, source->length, "a mesh file");
+    if (result == PS_OK && source->length > 0)
+        memcpy((*file)->bytes, source->bytes, source->length);
+    return result;
+}
+
+ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mesh_file **file,
+                          struct error *error)
+{
+    for (*file = files->read; *file; *file = (*file)->next)
+        if (strcmp((*file)->path, path) == 0)
+            return PS_OK;
+    ps_result result = files->memory ? read_from_memory(files, path, file, error)
+                                     : read_from_disk(path, files->folder, file, error);
+    if (result == PS_OK) {
+        (*file)->bytes[(*file)->length] = '\0';
+        (*file)->next = files->read;
+        files->read = *file;
+    } else if (*file) {
+        destroy_file(*file);
+        *file = NULL;
+    }
+    return result;
+}
+
+bool mesh_files_exist(const struct mesh_files *files, const char *path)
+{
+    return files->memory ? find_in_memory(files, path) != NULL
+                         : input_file_exists(path, files->folder);
+}
+
+void mesh_files_release(struct mesh_files *files)
+{
+    while (files->read) {
+        struct mesh_file *file = files->read;
+        files->read = file->next;
+        destroy_file(file);
+    }
+}

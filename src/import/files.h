@@ -1,0 +1,34 @@
+/* files.h: the files of one mesh import, each read whole and kept until its end. */
+#ifndef IMPORT_FILES_H
+#define IMPORT_FILES_H
+
+#include "import/import.h"
+
+#define MESH_FILE_LARGEST ((size_t)4 * 1024 * 1024 * 1024)
+
+struct mesh_file {
+    struct mesh_file *next;
+    char *path;
+    char *bytes; /* a zero follows; may be changed */
+    size_t length;
+};
+
+/* Zeroed but for `memory`: files on the disk. */
+struct mesh_files {
+    const struct mesh_memory_file *memory; /* NULL: the disk */
+    size_t memory_count;
+    const char *folder;     /* the only one to read from (input_file.h), or NULL */
+    struct mesh_file *read; /* the newest first */
+};
+
+/* The file of that path, read once. PS_ERROR_IO (absent, not a regular file), _INVALID (too large)
+ * or _MEMORY. */
+ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mesh_file **file,
+                          struct error *error);
+
+/* Whether there is a regular file of that path. */
+bool mesh_files_exist(const struct mesh_files *files, const char *path);
+
+void mesh_files_release(struct mesh_files *files);
+
+#endif

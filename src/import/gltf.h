@@ -1,0 +1,42 @@
+/* gltf.h: looks at a glTF 2 file before assimp does.
+ *
+ * What assimp 5.2.5 does not check (offsets of accessors, cycles and sharing among nodes, depth),
+ * is checked here; what psplat does not use (skins, animations, morph targets, colours, further
+ * sets of texture coordinates) or reads itself (cameras, lights) is hidden from assimp by changing
+ * the first letter of its key in the text. Cameras and lights are read here since assimp gives a
+ * light or camera that several nodes share to one of them only, and a field of view that is wrong
+ * for wide pictures; emission strength since assimp does not know it.
+ */
+#ifndef IMPORT_GLTF_H
+#define IMPORT_GLTF_H
+
+#include "import/files.h"
+#include "import/json.h"
+
+#define GLTF_DEPTH 256
+#define GLTF_NODES 1000000
+
+struct gltf {
+    struct arena arena;
+    char *text; /* the JSON's first byte */
+    struct json *root;
+    const struct json **nodes; /* of the scene, each before its children, as assimp keeps them */
+    size_t node_count;
+    const struct json **materials; /* in the order in which assimp meets them */
+    size_t material_count;
+    bool single_root;      /* else assimp puts a node above all */
+    size_t triangle_count; /* of all meshes, each once */
+};
+
+/* Checks the file and changes its text. PS_ERROR_INVALID or _MEMORY with a message; released in any
+ * case. */
+ps_result gltf_open(struct gltf *gltf, struct mesh_file *file, bool binary, struct error *error);
+void gltf_release(struct gltf *gltf);
+
+/* Steps of gltf_open, on the tree. */
+ps_result gltf_check_document(const struct gltf *gltf, struct error *error);
+/* Also counts its triangles. */
+ps_result gltf_check_mesh(struct gltf *gltf, size_t index, struct error *error);
+void gltf_hide_rest(struct gltf *gltf);
+
+#endif

@@ -1,0 +1,55 @@
+/* import.h: takes geometry, materials, cameras and lights from a mesh file.
+ *
+ * assimp reads the file (OBJ with MTL, glTF 2, PLY, STL and a few more; format.h lists them);
+ * what it returns is not trusted, and some files are checked before assimp sees them, since its
+ * readers fall over hostile ones. Texture coordinates come with v upwards; normals are the file's,
+ * or those of its smoothing groups, or none. Cameras and lights are carried into the scene. Where
+ * request maps change lengths by a factor s, intensities change by s^2, so that the picture stays
+ * the same; radiances and a sun's irradiance stay. Colours are linear, those of textures as their
+ * encoding says. No state outside of the arguments; may run in several threads at once.
+ */
+#ifndef IMPORT_IMPORT_H
+#define IMPORT_IMPORT_H
+
+#include "base/error.h"
+#include "scene/description.h"
+
+/* What to take from a mesh file, and how to carry it into the scene. */
+struct mesh_request {
+    const char *path;
+    const char *folder; /* the only one to read from (input_file.h), or NULL */
+    bool geometry, materials, camera, lights; /* what to use */
+    double unit;                              /* scene units for each unit of the file */
+    int32_t up;              /* which axis of the file points upwards: 0 x, 1 y, 2 z */
+    bool diffuse_only;       /* leave out the gloss of the file's materials */
+    struct affine placement; /* applied last */
+    struct origin origin;
+};
+
+/* What was mended, for warnings. */
+struct mesh_report {
+    size_t dropped_triangles, dropped_lights, missing_textures;
+    char notes[512];
+};
+
+/* Reads the file into a fragment: meshes, objects (OBJECT_MESH), materials (each with its name in
+ * the file), textures, cameras, lights, whose indices refer to the fragment's own arrays. Of a material
+ * that the file names and lacks only the name is there (material_is_absent); objects without any, or
+ * whose materials were not asked for, have material NO_INDEX. The fragment is released with
+ * scene_description_release. PS_ERROR_IO, _INVALID or _MEMORY with a message. */
+ps_result mesh_import(const struct mesh_request *request, struct scene_description *fragment,
+                      struct mesh_report *report, struct error *error);
+
+struct mesh_memory_file {
+    const char *path; /* as the request, or the mesh file, would name it */
+    const void *bytes;
+    size_t length;
+};
+
+/* mesh_import where these files, and no others, exist; the disk is not looked at. */
+ps_result mesh_import_memory(const struct mesh_request *request,
+                             const struct mesh_memory_file *files, size_t file_count,
+                             struct scene_description *fragment, struct mesh_report *report,
+                             struct error *error);
+
+#endif

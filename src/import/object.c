@@ -1,0 +1,158 @@
+/* object.c: each of assimp's meshes once, and an object for each node that has it.
+ *
+ * Where a placement mirrors, shapes keep the front in front (src/scene/shape.h), as glTF 2 wants it
+ * (3.7.4, "negative determinant").
+ */
+#include "import/job.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* In place of a mesh's index: known to have no good triangle. */
+#define EMPTY (NO_INDEX - 1)
+
+struct builder {
+    struct mesh_job *job;
+    ps_vec3 **smooth;  /* of mesh_smooth_normals */
+    size_t *meshes;    /* of the fragment, for each of assimp's; NO_INDEX: not yet; EMPTY */
+    size_t *dropped;   /* triangles of each of assimp's meshes */
+    uint32_t *scratch; /* room for a number for each vertex of any mesh */
+};
+
+static const struct aiMesh *source_mesh(const struct builder *builder, size_t index)
+{
+    return builder->job->scene->mMeshes[index];
+}
+
+static const ps_vec3 *smooth_of(const struct builder *builder, size_t index)
+{
+    return builder->smooth ? builder->smooth[index] : NULL;
+}
+
+/* The mesh in the fragment, made when it is first wanted; or EMPTY. */
+static ps_result want_mesh(struct builder *builder, size_t index, size_t *mesh)
+{
+    struct scene_description *fragment = builder->job->fragment;
+    *mesh = builder->meshes[index];
+    if (*mesh != NO_INDEX)
+        return PS_OK;
+    struct mesh_description *made = &fragment->meshes[fragment->mesh_count++];
+    const struct mesh_geometry source = {source_mesh(builder, index), smooth_of(builder, index),
+                                         builder->scratch};
+    ps_result result = mesh_fill(builder->job, &source, made, &builder->dropped[index]);
+    if (result == PS_OK && made->triangle_count > 0) {
+        *mesh = builder->meshes[index] = fragment->mesh_count - 1;
+    } else if (result == PS_OK) {
+        free(made->triangles);
+        *made = (struct mesh_description){0};
+        fragment->mesh_count--;
+        *mesh = builder->meshes[index] = EMPTY;
+    }
+    return result;
+}
+
+static void add_object(const struct builder *builder, const struct aiMesh *source, size_t mesh,
+                       const struct affine *placement)
+{
+    struct mesh_job *job = builder->job;
+    struct object_description *object = &job->fragment->objects[job->fragment->object_count++];
+    *object = (struct object_description){
+        .kind = OBJECT_MESH,
+        .material = source->mMaterialIndex < job->scene->mNumMaterials
+                        ? job->materials[source->mMaterialIndex]
+                        : NO_INDEX,
+        .placement = *placement,
+        .texture = NO_INDEX,
+        .mesh = mesh,
+        .group = NO_INDEX,
+        .origin = job->request->origin,
+    };
+}
+
+static size_t count_triangles(const struct aiMesh *mesh)
+{
+    size_t count = 0;
+    for (unsigned i = 0; i < mesh->mNumFaces; i++)
+        count += mesh->mFaces[i].mNumIndices == 3;
+    return count;
+}
+
+static ps_result place_mesh(struct builder *builder, size_t index, const struct affine *placement)
+{
+    const struct aiMesh *source = source_mesh(builder, index);
+    float determinant = affine_determinant(placement);
+    size_t mesh;
+    if (!isfinite(determinant) || !(fabsf(determinant) > 0) ||
+        !mesh_is_finite(placement->translation)) {
+        builder->job->report->dropped_triangles += count_triangles(source);
+        return PS_OK;
+    }
+    ps_result result = want_mesh(builder, index, &mesh);
+    if (result == PS_OK && mesh != EMPTY)
+        add_object(builder, source, mesh, placement);
+    return result;
+}
+
+static ps_result place_all(struct builder *builder)
+{
+    const struct mesh_job *job = builder->job;
+    ps_result result = PS_OK;
+    for (size_t i = 0; i < job->node_count; i++) {
+        const struct aiNode *node = job->nodes[i].node;
+        struct affine placement = mesh_node_placement(job, &job->nodes[i]);
+        for (unsigned j = 0; result == PS_OK && j < node->mNumMeshes; j++)
+            result = place_mesh(builder, node->mMeshes[j], &placement);
+    }
+    for (unsigned i = 0; i < job->scene->mNumMeshes; i++)
+        job->report->dropped_triangles += builder->dropped[i];
+    return result;
+}
+
+static size_t count_pairs(const struct mesh_job *job)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < job->node_count; i++)
+        count += job->nodes[i].node->mNumMeshes;
+    return count;
+}
+
+static size_t largest_mesh(const struct mesh_job *job)
+{
+    size_t largest = 0;
+    for (unsigned i = 0; i < job->scene->mNumMeshes; i++)
+        if (job->scene->mMeshes[i]->mNumVertices > largest)
+            largest = job->scene->mMeshes[i]->mNumVertices;
+    return largest;
+}
+
+static ps_result prepare(struct builder *builder)
+{
+    struct scene_description *fragment = builder->job->fragment;
+    size_t meshes = builder->job->scene->mNumMeshes, pairs = count_pairs(builder->job);
+    fragment->meshes = calloc(meshes + 1, sizeof *fragment->meshes);
+    fragment->objects = calloc(pairs + 1, sizeof *fragment->objects);
+    builder->meshes = malloc((meshes + 1) * sizeof *builder->meshes);
+    builder->dropped = calloc(meshes + 1, sizeof *builder->dropped);
+    builder->scratch = malloc((largest_mesh(builder->job) + 1) * sizeof(uint32_t));
+    if (!fragment->meshes || !fragment->objects || !builder->meshes || !builder->dropped ||
+        !builder->scratch)
+        return mesh_out_of_memory(builder->job, pairs * sizeof *fragment->objects);
+    for (size_t i = 0; i < meshes; i++)
+        builder->meshes[i] = NO_INDEX;
+    return mesh_smooth_normals(builder->job, &builder->smooth);
+}
+
+ps_result mesh_read_objects(struct mesh_job *job)
+{
+    struct builder builder = {.job = job};
+    ps_result result = prepare(&builder);
+    if (result == PS_OK)
+        result = place_all(&builder);
+    if (result == PS_OK && job->fragment->object_count == 0)
+        result = error_set(job->error, PS_ERROR_INVALID, "%s: the file has no triangles",
+                           job->request->path);
+    mesh_smooth_release(job, builder.smooth);
+    free(builder.meshes);
+    free(builder.dropped);
+    free(builder.scratch);
+    return result;
+}

@@ -1,0 +1,204 @@
+/* source.c: assimp reads through us.
+ *
+ * Every file that assimp opens comes from mesh_files, as a block of memory: the one that was looked
+ * at before is the one that is read. aiImportFileFromMemory could not find an MTL or .bin file.
+ */
+#include "import/format.h"
+#include "import/job.h"
+#include "import/text.h"
+#include <assimp/cfileio.h>
+#include <assimp/cimport.h>
+#include <assimp/postprocess.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LONGEST_PATH 4096
+
+struct stream {
+    struct aiFile functions;
+    const struct mesh_file *file;
+    size_t position;
+};
+
+static struct stream *stream_of(struct aiFile *file)
+{
+    return (struct stream *)(void *)file->UserData;
+}
+
+static size_t read_stream(struct aiFile *file, char *buffer, size_t size, size_t count)
+{
+    struct stream *stream = stream_of(file);
+    size_t left = stream->file->length - stream->position;
+    if (size == 0 || count == 0)
+        return 0;
+    if (count > left / size)
+        count = left / size;
+    memcpy(buffer, stream->file->bytes + stream->position, size * count);
+    stream->position += size * count;
+    return count;
+}
+
+static size_t write_stream(struct aiFile *file, const char *buffer, size_t size, size_t count)
+{
+    (void)file;
+    (void)buffer;
+    (void)size;
+    (void)count;
+    return 0;
+}
+
+static size_t tell_stream(struct aiFile *file)
+{
+    return stream_of(file)->position;
+}
+
+static size_t stream_size(struct aiFile *file)
+{
+    return stream_of(file)->file->length;
+}
+
+static enum aiReturn seek_stream(struct aiFile *file, size_t offset, enum aiOrigin origin)
+{
+    struct stream *stream = stream_of(file);
+    size_t base = origin == aiOrigin_CUR   ? stream->position
+                  : origin == aiOrigin_END ? stream->file->length
+                                           : 0;
+    size_t target = base + offset;
+    if (target > stream->file->length)
+        return aiReturn_FAILURE;
+    stream->position = target;
+    return aiReturn_SUCCESS;
+}
+
+static void flush_stream(struct aiFile *file)
+{
+    (void)file;
+}
+
+static bool clean_path(const char *path, char *clean)
+{
+    size_t length = strlen(path);
+    while (length > 0 && strchr(" \t\r\n", path[length - 1]))
+        length--;
+    if (length >= LONGEST_PATH)
+        return false;
+    for (size_t i = 0; i < length; i++)
+        clean[i] = path[i];
+    clean[length] = '\0';
+    for (char *c = clean; *c; c++)
+        if (*c == '\\')
+            *c = '/';
+    return true;
+}
+
+static struct mesh_file *find_companion(struct mesh_job *job, char *path)
+{
+    struct error ignored;
+    struct mesh_file *file = NULL;
+    if (mesh_files_read(&job->files, path, &file, &ignored) == PS_OK)
+        return file;
+    mesh_decode_percent(path);
+    return mesh_files_read(&job->files, path, &file, &ignored) == PS_OK ? file : NULL;
+}
+
+static struct mesh_file *find_file(struct mesh_job *job, const char *path)
+{
+    char clean[LONGEST_PATH];
+    if (strcmp(path, job->main_file->path) == 0)
+        return job->main_file;
+    return clean_path(path, clean) ? find_companion(job, clean) : NULL;
+}
+
+/* What assimp opens while it reads an OBJ is a library of materials. False for the OBJ itself:
+ * assimp would write through a null pointer at the first property without a material. */
+static bool admit_library(struct mesh_job *job, struct mesh_file *file)
+{
+    if (file == job->main_file)
+        return false;
+    mtl_blank_preamble(file);
+    job->library = file;
+    return true;
+}
+
+static struct aiFile *open_stream(struct aiFileIO *io, const char *path, const char *mode)
+{
+    struct mesh_job *job = (struct mesh_job *)(void *)io->UserData;
+    struct mesh_file *file = mode[0] == 'r' ? find_file(job, path) : NULL;
+    if (!file)
+        return NULL;
+    if (job->format == FORMAT_OBJ && job->main_is_open && !admit_library(job, file))
+        return NULL;
+    struct stream *stream = calloc(1, sizeof *stream);
+    if (!stream)
+        return NULL;
+    *stream = (struct stream){
+        .functions = {.ReadProc = read_stream,
+                      .WriteProc = write_stream,
+                      .TellProc = tell_stream,
+                      .FileSizeProc = stream_size,
+                      .SeekProc = seek_stream,
+                      .FlushProc = flush_stream,
+                      .UserData = (aiUserData)(void *)stream},
+        .file = file,
+    };
+    job->main_is_open = job->main_is_open || file == job->main_file;
+    return &stream->functions;
+}
+
+static void close_stream(struct aiFileIO *io, struct aiFile *file)
+{
+    struct mesh_job *job = (struct mesh_job *)(void *)io->UserData;
+    if (stream_of(file)->file == job->main_file)
+        job->main_is_open = false;
+    free(stream_of(file));
+}
+
+/* assimp's own words, without a newline at the end. */
+static ps_result report_assimp(struct mesh_job *job)
+{
+    const char *text = aiGetErrorString();
+    size_t length = text ? strlen(text) : 0;
+    while (length > 0 && strchr(" \r\n", text[length - 1]))
+        length--;
+    return error_set(job->error, PS_ERROR_INVALID, "%s: %.*s", job->request->path,
+                     length < 1000 ? (int)length : 1000,
+                     length > 0 ? text : "the file cannot be read as a mesh");
+}
+
+static ps_result check_before_assimp(struct mesh_job *job)
+{
+    if (job->main_file->length == 0)
+        return error_set(job->error, PS_ERROR_INVALID, "%s: the file is empty", job->request->path);
+    switch (job->format) {
+    case FORMAT_GLTF:
+    case FORMAT_GLB:
+        return gltf_open(&job->gltf, job->main_file, job->format == FORMAT_GLB, job->error);
+    case FORMAT_PLY:
+        return ply_check_header(job->main_file, job->error);
+    case FORMAT_COLLADA:
+        return dae_check(job->main_file, job->error);
+    case FORMAT_FBX:
+        return fbx_check(job->main_file, job->error);
+    default:
+        return PS_OK;
+    }
+}
+
+ps_result mesh_source_open(struct mesh_job *job)
+{
+    struct aiFileIO io = {open_stream, close_stream, (aiUserData)(void *)job};
+    ps_result result =
+        mesh_files_read(&job->files, job->request->path, &job->main_file, job->error);
+    if (result == PS_OK)
+        result = check_before_assimp(job);
+    if (result != PS_OK)
+        return result;
+    job->scene = aiImportFileEx(job->request->path, 0, &io);
+    return job->scene ? PS_OK : report_assimp(job);
+}
+
+ps_result mesh_source_triangulate(struct mesh_job *job)
+{
+    job->scene = aiApplyPostProcessing(job->scene, aiProcess_Triangulate);
+    return job->scene ? PS_OK : report_assimp(job);
+}

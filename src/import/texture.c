@@ -1,0 +1,257 @@
+/* texture.c: pictures that materials name, beside the mesh or inside of it.
+ *
+ * A path is tried as it stands, from the mesh file's folder; then with %20 and the like decoded, as
+ * glTF's are; then by its last part alone, since many exporters write paths of their own machine.
+ */
+#include "import/material.h"
+
+#include "import/text.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LONGEST_PATH 4096
+#define GL_NEAREST 9728
+
+struct pigment_description mesh_pigment(ps_rgb color)
+{
+    return (struct pigment_description){
+        .kind = PIGMENT_COLOR,
+        .colors = {color},
+        .texture = NO_INDEX,
+        .channel = CHANNEL_RGB,
+        .scale_u = 1,
+        .scale_v = 1,
+        .placement = AFFINE_IDENTITY,
+        .octaves = 1,
+    };
+}
+
+/* --- where the picture is --------------------------------------------------------------------- */
+
+static bool read_name(const struct aiMaterial *source, enum aiTextureType type,
+                      struct aiString *name)
+{
+    if (aiGetMaterialString(source, AI_MATKEY_TEXTURE(type, 0), name) != aiReturn_SUCCESS)
+        return false;
+    name->data[sizeof name->data - 1] = '\0';
+    return name->data[0] != '\0';
+}
+
+bool mesh_texture_is_named(const struct aiMaterial *source, enum aiTextureType type)
+{
+    struct aiString name;
+    return read_name(source, type, &name);
+}
+
+static const char *last_part(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static bool try_path(const struct mesh_job *job, const char *name, char *path)
+{
+    const char *mesh = job->request->path;
+    size_t folder = name[0] == '/' ? 0 : (size_t)(last_part(mesh) - mesh);
+    int length = snprintf(path, LONGEST_PATH, "%.*s%s", (int)folder, mesh, name);
+    return length > 0 && length < LONGEST_PATH && mesh_files_exist(&job->files, path);
+}
+
+static bool find_path(const struct mesh_job *job, char *name, char *path)
+{
+    for (char *c = name; *c; c++)
+        if (*c == '\\')
+            *c = '/';
+    while (strncmp(name, "./", 2) == 0)
+        name += 2;
+    if (try_path(job, name, path))
+        return true;
+    mesh_decode_percent(name);
+    return try_path(job, name, path) || try_path(job, last_part(name), path);
+}
+
+/* "*3" is the third of those inside of the file; some formats name them by their file's name. */
+static const struct aiTexture *find_embedded(const struct aiScene *scene, const char *name)
+{
+    if (name[0] == '*') {
+        char *end;
+        unsigned long index = strtoul(name + 1, &end, 10);
+        return end > name + 1 && *end == '\0' && index < scene->mNumTextures
+                   ? scene->mTextures[index]
+                   : NULL;
+    }
+    for (unsigned i = 0; i < scene->mNumTextures; i++) {
+        const struct aiTexture *texture = scene->mTextures[i];
+        if (texture && texture->mFilename.length > 0 &&
+            strcmp(last_part(texture->mFilename.data), last_part(name)) == 0)
+            return texture;
+    }
+    return NULL;
+}
+
+/* --- the texture -------------------------------------------------------------------------------- */
+
+static int read_integer(const struct aiMaterial *source, const char *key, enum aiTextureType type,
+                        int fallback)
+{
+    int value;
+    unsigned count = 1;
+    if (aiGetMaterialIntegerArray(source, key, type, 0, &value, &count) != aiReturn_SUCCESS)
+        return fallback;
+    return value;
+}
+
+static enum texture_wrap read_wrap(const struct aiMaterial *source, enum aiTextureType type)
+{
+    switch (read_integer(source, _AI_MATKEY_MAPPINGMODE_U_BASE, type, aiTextureMapMode_Wrap)) {
+    case aiTextureMapMode_Clamp:
+    case aiTextureMapMode_Decal:
+        return WRAP_CLAMP;
+    case aiTextureMapMode_Mirror:
+        return WRAP_MIRROR;
+    default:
+        return WRAP_REPEAT;
+    }
+}
+
+static bool is_same(const struct texture_description *a, const struct texture_description *b)
+{
+    return strcmp(a->path, b->path) == 0 && a->wrap == b->wrap && a->encoding == b->encoding &&
+           a->nearest == b->nearest;
+}
+
+static void release_texture(struct texture_description *texture)
+{
+    free(texture->path);
+    free(texture->bytes);
+    texture->path = NULL;
+    texture->bytes = NULL;
+}
+
+/* Takes over what `texture` owns. */
+static ps_result add_texture(struct mesh_job *job, struct texture_description *texture,
+                             size_t *index)
+{
+    struct scene_description *fragment = job->fragment;
+    size_t bytes = (fragment->texture_count + 1) * sizeof *fragment->textures;
+    for (*index = 0; *index < fragment->texture_count; ++*index)
+        if (is_same(&fragment->textures[*index], texture)) {
+            release_texture(texture);
+            return PS_OK;
+        }
+    struct texture_description *textures = realloc(fragment->textures, bytes);
+    if (!textures) {
+        release_texture(texture);
+        return mesh_out_of_memory(job, bytes);
+    }
+    fragment->textures = textures;
+    textures[fragment->texture_count++] = *texture;
+    return PS_OK;
+}
+
+static ps_result copy_embedded(struct mesh_job *job, const struct aiTexture *embedded,
+                               const char *name, struct texture_description *texture)
+{
+    char path[LONGEST_PATH];
+    snprintf(path, sizeof path, "%s:%s", job->request->path, name);
+    texture->path = strdup(path);
+    texture->byte_count = embedded->mWidth;
+    texture->bytes = malloc(texture->byte_count);
+    if (!texture->path || !texture->bytes) {
+        release_texture(texture);
+        return mesh_out_of_memory(job, texture->byte_count);
+    }
+    memcpy(texture->bytes, embedded->pcData, texture->byte_count);
+    return PS_OK;
+}
+
+static void count_missing(struct mesh_job *job, const char *name, const char *why)
+{
+    if (job->report->missing_textures++ == 0)
+        mesh_note(job, "texture %.200s %s", name, why);
+}
+
+static ps_result locate(struct mesh_job *job, char *name, struct texture_description *texture)
+{
+    const struct aiTexture *embedded = find_embedded(job->scene, name);
+    char path[LONGEST_PATH];
+    bool is_file = embedded && embedded->mHeight == 0 && embedded->mWidth > 0 && embedded->pcData;
+    if (is_file)
+        return copy_embedded(job, embedded, name, texture);
+    if (embedded || name[0] == '*') {
+        count_missing(job, name, "inside of the mesh file is no picture file");
+        return PS_OK;
+    }
+    if (!find_path(job, name, path)) {
+        count_missing(job, name, "is missing");
+        return PS_OK;
+    }
+    texture->path = strdup(path);
+    return texture->path ? PS_OK : mesh_out_of_memory(job, strlen(path));
+}
+
+ps_result mesh_texture_find(struct mesh_job *job, const struct aiMaterial *source,
+                            struct mesh_texture_use use, size_t *index)
+{
+    struct aiString name;
+    *index = NO_INDEX;
+    if (!read_name(source, use.type, &name))
+        return PS_OK;
+    struct texture_description texture = {
+        .wrap = read_wrap(source, use.type),
+        .encoding = use.encoding,
+        .nearest = read_integer(source, "$tex.mappingfiltermag", use.type, 0) == GL_NEAREST,
+        .origin = job->request->origin,
+    };
+    ps_result result = locate(job, name.data, &texture);
+    if (texture.bytes && use.encoding == ENCODING_AUTO)
+        texture.encoding = ENCODING_SRGB; /* its path has no extension to go by */
+    if (result != PS_OK || !texture.path)
+        return result;
+    result = add_texture(job, &texture, index);
+    if (result == PS_OK && read_integer(source, _AI_MATKEY_UVWSRC_BASE, use.type, 0) > 0)
+        mesh_note(job, "texture %.200s is laid by the first set of coordinates, not its own",
+                  name.data);
+    return result;
+}
+
+/* --- the pigment -------------------------------------------------------------------------------- */
+
+/* assimp's way: scale, rotate about the middle, translate, with v upwards. */
+static void read_transform(struct mesh_job *job, const struct aiMaterial *source,
+                           enum aiTextureType type, struct pigment_description *pigment)
+{
+    enum { TRANSLATE_U, TRANSLATE_V, SCALE_U, SCALE_V, ROTATION, COUNT };
+    float values[COUNT] = {0};
+    unsigned count = COUNT;
+    if (aiGetMaterialFloatArray(source, AI_MATKEY_UVTRANSFORM(type, 0), values, &count) !=
+            aiReturn_SUCCESS ||
+        count != COUNT)
+        return;
+    for (int i = 0; i < COUNT; i++)
+        if (!isfinite(values[i]))
+            return;
+    if (values[ROTATION] != 0) {
+        mesh_note(job, "a texture that is turned on its surface is laid unturned");
+        return;
+    }
+    pigment->scale_u = values[SCALE_U];
+    pigment->scale_v = values[SCALE_V];
+    pigment->offset_u = values[TRANSLATE_U];
+    pigment->offset_v = values[TRANSLATE_V];
+}
+
+ps_result mesh_pigment_texture(struct mesh_job *job, const struct aiMaterial *source,
+                               struct mesh_texture_use use, struct pigment_description *pigment)
+{
+    size_t texture;
+    ps_result result = mesh_texture_find(job, source, use, &texture);
+    if (result != PS_OK || texture == NO_INDEX)
+        return result;
+    pigment->kind = PIGMENT_IMAGE;
+    pigment->texture = texture;
+    pigment->channel = use.channel;
+    read_transform(job, source, use.type, pigment);
+    return PS_OK;
+}

@@ -1,0 +1,224 @@
+#include "view/edges.h"
+
+#include "base/sample.h"
+#include "view/pixel_filter.h"
+#include "view/view.h"
+#include <psplat/host.h>
+#include <psplat/tile.h>
+#include <string.h>
+
+/* Pixels up to so far to each side know of the indirect light at a sample. */
+#define NEIGHBOURHOOD 2
+#define NEIGHBOURS 32 /* (2 * NEIGHBOURHOOD + 1)^2, and up to whole vectors */
+
+/* Seeds of scenes end before: random numbers of samples at edges are no pixel's. */
+#define EDGE_SEED ((uint64_t)1 << 63)
+
+/* Samples under way: one tile of a picture of its own. */
+struct looks {
+    _Alignas(64) ps_tile tile;
+    ps_rgb direct[PS_TILE_PIXELS], emitted[PS_TILE_PIXELS];
+    bool by_chance[PS_TILE_PIXELS];
+    struct view_points points;
+    uint32_t x[PS_TILE_PIXELS], y[PS_TILE_PIXELS]; /* their pixels */
+    struct light_runs light_runs;
+    float pattern[MOST_EDGE_SAMPLES][2]; /* where in each pixel they look */
+};
+
+static void draw_pattern(const struct edge_pass *pass, struct looks *looks)
+{
+    uint32_t key = sample_key(pass->seed | EDGE_SEED, PS_STREAM_PIXEL, 0);
+    for (uint32_t sample = 0; sample < pass->samples; sample++) {
+        float numbers[4];
+        sample_point(key, (uint64_t)pass->number * pass->samples + sample, numbers);
+        pixel_filter_point(pass->lighting->scene->pixel_filter, numbers, looks->pattern[sample]);
+    }
+}
+
+/* Shadow rays of a sample: all samples together have no fewer than a pixel elsewhere. */
+static uint32_t light_samples_of(const struct edge_pass *pass)
+{
+    return (pass->lighting->scene->light_samples + pass->samples - 1) / pass->samples;
+}
+
+static void add_look(const struct edge_pass *pass, uint32_t tile, uint32_t lane, uint32_t sample,
+                     struct looks *looks)
+{
+    uint32_t to = (uint32_t)looks->points.count++;
+    uint64_t block = ps_sample_block(tile, lane);
+    uint64_t number = (uint64_t)pass->number * pass->samples + sample;
+    gbuffer_pixel(pass->gbuffer, tile, lane, &looks->x[to], &looks->y[to]);
+    looks->points.lanes[to] = to;
+    looks->points.x[to] = (float)looks->x[to] + looks->pattern[sample][0];
+    looks->points.y[to] = (float)looks->y[to] + looks->pattern[sample][1];
+    looks->points.indices[to] = block + number;
+    looks->light_runs.first[to] = block + number * light_samples_of(pass);
+    looks->light_runs.of_lane[to] = (uint8_t)to;
+}
+
+/* The pixels around one, which all of its samples look at. */
+struct neighbours {
+    uint32_t object[NEIGHBOURS]; /* PS_NO_OBJECT: sees no surface, or there is no pixel */
+    float x[NEIGHBOURS], y[NEIGHBOURS], z[NEIGHBOURS];
+    float normal_x[NEIGHBOURS], normal_y[NEIGHBOURS], normal_z[NEIGHBOURS];
+    float r[NEIGHBOURS], g[NEIGHBOURS], b[NEIGHBOURS], weight[NEIGHBOURS]; /* indirect light */
+};
+
+static void set_neighbour(const ps_tile *tile, uint32_t lane, struct neighbours *neighbours, int i)
+{
+    neighbours->object[i] = tile->object[lane];
+    neighbours->x[i] = tile->position_x[lane];
+    neighbours->y[i] = tile->position_y[lane];
+    neighbours->z[i] = tile->position_z[lane];
+    neighbours->normal_x[i] = tile->normal_x[lane];
+    neighbours->normal_y[i] = tile->normal_y[lane];
+    neighbours->normal_z[i] = tile->normal_z[lane];
+    neighbours->r[i] = tile->irradiance_r[lane];
+    neighbours->g[i] = tile->irradiance_g[lane];
+    neighbours->b[i] = tile->irradiance_b[lane];
+    neighbours->weight[i] = tile->weight[lane];
+}
+
+static void find_neighbours(const struct gbuffer *gbuffer, uint32_t x, uint32_t y,
+                            struct neighbours *neighbours)
+{
+    memset(neighbours, 0, sizeof *neighbours);
+    for (int i = 0; i < NEIGHBOURS; i++)
+        neighbours->object[i] = PS_NO_OBJECT;
+    int next = 0;
+    for (int dy = -NEIGHBOURHOOD; dy <= NEIGHBOURHOOD; dy++)
+        for (int dx = -NEIGHBOURHOOD; dx <= NEIGHBOURHOOD; dx++) {
+            uint32_t tile, lane;
+            if (gbuffer_find(gbuffer, (int64_t)x + dx, (int64_t)y + dy, &tile, &lane))
+                set_neighbour(&gbuffer->tiles[tile], lane, neighbours, next++);
+        }
+}
+
+/* How near each neighbour comes to what a sample sees: 3 its surface, 2 its object, 1 another one, 0 none.
+ * Returns the most of that. */
+static int compare(const struct neighbours *neighbours, const ps_tile *tile, uint32_t lane,
+                   int likeness[NEIGHBOURS])
+{
+    ps_vec3 position = ps_tile_position(tile, lane), normal = ps_tile_normal(tile, lane);
+    uint32_t object = tile->object[lane];
+    int most = 1;
+#pragma omp simd reduction(max : most)
+    for (int i = 0; i < NEIGHBOURS; i++) {
+        float x = neighbours->x[i] - position.x, y = neighbours->y[i] - position.y,
+              z = neighbours->z[i] - position.z;
+        float off_plane = normal.x * x + normal.y * y + normal.z * z;
+        float cosine = normal.x * neighbours->normal_x[i] + normal.y * neighbours->normal_y[i] +
+                       normal.z * neighbours->normal_z[i];
+        int same_surface = gbuffer_same_surface(cosine, off_plane, x * x + y * y + z * z);
+        int any = neighbours->object[i] != PS_NO_OBJECT;
+        int same_object = any & (neighbours->object[i] == object);
+        likeness[i] = any + same_object + (same_object & same_surface);
+        most = likeness[i] > most ? likeness[i] : most;
+    }
+    return most;
+}
+
+/* Gives a sample the mean of the indirect light that the pixels around found on its surface. */
+static void borrow_indirect(const struct neighbours *neighbours, ps_tile *tile, uint32_t lane)
+{
+    int likeness[NEIGHBOURS];
+    int most = compare(neighbours, tile, lane, likeness);
+    float r = 0.0f, g = 0.0f, b = 0.0f, weight = 0.0f, count = 0.0f;
+#pragma omp simd reduction(+ : r, g, b, weight, count)
+    for (int i = 0; i < NEIGHBOURS; i++) {
+        float share = likeness[i] == most ? 1.0f : 0.0f;
+        r += share * neighbours->r[i];
+        g += share * neighbours->g[i];
+        b += share * neighbours->b[i];
+        weight += share * neighbours->weight[i];
+        count += share;
+    }
+    float scale = count > 0.0f ? 1.0f / count : 0.0f;
+    tile->irradiance_r[lane] = scale * r;
+    tile->irradiance_g[lane] = scale * g;
+    tile->irradiance_b[lane] = scale * b;
+    tile->weight[lane] = scale * weight;
+}
+
+static bool same_pixel(const struct looks *looks, uint32_t i, uint32_t j)
+{
+    return looks->x[i] == looks->x[j] && looks->y[i] == looks->y[j];
+}
+
+/* Those of a pixel lie one after the other. */
+static void add_looks(const struct edge_pass *pass, const struct gbuffer *samples,
+                      struct looks *looks, struct film *film)
+{
+    uint32_t count = (uint32_t)looks->points.count;
+    for (uint32_t first = 0, end; first < count; first = end) {
+        struct neighbours neighbours;
+        find_neighbours(pass->gbuffer, looks->x[first], looks->y[first], &neighbours);
+        for (end = first; end < count && same_pixel(looks, first, end); end++)
+            borrow_indirect(&neighbours, &looks->tile, end);
+        film_add_samples(film, samples, first, end - first, 1.0f / (float)pass->samples,
+                         looks->x[first], looks->y[first]);
+    }
+}
+
+/* Traces the samples, adds them to their pixels and forgets them. */
+static void finish_looks(const struct edge_pass *pass, struct looks *looks, struct film *film)
+{
+    const struct lighting *lighting = pass->lighting;
+    struct gbuffer gbuffer = {
+        .width = PS_TILE_SIZE,
+        .height = PS_TILE_SIZE,
+        .tiles_across = 1,
+        .tiles_down = 1,
+        .tile_count = 1,
+        .tiles = &looks->tile,
+        .direct = looks->direct,
+        .emitted = looks->emitted,
+        .by_chance = looks->by_chance,
+    };
+    struct view_pass view = {
+        .scene = lighting->scene,
+        .trace = lighting->trace,
+        .maps = lighting->maps,
+        .gbuffer = &gbuffer,
+        .seed = pass->seed | EDGE_SEED,
+    };
+    view_trace(&view, &looks->points, 0);
+    looks->light_runs.count = looks->points.count;
+    direct_light_tile(lighting, &gbuffer, 0, view.seed, &looks->light_runs, light_samples_of(pass));
+    add_looks(pass, &gbuffer, looks, film);
+    looks->points.count = 0;
+}
+
+static bool has_edges(const bool edges[PS_TILE_PIXELS])
+{
+    bool any = false;
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
+        any |= edges[lane];
+    return any;
+}
+
+static void look_again(const struct edge_pass *pass, uint32_t tile, const bool *edges,
+                       struct film *film)
+{
+    struct looks looks;
+    looks.points.count = 0;
+    draw_pattern(pass, &looks);
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
+        for (uint32_t sample = 0; sample < pass->samples && edges[lane]; sample++) {
+            add_look(pass, tile, lane, sample, &looks);
+            if (looks.points.count == PS_TILE_PIXELS)
+                finish_looks(pass, &looks, film);
+        }
+    if (looks.points.count > 0)
+        finish_looks(pass, &looks, film);
+}
+
+void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *film)
+{
+    bool *edges = &pass->edges[(size_t)tile * PS_TILE_PIXELS];
+    if (pass->number == 0)
+        edges_find(pass->gbuffer, tile, edges);
+    film_add_tile(film, pass->gbuffer, tile, edges);
+    if (has_edges(edges))
+        look_again(pass, tile, edges, film);
+}

@@ -1,0 +1,176 @@
+#include "view/view.h"
+
+#include "base/sample.h"
+#include "direct/direct.h"
+#include <psplat/host.h>
+#include <psplat/path.h>
+#include <psplat/tile.h>
+
+/* Set of the numbers that choose a point of the lens; surfaces on the way take 0, 1, 2, ... */
+#define LENS_SET 0x10000u
+
+/* Paths of a tile that are still under way. */
+struct sight {
+    size_t count;
+    uint32_t lanes[PS_TILE_PIXELS];
+    ps_ray rays[PS_TILE_PIXELS];
+    ps_rgb throughput[PS_TILE_PIXELS];
+    float travelled[PS_TILE_PIXELS];
+    float pdfs[PS_TILE_PIXELS]; /* of the last scattering; 0 from the camera */
+    const uint64_t *indices;    /* of each lane's random numbers */
+};
+
+static ps_ray look(const struct view_pass *pass, const struct view_points *points, uint32_t lane)
+{
+    const struct camera *camera = &pass->scene->camera;
+    float lens[4] = {0, 0, 0, 0};
+    if (camera->aperture > 0.0f)
+        sample_point(sample_key(pass->seed, PS_STREAM_VIEW, LENS_SET), points->indices[lane], lens);
+    return camera_ray(camera, points->x[lane], points->y[lane], lens);
+}
+
+static void start(const struct view_pass *pass, const struct view_points *points, uint32_t tile,
+                  struct sight *sight)
+{
+    bool *by_chance = &pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
+    sight->count = points->count;
+    sight->indices = points->indices;
+    for (size_t i = 0; i < points->count; i++) {
+        sight->lanes[i] = points->lanes[i];
+        sight->rays[i] = look(pass, points, points->lanes[i]);
+        sight->throughput[i] = (ps_rgb){1, 1, 1};
+        sight->travelled[i] = 0.0f;
+        sight->pdfs[i] = 0.0f;
+        by_chance[points->lanes[i]] = pass->scene->camera.aperture > 0.0f;
+    }
+}
+
+static void add_to_lane(const struct view_pass *pass, uint32_t tile, uint32_t lane, ps_rgb radiance)
+{
+    ps_rgb *emitted = &pass->gbuffer->emitted[(size_t)tile * PS_TILE_PIXELS + lane];
+    *emitted = ps_rgb_add(*emitted, radiance);
+}
+
+static void collect_emission(const struct view_pass *pass, uint32_t tile, uint32_t depth,
+                             const struct sight *sight, const ps_hit *hits)
+{
+    ps_rgb radiance[PS_TILE_PIXELS];
+    emitted_radiance(pass->scene, sight->rays, hits, sight->pdfs, sight->count, radiance);
+    for (size_t i = 0; i < sight->count; i++) {
+        bool hidden = depth == 0 && pass->scene->sky_is_hidden && !(hits[i].distance < INFINITY);
+        if (!hidden)
+            add_to_lane(pass, tile, sight->lanes[i],
+                        ps_rgb_multiply(sight->throughput[i], radiance[i]));
+    }
+}
+
+/* Ends paths at purely diffuse surfaces and where nothing was met; returns how many are left, and
+ * their hits moved to the front. */
+static void end_at_diffuse(const struct view_pass *pass, uint32_t tile, struct sight *sight,
+                           ps_hit *hits)
+{
+    ps_tile *pixels = &pass->gbuffer->tiles[tile];
+    size_t left = 0;
+    for (size_t i = 0; i < sight->count; i++) {
+        float travelled = sight->travelled[i] + hits[i].distance;
+        if (!(hits[i].distance < INFINITY))
+            continue;
+        if (!(hits[i].flags & PS_HIT_SPECULAR)) {
+            gbuffer_store(pixels, sight->lanes[i], &hits[i], sight->throughput[i], travelled);
+            continue;
+        }
+        hits[left] = hits[i];
+        sight->lanes[left] = sight->lanes[i];
+        sight->rays[left] = sight->rays[i];
+        sight->throughput[left] = sight->throughput[i];
+        sight->travelled[left++] = travelled;
+    }
+    sight->count = left;
+}
+
+/* What gloss reflects of the lights; the diffuse part of these surfaces is left to where paths end. */
+static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t depth,
+                          const struct sight *sight, const ps_hit *hits)
+{
+    ps_hit glossy[PS_TILE_PIXELS];
+    ps_rgb radiance[PS_TILE_PIXELS];
+    uint64_t indices[PS_TILE_PIXELS];
+    for (size_t i = 0; i < sight->count; i++) {
+        glossy[i] = hits[i];
+        glossy[i].albedo = (ps_rgb){0, 0, 0};
+        indices[i] = sight->indices[sight->lanes[i]];
+    }
+    struct light_numbers numbers = {pass->seed, PS_STREAM_LIGHT, depth + 1, indices};
+    struct lighting lighting = {pass->scene, pass->trace, pass->maps};
+    direct_radiance(&lighting, sight->rays, glossy, sight->count, &numbers, radiance);
+    for (size_t i = 0; i < sight->count; i++)
+        add_to_lane(pass, tile, sight->lanes[i],
+                    ps_rgb_multiply(sight->throughput[i], radiance[i]));
+}
+
+/* Sends the paths on, or ends them at the diffuse lobe of a surface that has others too. */
+static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
+                    struct sight *sight, const ps_hit *hits)
+{
+    const struct scene *scene = pass->scene;
+    ps_tile *pixels = &pass->gbuffer->tiles[tile];
+    bool *by_chance = &pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
+    uint32_t key = sample_key(pass->seed, PS_STREAM_VIEW, depth);
+    size_t left = 0;
+    for (size_t i = 0; i < sight->count; i++) {
+        float numbers[4];
+        sample_point(key, sight->indices[sight->lanes[i]], numbers);
+        ps_scatter on = material_scatter(&scene->materials[hits[i].material], scene->microfacets,
+                                         PS_FROM_CAMERA, &sight->rays[i], &hits[i], numbers);
+        by_chance[sight->lanes[i]] |= on.probability < 1.0f || on.lobe == PS_GLOSSY;
+        if (on.lobe == PS_DIFFUSE) {
+            ps_rgb throughput = ps_rgb_scale(sight->throughput[i], 1.0f / on.probability);
+            if (ps_rgb_maximum(hits[i].albedo) > 0.0f)
+                gbuffer_store(pixels, sight->lanes[i], &hits[i], throughput, sight->travelled[i]);
+            continue;
+        }
+        if (!(ps_rgb_maximum(on.weight) > 0.0f))
+            continue;
+        sight->lanes[left] = sight->lanes[i];
+        sight->throughput[left] = ps_rgb_multiply(sight->throughput[i], on.weight);
+        sight->travelled[left] = sight->travelled[i];
+        sight->pdfs[left] = on.pdf;
+        sight->rays[left++] =
+            ps_leave_surface(hits[i].position, on.normal, on.direction, scene->surface_offset);
+    }
+    sight->count = left;
+}
+
+/* Lanes in 4x4 blocks, so that each packet of 16 rays is compact. */
+void view_pixels(const struct gbuffer *gbuffer, uint32_t tile, uint32_t number, float jitter_x,
+                 float jitter_y, struct view_points *points)
+{
+    points->count = 0;
+    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
+        uint32_t x, y, lane = gbuffer_block_lane(i);
+        if (!gbuffer_pixel(gbuffer, tile, lane, &x, &y))
+            continue;
+        points->lanes[points->count++] = lane;
+        points->x[lane] = (float)x + jitter_x;
+        points->y[lane] = (float)y + jitter_y;
+        points->indices[lane] = ps_sample_block(tile, lane) + number;
+    }
+}
+
+void view_trace(const struct view_pass *pass, const struct view_points *points, uint32_t index)
+{
+    struct sight sight;
+    ps_hit hits[PS_TILE_PIXELS];
+    gbuffer_clear_tile(pass->gbuffer, index);
+    start(pass, points, index, &sight);
+    for (uint32_t depth = 0; sight.count > 0 && depth <= PS_LONGEST_CHAIN; depth++) {
+        trace_intersect(pass->trace, depth == 0 ? RAYS_CAMERA : RAYS_INCOHERENT, sight.rays,
+                        sight.count, hits);
+        collect_emission(pass, index, depth, &sight, hits);
+        end_at_diffuse(pass, index, &sight, hits);
+        if (sight.count > 0) {
+            collect_gloss(pass, index, depth, &sight, hits);
+            scatter(pass, index, depth, &sight, hits);
+        }
+    }
+}
