@@ -1,6 +1,6 @@
 /* host.h: the services that psplat gives to plugins.
  *
- * A plugin links neither Embree nor OpenMP nor libpsplat: everything it needs comes through this
+ * A plugin links neither Embree nor OpenMP nor anything of psplat: everything it needs comes through this
  * table. Words used below. [main thread]: the thread that drives the render; [any thread]: also
  * from inside a parallel_for body or a callback that is marked [worker]. "Borrowed until X": the
  * host owns it.

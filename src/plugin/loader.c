@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #define LONGEST_PATH 4096
 #define LONGEST_ATTEMPTS 3400
@@ -62,19 +63,20 @@ static ps_result add_environment(struct loader *loader, struct error *error)
     return PS_OK;
 }
 
-/* psplat's own plugins lie beside libpsplat, so that an installed tree runs from any place. */
+/* psplat's own plugins are found from the program's folder, so that an installed tree runs from any place; where
+ * the system does not tell what that is, at the place that the build was made for. */
 static bool add_own_folder(struct loader *loader)
 {
-    static const char anchor = 0; /* an address inside of the library, whoever links it */
-    Dl_info library;
-    if (!dladdr(&anchor, &library) || !library.dli_fname)
-        return true;
-    const char *slash = strrchr(library.dli_fname, '/');
+    static const char from_program[] = PSPLAT_PLUGINS_FROM_PROGRAM;
+    static const char installed[] = PSPLAT_PLUGINS_INSTALLED;
     char path[LONGEST_PATH];
-    int length =
-        snprintf(path, sizeof path, "%.*spsplat/plugins-%u",
-                 slash ? (int)(slash - library.dli_fname) + 1 : 0, library.dli_fname, PS_ABI_MAJOR);
-    return length > 0 && (size_t)length < sizeof path && add_folder(loader, path, (size_t)length);
+    ssize_t length = readlink("/proc/self/exe", path, sizeof path);
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    if (length <= 0 || (size_t)length + sizeof from_program > sizeof path)
+        return add_folder(loader, installed, strlen(installed));
+    memcpy(path + length, from_program, sizeof from_program);
+    return add_folder(loader, path, strlen(path));
 }
 
 ps_result loader_create(struct loader **created, struct error *error)

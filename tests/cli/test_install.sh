@@ -45,7 +45,14 @@ check_file() {
 check_contents() {
     prefix=$1
     [ -x "$prefix/bin/psplat" ] || fail "not installed: $prefix/bin/psplat"
-    check_file "$prefix/$libdir/libpsplat.so.0"
+    # Nothing but the plugins is a library, and these export what the loader looks for alone.
+    [ -z "$(find "$prefix" -name 'lib*.so*')" ] || fail "a library is installed"
+    for plugin in "$prefix/$libdir"/psplat/plugins-1/*/*.so; do
+        [ "$(nm -D --defined-only "$plugin" | awk '$2 ~ /[A-TV-Z]/ { print $3 }')" = psplat_module_v1 ] ||
+            fail "$plugin exports more than its module"
+    done
+    [ -z "$(nm -D --defined-only "$prefix/bin/psplat" | awk '$2 ~ /[TDR]/ && $3 !~ /^(_|psplat_|ps_)/')" ] ||
+        fail "the program exports names of its own"
     check_file "$prefix/$libdir/pkgconfig/psplat.pc"
     for header in "$PSPLAT_SOURCE"/include/psplat/*.h; do
         check_file "$prefix/include/psplat/$(basename "$header")"
