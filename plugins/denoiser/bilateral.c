@@ -49,6 +49,7 @@ enum plane {
 };
 
 struct work {
+    const ps_host *host;
     const ps_image_view *image;
     float *planes[PLANES];
     int reach;
@@ -167,6 +168,8 @@ static void filter_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
+    if (work->host->cancelled(work->host))
+        return;
     int width = (int)work->image->width, reach = work->reach;
     for (int x = 0; x < width; x += BLOCK) {
         int n = width - x < BLOCK ? width - x : BLOCK;
@@ -208,7 +211,7 @@ static void prepare(const struct state *state, const ps_host *host, struct work 
 
 static ps_result filter(const void *state, const ps_host *host, const ps_image_view *image)
 {
-    struct work work = {.image = image};
+    struct work work = {.host = host, .image = image};
     size_t pixels = (size_t)image->width * image->height;
     float *memory = host->allocate(host, PLANES * pixels * sizeof(float), "denoiser");
     if (!memory)
@@ -219,7 +222,7 @@ static ps_result filter(const void *state, const ps_host *host, const ps_image_v
     host->parallel_for(host, image->height, guide_row, &work);
     host->parallel_for(host, image->height, filter_row, &work);
     host->release(host, memory);
-    return PS_OK;
+    return host->cancelled(host) ? PS_CANCELLED : PS_OK;
 }
 
 static int32_t init(void *opaque, const ps_host *host, char *message, size_t message_size)

@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define MOST_OUTPUTS 16
 
@@ -40,19 +41,28 @@ struct job {
 /* A signal handler can reach nothing else: the one variable of the program that is not constant. */
 static volatile sig_atomic_t interrupted;
 
-static void interrupt(int signal_number)
+static void handle_signals(void (*handler)(int signal_number))
 {
-    (void)signal_number;
-    interrupted = 1;
-}
-
-static void catch_signals(void)
-{
-    /* A second signal kills. */
-    struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESETHAND};
+    struct sigaction action = {.sa_handler = handler};
     sigemptyset(&action.sa_mask);
+    sigaddset(&action.sa_mask, SIGINT);
+    sigaddset(&action.sa_mask, SIGTERM);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+}
+
+/* The next signal, whichever of the two it is, ends the process. Only what is safe in a handler: write() is,
+ * and there is nobody to tell if it fails. */
+static void interrupt(int signal_number)
+{
+    static const char message[] = "\npsplat: interrupted: finishing this batch, then writing the "
+                                  "picture without what is left; a "
+                                  "second signal ends at once\n";
+    (void)signal_number;
+    handle_signals(SIG_DFL);
+    interrupted = 1;
+    ssize_t written = write(STDERR_FILENO, message, sizeof message - 1);
+    (void)written;
 }
 
 static bool was_interrupted(void *user)
@@ -192,10 +202,10 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     struct render_callbacks callbacks = progress_callbacks(&job->progress);
     callbacks.cancelled = was_interrupted;
     struct image image = {0};
-    catch_signals();
+    handle_signals(interrupt);
     ps_result result = render_run(scene, settings, &callbacks, statistics, &image, error);
     progress_clear(&job->progress);
-    if (result != PS_OK && result != PS_CANCELLED)
+    if (image.width == 0)
         return result;
     tell_of_dark_pixels(job, statistics);
     /* An interrupted render is repeated by asking for the passes that were done. */
@@ -211,7 +221,7 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     if (written == PS_OK && result == PS_CANCELLED)
         return error_set(error, PS_CANCELLED,
                          "interrupted: the picture holds what was done by then");
-    return written;
+    return written == PS_OK ? result : written;
 }
 
 static int render_job(struct job *job, struct scene_input *input, struct render_settings *settings)

@@ -210,6 +210,9 @@ static ps_result run_passes(struct render *render, struct error *error)
     ps_result result = PS_OK;
     for (uint32_t pass = 0; pass < render->settings->passes && result == PS_OK; pass++)
         result = run_pass(render, pass, error);
+    if (result != PS_OK && result != PS_CANCELLED && render->film.passes > 0)
+        render->host.log(&render->host, PS_LOG_WARNING,
+                         "a pass failed; the picture holds those before it");
     /* An unfinished first pass gives its direct light, but was no pass. */
     bool unfinished = result == PS_CANCELLED && render->pass.number == 0;
     statistics_count(render->statistics, "passes", unfinished ? 0 : render->film.passes);
@@ -226,13 +229,18 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
         .callbacks = callbacks,
         .statistics = statistics,
     };
+    *image = (struct image){0};
     host_create(&render);
     ps_result result = render_create(&render, error);
     if (result == PS_OK)
         result = run_passes(&render, error);
-    if (result == PS_OK || result == PS_CANCELLED) {
-        ps_result resolved = resolve_image(&render, image, error);
-        result = resolved == PS_OK ? result : resolved;
+    if (result == PS_OK || result == PS_CANCELLED || render.film.passes > 0) {
+        struct error reason;
+        ps_result resolved = resolve_image(&render, image, &reason);
+        if (resolved != PS_OK && (result == PS_OK || image->width == 0)) {
+            result = resolved;
+            *error = reason;
+        }
     }
     host_report_splatter(&render);
     render_destroy(&render);

@@ -40,7 +40,8 @@ bool render_makes_layer(const char *name, size_t length);
 /* Renders into `image` (the layers of psplat(1)); the caller releases it. Starts the strategies of
  * `settings`, which may be used for one render only. When cancelled, the passes that were complete
  * make the picture and the result is PS_CANCELLED; without any, the picture holds the direct light.
- * Other failures leave no image. */
+ * Where a pass fails, those before it make the picture; where the normalization or the denoiser fails, it is
+ * made without that: the result is their failure. There is no picture where `image` is 0 x 0. */
 ps_result render_run(const struct scene *scene, struct render_settings *settings,
                      const struct render_callbacks *callbacks, struct statistics *statistics,
                      struct image *image, struct error *error);

@@ -77,7 +77,9 @@ ps_result render_inspect(const struct scene *scene, struct render_settings *sett
 /* Of a picture, less the planes that it takes over from the film. */
 size_t picture_bytes(size_t width, size_t height);
 
-/* Film to image: normalization, ambient fallback, denoiser, combination. Uses up the film. */
+/* Film to image: normalization, ambient fallback, denoiser, combination. Uses up the film. Where memory runs
+ * out there is no image; where a strategy fails or is stopped, the result says so, and there is an image
+ * without what it does. */
 ps_result resolve_image(struct render *render, struct image *image, struct error *error);
 
 #endif

@@ -1,6 +1,7 @@
 /* resolve.c: the film becomes a picture: normalization, ambient fallback, denoiser, combination. */
 #include "base/clock.h"
 #include "pipeline/render_state.h"
+#include <stdio.h>
 #include <string.h>
 
 /* The layers of the picture that come straight from the film. */
@@ -64,6 +65,44 @@ static ps_result move_film_layers(struct film *film, struct image *image, struct
     return result;
 }
 
+static size_t pixels_of(const struct render *render)
+{
+    return render->film.width * render->film.height;
+}
+
+static void copy_rgb(const struct render *render, struct rgb_planes from, struct rgb_planes to)
+{
+    size_t bytes = pixels_of(render) * sizeof(float);
+    memcpy(to.r, from.r, bytes);
+    memcpy(to.g, from.g, bytes);
+    memcpy(to.b, from.b, bytes);
+}
+
+/* A last stage that fails, or is stopped, must not cost the picture: it is left out, with a warning. */
+static ps_result leave_out(const struct render *render, ps_kind kind, ps_result result,
+                           const char *instead, struct error *error)
+{
+    char warning[256];
+    const char *name = render->settings->strategies[kind].descriptor->name;
+    const char *what = result == PS_CANCELLED ? "was stopped" : "failed";
+    snprintf(warning, sizeof warning, "%s %.80s %s; the picture %s", kinds[kind].name, name, what,
+             instead);
+    render->host.log(&render->host, PS_LOG_WARNING, warning);
+    return error_set(error, result, "%s %.80s %s", kinds[kind].name, name, what);
+}
+
+/* The accumulated light as it stands (plugins/normalization/density.c). */
+static void average_passes(const struct render *render, struct rgb_planes out)
+{
+    const struct film *film = &render->film;
+    float scale = film->passes ? 1.0f / (float)film->passes : 0.0f;
+    for (size_t i = 0; i < pixels_of(render); i++) {
+        out.r[i] = film->planes[FILM_COLOR_R][i] * scale;
+        out.g[i] = film->planes[FILM_COLOR_G][i] * scale;
+        out.b[i] = film->planes[FILM_COLOR_B][i] * scale;
+    }
+}
+
 static ps_result normalize(struct render *render, struct rgb_planes out, struct error *error)
 {
     const struct strategy *strategy = &render->settings->strategies[PS_NORMALIZATION];
@@ -82,7 +121,10 @@ static ps_result normalize(struct render *render, struct rgb_planes out, struct 
     double start = clock_seconds();
     ps_result result = vtable->resolve(strategy->state, &render->host, &view, out.r, out.g, out.b);
     statistics_add_seconds(render->statistics, "normalize", clock_seconds() - start);
-    return result == PS_OK ? PS_OK : error_set(error, result, "normalization failed");
+    if (result == PS_OK)
+        return PS_OK;
+    average_passes(render, out);
+    return leave_out(render, PS_NORMALIZATION, result, "is normalized by density", error);
 }
 
 /* Pixels that no indirect light reached take the ambient colour (Hoet 2014, section 4.3). Light from nearby has no
@@ -103,7 +145,9 @@ static void fill_ambient(struct render *render, struct rgb_planes out)
     statistics_count(render->statistics, "pixels without weight", (double)dark);
 }
 
-static ps_result denoise(struct render *render, struct rgb_planes indirect, struct error *error)
+/* Needs room for a copy of the light. */
+static ps_result denoise(struct render *render, struct rgb_planes indirect, struct rgb_planes copy,
+                         struct error *error)
 {
     const struct strategy *strategy = &render->settings->strategies[PS_DENOISER];
     const ps_denoiser_vtable *vtable = strategy->descriptor->vtable;
@@ -126,17 +170,23 @@ static ps_result denoise(struct render *render, struct rgb_planes indirect, stru
         .position_z = planes[FILM_POSITION_Z],
         .depth = planes[FILM_DEPTH],
     };
+    if (vtable->keeps_all)
+        return PS_OK;
     double start = clock_seconds();
+    copy_rgb(render, indirect, copy);
     ps_result result = vtable->filter(strategy->state, &render->host, &view);
     statistics_add_seconds(render->statistics, "denoise", clock_seconds() - start);
-    return result == PS_OK ? PS_OK : error_set(error, result, "denoiser failed");
+    if (result == PS_OK)
+        return PS_OK;
+    copy_rgb(render, copy, indirect);
+    return leave_out(render, PS_DENOISER, result, "is not denoised", error);
 }
 
 static void combine(const struct render *render, struct rgb_planes indirect, struct rgb_planes out)
 {
     float *const *planes = render->film.planes;
     float exposure = (float)render->settings->indirect_exposure;
-    for (size_t i = 0; i < render->film.width * render->film.height; i++) {
+    for (size_t i = 0; i < pixels_of(render); i++) {
         out.r[i] = planes[FILM_DIRECT_R][i] + exposure * indirect.r[i];
         out.g[i] = planes[FILM_DIRECT_G][i] + exposure * indirect.g[i];
         out.b[i] = planes[FILM_DIRECT_B][i] + exposure * indirect.b[i];
@@ -153,19 +203,20 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
     ps_result result = add_rgb(image, picture_names, &picture, error);
     if (result == PS_OK)
         result = add_rgb(image, indirect_names, &indirect, error);
-    if (result == PS_OK)
-        result = normalize(render, indirect, error);
-    if (result == PS_OK) {
-        fill_ambient(render, indirect);
-        film_average(&render->film);
-        result = denoise(render, indirect, error);
-    }
-    if (result == PS_OK) {
-        combine(render, indirect, picture);
-        result = move_film_layers(&render->film, image, error);
-    }
-    if (result != PS_OK)
+    if (result != PS_OK) {
         image_release(image);
+        return result;
+    }
+    ps_result normalized = normalize(render, indirect, error);
+    fill_ambient(render, indirect);
+    film_average(&render->film);
+    ps_result denoised = denoise(render, indirect, picture, error);
+    combine(render, indirect, picture);
+    result = move_film_layers(&render->film, image, error);
     statistics_add_seconds(render->statistics, "resolve", clock_seconds() - start);
-    return result;
+    if (result != PS_OK) {
+        image_release(image);
+        return result;
+    }
+    return normalized != PS_OK ? normalized : denoised;
 }
