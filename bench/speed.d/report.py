@@ -69,7 +69,7 @@ def _instructions(point):
 
 
 def _counted(bounces):
-    return {0: "all bounces", 1: "1 bounce"}.get(bounces, f"{bounces} bounces")
+    return {"1": "1 bounce"}.get(bounces, f"{bounces} bounces")
 
 
 def _reference(group, targets):

@@ -54,7 +54,11 @@ typedef struct ps_pass {
                              normal */
     uint32_t specular;      /* 1: some surface mirrors, shines by gloss or refracts */
     uint32_t shares_places; /* 1: several sources may leave one place without much harm */
+    uint32_t bounces;       /* diffuse surfaces that light may meet before the one that is seen: at
+                               least 1; PS_ALL_BOUNCES: as many as it likes */
 } ps_pass;
+
+#define PS_ALL_BOUNCES UINT32_MAX
 
 #define PS_MOST_INTERLEAVE 8
 

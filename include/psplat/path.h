@@ -4,7 +4,6 @@
 
 #include <psplat/host.h>
 #include <psplat/math.h>
-#include <stdio.h>
 
 /* Mirrors and glass that a path may meet between two diffuse surfaces; between facing mirrors it would
  * run for ever. */
@@ -41,16 +40,13 @@ static inline size_t ps_trace_kept(const ps_host *host, ps_ray *rays, size_t n, 
     return met;
 }
 
-/* For init: bounces without a limit (0) end only by roulette (0: never). Non-zero, and a message, if
- * nothing ends them. */
-static inline int32_t ps_check_bounces(int64_t bounces, int64_t roulette, char *message,
-                                       size_t message_size)
+/* For an injection whose sources lie where lights shine, in prepare: says, once a render, that there is light of
+ * one bounce alone where more is asked for. */
+static inline void ps_warn_of_single_bounce(const ps_host *host, const ps_pass *pass,
+                                            const char *warning)
 {
-    if (bounces != 0 || roulette != 0)
-        return 0;
-    snprintf(message, message_size,
-             "unlimited bounces (bounces=0) need Russian roulette (roulette > 0)");
-    return 1;
+    if (pass->number == 0 && pass->bounces > 1)
+        host->log(host, PS_LOG_WARNING, warning);
 }
 
 #endif

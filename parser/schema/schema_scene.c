@@ -72,6 +72,8 @@ static const struct schema_row image_rows[] = {
     ROW(SCHEMA_STRATEGY, name_, offsetof(struct render_description, strategies[kind_]),            \
         PS_PARAM_STRING, "", help_, ANY, .absent = "psplat's default")
 
+static const char *const all_bounces[] = {"all", NULL};
+
 static const char *const direct_ways[] = {"rays", "shadowmap", NULL};
 
 static const struct schema_row render_rows[] = {
@@ -84,6 +86,9 @@ static const struct schema_row render_rows[] = {
     STRATEGY_ROW(6, "denoiser", "plugin that smooths the indirect light"),
     VALUE(PS_INT(struct render_description, passes, "1", 1, 1e6, "",
                  "how many independent passes are added up")),
+    VALUE(PS_NUMBER_OR(struct render_description, bounces, "all", 1, 1000, 0, all_bounces,
+                       "bounces",
+                       "how many surfaces indirect light may meet before the one that is seen")),
     VALUE(PS_INT(struct render_description, seed, "0", 0, LARGEST_SEED, "",
                  "start of the random numbers")),
     VALUE(PS_INT(struct render_description, light_samples, "4", 1, 65536, "",

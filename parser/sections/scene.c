@@ -6,6 +6,7 @@
 
 #include "parser/sections/fill.h"
 #include "parser/sections/object.h"
+#include <math.h>
 
 /* Fills a section of the top level; without its key, the state takes the defaults. */
 static bool read_map(struct reader *reader, const struct node *root, const char *name, void *state,
@@ -71,6 +72,15 @@ static void warn_dark(const struct reader *reader, const struct node *root)
                            "the scene has no lights");
 }
 
+static void read_render(struct reader *reader, const struct node *root)
+{
+    struct render_description *render = &reader->description->render;
+    read_map(reader, root, "render", render, NULL);
+    if (render->bounces.choice < 0 && render->bounces.number != floor(render->bounces.number))
+        reader_error(reader, node_find(node_find(root, "render")->value, "bounces")->value,
+                     "bounces in render: expected a whole number or all");
+}
+
 static void read_sections(struct reader *reader, const struct node *root)
 {
     struct scene_description *description = reader->description;
@@ -80,7 +90,7 @@ static void read_sections(struct reader *reader, const struct node *root)
     lights_read(reader, root);
     groups_read(reader, root);
     read_objects(reader, root);
-    read_map(reader, root, "render", &description->render, NULL);
+    read_render(reader, root);
     warn_dark(reader, root);
 }
 

@@ -21,7 +21,6 @@
 
 struct state {
     int64_t samples;
-    int64_t bounces;
     int64_t roulette;
 };
 
@@ -127,9 +126,9 @@ static void drop_lost(struct paths *paths, struct segment *segment)
 }
 
 /* Past its last diffuse bounce a path can only find lights in mirrors and glass. */
-static int is_last(const struct state *state, const struct paths *paths, size_t i)
+static int is_last(const ps_pass *pass, const struct paths *paths, size_t i)
 {
-    return state->bounces && paths->bounces[i] >= (uint32_t)state->bounces;
+    return paths->bounces[i] >= pass->bounces;
 }
 
 /* Whether a path goes on after a surface that scatters like this. */
@@ -144,13 +143,13 @@ static int goes_on(const struct work *work, const ps_scatter *scattered, float n
         return 0;
     if (scattered->lobe != PS_DIFFUSE)
         return ++paths->chain[i] <= PS_LONGEST_CHAIN;
-    if (is_last(state, paths, i))
+    if (is_last(work->pass, paths, i))
         return 0;
     paths->chain[i] = 0;
     paths->bounces[i]++;
-    if (is_last(state, paths, i) && !work->pass->specular)
+    if (is_last(work->pass, paths, i) && !work->pass->specular)
         return 0;
-    return !state->roulette || paths->bounces[i] < (uint32_t)state->roulette ||
+    return paths->bounces[i] < (uint32_t)state->roulette ||
            ps_survives(likelihood, number, throughput);
 }
 
@@ -179,7 +178,7 @@ static void add_direct(const struct work *work, uint32_t number, const struct pa
 {
     ps_rgb radiance[PS_TILE_PIXELS];
     for (size_t i = 0; i < paths->count; i++)
-        if (is_last(work->state, paths, i))
+        if (is_last(work->pass, paths, i))
             segment->hits[i].albedo = (ps_rgb){0, 0, 0};
     work->host->direct_radiance(work->host, paths->rays, segment->hits, PS_STREAM_PATH,
                                 LIGHT_SETS + number, segment->indices, paths->count, radiance);
@@ -235,20 +234,11 @@ static ps_result accumulate(const void *state, const ps_host *host, const ps_pas
     return host->for_each_tile(host, trace_tile, &work);
 }
 
-static int32_t init(void *opaque, const ps_host *host, char *message, size_t size)
-{
-    (void)host;
-    const struct state *state = opaque;
-    return ps_check_bounces(state->bounces, state->roulette, message, size);
-}
-
 static const ps_param params[] = {
     PS_INT(struct state, samples, "64", 1, 1 << 20, "paths",
            "paths for each pixel and pass; powers of two are best"),
-    PS_INT(struct state, bounces, "1", 0, 1000, "bounces",
-           "diffuse surfaces between light and the visible one; 0: unlimited"),
-    PS_INT(struct state, roulette, "3", 0, 1000, "bounces",
-           "bounce from which on Russian roulette may end a path; 0: never"),
+    PS_INT(struct state, roulette, "3", 1, 1000, "bounces",
+           "bounce from which on Russian roulette may end a path"),
 };
 
 static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};
@@ -264,7 +254,6 @@ static const ps_descriptor descriptor = {
     .param_count = sizeof params / sizeof params[0],
     .param_size = sizeof params[0],
     .state_size = sizeof(struct state),
-    .init = init,
     .vtable = &vtable,
 };
 

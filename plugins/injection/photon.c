@@ -3,8 +3,8 @@
  * Light paths start at the lights with a share Phi / N of their power. At every surface a path leaves
  * a source in a direction that the surface scatters to, with the power that it scatters (at a diffuse
  * one, power * albedo), and goes on along that very direction: the source's bundled ray is the path's
- * next segment. So the first bounce needs no special case, and `bounces: 1` is the thesis's single
- * bounce. Sources on mirrors and glass make caustics; these surfaces do not count as bounces.
+ * next segment. So the first bounce needs no special case, and one bounce is the thesis's single
+ * one. Sources on mirrors and glass make caustics; these surfaces do not count as bounces.
  * Russian roulette (Arvo and Kirk 1990) ends paths at diffuse surfaces with the albedo's complement
  * and divides the survivors' power, which keeps the mean.
  *
@@ -25,7 +25,6 @@
 
 struct state {
     int64_t count;
-    int64_t bounces;
     int64_t roulette;
     ps_number_or_choice split;
 };
@@ -72,7 +71,7 @@ static uint32_t split_of(const struct state *state, const ps_pass *pass)
 {
     if (state->split.choice < 0)
         return (uint32_t)state->split.number;
-    return !pass->shares_places || pass->specular || state->bounces == 1 ? 1 : AUTOMATIC_SPLIT;
+    return !pass->shares_places || pass->specular || pass->bounces == 1 ? 1 : AUTOMATIC_SPLIT;
 }
 
 /* The walks of the paths [first, first + n) of the pass; returns how many. */
@@ -146,8 +145,9 @@ static float largest_weight(const struct fan *fan, size_t walk, size_t walks)
 
 /* Whether a walk leaves sources at a surface that scatters like this in the direction in which the walk goes
  * on, and has such a weight at most in any. `arriving` is then the power with which it came, but for roulette. */
-static int leaves_sources(const struct state *state, const ps_scatter *scattered, float weight,
-                          struct walk *walk, ps_rgb *arriving)
+static int leaves_sources(const struct state *state, const ps_pass *pass,
+                          const ps_scatter *scattered, float weight, struct walk *walk,
+                          ps_rgb *arriving)
 {
     *arriving = walk->power;
     if (!(weight > 0.0f && ps_rgb_maximum(walk->power) > 0.0f))
@@ -158,9 +158,9 @@ static int leaves_sources(const struct state *state, const ps_scatter *scattered
     }
     walk->chain = 0;
     walk->bounces++;
-    if (state->bounces && walk->bounces > (uint32_t)state->bounces)
+    if (walk->bounces > pass->bounces)
         return 0;
-    return !state->roulette || walk->bounces < (uint32_t)state->roulette ||
+    return walk->bounces < (uint32_t)state->roulette ||
            ps_survives(weight, walk->numbers[2], arriving);
 }
 
@@ -256,10 +256,9 @@ static size_t leave_sources(const struct walk *walk, const ps_hit *hit, const ps
 
 /* Whether a walk that left sources may leave others: past the last diffuse bounce only mirrors and
  * glass can make one. */
-static int may_go_on(const struct state *state, const ps_pass *pass, const struct walk *walk)
+static int may_go_on(const ps_pass *pass, const struct walk *walk)
 {
-    return ps_rgb_maximum(walk->power) > 0.0f &&
-           (pass->specular || !state->bounces || walk->bounces < (uint32_t)state->bounces);
+    return ps_rgb_maximum(walk->power) > 0.0f && (pass->specular || walk->bounces < pass->bounces);
 }
 
 /* Carries all walks to their next surface, where they leave `count` sources; returns how many go on,
@@ -282,13 +281,13 @@ static size_t extend_walks(const struct state *state, const ps_host *host, const
         const ps_scatter *scattered = &fan.scattered[fan.first[i]];
         ps_rgb arriving;
         float weight = largest_weight(&fan, i, n);
-        if (!leaves_sources(state, scattered, weight, &walk, &arriving))
+        if (!leaves_sources(state, pass, scattered, weight, &walk, &arriving))
             continue;
         *count += leave_sources(&walk, &hits[i], scattered, arriving, sources + *count);
         walk.power = ps_rgb_multiply(arriving, scattered->weight);
         walk.ray = ps_leave_surface(hits[i].position, scattered->normal, scattered->direction,
                                     pass->surface_offset);
-        if (may_go_on(state, pass, &walk))
+        if (may_go_on(pass, &walk))
             walks[alive++] = walk;
     }
     return alive;
@@ -319,17 +318,15 @@ static int32_t init(void *opaque, const ps_host *host, char *message, size_t siz
         snprintf(message, size, "split: expected a whole number");
         return 1;
     }
-    return ps_check_bounces(state->bounces, state->roulette, message, size);
+    return 0;
 }
 
 static const char *const split_choices[] = {"auto", NULL};
 
 static const ps_param params[] = {
     PS_INT(struct state, count, "100000", 1, 2000000000, "paths", "light paths in each pass"),
-    PS_INT(struct state, bounces, "1", 0, 1000, "bounces",
-           "diffuse surfaces at which a path leaves a source; 0: unlimited"),
-    PS_INT(struct state, roulette, "2", 0, 1000, "bounces",
-           "bounce from which on Russian roulette may end a path; 0: never"),
+    PS_INT(struct state, roulette, "2", 1, 1000, "bounces",
+           "bounce from which on Russian roulette may end a path"),
     PS_NUMBER_OR(
         struct state, split, "auto", 1, MOST_SPLIT, 0, split_choices, "paths",
         "light paths that share a walk, and leave its surfaces in so many directions; auto: 4 for "

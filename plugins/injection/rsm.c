@@ -25,6 +25,7 @@
  * ends.
  */
 #include <psplat/plugin.h>
+#include <stdio.h>
 
 #include <string.h>
 
@@ -209,6 +210,7 @@ static void weigh_chunk(void *user, uint64_t index, uint32_t worker)
 static ps_result prepare(void *opaque, const ps_host *host, const ps_pass *pass)
 {
     struct state *state = opaque;
+    ps_warn_of_single_bounce(host, pass, "injection rsm makes indirect light of one bounce alone");
     struct preparation preparation = {state, host, pass};
     uint64_t index = pass->number;
     host->samples(host, STREAM_PIXEL, 0, &index, 1, &state->jitter);

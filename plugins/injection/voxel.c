@@ -334,6 +334,8 @@ static void destroy(void *opaque, const ps_host *host)
 static ps_result prepare(void *opaque, const ps_host *host, const ps_pass *pass)
 {
     struct state *state = opaque;
+    ps_warn_of_single_bounce(host, pass,
+                             "injection voxel makes indirect light of one bounce alone");
     struct crossings all = {.items = NULL};
     destroy(state, host);
     set_lines(state, host, pass);

@@ -11,6 +11,7 @@
  * count them.
  */
 #include <psplat/plugin.h>
+#include <stdio.h>
 
 PS_MERGE_CHOICES
 

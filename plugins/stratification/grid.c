@@ -10,6 +10,7 @@
  * outside either: cells go on wherever sources are, and `centre` only says where borders lie.
  */
 #include <psplat/plugin.h>
+#include <stdio.h>
 
 PS_MERGE_CHOICES
 

@@ -133,6 +133,14 @@ static void print_next(void *stream, const char *word)
     print_word(stream, word);
 }
 
+static void format_bounces(const struct render_settings *settings, char *text, size_t size)
+{
+    if (settings->bounces == PS_ALL_BOUNCES)
+        snprintf(text, size, "all");
+    else
+        snprintf(text, size, "%" PRIu32, settings->bounces);
+}
+
 static void print_command(FILE *stream, const struct image *image, const char *scene_path,
                           const struct scene_options *options,
                           const struct render_settings *settings, double exposure)
@@ -142,6 +150,9 @@ static void print_command(FILE *stream, const struct image *image, const char *s
     scene_options_each_word(options, print_next, stream);
     fprintf(stream, " --size %zux%zu --passes %" PRIu32 " --seed %" PRIu64, image->width,
             image->height, settings->passes, settings->seed);
+    char bounces[32];
+    format_bounces(settings, bounces, sizeof bounces);
+    fprintf(stream, " --bounces %s", bounces);
     if (settings->isa)
         fprintf(stream, " --isa %s", settings->isa);
     if (settings->direct == DIRECT_SHADOWMAP)
@@ -181,9 +192,10 @@ static ps_result set_command(struct image *image, const char *scene_path,
 ps_result output_describe_settings(struct image *image, const char *scene_path,
                                    const struct render_settings *settings, struct error *error)
 {
-    char seed[32], passes[32], direct[64] = "rays", indirect[32], ambient[64];
+    char seed[32], passes[32], bounces[32], direct[64] = "rays", indirect[32], ambient[64];
     snprintf(seed, sizeof seed, "%" PRIu64, settings->seed);
     snprintf(passes, sizeof passes, "%" PRIu32, settings->passes);
+    format_bounces(settings, bounces, sizeof bounces);
     if (settings->direct == DIRECT_SHADOWMAP)
         snprintf(direct, sizeof direct, "shadowmap:resolution=%" PRIu32,
                  settings->direct_resolution);
@@ -194,6 +206,7 @@ ps_result output_describe_settings(struct image *image, const char *scene_path,
                                     {"psplat.scene", scene_path},
                                     {"psplat.seed", seed},
                                     {"psplat.passes", passes},
+                                    {"psplat.bounces", bounces},
                                     {"psplat.direct", direct},
                                     {"psplat.indirect_exposure", indirect},
                                     {"psplat.ambient", ambient}};

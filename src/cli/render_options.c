@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "cli/preview.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -21,6 +22,8 @@ static bool take_option(struct render_options *options, const struct argument *a
         options->size = value;
     else if (strcmp(name, "exposure") == 0)
         options->exposure = value;
+    else if (strcmp(name, "bounces") == 0)
+        options->bounces = value;
     else if (strcmp(name, "direct") == 0)
         options->direct = value;
     else if (strcmp(name, "direct-resolution") == 0)
@@ -84,6 +87,23 @@ static bool override_exposure(const char *text, double *exposure)
     return true;
 }
 
+static bool override_bounces(const char *text, ps_number_or_choice *bounces)
+{
+    double number;
+    if (strcmp(text, "all") == 0) {
+        *bounces = (ps_number_or_choice){.choice = 0};
+        return true;
+    }
+    if (!text_to_number(text, &number) || number != floor(number) || number < 1 || number > 1000) {
+        fprintf(stderr,
+                "psplat: error: --bounces: expected all or a whole number 1..1000, got '%s'\n",
+                text);
+        return false;
+    }
+    *bounces = (ps_number_or_choice){.number = number, .choice = -1};
+    return true;
+}
+
 static bool override_direct(const char *text, int32_t *direct)
 {
     bool maps = strcmp(text, "shadowmap") == 0;
@@ -114,6 +134,8 @@ static bool override(const struct render_options *options, struct scene_input *i
     return (!options->size || override_size(options->size, &description->image)) &&
            (!options->exposure ||
             override_exposure(options->exposure, &description->image.exposure)) &&
+           (!options->bounces ||
+            override_bounces(options->bounces, &description->render.bounces)) &&
            (!options->direct || override_direct(options->direct, &description->render.direct));
 }
 

@@ -169,6 +169,7 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
         .surface_offset = render->scene->surface_offset,
         .specular = render->scene->microfacets != NULL,
         .shares_places = shares_places(render->settings),
+        .bounces = render->settings->bounces,
     };
     render->splatting = false;
     report_progress(render, "direct light", (double)number / render->settings->passes);

@@ -170,15 +170,15 @@ static ps_result denoise(struct render *render, struct rgb_planes indirect, stru
         .position_z = planes[FILM_POSITION_Z],
         .depth = planes[FILM_DEPTH],
     };
-    if (vtable->keeps_all)
-        return PS_OK;
     double start = clock_seconds();
-    copy_rgb(render, indirect, copy);
+    if (!vtable->keeps_all)
+        copy_rgb(render, indirect, copy);
     ps_result result = vtable->filter(strategy->state, &render->host, &view);
     statistics_add_seconds(render->statistics, "denoise", clock_seconds() - start);
     if (result == PS_OK)
         return PS_OK;
-    copy_rgb(render, copy, indirect);
+    if (!vtable->keeps_all)
+        copy_rgb(render, copy, indirect);
     return leave_out(render, PS_DENOISER, result, "is not denoised", error);
 }
 

@@ -243,6 +243,7 @@ enum direct_light { DIRECT_RAYS, DIRECT_SHADOWMAP };
 struct render_description {
     struct strategy_choice strategies[STRATEGY_KINDS];
     int64_t passes;
+    ps_number_or_choice bounces; /* a whole number, or all */
     int64_t seed;
     int64_t light_samples; /* shadow rays for each light that has a size, pixel and pass */
     int32_t light_join;    /* 1: pixels take in what shadow rays of those around them found */

@@ -147,7 +147,7 @@ expect 2 '--zoom: expected a whole number 1..64' view a.exr -o none.png --zoom 0
 [ ! -e none.png ] || { echo "FAILED: a picture in spite of errors"; failures=$((failures + 1)); }
 
 # A picture of fewer bounces is darker.
-render --size 40x30 -o all.exr -p injection=photon:bounces=0
+render --size 40x30 -o all.exr --bounces all
 expect 0 '^bias 0\.[0-9]* 0\.[0-9]* 0\.[0-9]*$' compare all.exr a.exr --layer indirect
 expect 1 'failed: bias<0.99' compare all.exr a.exr --layer indirect --fail 'bias<0.99'
 

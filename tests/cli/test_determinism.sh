@@ -1,7 +1,7 @@
 # The same picture to the last bit: whatever the number of threads, the batches and the statistics.
 . "$PSPLAT_SOURCE/tests/cli/lib.sh"
 
-scene="--size 160x90 --plugin injection=photon:count=5000,bounces=3 --passes 2 $cornell"
+scene="--size 160x90 --plugin injection=photon:count=5000 --bounces 3 --passes 2 $cornell"
 run 0 $scene --threads 1 -o one.exr -o one.png
 expect_picture one.exr one.png
 
@@ -68,7 +68,7 @@ expect_same maps1.exr maps3.exr
 expect_different maps1.exr one.exr
 
 # Every strategy that works on many pixels or sources at once.
-other="--size 80x45 --plugin injection=photon:count=2000,bounces=0 --plugin denoiser=gaussian:size=9x9
+other="--size 80x45 --plugin injection=photon:count=2000 --bounces all --plugin denoiser=gaussian:size=9x9
     --plugin visibility=none --plugin normalization=weight $cornell"
 run 0 $other --threads 1 -o other1.exr
 run 0 $other --threads 3 --batch 100 -o other3.exr
@@ -80,12 +80,12 @@ run 0 $other --threads 3 --batch 100 -o smooth3.exr
 expect_same smooth1.exr smooth3.exr
 expect_different smooth1.exr other1.exr
 for stratification in grid:centre=camera,threshold=3,levels=4 cascade octree; do
-    few="--size 80x45 --passes 2 -p injection=photon:count=3000,bounces=3 -p stratification=$stratification $cornell"
+    few="--size 80x45 --passes 2 -p injection=photon:count=3000 --bounces 3 -p stratification=$stratification $cornell"
     run 0 $few --threads 1 -o merged1.exr
     run 0 $few --threads 3 --batch 100 -o merged3.exr
     expect_same merged1.exr merged3.exr
 done
-for estimator in splat:interleave=4 pathtrace:samples=4,bounces=0 photonmap photonmap:gather=2 vpl:lights=50 ambient ssao; do
+for estimator in splat:interleave=4 pathtrace:samples=4 photonmap photonmap:gather=2 vpl:lights=50 ambient ssao; do
     few="--size 80x45 --passes 2 -p injection=photon:count=1000 -p estimator=$estimator $cornell"
     run 0 $few --threads 1 -o estimator1.exr
     run 0 $few --threads 3 --batch 100 -o estimator3.exr

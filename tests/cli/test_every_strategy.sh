@@ -8,10 +8,10 @@
 while read -r strategy; do
     # Sources that are few, and yet fill more than one batch; several bounces where there can be.
     case $strategy in
-    injection=photon) choice=$strategy:count=5000,bounces=3 ;;
+    injection=photon) choice=$strategy:count=5000 ;;
     injection=rsm) choice=$strategy:count=5000,resolution=32 ;;
     injection=voxel) choice=$strategy:resolution=32 ;;
-    estimator=pathtrace) choice=$strategy:samples=4,bounces=0 ;;
+    estimator=pathtrace) choice=$strategy:samples=4 ;;
     estimator=vpl) choice=$strategy:lights=50 ;;
     visibility=imperfect) choice=$strategy:points=5000 ;;
     *) choice=$strategy ;;

@@ -47,6 +47,7 @@ expect_text out "number 0..16; default: 1"
 sed '/^render:/,$d' "$cornell" >scene.psd
 cat >>scene.psd <<'END'
 render:
+  bounces: 1
   filter: {mine/filter/cosine.so: {sharpness: =1+2}}
   visibility: {shadowmap: {size: 30, resolution: 4}}
 END

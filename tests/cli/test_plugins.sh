@@ -150,7 +150,7 @@ chosen visibility "shadowmap:size=1,$shadowmap,resolution=2,bias=3" \
 # Where the scene says nothing, the default is laid over.
 chosen denoiser "none" $scene
 chosen denoiser "gaussian:size=7x7" -p denoiser=gaussian:size=7x7 $scene
-chosen injection "photon:count=50,bounces=2,roulette=2,split=auto" -p injection=photon:bounces=2 $scene
+chosen injection "photon:count=50,roulette=3,split=auto" -p injection=photon:roulette=3 $scene
 
 # --- each strategy makes another picture than the default ---
 
@@ -161,7 +161,7 @@ for choice in filter=box filter=tent filter=gaussian:sigma=0.2 filter=cone filte
     visibility=shadowmap:step_back=15,bias=5 visibility=shadowmap:follow=0 visibility=shadowmap:depth=1 \
     estimator=pathtrace estimator=photonmap estimator=vpl estimator=ambient estimator=ssao estimator=vpl:visibility=no \
     normalization=weight normalization=intensity:exposure=9 denoiser=gaussian \
-    denoiser=bilateral denoiser=bilateral:normal=1,sigma=9 injection=photon:bounces=0 injection=photon:bounces=3; do
+    denoiser=bilateral denoiser=bilateral:normal=1,sigma=9 injection=photon:roulette=1 injection=rsm; do
     run 0 -q $small -p $choice -o other.exr "$cornell"
     expect_different other.exr default.exr
 done

@@ -199,7 +199,7 @@ run 0 info tall.exr
 expect_text out "36x360"
 run 0 --preview $small -p injection=photon:count=70 --passes 2 -o other.exr "$cornell"
 run 0 info other.exr
-expect_text out "photon:count=70,bounces=1"
+expect_text out "photon:count=70,roulette=2"
 expect_text out "psplat.passes: 2"
 expect_no_text out "640x360"
 

@@ -107,7 +107,7 @@ expect_text err "no estimator 'nothing'"
 
 area=$PSPLAT_SOURCE/scenes/cornell-area.psd
 mkdir -p reference/pictures
-run 0 "$area" --size 64x36 -q -p estimator=pathtrace:samples=16,bounces=0 -o reference/pictures/A_full.exr
+run 0 "$area" --size 64x36 -q -p estimator=pathtrace:samples=16 --bounces all -o reference/pictures/A_full.exr
 run 0 "$area" --size 64x36 -q -p estimator=ambient:irradiance=0 -o reference/pictures/A_direct.exr
 cat >reference/README.md <<'END'
 | another | table |

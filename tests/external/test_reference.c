@@ -121,53 +121,55 @@ static void compare_scene(const char *name, const char *scene, int passes,
     compare_to(name, text, choices, bias, block_bias);
 }
 
-static void compare(const char *name, const char *scene, int passes, const char *estimator)
+static void compare(const char *name, const char *scene, int passes, const char *estimator,
+                    const char *bounces)
 {
-    const char *const choices[] = {estimator, NULL};
+    const char *const choices[] = {estimator, bounces, NULL};
     compare_scene(name, scene, passes, choices, 0.005, 0.05);
 }
 
 static void test_spot_direct(void **state)
 {
     (void)state;
-    compare("B_direct.exr", "cornell.psd", 16, "estimator=ambient:irradiance=0");
+    compare("B_direct.exr", "cornell.psd", 16, "estimator=ambient:irradiance=0", "bounces=1");
 }
 
 static void test_spot_one_bounce(void **state)
 {
     (void)state;
-    compare("B_onebounce.exr", "cornell.psd", 8, "estimator=pathtrace:samples=8,bounces=1");
+    compare("B_onebounce.exr", "cornell.psd", 8, "estimator=pathtrace:samples=8", "bounces=1");
 }
 
 static void test_spot_all_bounces(void **state)
 {
     (void)state;
-    compare("B_full.exr", "cornell.psd", 8, "estimator=pathtrace:samples=8,bounces=0");
+    compare("B_full.exr", "cornell.psd", 8, "estimator=pathtrace:samples=8", "bounces=all");
 }
 
 static void test_lamp_direct(void **state)
 {
     (void)state;
-    compare("A_direct.exr", "cornell-area.psd", 8, "estimator=ambient:irradiance=0");
+    compare("A_direct.exr", "cornell-area.psd", 8, "estimator=ambient:irradiance=0", "bounces=1");
 }
 
 static void test_lamp_one_bounce(void **state)
 {
     (void)state;
-    compare("A_onebounce.exr", "cornell-area.psd", 16, "estimator=pathtrace:samples=4,bounces=1");
+    compare("A_onebounce.exr", "cornell-area.psd", 16, "estimator=pathtrace:samples=4",
+            "bounces=1");
 }
 
 static void test_lamp_all_bounces(void **state)
 {
     (void)state;
-    compare("A_full.exr", "cornell-area.psd", 16, "estimator=pathtrace:samples=4,bounces=0");
+    compare("A_full.exr", "cornell-area.psd", 16, "estimator=pathtrace:samples=4", "bounces=all");
 }
 
 static void test_lamp_by_splatting(void **state)
 {
     (void)state;
-    static const char *const choices[] = {"estimator=splat",
-                                          "injection=photon:count=200000,bounces=0",
+    static const char *const choices[] = {"estimator=splat", "injection=photon:count=200000",
+                                          "bounces=all",
                                           "visibility=shadowmap:size=10,resolution=8", NULL};
     compare_scene("A_full.exr", "cornell-area.psd", 2, choices, 0.01, 0.25);
 }

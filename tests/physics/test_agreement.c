@@ -22,11 +22,11 @@ struct method {
     double bias;
 };
 
-static double mean(const char *text, const char *estimator, const char *injection,
-                   const char *visibility)
+static double mean(const char *text, const char *bounces, const char *estimator,
+                   const char *injection, const char *visibility)
 {
-    const char *choices[4] = {estimator};
-    size_t count = 1;
+    const char *choices[5] = {bounces, estimator};
+    size_t count = 2;
     if (injection)
         choices[count++] = injection;
     if (visibility)
@@ -40,13 +40,15 @@ static double mean(const char *text, const char *estimator, const char *injectio
     return sum;
 }
 
-static void compare(const char *reference, const struct method *methods, size_t count)
+static void compare(const char *bounces, const char *reference, const struct method *methods,
+                    size_t count)
 {
     char *text = cornell_text(WIDTH, HEIGHT);
-    double truth = mean(text, reference, NULL, NULL);
+    double truth = mean(text, bounces, reference, NULL, NULL);
     for (size_t i = 0; i < count; i++) {
         double ratio =
-            mean(text, methods[i].estimator, methods[i].injection, methods[i].visibility) / truth;
+            mean(text, bounces, methods[i].estimator, methods[i].injection, methods[i].visibility) /
+            truth;
         print_message("%-40s mean / path tracing %.4f, allowed %.1f %%\n", methods[i].name, ratio,
                       100 * methods[i].bias);
         assert_true(fabs(ratio - 1) < methods[i].bias);
@@ -58,18 +60,17 @@ static void test_single_bounce(void **state)
 {
     (void)state;
     static const struct method methods[] = {
-        {"splat, step_back auto", "estimator=splat", "injection=photon:count=300000,bounces=1",
+        {"splat, step_back auto", "estimator=splat", "injection=photon:count=300000",
          "visibility=shadowmap:size=10,resolution=8,step_back=auto", 0.02},
-        {"splat, full beams", "estimator=splat", "injection=photon:count=300000,bounces=1",
+        {"splat, full beams", "estimator=splat", "injection=photon:count=300000",
          "visibility=shadowmap:size=10,resolution=8,step_back=full", 0.025},
-        {"photonmap", "estimator=photonmap:neighbours=60",
-         "injection=photon:count=300000,bounces=1", NULL, 0.025},
+        {"photonmap", "estimator=photonmap:neighbours=60", "injection=photon:count=300000", NULL,
+         0.025},
         {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",
-         "injection=photon:count=300000,bounces=1", NULL, 0.02},
-        {"vpl", "estimator=vpl:lights=2048,clamp=5", "injection=photon:count=2048,bounces=1", NULL,
-         0.02},
+         "injection=photon:count=300000", NULL, 0.02},
+        {"vpl", "estimator=vpl:lights=2048,clamp=5", "injection=photon:count=2048", NULL, 0.02},
     };
-    compare("estimator=pathtrace:samples=512,bounces=1", methods,
+    compare("bounces=1", "estimator=pathtrace:samples=512", methods,
             sizeof methods / sizeof methods[0]);
 }
 
@@ -77,16 +78,15 @@ static void test_all_bounces(void **state)
 {
     (void)state;
     static const struct method methods[] = {
-        {"splat, step_back auto", "estimator=splat", "injection=photon:count=300000,bounces=0",
+        {"splat, step_back auto", "estimator=splat", "injection=photon:count=300000",
          "visibility=shadowmap:size=10,resolution=8,step_back=auto", 0.025},
-        {"photonmap", "estimator=photonmap:neighbours=60",
-         "injection=photon:count=300000,bounces=0", NULL, 0.03},
-        {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",
-         "injection=photon:count=300000,bounces=0", NULL, 0.02},
-        {"vpl", "estimator=vpl:lights=4096,clamp=5", "injection=photon:count=1500,bounces=0", NULL,
+        {"photonmap", "estimator=photonmap:neighbours=60", "injection=photon:count=300000", NULL,
          0.03},
+        {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",
+         "injection=photon:count=300000", NULL, 0.02},
+        {"vpl", "estimator=vpl:lights=4096,clamp=5", "injection=photon:count=1500", NULL, 0.03},
     };
-    compare("estimator=pathtrace:samples=512,bounces=0", methods,
+    compare("bounces=all", "estimator=pathtrace:samples=512", methods,
             sizeof methods / sizeof methods[0]);
 }
 

@@ -28,7 +28,7 @@
 
 struct method {
     const char *name;
-    const char *choices[4];
+    const char *choices[6];
     double bias;
 };
 
@@ -77,15 +77,15 @@ static double mean_from_image(void)
 
 static const struct method mirror_methods[] = {
     {"splat",
-     {"estimator=splat", "injection=photon:count=100000,bounces=0",
+     {"estimator=splat", "injection=photon:count=100000", "bounces=all",
       "visibility=shadowmap:size=0.08", NULL},
      0.01},
     {"photonmap",
-     {"estimator=photonmap:neighbours=60", "injection=photon:count=100000,bounces=0", NULL},
+     {"estimator=photonmap:neighbours=60", "injection=photon:count=100000", "bounces=all", NULL},
      0.01},
-    {"pathtrace", {"estimator=pathtrace:samples=1024,bounces=0", NULL}, 0},
+    {"pathtrace", {"estimator=pathtrace:samples=1024", "bounces=all", NULL}, 0},
     {"photonmap, gather",
-     {"estimator=photonmap:neighbours=60,gather=1024", "injection=photon:count=2000,bounces=0",
+     {"estimator=photonmap:neighbours=60,gather=1024", "injection=photon:count=2000", "bounces=all",
       NULL},
      0.005},
 };
@@ -148,13 +148,13 @@ static void test_absorbing_plate(void **state)
     (void)state;
     static const struct method methods[] = {
         {"splat",
-         {"estimator=splat", "injection=photon:count=50000,bounces=0",
+         {"estimator=splat", "injection=photon:count=50000", "bounces=all",
           "visibility=shadowmap:size=0.05", NULL},
          0.01},
         {"photonmap",
-         {"estimator=photonmap:neighbours=60", "injection=photon:count=50000,bounces=0", NULL},
+         {"estimator=photonmap:neighbours=60", "injection=photon:count=50000", "bounces=all", NULL},
          0.01},
-        {"pathtrace", {"estimator=pathtrace:samples=512,bounces=0", NULL}, 0.002},
+        {"pathtrace", {"estimator=pathtrace:samples=512", "bounces=all", NULL}, 0.002},
     };
     check("glass plate", plate, methods, COUNT(methods), 0.01 / PI * 100 * mean_transmittance());
 }
@@ -183,18 +183,19 @@ static void test_absorbing_plate(void **state)
 /* The nearest photons alone overrate a focus; a radius limits that. */
 static const struct method agreeing[] = {
     {"splat",
-     {"estimator=splat", "injection=photon:count=200000,bounces=0",
+     {"estimator=splat", "injection=photon:count=200000", "bounces=all",
       "visibility=shadowmap:size=0.05", NULL},
      0.01},
     {"photonmap",
      {"estimator=photonmap:neighbours=500,max_radius=0.05,filter=box",
-      "injection=photon:count=200000,bounces=0", NULL},
+      "injection=photon:count=200000", "bounces=all", NULL},
      0.015},
 };
 
 static void agree(const char *name, const char *text)
 {
-    static const char *const path_tracing[] = {"estimator=pathtrace:samples=2048,bounces=0", NULL};
+    static const char *const path_tracing[] = {"estimator=pathtrace:samples=2048", "bounces=all",
+                                               NULL};
     struct estimate truth = estimate_channel(text, path_tracing, "indirect.G", SEEDS);
     for (size_t i = 0; i < COUNT(agreeing); i++) {
         char what[128];

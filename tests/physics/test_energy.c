@@ -70,8 +70,9 @@ static double gather_all(const char *text)
 
 static double splat_all(const char *text, const char *visibility)
 {
-    const char *const choices[] = {"injection=photon:count=300000,bounces=1,split=1", visibility,
-                                   "filter=tent", "estimator=splat:near_rays=0", NULL};
+    const char *const choices[] = {
+        "injection=photon:count=300000,split=1", "bounces=1", visibility, "filter=tent",
+        "estimator=splat:near_rays=0",           NULL};
     struct rendering rendering = render_text(text, 2, choices);
     const float *green = image_channel(&rendering.image, "indirect.G");
     double sum = 0;

@@ -28,54 +28,57 @@
     "objects: [{sphere: {center: [0, 0, 0], radius: 2, material: wall}}]\n"                        \
     "render: {visibility: {shadowmap: {size: %s, step_back: %s}}}\n"
 
-static void expect_mean_with(const char *albedo, const char *injection, const char *size,
-                             const char *step_back, double irradiance)
+static void expect_mean_with(const char *albedo, const char *injection, const char *bounces,
+                             const char *size, const char *step_back, double irradiance)
 {
     char text[1024];
-    const char *const choices[] = {injection, NULL};
+    const char *const choices[] = {injection, bounces, NULL};
     snprintf(text, sizeof text, SCENE, albedo, size, step_back);
     struct rendering rendering = render_text(text, 2, choices);
     double a = strtod(albedo, NULL);
     double expected = a / PI * irradiance;
     double direct = mean_of_all(&rendering.image, "direct.G");
     double indirect = mean_of_all(&rendering.image, "indirect.G");
-    print_message("albedo %s, %s, step_back %s: direct / expected %.5f, indirect / expected %.4f\n",
-                  albedo, injection, step_back, direct / (a / PI), indirect / expected);
+    print_message(
+        "albedo %s, %s, %s, step_back %s: direct / expected %.5f, indirect / expected %.4f\n",
+        albedo, injection, bounces, step_back, direct / (a / PI), indirect / expected);
     assert_true(fabs(direct / (a / PI) - 1) < 1e-3);
     assert_true(fabs(indirect / expected - 1) < 0.02);
     rendering_release(&rendering);
 }
 
-static void expect_mean(const char *albedo, const char *injection, double irradiance)
+static void expect_mean(const char *albedo, const char *injection, const char *bounces,
+                        double irradiance)
 {
-    expect_mean_with(albedo, injection, "0.05", "auto", irradiance);
+    expect_mean_with(albedo, injection, bounces, "0.05", "auto", irradiance);
 }
 
 static void test_one_bounce(void **state)
 {
     (void)state;
-    expect_mean("0.5", "injection=photon:count=300000,bounces=1", 0.5);
-    expect_mean_with("0.5", "injection=photon:count=300000,bounces=1", "0.03", "full", 0.5);
+    expect_mean("0.5", "injection=photon:count=300000", "bounces=1", 0.5);
+    expect_mean_with("0.5", "injection=photon:count=300000", "bounces=1", "0.03", "full", 0.5);
 }
 
 static void test_two_bounces(void **state)
 {
     (void)state;
-    expect_mean("0.5", "injection=photon:count=200000,bounces=2", 0.5 + 0.25);
+    expect_mean("0.5", "injection=photon:count=200000", "bounces=2", 0.5 + 0.25);
 }
 
 static void test_all_bounces(void **state)
 {
     (void)state;
-    expect_mean("0.5", "injection=photon:count=200000,bounces=0", 0.5 / (1 - 0.5));
-    expect_mean("0.8", "injection=photon:count=100000,bounces=0", 0.8 / (1 - 0.8));
+    expect_mean("0.5", "injection=photon:count=200000", "bounces=all", 0.5 / (1 - 0.5));
+    expect_mean("0.8", "injection=photon:count=100000", "bounces=all", 0.8 / (1 - 0.8));
 }
 
 static void test_russian_roulette_keeps_the_mean(void **state)
 {
     (void)state;
-    expect_mean("0.6", "injection=photon:count=200000,bounces=3,roulette=0", 0.6 + 0.36 + 0.216);
-    expect_mean("0.6", "injection=photon:count=200000,bounces=3,roulette=1", 0.6 + 0.36 + 0.216);
+    expect_mean("0.6", "injection=photon:count=200000,roulette=1000", "bounces=3",
+                0.6 + 0.36 + 0.216);
+    expect_mean("0.6", "injection=photon:count=200000,roulette=1", "bounces=3", 0.6 + 0.36 + 0.216);
 }
 
 /* A closed box whose walls all shine alike, of albedo 1/2 and radiance 1: after one bounce each point of it

@@ -52,12 +52,12 @@
         MORE "}\n"
 
 /* Light that comes to the floor from below a white screen over it. */
-static const char *const methods[][4] = {
-    {"estimator=pathtrace:samples=32,bounces=0", NULL},
-    {"estimator=splat", "injection=photon:count=20000,bounces=0", "visibility=shadowmap:size=0.1",
-     NULL},
-    {"estimator=photonmap:neighbours=60", "injection=photon:count=20000,bounces=0", NULL},
-    {"estimator=vpl:lights=200,clamp=0.05", "injection=photon:count=500,bounces=0", NULL},
+static const char *const methods[][5] = {
+    {"estimator=pathtrace:samples=32", "bounces=all", NULL},
+    {"estimator=splat", "injection=photon:count=20000", "bounces=all",
+     "visibility=shadowmap:size=0.1", NULL},
+    {"estimator=photonmap:neighbours=60", "injection=photon:count=20000", "bounces=all", NULL},
+    {"estimator=vpl:lights=200,clamp=0.05", "injection=photon:count=500", "bounces=all", NULL},
 };
 
 #define VPL 3 /* of these; too noisy for some */

@@ -44,7 +44,7 @@ static void test_mean_is_that_of_path_tracing(void **state)
     (void)state;
     static const struct {
         const char *name;
-        const char *const choices[4];
+        const char *const choices[6];
         double bias;
         int passes;
     } methods[] = {
@@ -73,7 +73,7 @@ static void test_mean_is_that_of_path_tracing(void **state)
          0.03,
          1},
     };
-    static const char *const reference[] = {"estimator=pathtrace:samples=512,bounces=1", NULL};
+    static const char *const reference[] = {"estimator=pathtrace:samples=512", "bounces=1", NULL};
     char *text = cornell_text(WIDTH, HEIGHT);
     double truth[3], colour[3];
     mean(text, reference, truth);

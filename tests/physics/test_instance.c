@@ -44,13 +44,14 @@
     " {quad: {corners: [[-0.3, 1.5, -0.2], [0.5, 1.5, -0.2], [0.5, 1.5, 0.2], [-0.3, 1.5, 0.2]],"  \
     " material: lamp}}]"
 
-static const char *const methods[][4] = {
-    {"estimator=pathtrace:samples=32,bounces=0", NULL},
-    {"estimator=splat", "injection=photon:count=20000,bounces=0", "visibility=shadowmap:size=0.1",
+static const char *const methods[][5] = {
+    {"estimator=pathtrace:samples=32", "bounces=all", NULL},
+    {"estimator=splat", "injection=photon:count=20000", "bounces=all",
+     "visibility=shadowmap:size=0.1", NULL},
+    {"estimator=photonmap:neighbours=50", "injection=photon:count=20000", "bounces=all", NULL},
+    {"estimator=photonmap:neighbours=50,gather=8", "injection=photon:count=20000", "bounces=all",
      NULL},
-    {"estimator=photonmap:neighbours=50", "injection=photon:count=20000,bounces=0", NULL},
-    {"estimator=photonmap:neighbours=50,gather=8", "injection=photon:count=20000,bounces=0", NULL},
-    {"estimator=vpl:lights=100", "injection=photon:count=1000,bounces=0", NULL},
+    {"estimator=vpl:lights=100", "injection=photon:count=1000", "bounces=all", NULL},
 };
 
 /* `side`: -1 where it mirrors; `placed`: ", rotate: ..., translate: ...". */

@@ -44,23 +44,23 @@ static const char room[] =
 
 struct method {
     const char *name;
-    const char *choices[4];
+    const char *choices[6];
     double bias; /* of the indirect layer */
 };
 
 static const struct method truth = {
-    "pathtrace", {"estimator=pathtrace:samples=64,bounces=0", NULL}, 0};
+    "pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0};
 
 static const struct method methods[] = {
     {"splat",
-     {"estimator=splat", "injection=photon:count=20000,bounces=0", "visibility=shadowmap:size=0.05",
-      NULL},
+     {"estimator=splat", "injection=photon:count=20000", "bounces=all",
+      "visibility=shadowmap:size=0.05", NULL},
      0.02},
     {"photonmap",
-     {"estimator=photonmap:neighbours=40", "injection=photon:count=20000,bounces=0", NULL},
+     {"estimator=photonmap:neighbours=40", "injection=photon:count=20000", "bounces=all", NULL},
      0.02},
     {"photonmap, gather",
-     {"estimator=photonmap:neighbours=30,gather=16", "injection=photon:count=20000,bounces=0",
+     {"estimator=photonmap:neighbours=30,gather=16", "injection=photon:count=20000", "bounces=all",
       NULL},
      0.03},
 };

@@ -22,7 +22,7 @@
 
 struct method {
     const char *name;
-    const char *choices[4];
+    const char *choices[6];
     double bias;
 };
 
@@ -82,20 +82,21 @@ static void check(const char *name, const char *scene, const struct method *meth
 }
 
 static const struct method path_tracing = {
-    "pathtrace", {"estimator=pathtrace:samples=8,bounces=0", NULL}, 0};
+    "pathtrace", {"estimator=pathtrace:samples=8", "bounces=all", NULL}, 0};
 
 /* A photon map's discs miss some of a small sphere, and too much of one with holes, which is last
  * above. */
 static const struct method photons[] = {
     {"splat",
-     {"estimator=splat", "injection=photon:count=6000,bounces=0", "visibility=shadowmap:size=0.05",
-      NULL},
+     {"estimator=splat", "injection=photon:count=6000", "bounces=all",
+      "visibility=shadowmap:size=0.05", NULL},
      0.01},
     {"photonmap, gather",
-     {"estimator=photonmap:neighbours=40,gather=8", "injection=photon:count=6000,bounces=0", NULL},
+     {"estimator=photonmap:neighbours=40,gather=8", "injection=photon:count=6000", "bounces=all",
+      NULL},
      0.01},
     {"photonmap",
-     {"estimator=photonmap:neighbours=40", "injection=photon:count=6000,bounces=0", NULL},
+     {"estimator=photonmap:neighbours=40", "injection=photon:count=6000", "bounces=all", NULL},
      0.02},
 };
 
@@ -127,7 +128,7 @@ static void test_virtual_lights(void **state)
     (void)state;
     static const struct method vpl = {
         "vpl",
-        {"estimator=vpl:lights=500,clamp=0.02", "injection=photon:count=500,bounces=0", NULL},
+        {"estimator=vpl:lights=500,clamp=0.02", "injection=photon:count=500", "bounces=all", NULL},
         0.01};
     check("enclosed", enclosure, &vpl, 1, "{diffuse: 1}");
     check("enclosed", enclosure, &vpl, 1, HOLES);

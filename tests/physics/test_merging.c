@@ -43,15 +43,20 @@ static struct rendering render_seed(int seed, const char *const choices[])
 }
 
 #define SINGLE "injection=photon:count=25000,split=1"
-#define SEVERAL "injection=photon:count=15000,bounces=4,split=1"
+#define SEVERAL "injection=photon:count=15000,split=1" /* and bounces */
 #define FIXED "visibility=shadowmap:grow=1"
+
+static const char *bounces_with(const char *injection)
+{
+    return strcmp(injection, SINGLE) == 0 ? "bounces=1" : "bounces=4";
+}
 
 /* Light without stratification, seed by seed; rendered once for each injection. */
 static const double *plain_light(const char *injection)
 {
     static double lights[2][SEEDS];
     double *row = lights[strcmp(injection, SINGLE) == 0];
-    const char *const choices[] = {injection, NULL};
+    const char *const choices[] = {injection, bounces_with(injection), NULL};
     for (int i = 0; i < SEEDS && !(row[SEEDS - 1] > 0); i++) {
         struct rendering rendering = render_seed(i + 1, choices);
         row[i] = light(&rendering.image);
@@ -69,7 +74,8 @@ struct drift {
 static struct drift drift_of(const char *injection, const char *stratification,
                              const char *visibility)
 {
-    const char *const choices[] = {injection, stratification, visibility, NULL};
+    const char *const choices[] = {injection, bounces_with(injection), stratification, visibility,
+                                   NULL};
     const double *plain = plain_light(injection);
     double sum = 0, squares = 0, sources = 0;
     for (int i = 0; i < SEEDS; i++) {
@@ -148,8 +154,8 @@ static void test_threads_and_batches_change_nothing(void **state)
         "stratification=cascade:cell=2,resolution=300", "stratification=octree"};
     char *text = cornell_text(WIDTH, HEIGHT);
     for (int i = 0; i < 3; i++) {
-        const char *const choices[] = {"injection=photon:count=20000,bounces=3", stratifications[i],
-                                       NULL};
+        const char *const choices[] = {"injection=photon:count=20000", "bounces=3",
+                                       stratifications[i], NULL};
         struct rendering one = render_text(text, 1, choices);
         struct rendering three = render_text_in_batches(text, 3, 17, choices);
         assert_true(statistics_counter(&one.statistics, "sources merged") > 1000);

@@ -87,18 +87,18 @@ static double radiance_all_around(const char *material, const char *object, int 
 
 struct method {
     const char *name;
-    const char *choices[4];
+    const char *choices[6];
     double bias;
 };
 
 static const struct method methods[] = {
-    {"pathtrace", {"estimator=pathtrace:samples=64,bounces=0", NULL}, 0},
+    {"pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0},
     {"splat",
-     {"estimator=splat", "injection=photon:count=4000,bounces=0", "visibility=shadowmap:size=0.06",
-      NULL},
+     {"estimator=splat", "injection=photon:count=4000", "bounces=all",
+      "visibility=shadowmap:size=0.06", NULL},
      0.02},
     {"photonmap",
-     {"estimator=photonmap:neighbours=40", "injection=photon:count=4000,bounces=0", NULL},
+     {"estimator=photonmap:neighbours=40", "injection=photon:count=4000", "bounces=all", NULL},
      0.01},
 };
 

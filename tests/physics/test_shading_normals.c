@@ -21,28 +21,28 @@
 
 struct method {
     const char *name;
-    const char *choices[4];
+    const char *choices[6];
     double bias;
 };
 
 static const struct method truth = {
-    "pathtrace", {"estimator=pathtrace:samples=64,bounces=0", NULL}, 0};
+    "pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0};
 
 /* The discs of a photon map follow the bent normal, and miss photons of a bumpy floor. */
 static const struct method methods[] = {
     {"splat",
-     {"estimator=splat", "injection=photon:count=12000,bounces=0", "visibility=shadowmap:size=0.05",
-      NULL},
+     {"estimator=splat", "injection=photon:count=12000", "bounces=all",
+      "visibility=shadowmap:size=0.05", NULL},
      0.02},
     {"photonmap",
-     {"estimator=photonmap:neighbours=40", "injection=photon:count=12000,bounces=0", NULL},
+     {"estimator=photonmap:neighbours=40", "injection=photon:count=12000", "bounces=all", NULL},
      0.04},
     {"photonmap, gather",
-     {"estimator=photonmap:neighbours=40,gather=16", "injection=photon:count=12000,bounces=0",
+     {"estimator=photonmap:neighbours=40,gather=16", "injection=photon:count=12000", "bounces=all",
       NULL},
      0.05},
     {"vpl",
-     {"estimator=vpl:lights=300,clamp=0.05", "injection=photon:count=500,bounces=0", NULL},
+     {"estimator=vpl:lights=300,clamp=0.05", "injection=photon:count=500", "bounces=all", NULL},
      0.02},
 };
 

@@ -2,10 +2,12 @@
 
 #include "parser/psd.h"
 #include "pipeline/render_state.h"
+#include "support/render_scene.h"
 #include "trace/trace.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,8 +35,14 @@ static void choose(struct bench *bench, const char *text)
 {
     struct strategy_choice choice;
     struct error error;
-    struct strategy_choice *base = &bench->description.render.strategies[PS_INJECTION];
-    assert_int_equal(settings_parse_choice(text, &choice, &error), PS_OK);
+    struct render_description *render = &bench->description.render;
+    struct strategy_choice *base = &render->strategies[PS_INJECTION];
+    const char *bounces = strstr(text, " bounces=");
+    char injection[256];
+    snprintf(injection, sizeof injection, "%.*s",
+             (int)(bounces ? (size_t)(bounces - text) : strlen(text)), text);
+    render->bounces = bounces_of(bounces ? strchr(bounces, '=') + 1 : "1");
+    assert_int_equal(settings_parse_choice(injection, &choice, &error), PS_OK);
     assert_int_equal(settings_override(base, &choice, &error), PS_OK);
 }
 
@@ -136,6 +144,7 @@ struct injected inject_text(const char *text, const char *choice, uint32_t pass,
         .thread_count = threads,
         .surface_offset = bench->scene.surface_offset,
         .specular = bench->scene.microfacets != NULL,
+        .bounces = bench->settings.bounces,
     };
     for (int kind = PS_INJECTION; kind <= PS_STRATIFICATION; kind++)
         if (strategy_start(&bench->settings.strategies[kind], &bench->render.host, &error) != PS_OK)

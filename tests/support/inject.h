@@ -12,7 +12,7 @@ struct injected {
     struct statistics *statistics;
 };
 
-/* The sources of one pass; `choice` is such as "photon:count=1000". A failure fails the test. Release
+/* The sources of one pass; `choice` is such as "photon:count=1000", for one bounce, or "photon bounces=all". A failure fails the test. Release
  * it with injected_release. */
 struct injected inject_text(const char *text, const char *choice, uint32_t pass, uint32_t threads);
 void injected_release(struct injected *injected);

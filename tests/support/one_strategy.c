@@ -38,6 +38,11 @@ static void bounds(const ps_host *host, ps_vec3 *center, float *radius)
     *radius = BARE_HOST_RADIUS;
 }
 
+static int32_t cancelled(const ps_host *host)
+{
+    return bare_of(host)->cancelled;
+}
+
 void bare_host_create(struct bare_host *bare, uint32_t threads)
 {
     *bare = (struct bare_host){.threads = threads};
@@ -49,6 +54,7 @@ void bare_host_create(struct bare_host *bare, uint32_t threads)
         .release = release,
         .parallel_for = loop,
         .scene_bounds = bounds,
+        .cancelled = cancelled,
     };
 }
 

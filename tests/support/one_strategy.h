@@ -7,12 +7,13 @@
 
 #define BARE_HOST_RADIUS 100.0f
 
-/* A host that has memory, loops on `threads` threads, and the bounds of a scene with its centre in
- * the origin and radius BARE_HOST_RADIUS; nothing else. */
+/* A host that has memory, loops on `threads` threads, the bounds of a scene with its centre in the origin and
+ * radius BARE_HOST_RADIUS, and says whether it is cancelled; nothing else. */
 struct bare_host {
     ps_host host;
     uint32_t threads;
     int live_allocations;
+    bool cancelled;
 };
 
 /* `bare` must stay where it is while it is used. */

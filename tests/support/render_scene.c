@@ -28,9 +28,20 @@ static void read_text(const char *text, struct scene_description *description)
     diagnostics_destroy(sink);
 }
 
+ps_number_or_choice bounces_of(const char *text)
+{
+    if (strcmp(text, "all") == 0)
+        return (ps_number_or_choice){.choice = 0};
+    return (ps_number_or_choice){.number = atoi(text), .choice = -1};
+}
+
 static void lay_over(struct render_description *render, const char *text)
 {
     const char *wanted;
+    if (strncmp(text, "bounces=", 8) == 0) {
+        render->bounces = bounces_of(text + 8);
+        return;
+    }
     struct strategy_choice choice;
     struct error error;
     ps_kind kind = kind_parse(text, &wanted);
@@ -49,6 +60,8 @@ void prepare_text(const char *text, uint32_t threads, size_t batch, const char *
 {
     struct error error;
     read_text(text, &prepared->description);
+    if (!strstr(text, "bounces:"))
+        prepared->description.render.bounces = bounces_of("1");
     for (size_t i = 0; choices && choices[i]; i++)
         lay_over(&prepared->description.render, choices[i]);
     assert_int_equal(loader_create(&prepared->loader, &error), PS_OK);

@@ -9,7 +9,8 @@ struct rendering {
     struct statistics statistics;
 };
 
-/* Renders `text` with choices such as "injection=photon:count=1000" laid over it; ends with NULL. A
+/* Renders `text` with choices such as "injection=photon:count=1000" laid over it; ends with NULL. Indirect light
+ * is that of one bounce where neither the text nor a choice "bounces=3" or "bounces=all" says otherwise. A
  * failure fails the test. Release it with rendering_release. */
 struct rendering render_text(const char *text, uint32_t threads, const char *const choices[]);
 /* The same with splats in batches of `batch`. */
@@ -34,6 +35,9 @@ struct render;
 void inspect_text(const char *text, const char *const choices[],
                   ps_result (*inspect)(void *user, struct render *render, struct error *error),
                   void *user);
+
+/* A number, or "all", as the scene language's `bounces`. */
+ps_number_or_choice bounces_of(const char *text);
 
 /* A scene of the text, with no rendering; the caller releases it with scene_release. */
 struct scene scene_of_text(const char *text);

@@ -57,8 +57,7 @@ void expect_agreement(const char *what, struct estimate estimate, struct estimat
     print_message("%-60s off by %+.3f %%, noise %.3f %%, bias allowed %.1f %%\n", what, 100 * off,
                   100 * noise, 100 * bias);
     assert_true(noise < 0.05);
-    if (!getenv("LAX"))
-        assert_true(fabs(off) <= bias + 4 * noise + 1e-4);
+    assert_true(fabs(off) <= bias + 4 * noise + 1e-4);
 }
 
 void expect_estimate(const char *what, struct estimate estimate, double expected, double bias)

@@ -76,7 +76,8 @@ static struct picture *wild_picture(uint64_t seed)
     return picture;
 }
 
-static void denoise(struct picture *picture, const char *choice, uint32_t threads)
+static void denoise_or_stop(struct picture *picture, const char *choice, uint32_t threads,
+                            bool cancelled)
 {
     struct bare_host bare;
     struct error error;
@@ -99,12 +100,19 @@ static void denoise(struct picture *picture, const char *choice, uint32_t thread
         .depth = picture->depth,
     };
     bare_host_create(&bare, threads);
+    bare.cancelled = cancelled;
     struct strategy strategy = strategy_of(choice);
     const ps_denoiser_vtable *vtable = strategy.descriptor->vtable;
     assert_int_equal(strategy_start(&strategy, &bare.host, &error), PS_OK);
-    assert_int_equal(vtable->filter(strategy.state, &bare.host, &view), PS_OK);
+    assert_int_equal(vtable->filter(strategy.state, &bare.host, &view),
+                     cancelled ? PS_CANCELLED : PS_OK);
     assert_int_equal(bare.live_allocations, 0);
     strategy_release(&strategy);
+}
+
+static void denoise(struct picture *picture, const char *choice, uint32_t threads)
+{
+    denoise_or_stop(picture, choice, threads, false);
 }
 
 /* --- against the formula, pixel by pixel in double precision --- */
@@ -315,6 +323,14 @@ static void test_even_sizes_are_refused(void **state)
     strategy_release(&strategy);
 }
 
+static void test_stops_when_cancelled(void **state)
+{
+    (void)state;
+    struct picture *picture = wild_picture(5);
+    denoise_or_stop(picture, "denoiser=bilateral:size=11", 2, true);
+    free(picture);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -325,6 +341,7 @@ int main(void)
         cmocka_unit_test(test_black_channels_take_no_part),
         cmocka_unit_test(test_threads_do_not_matter),
         cmocka_unit_test(test_even_sizes_are_refused),
+        cmocka_unit_test(test_stops_when_cancelled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

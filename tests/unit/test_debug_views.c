@@ -143,8 +143,11 @@ static ps_result count_by_hand(void *user, struct render *render, struct error *
 static void test_overlap_is_the_count_by_hand(void **state)
 {
     (void)state;
-    const char *const choices[] = {"injection=photon:count=2000,bounces=2", "filter=gaussian",
-                                   "visibility=none:size=60", "stratification=grid:resolution=20",
+    const char *const choices[] = {"injection=photon:count=2000",
+                                   "bounces=2",
+                                   "filter=gaussian",
+                                   "visibility=none:size=60",
+                                   "stratification=grid:resolution=20",
                                    NULL};
     char *text = cornell_text(WIDTH, HEIGHT);
     float *counts = calloc(PIXELS, sizeof *counts);

@@ -84,8 +84,8 @@ static const char mirror_text[] = SCENE_HEAD
 static void test_a_mirror_leaves_one_source(void **state)
 {
     (void)state;
-    struct injected one = inject_text(mirror_text, "photon:count=1000,split=1,bounces=1", 0, 2);
-    struct injected four = inject_text(mirror_text, "photon:count=1000,split=4,bounces=1", 0, 2);
+    struct injected one = inject_text(mirror_text, "photon:count=1000,split=1 bounces=1", 0, 2);
+    struct injected four = inject_text(mirror_text, "photon:count=1000,split=4 bounces=1", 0, 2);
     size_t mirrored[2] = {0, 0};
     for (size_t k = 0; k < one.count; k++)
         mirrored[0] += one.sources[k].lobe == PS_SPECULAR;
@@ -104,8 +104,8 @@ static void test_power_does_not_depend_on_it(void **state)
     (void)state;
     for (size_t i = 0; i < LIT_ROOMS; i++)
         expect_power(lit_rooms[i].name,
-                     mean_power(lit_rooms[i].text, "photon:count=400000,bounces=0,split=4", 2),
-                     mean_power(lit_rooms[i].text, "photon:count=400000,bounces=0,split=1", 2),
+                     mean_power(lit_rooms[i].text, "photon:count=400000,split=4 bounces=all", 2),
+                     mean_power(lit_rooms[i].text, "photon:count=400000,split=1 bounces=all", 2),
                      0.01);
 }
 
@@ -118,8 +118,8 @@ static void test_bumps(void **state)
         "lights:\n" SPOT "objects:\n"
         "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: rough}\n"
         "  - quad: {corners: [[-9, 3, -9], [9, 3, -9], [9, 3, 9], [-9, 3, 9]], material: rough}\n";
-    expect_power("bumps", mean_power(text, "photon:count=400000,bounces=3,split=4", 2),
-                 mean_power(text, "photon:count=400000,bounces=3,split=1", 2), 0.01);
+    expect_power("bumps", mean_power(text, "photon:count=400000,split=4 bounces=3", 2),
+                 mean_power(text, "photon:count=400000,split=1 bounces=3", 2), 0.01);
 }
 
 static void test_refusals(void **state)

@@ -50,7 +50,7 @@ static void test_mirrors_and_glass_are_as_for_photons(void **state)
     static const char *const names[2][3] = {
         {NULL, "gloss, from the lamp", "mirrors and glass, from the lamp"},
         {"diffuse", "gloss, from a diffuse surface", "mirrors and glass, from a diffuse surface"}};
-    struct injected photons = inject_text(mirrors_and_glass, "photon:count=600000,bounces=1", 0, 2);
+    struct injected photons = inject_text(mirrors_and_glass, "photon:count=600000 bounces=1", 0, 2);
     struct injected pixels = inject_text(mirrors_and_glass, "rsm:count=300000", 0, 2);
     for (int bounce = 0; bounce < 2; bounce++)
         for (int lobe = bounce ? PS_DIFFUSE : PS_GLOSSY; lobe <= PS_SPECULAR; lobe++)

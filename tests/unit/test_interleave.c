@@ -137,7 +137,7 @@ static void test_same_picture_for_all_threads_and_batches(void **state)
 {
     (void)state;
     static const size_t batches[] = {17, 4096};
-    const char *const choices[] = {"injection=photon:count=3000,bounces=3", SHADOW_MAPS,
+    const char *const choices[] = {"injection=photon:count=3000", "bounces=3", SHADOW_MAPS,
                                    "estimator=splat:interleave=4", NULL};
     struct rendering first = render_text(cornell_in_passes, 1, choices);
     assert_true(mean_of_all(&first.image, "indirect.G") > 0);

@@ -52,8 +52,8 @@ static void test_a_pool_of_light(void **state)
 static void test_the_first_surfaces_count(void **state)
 {
     (void)state;
-    float one = spread_of(SCENE_HEAD LAMP ROOM, "photon:count=4096,split=1,bounces=1");
-    assert_true(spread_of(SCENE_HEAD LAMP ROOM, "photon:count=4096,split=1,bounces=4") == one);
+    float one = spread_of(SCENE_HEAD LAMP ROOM, "photon:count=4096,split=1 bounces=1");
+    assert_true(spread_of(SCENE_HEAD LAMP ROOM, "photon:count=4096,split=1 bounces=4") == one);
 }
 
 static void test_darkness(void **state)

@@ -64,9 +64,9 @@ static void test_no_stratification_passes_sources_through(void **state)
 static void test_bounces_add_sources(void **state)
 {
     (void)state;
-    struct rendering one = render(cornell, "injection=photon:count=5000,bounces=1", NULL);
+    struct rendering one = render(cornell, "injection=photon:count=5000", "bounces=1");
     struct rendering three =
-        render(cornell, "injection=photon:count=5000,bounces=3,roulette=0", NULL);
+        render(cornell, "injection=photon:count=5000,roulette=1000", "bounces=3");
     assert_true(statistics_counter(&three.statistics, "sources") >
                 2 * statistics_counter(&one.statistics, "sources"));
     assert_true(mean_of_all(&three.image, "indirect.R") > mean_of_all(&one.image, "indirect.R"));
@@ -176,9 +176,12 @@ static void expect_determined(const char *const choices[])
 static void test_determined_with_shadow_maps(void **state)
 {
     (void)state;
-    const char *const choices[] = {"injection=photon:count=1000,bounces=3",
-                                   "visibility=shadowmap:resolution=5", "denoiser=gaussian",
-                                   "normalization=weight", NULL};
+    const char *const choices[] = {"injection=photon:count=1000",
+                                   "bounces=3",
+                                   "visibility=shadowmap:resolution=5",
+                                   "denoiser=gaussian",
+                                   "normalization=weight",
+                                   NULL};
     expect_determined(choices);
 }
 
