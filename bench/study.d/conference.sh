@@ -52,7 +52,7 @@ conference_chairs() {
         --plugin estimator=ambient:irradiance=1
     for texels in 4 32; do
         render "chairs-full-$texels" "$conference_scene" --param mesh="$conference" --camera chairs \
-            --plugin injection=photon:count="$n" --plugin visibility=shadowmap:size="$conference_large",resolution="$texels"
+            --plugin injection=photon:count="$n" --plugin visibility=shadowmap:radius="$conference_large",resolution="$texels"
         box=$(thesis_box "$conference_large" 1 "$texels")
         render "chairs-close-$texels" "$conference_scene" --param mesh="$conference" --camera chairs \
             --plugin injection=photon:count="$n" --plugin "$box" --plugin normalization=weight

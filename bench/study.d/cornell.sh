@@ -76,7 +76,7 @@ cornell_open_end() {
     ((quick)) && passes=8
     point open-1 cornell open 1 "$((passes * each))" "$half_width" "$cornell" --passes "$passes" \
         --plugin injection=photon:count="$each" --plugin stratification=grid:resolution=256 \
-        --plugin visibility=shadowmap:size="$half_width",resolution="$resolution" --plugin normalization=density
+        --plugin visibility=shadowmap:radius="$half_width",resolution="$resolution" --plugin normalization=density
     row figures open_passes "$passes"
     row figures open_paths "$each"
 }

@@ -12,7 +12,7 @@ resolution=8
 # thesis_box SIZE [GROW [RESOLUTION]]: the close box of a fixed depth.
 thesis_box() {
     local texels=${3:-$resolution}
-    echo "visibility=shadowmap:size=$1,step_back=$1,depth=$1,bias=$(calculate "2 * $1 / $texels"),follow=0,grow=${2:-1},resolution=$texels"
+    echo "visibility=shadowmap:radius=$1,step_back=$1,depth=$1,bias=$(calculate "2 * $1 / $texels"),bandwidth_scale=0,max_merge_scale=${2:-1},resolution=$texels"
 }
 
 # Each prints one option a line; set_options reads them into the array `options`.
@@ -32,7 +32,7 @@ thesis_strata() { # PATHS SIZE NORMALIZATION CELLS [GROW]
 
 own_splats() { # PATHS SIZE
     printf -- '--plugin\n%s\n' "injection=photon:count=$(paths "$1")" \
-        "visibility=shadowmap:size=$2,resolution=$resolution" normalization=density
+        "visibility=shadowmap:radius=$2,resolution=$resolution" normalization=density
 }
 
 path_trace() { # SAMPLES

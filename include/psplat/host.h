@@ -30,17 +30,21 @@ typedef enum ps_stream {
 /* How large a splat is and where its box begins: the parameters that every visibility shares
  * (PS_BOX_PARAMS in strategy.h gives the rows). Scene units. */
 typedef struct ps_box_settings {
-    double size;      /* half-width R; 0: automatic, by the scene, its light and the light paths */
-    double follow;    /* R is at most follow * distance travelled, or 0.3 * size (0.6 * size after
-                         the first bounce), or the interleaved pixels, whichever is largest; 0: no
-                         limit. Pixels of a full beam choose for themselves: see ps_splat */
-    double depth;     /* how far the box reaches past the first hit; 0: R tan(theta) + R */
-    double step_back; /* see step_back_rule */
+    double
+        radius; /* R, half the side of the box; 0: automatic, by the scene, its light and the paths */
+    double
+        bandwidth_scale; /* R is at most bandwidth_scale * distance travelled, or 0.3 * radius (0.6 *
+                               radius after the first bounce), or the interleaved pixels, whichever is
+                               largest; 0: no limit. Pixels of a full beam choose for themselves: see
+                               ps_splat */
+    double depth;        /* how far the box reaches past the first hit; 0: R tan(theta) + R */
+    double step_back;    /* see step_back_rule */
     int32_t step_back_rule; /* 0: auto, min(d, R tan(theta) + R/2); 1: full, from the source; -1:
                                step_back */
-    int32_t walls;          /* 1: full beams make up for what walls beside their source keep back */
-    double grow; /* where sources were merged, R is multiplied by min(sqrt(merged), grow); at most
-                    1: not at all */
+    int32_t
+        boundary_correction; /* 1: full beams make up for what walls beside their source keep back */
+    double max_merge_scale;  /* where sources were merged, R is multiplied by min(sqrt(merged),
+                               max_merge_scale); at most 1: not at all */
 } ps_box_settings;
 
 /* What the estimator works on in one pass. */
@@ -112,7 +116,8 @@ struct ps_host {
     /* How each surface that was met sends light on, or takes it from: by the surface's own
      * distribution, with four numbers each. Only for hits at finite distance. [any thread] */
     void (*scatter)(const ps_host *host, ps_direction direction, const ps_ray *rays,
-                    const ps_hit *hits, const float (*samples)[4], size_t n, ps_scatter *scattered);
+                    const ps_hit *hits, const float (*samples)[4], size_t n,
+                    ps_bsdf_sample *scattered);
 
     /* Radiance (W/(m^2 sr)) that the lights' light, reflected once by what each ray met, sends back
      * along the ray; shadow rays included, mirrors and glass left out: what they show is emission.
@@ -205,7 +210,7 @@ struct ps_host {
     void (*emit_from)(const ps_host *host, uint32_t index, const float (*samples)[4], size_t n,
                       ps_ray *rays, ps_rgb *power);
 
-    /* From now on in this pass place_boxes leaves near light out, by ps_splat.full_from: what surfaces that
+    /* From now on in this pass place_boxes leaves short-range light out, by ps_splat.blend_distance: what surfaces that
      * lights shine on reflect, diffusely and only once, over less than two and a half half-widths of the
      * boxes, automatic or given, which splats would blur; the less of it, the farther it comes from. It is
      * found by short rays instead, so many for a pixel in the middle of a surface and those that it is
@@ -213,7 +218,7 @@ struct ps_host {
      * pass ends it is added to the tiles, without weight. Does nothing where beams don't start at their
      * sources and follow the distance. After begin_splats, before place_splats. [main thread, inside
      * accumulate] */
-    ps_result (*gather_near_light)(const ps_host *host, double rays);
+    ps_result (*gather_short_range)(const ps_host *host, double rays);
 };
 
 #endif

@@ -14,7 +14,7 @@
 
 /* Lets a path go on with the given probability (capped), decided by `number` in [0, 1): returns 0
  * where it ends, and otherwise divides what it carries by the probability, which keeps the mean. */
-static inline int ps_survives(float probability, float number, ps_rgb *carried)
+static inline int ps_russian_roulette(float probability, float number, ps_rgb *carried)
 {
     float survival = ps_min(probability, PS_LIKELIEST_SURVIVAL);
     if (number >= survival)

@@ -81,7 +81,7 @@ typedef struct ps_visibility_vtable {
     void (*visible)(const void *state, const ps_host *host, const ps_splat *splat,
                     const ps_vec3 *points, size_t n, uint8_t *lit);
     /* The settings by which all boxes are placed with host->place_boxes. NULL: they are placed otherwise;
-     * then splats leave out no near light. [main thread] */
+     * then splats leave out no short-range light. [main thread] */
     ps_box_settings (*boxes)(const void *state);
 } ps_visibility_vtable;
 
@@ -140,43 +140,44 @@ typedef struct ps_denoiser_vtable {
 
 /* The rows that every visibility shares; the plugin's state holds PS_BOX_MEMBERS. */
 #define PS_BOX_MEMBERS                                                                             \
-    ps_number_or_choice size;                                                                      \
-    double follow;                                                                                 \
+    ps_number_or_choice radius;                                                                    \
+    double bandwidth_scale;                                                                        \
     ps_number_or_choice depth;                                                                     \
     ps_number_or_choice step_back;                                                                 \
-    double grow;                                                                                   \
-    int32_t walls;
+    double max_merge_scale;                                                                        \
+    int32_t boundary_correction;
 
 #define PS_BOX_CHOICES                                                                             \
     static const char *const box_auto[] = {"auto", NULL};                                          \
     static const char *const box_step_back[] = {"auto", "full", NULL};
 
-#define PS_BOX_PARAMS(state, step_back_default, walls_default)                                     \
+#define PS_BOX_PARAMS(state, step_back_default, boundary_correction_default)                       \
     PS_NUMBER_OR(                                                                                  \
-        state, size, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",              \
+        state, radius, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",            \
         "half-width of the box; auto: by the scene, its light and the number of light paths"),     \
-        PS_NUMBER(                                                                                 \
-            state, follow, "0.6", 0, INFINITY, 0, "",                                              \
-            "limit of size, down to a part of it or to the interleaved pixels, as a fraction of "  \
-            "the distance travelled; 0: none"),                                                    \
+        PS_NUMBER(state, bandwidth_scale, "0.6", 0, INFINITY, 0, "",                               \
+                  "limit of the radius, down to a part of it or to the interleaved pixels, as a "  \
+                  "fraction of "                                                                   \
+                  "the distance travelled; 0: none"),                                              \
         PS_NUMBER_OR(state, depth, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto,               \
                      "scene units",                                                                \
                      "reach of the box past the first hit; auto: what the hit's slope needs"),     \
         PS_NUMBER_OR(                                                                              \
             state, step_back, step_back_default, 0, INFINITY, 0, box_step_back, "scene units",     \
             "start of the box before the first hit; auto: by its slope, full: the source"),        \
-        PS_NUMBER(state, grow, "1.5", 1, INFINITY, 0, "",                                          \
-                  "limit of the growth of size, sqrt(sources merged into one); 1: none"),          \
-        PS_BOOL(state, walls, walls_default,                                                       \
+        PS_NUMBER(state, max_merge_scale, "1.5", 1, INFINITY, 0, "",                               \
+                  "limit of the growth of the radius, sqrt(sources merged into one); 1: none"),    \
+        PS_BOOL(state, boundary_correction, boundary_correction_default,                           \
                 "full beams make up for the part that walls beside their source keep back")
 
 /* The parameters as host->place_boxes wants them. */
 #define PS_BOX_SETTINGS(state)                                                                     \
     (ps_box_settings)                                                                              \
     {                                                                                              \
-        .size = (state)->size.number, .follow = (state)->follow, .depth = (state)->depth.number,   \
-        .step_back = (state)->step_back.number, .step_back_rule = (state)->step_back.choice,       \
-        .grow = (state)->grow, .walls = (state)->walls                                             \
+        .radius = (state)->radius.number, .bandwidth_scale = (state)->bandwidth_scale,             \
+        .depth = (state)->depth.number, .step_back = (state)->step_back.number,                    \
+        .step_back_rule = (state)->step_back.choice, .max_merge_scale = (state)->max_merge_scale,  \
+        .boundary_correction = (state)->boundary_correction                                        \
     }
 
 #endif

@@ -64,14 +64,14 @@ typedef enum ps_lobe {
 } ps_lobe;
 
 /* One direction in which a surface scatters, drawn by the surface's own distribution. */
-typedef struct ps_scatter {
+typedef struct ps_bsdf_sample {
     ps_vec3 direction;
     ps_vec3 normal;    /* of the surface, on the side that the direction leaves to */
     ps_rgb weight;     /* what is carried is multiplied by this; black: absorbed */
     float probability; /* by which the lobe was chosen among the surface's lobes; it is in weight */
     float pdf;         /* of the direction by solid angle, with probability; 0: PS_SPECULAR */
     uint32_t lobe;     /* ps_lobe */
-} ps_scatter;
+} ps_bsdf_sample;
 
 /* Which way a path runs: refraction and smoothed normals tell the two apart (Veach 1997, ch. 5). */
 typedef enum ps_direction { PS_FROM_CAMERA = 0, PS_FROM_LIGHT = 1 } ps_direction;
@@ -132,8 +132,8 @@ typedef struct ps_splat {
     float source_depth, follow, narrowest, widest;
     /* Of full beams that follow the distance: what lies this far from the source's plane, or farther, gets all
      * of the light; what lies nearer, the less of it, the nearer. The rest is gathered otherwise
-     * (host->gather_near_light). 0: all gets all. */
-    float full_from;
+     * (host->gather_short_range). 0: all gets all. */
+    float blend_distance;
     /* Lit where t <= map + constant + slope * tan(theta), slope >= 0, theta between the light and the
      * receiver's normal. */
     float bias_constant, bias_slope;

@@ -94,10 +94,10 @@ static const struct schema_row render_rows[] = {
     VALUE(PS_INT(struct render_description, light_samples, "4", 1, 65536, "",
                  "shadow rays to each light that has a size, for a pixel and pass")),
     BOOL(
-        "light_join", offsetof(struct render_description, light_join), "no",
+        "discontinuity_buffer", offsetof(struct render_description, discontinuity_buffer), "no",
         "whether pixels take in what their neighbours' shadow rays found, where they met the same"),
     VALUE(PS_INT(
-        struct render_description, edge_samples, "1", 1, MOST_EDGE_SAMPLES, "",
+        struct render_description, aa_samples, "1", 1, MOST_AA_SAMPLES, "",
         "how many points of a pixel that differs from its neighbours are looked at in each pass")),
     VALUE(PS_CHOICE(struct render_description, direct, "rays", direct_ways,
                     "how it is found what lights reach; those that have a size: by rays alone")),

@@ -132,7 +132,7 @@ static int is_last(const ps_pass *pass, const struct paths *paths, size_t i)
 }
 
 /* Whether a path goes on after a surface that scatters like this. */
-static int goes_on(const struct work *work, const ps_scatter *scattered, float number,
+static int goes_on(const struct work *work, const ps_bsdf_sample *scattered, float number,
                    struct paths *paths, size_t i)
 {
     const struct state *state = work->state;
@@ -150,13 +150,13 @@ static int goes_on(const struct work *work, const ps_scatter *scattered, float n
     if (is_last(work->pass, paths, i) && !work->pass->specular)
         return 0;
     return paths->bounces[i] < (uint32_t)state->roulette ||
-           ps_survives(likelihood, number, throughput);
+           ps_russian_roulette(likelihood, number, throughput);
 }
 
 /* Sends the paths on from the surfaces that they met. */
 static void scatter_paths(const struct work *work, struct paths *paths, struct segment *segment)
 {
-    ps_scatter scattered[PS_TILE_PIXELS];
+    ps_bsdf_sample scattered[PS_TILE_PIXELS];
     work->host->scatter(work->host, PS_FROM_CAMERA, paths->rays, segment->hits,
                         (const float(*)[4])segment->numbers, paths->count, scattered);
     size_t alive = 0;

@@ -349,7 +349,7 @@ static void add_lights(const struct work *work, uint32_t chain, struct gathering
 static void look_up_or_go_on(const struct work *work, uint32_t worker, uint32_t chain,
                              struct gathering *g, ps_rgb *sums)
 {
-    ps_scatter scattered[PS_TILE_PIXELS];
+    ps_bsdf_sample scattered[PS_TILE_PIXELS];
     ps_vec3 positions[PS_TILE_PIXELS], normals[PS_TILE_PIXELS];
     ps_rgb exitance[PS_TILE_PIXELS], share[PS_TILE_PIXELS];
     size_t targets[PS_TILE_PIXELS], ended = 0, left = 0;
@@ -358,7 +358,7 @@ static void look_up_or_go_on(const struct work *work, uint32_t worker, uint32_t 
     host->scatter(host, PS_FROM_CAMERA, g->rays, g->hits, (const float(*)[4])g->numbers, g->count,
                   scattered);
     for (size_t i = 0; i < g->count; i++) {
-        const ps_scatter *on = &scattered[i];
+        const ps_bsdf_sample *on = &scattered[i];
         if (!(ps_rgb_maximum(on->weight) > 0.0f))
             continue;
         if (on->lobe == PS_DIFFUSE) {

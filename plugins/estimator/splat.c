@@ -10,7 +10,7 @@
  * inner loop are the core's (src/splat), shared by whatever splats.
  *
  * A kernel blurs what is smaller than itself, so part of the light from nearby is left out of splats and
- * found by short rays (host->gather_near_light).
+ * found by short rays (host->gather_short_range).
  */
 #include <psplat/plugin.h>
 
@@ -18,7 +18,7 @@
 
 struct state {
     int64_t interleave;
-    ps_number_or_choice near_rays;
+    ps_number_or_choice gather_rays;
 };
 
 static ps_result splat_batches(const ps_host *host, const ps_source *sources, size_t n,
@@ -55,27 +55,27 @@ static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pa
 {
     (void)pass;
     const struct state *state = opaque;
-    int automatic = state->near_rays.choice >= 0;
+    int automatic = state->gather_rays.choice >= 0;
     ps_splat *splats = host->allocate(host, BATCH * sizeof *splats, "splats placed");
     if (!splats)
         return PS_ERROR_MEMORY;
     ps_result result = host->begin_splats(host, (uint32_t)state->interleave);
-    if (result == PS_OK && (automatic || state->near_rays.number > 0))
-        result = host->gather_near_light(host, automatic ? 0.0 : state->near_rays.number);
+    if (result == PS_OK && (automatic || state->gather_rays.number > 0))
+        result = host->gather_short_range(host, automatic ? 0.0 : state->gather_rays.number);
     if (result == PS_OK)
         result = splat_all(host, splats);
     host->release(host, splats);
     return result;
 }
 
-static const char *const near_rays_choices[] = {"auto", NULL};
+static const char *const gather_rays_choices[] = {"auto", NULL};
 
 static const ps_param params[] = {
     PS_INT(struct state, interleave, "0", 0, PS_MOST_INTERLEAVE, "pixels",
            "n: a splat lights every n-th pixel across and down, and neighbours are averaged; 0: by "
            "the picture's size and the number of light paths"),
     PS_NUMBER_OR(
-        struct state, near_rays, "auto", 0, 65536, 0, near_rays_choices, "rays",
+        struct state, gather_rays, "auto", 0, 65536, 0, gather_rays_choices, "rays",
         "short rays, of each pixel and those that it is averaged with, for light from nearby, "
         "which splats would blur; 0: it is splatted, too; auto: by the number of light paths"),
 };

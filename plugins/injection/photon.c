@@ -53,7 +53,7 @@ struct fan {
     ps_ray rays[MOST_DIRECTIONS]; /* by which the walks came */
     ps_hit hits[MOST_DIRECTIONS];
     float numbers[MOST_DIRECTIONS][4];
-    ps_scatter scattered[MOST_DIRECTIONS];
+    ps_bsdf_sample scattered[MOST_DIRECTIONS];
     size_t count;
     size_t first[PS_PATH_CHUNK]; /* of each walk: that in which it goes on */
 };
@@ -146,7 +146,7 @@ static float largest_weight(const struct fan *fan, size_t walk, size_t walks)
 /* Whether a walk leaves sources at a surface that scatters like this in the direction in which the walk goes
  * on, and has such a weight at most in any. `arriving` is then the power with which it came, but for roulette. */
 static int leaves_sources(const struct state *state, const ps_pass *pass,
-                          const ps_scatter *scattered, float weight, struct walk *walk,
+                          const ps_bsdf_sample *scattered, float weight, struct walk *walk,
                           ps_rgb *arriving)
 {
     *arriving = walk->power;
@@ -161,7 +161,7 @@ static int leaves_sources(const struct state *state, const ps_pass *pass,
     if (walk->bounces > pass->bounces)
         return 0;
     return walk->bounces < (uint32_t)state->roulette ||
-           ps_survives(weight, walk->numbers[2], arriving);
+           ps_russian_roulette(weight, walk->numbers[2], arriving);
 }
 
 /* Traces the walks, and keeps those that meet something, moved to the front with their hits. */
@@ -218,8 +218,8 @@ static void fan_out(const ps_host *host, const struct walk *walks, const ps_ray 
                   fan->count, fan->scattered);
 }
 
-static ps_source source_of(const struct walk *walk, const ps_hit *hit, const ps_scatter *scattered,
-                           ps_rgb arriving)
+static ps_source source_of(const struct walk *walk, const ps_hit *hit,
+                           const ps_bsdf_sample *scattered, ps_rgb arriving)
 {
     return (ps_source){
         .position = hit->position,
@@ -236,8 +236,8 @@ static ps_source source_of(const struct walk *walk, const ps_hit *hit, const ps_
 
 /* The sources of all paths of a walk; returns how many. A mirror sends all paths the same way: one source
  * has the power of all. */
-static size_t leave_sources(const struct walk *walk, const ps_hit *hit, const ps_scatter *scattered,
-                            ps_rgb arriving, ps_source *sources)
+static size_t leave_sources(const struct walk *walk, const ps_hit *hit,
+                            const ps_bsdf_sample *scattered, ps_rgb arriving, ps_source *sources)
 {
     size_t left = 0;
     if (scattered->lobe != PS_DIFFUSE) {
@@ -278,7 +278,7 @@ static size_t extend_walks(const struct state *state, const ps_host *host, const
     *count = 0;
     for (size_t i = 0; i < n; i++) {
         struct walk walk = walks[i];
-        const ps_scatter *scattered = &fan.scattered[fan.first[i]];
+        const ps_bsdf_sample *scattered = &fan.scattered[fan.first[i]];
         ps_rgb arriving;
         float weight = largest_weight(&fan, i, n);
         if (!leaves_sources(state, pass, scattered, weight, &walk, &arriving))

@@ -282,7 +282,7 @@ static size_t trace_paths(const ps_host *host, struct path *paths, size_t n, ps_
 }
 
 static void scatter_paths(const ps_host *host, uint32_t segment, const struct path *paths, size_t n,
-                          const ps_ray *rays, const ps_hit *hits, ps_scatter *scattered)
+                          const ps_ray *rays, const ps_hit *hits, ps_bsdf_sample *scattered)
 {
     uint64_t indices[PS_PATH_CHUNK] = {0};
     float numbers[PS_PATH_CHUNK][4];
@@ -302,7 +302,7 @@ static size_t extend_paths(const ps_host *host, const ps_pass *pass, uint32_t se
 {
     ps_ray rays[PS_PATH_CHUNK];
     ps_hit hits[PS_PATH_CHUNK];
-    ps_scatter scattered[PS_PATH_CHUNK];
+    ps_bsdf_sample scattered[PS_PATH_CHUNK];
     size_t alive = 0;
     *count = 0;
     n = trace_paths(host, paths, n, rays, hits);

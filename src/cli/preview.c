@@ -13,12 +13,12 @@ static const struct option passes = {.name = "passes"}, set = {.name = "set"},
 static const struct argument stands_for[] = {
     {&passes, "1"},
     {&set, "render.light_samples=2"},
-    {&set, "render.light_join=yes"},
-    {&set, "render.edge_samples=1"},
+    {&set, "render.discontinuity_buffer=yes"},
+    {&set, "render.aa_samples=1"},
     {&plugin, "injection=photon:count=10000"},
     {&plugin, "stratification=none"},
-    {&plugin, "visibility=shadowmap:size=auto,resolution=4"},
-    {&plugin, "estimator=splat:interleave=4,near_rays=0"},
+    {&plugin, "visibility=shadowmap:radius=auto,resolution=4"},
+    {&plugin, "estimator=splat:interleave=4,gather_rays=0"},
 };
 
 #define STANDS_FOR (sizeof stands_for / sizeof stands_for[0])

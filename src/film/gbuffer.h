@@ -32,7 +32,7 @@ struct gbuffer gbuffer_layout(size_t width, size_t height);
 ps_result gbuffer_create(size_t width, size_t height, struct gbuffer *gbuffer, struct error *error);
 void gbuffer_release(struct gbuffer *gbuffer);
 
-/* Makes room for what light_join.h needs. */
+/* Makes room for what discontinuity_buffer.h needs. */
 ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error);
 
 /* Bytes that the buffer takes. */

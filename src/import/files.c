@@ -20,18 +20,18 @@ static const struct mesh_memory_file *find_in_memory(const struct mesh_files *fi
     return NULL;
 }
 
-static ps_result check_size(const char *path, uint64_t length, struct error *error)
-{
-    if (length > MESH_FILE_LARGEST)
-        return error_set(error, PS_ERROR_INVALID, "%s is larger than 4 GiB", path);
-    return PS_OK;
-}
-
 static void destroy_file(struct mesh_file *file)
 {
     free(file->path);
     free(file->bytes);
     free(file);
+}
+
+static ps_result check_size(const char *path, uint64_t length, struct error *error)
+{
+    if (length > MESH_FILE_LARGEST)
+        return error_set(error, PS_ERROR_INVALID, "%s is larger than 4 GiB", path);
+    return PS_OK;
 }
 
 /* NULL: out of memory. */
@@ -64,7 +64,20 @@ static ps_result fill(struct mesh_file *file, int descriptor, struct error *erro
     return PS_OK;
 }
 
-static ps_result read_from_disk(const char *path, const char *folder, struct mesh_file **file,
+static ps_result read_opened(const char *path, const struct input_file *input,
+                             struct mesh_file **read, struct error *error)
+{
+    ps_result result = check_size(path, input->size, error);
+    if (result != PS_OK)
+        return result;
+    struct mesh_file *file = create_file(path, (size_t)input->size);
+    if (!file)
+        return error_memory(error, (size_t)input->size, "a mesh file");
+    *read = file;
+    return fill(file, input->descriptor, error);
+}
+
+static ps_result read_from_disk(const char *path, const char *folder, struct mesh_file **read,
                                 struct error *error)
 {
     struct input_file input;
@@ -72,27 +85,27 @@ static ps_result read_from_disk(const char *path, const char *folder, struct mes
     ps_result result = input_file_open(path, folder, &input, &reason);
     if (result != PS_OK)
         return error_set(error, result, "%s: %.1000s", path, reason.text);
-    result = check_size(path, input.size, error);
-    if (result == PS_OK && !(*file = create_file(path, (size_t)input.size)))
-        result = error_memory(error, (size_t)input.size, "a mesh file");
-    if (result == PS_OK)
-        result = fill(*file, input.descriptor, error);
+    result = read_opened(path, &input, read, error);
     close(input.descriptor);
     return result;
 }
 
 static ps_result read_from_memory(const struct mesh_files *files, const char *path,
-                                  struct mesh_file **file, struct error *error)
+                                  struct mesh_file **read, struct error *error)
 {
     const struct mesh_memory_file *source = find_in_memory(files, path);
     if (!source)
         return error_set(error, PS_ERROR_IO, "%s: cannot open: no such file", path);
     ps_result result = check_size(path, source->length, error);
-    if (result == PS_OK && !(*file = create_file(path, source->length)))
-        result = error_memory(error, source->length, "a mesh file");
-    if (result == PS_OK && source->length > 0)
-        memcpy((*file)->bytes, source->bytes, source->length);
-    return result;
+    if (result != PS_OK)
+        return result;
+    struct mesh_file *file = create_file(path, source->length);
+    if (!file)
+        return error_memory(error, source->length, "a mesh file");
+    if (source->length > 0)
+        memcpy(file->bytes, source->bytes, source->length);
+    *read = file;
+    return PS_OK;
 }
 
 ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mesh_file **file,
@@ -101,17 +114,19 @@ ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mes
     for (*file = files->read; *file; *file = (*file)->next)
         if (strcmp((*file)->path, path) == 0)
             return PS_OK;
-    ps_result result = files->memory ? read_from_memory(files, path, file, error)
-                                     : read_from_disk(path, files->folder, file, error);
-    if (result == PS_OK) {
-        (*file)->bytes[(*file)->length] = '\0';
-        (*file)->next = files->read;
-        files->read = *file;
-    } else if (*file) {
-        destroy_file(*file);
-        *file = NULL;
+    struct mesh_file *read = NULL;
+    ps_result result = files->memory ? read_from_memory(files, path, &read, error)
+                                     : read_from_disk(path, files->folder, &read, error);
+    if (result != PS_OK || !read) {
+        if (read)
+            destroy_file(read);
+        return result;
     }
-    return result;
+    read->bytes[read->length] = '\0';
+    read->next = files->read;
+    files->read = read;
+    *file = read;
+    return PS_OK;
 }
 
 bool mesh_files_exist(const struct mesh_files *files, const char *path)

@@ -76,7 +76,7 @@ static void host_emit_from(const ps_host *host, uint32_t index, const float (*sa
 
 static void host_scatter(const ps_host *host, ps_direction direction, const ps_ray *rays,
                          const ps_hit *hits, const float (*samples)[4], size_t n,
-                         ps_scatter *scattered)
+                         ps_bsdf_sample *scattered)
 {
     const struct scene *scene = render_of(host)->scene;
     for (size_t i = 0; i < n; i++)

@@ -61,7 +61,7 @@ struct box_scene host_box_scene(const struct render *render)
         .seed = render->settings->seed,
         .camera = &render->scene->camera,
         .interleave = render->has_splatter ? render->splatter.settings.interleave : 1,
-        .near_distance = render->near_light.distance,
+        .gather_distance = render->gathered_light.distance,
     };
 }
 
@@ -109,7 +109,7 @@ static void place_full(const struct placing *placing, ps_splat *splats)
     reach_find(host, &placing->scene, placing->settings, placing->sources, placing->n,
                placing->hits, placing->half_widths);
     place(placing, splats);
-    if (placing->settings->walls)
+    if (placing->settings->boundary_correction)
         wall_find(host, placing->scene.surface_offset, placing->sources, placing->n, splats);
 }
 

@@ -1,7 +1,7 @@
 #include "pipeline/host_splat.h"
 
 #include "base/clock.h"
-#include "gather/near_gather.h"
+#include "gather/gather.h"
 #include "pipeline/host_place.h"
 #include "pipeline/render_state.h"
 #include <math.h>
@@ -69,12 +69,12 @@ static uint32_t interleave_of(const struct render *render, uint32_t n, uint32_t 
     return n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
 }
 
-/* Near light stays as noisy when splats become small, and is averaged as widely. */
+/* Short-range light stays as noisy when splats become small, and is averaged as widely. */
 static ps_result begin_interleaved(struct render *render, uint32_t n)
 {
     bool many = render->sources.path_count > MANY_PATHS;
     uint32_t most = many ? MOST_FOR_MANY : PS_MOST_INTERLEAVE;
-    render->near_interleave = interleave_of(render, n, PS_MOST_INTERLEAVE);
+    render->gather_interleave = interleave_of(render, n, PS_MOST_INTERLEAVE);
     return create_splatter(render, interleave_of(render, n, most));
 }
 
@@ -88,7 +88,7 @@ static ps_result host_begin_splats(const ps_host *host, uint32_t n)
         return result;
     struct splatter_pass pass = {render->pass.number, render->sources.path_count};
     splatter_begin_pass(&render->splatter, &render->gbuffer, pass);
-    render->near_light.distance = 0.0f;
+    render->gathered_light.distance = 0.0f;
     host_begin_placing(render);
     render->splatting = true;
     return PS_OK;
@@ -106,7 +106,7 @@ static ps_result host_splat(const ps_host *host, ps_splat *splats, size_t n)
     return result;
 }
 
-static float near_distance(const struct render *render)
+static float gather_distance(const struct render *render)
 {
     const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
     const ps_visibility_vtable *vtable = visibility->descriptor->vtable;
@@ -114,24 +114,26 @@ static float near_distance(const struct render *render)
         return 0.0f;
     ps_box_settings settings = vtable->boxes(visibility->state);
     struct box_scene scene = host_box_scene(render);
-    return box_near_distance(&scene, &settings, render->sources.path_count);
+    return box_gather_distance(&scene, &settings, render->sources.path_count);
 }
 
-static ps_result host_gather_near_light(const ps_host *host, double rays)
+static ps_result host_gather_short_range(const ps_host *host, double rays)
 {
     struct render *render = render_of(host);
-    struct near_light *near = &render->near_light;
-    float distance = near_distance(render);
+    struct gathered_light *near = &render->gathered_light;
+    float distance = gather_distance(render);
     if (!(distance > 0.0f))
         return PS_OK;
     double start = clock_seconds();
-    statistics_set_bytes(render->statistics, "near light",
-                         (double)near_light_bytes(&render->gbuffer));
-    ps_result result = near_light_begin(near, &render->gbuffer, distance, render->near_interleave,
-                                        render->settings->threads, &render->error);
+    statistics_set_bytes(render->statistics, "short-range light",
+                         (double)gathered_light_bytes(&render->gbuffer));
+    ps_result result =
+        gathered_light_begin(near, &render->gbuffer, distance, render->gather_interleave,
+                             render->settings->threads, &render->error);
     if (result == PS_OK)
-        result = near_gather(host, &render->pass, near,
-                             rays > 0.0 ? rays : near_light_rays(render->sources.path_count));
+        result =
+            short_range_gather(host, &render->pass, near,
+                               rays > 0.0 ? rays : gathered_light_rays(render->sources.path_count));
     statistics_add_seconds(render->statistics, "near", clock_seconds() - start);
     return result;
 }
@@ -140,7 +142,7 @@ void host_add_splatting(ps_host *host)
 {
     host->begin_splats = host_begin_splats;
     host->splat = host_splat;
-    host->gather_near_light = host_gather_near_light;
+    host->gather_short_range = host_gather_short_range;
 }
 
 void host_report_splatter(struct render *render)

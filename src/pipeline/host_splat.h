@@ -4,7 +4,7 @@
 
 #include <psplat/host.h>
 
-/* Fills in the functions begin_splats, splat and gather_near_light. */
+/* Fills in the functions begin_splats, splat and gather_short_range. */
 void host_add_splatting(ps_host *host);
 
 #endif

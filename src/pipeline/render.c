@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "base/sample.h"
 #include "direct/direct.h"
-#include "direct/light_join.h"
+#include "direct/discontinuity_buffer.h"
 #include "pipeline/render_state.h"
 #include "view/edges.h"
 #include "view/pixel_filter.h"
@@ -73,7 +73,7 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
     uint32_t samples = render->scene->light_samples;
     struct light_runs runs;
     if (render->gbuffer.met)
-        light_join_runs(&render->gbuffer, tile, pass, samples, &runs);
+        discontinuity_buffer_runs(&render->gbuffer, tile, pass, samples, &runs);
     else
         runs_of_tile(tile, pass, samples, &runs);
     direct_light_tile(&lighting, &render->gbuffer, tile, render->settings->seed, &runs, samples);
@@ -98,7 +98,7 @@ static void smooth_tile(void *user, uint64_t index, uint32_t worker)
         .seed = render->settings->seed,
         .number = render->pass.number,
         .edges = render->edges,
-        .samples = render->settings->edge_samples,
+        .samples = render->settings->aa_samples,
     };
     edges_add_tile(&pass, (uint32_t)index, &render->film);
 }
@@ -115,7 +115,7 @@ static void end_splats(struct render *render)
 {
     struct splatter *splatter = &render->splatter;
     splatter_end_pass(splatter, &render->gbuffer);
-    near_light_end(&render->near_light, &render->gbuffer, render->settings->threads);
+    gathered_light_end(&render->gathered_light, &render->gbuffer, render->settings->threads);
 }
 
 ps_result render_estimate(struct render *render, struct error *error)
@@ -144,7 +144,7 @@ static void light_pixels(struct tile_work *work)
     if (!render->gbuffer.met)
         return;
     double start = clock_seconds();
-    light_join(&render->gbuffer, render->settings->threads);
+    discontinuity_buffer(&render->gbuffer, render->settings->threads);
     statistics_add_seconds(render->statistics, "direct", clock_seconds() - start);
 }
 
@@ -258,7 +258,7 @@ ps_result render_inspect(const struct scene *scene, struct render_settings *sett
         .callbacks = callbacks,
         .statistics = statistics,
     };
-    settings->passes = settings->edge_samples = 1;
+    settings->passes = settings->aa_samples = 1;
     host_create(&render);
     ps_result result = render_create(&render, error);
     if (result == PS_OK) {

@@ -67,9 +67,9 @@ ps_result render_create(struct render *render, struct error *error)
     if (result == PS_OK)
         result = film_create(scene->width, scene->height, wants_surfaces(render->settings),
                              &render->film, error);
-    if (result == PS_OK && render->settings->light_join && scene->has_sized_lights)
+    if (result == PS_OK && render->settings->discontinuity_buffer && scene->has_sized_lights)
         result = gbuffer_prepare_join(&render->gbuffer, error);
-    if (result == PS_OK && render->settings->edge_samples > 1)
+    if (result == PS_OK && render->settings->aa_samples > 1)
         result = create_edges(render, error);
     if (result == PS_OK)
         result = start_strategies(render, error);
@@ -88,7 +88,7 @@ void render_destroy(struct render *render)
 {
     if (render->has_splatter)
         splatter_release(&render->splatter);
-    near_light_release(&render->near_light);
+    gathered_light_release(&render->gathered_light);
     source_stream_release(&render->sources);
     for (int kind = 0; kind < PS_KINDS; kind++)
         strategy_stop(&render->settings->strategies[kind]);

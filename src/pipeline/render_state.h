@@ -5,7 +5,7 @@
 
 #include "direct/shadow_maps.h"
 #include "film/film.h"
-#include "gather/near_light.h"
+#include "gather/gathered_light.h"
 #include "pipeline/render.h"
 #include "pipeline/sources.h"
 #include "splat/splatter.h"
@@ -35,8 +35,8 @@ struct render {
     bool has_splatter;
     bool splatting; /* in this pass */
     struct unseen unseen;
-    struct near_light near_light;
-    uint32_t near_interleave; /* over so many pixels across and down it is averaged */
+    struct gathered_light gathered_light;
+    uint32_t gather_interleave; /* over so many pixels across and down it is averaged */
     bool
         counts_splats; /* in place of the filter: tiles' weights count the splats that light them */
     ps_pass pass;

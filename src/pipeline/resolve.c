@@ -128,7 +128,7 @@ static ps_result normalize(struct render *render, struct rgb_planes out, struct 
 }
 
 /* Pixels that no indirect light reached take the ambient colour (Hoet 2014, section 4.3). Light from nearby has no
- * weight (near_light.h), so what came out counts, too. */
+ * weight (gathered_light.h), so what came out counts, too. */
 static void fill_ambient(struct render *render, struct rgb_planes out)
 {
     const struct film *film = &render->film;

@@ -92,8 +92,8 @@ ps_result settings_resolve(struct loader *loader, const struct render_descriptio
         .passes = (uint32_t)description->passes,
         .bounces = description->bounces.choice >= 0 ? PS_ALL_BOUNCES
                                                     : (uint32_t)description->bounces.number,
-        .light_join = description->light_join != 0,
-        .edge_samples = (uint32_t)description->edge_samples,
+        .discontinuity_buffer = description->discontinuity_buffer != 0,
+        .aa_samples = (uint32_t)description->aa_samples,
         .seed = (uint64_t)description->seed,
         .threads = threads,
         .batch = batch,

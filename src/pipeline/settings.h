@@ -13,9 +13,9 @@
 struct render_settings {
     struct strategy strategies[PS_KINDS];
     uint32_t passes;
-    uint32_t bounces;      /* see ps_pass */
-    bool light_join;       /* see light_join.h */
-    uint32_t edge_samples; /* of a pixel at an edge, in each pass; 1: as everywhere */
+    uint32_t bounces;          /* see ps_pass */
+    bool discontinuity_buffer; /* see discontinuity_buffer.h */
+    uint32_t aa_samples;       /* of a pixel at an edge, in each pass; 1: as everywhere */
     uint64_t seed;
     uint32_t threads;
     const char *isa; /* instruction set, a name of kernel.h, borrowed; NULL: the best there is */

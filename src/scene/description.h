@@ -238,7 +238,7 @@ struct strategy_choice {
 /* How it is found what the lights reach. */
 enum direct_light { DIRECT_RAYS, DIRECT_SHADOWMAP };
 
-#define MOST_EDGE_SAMPLES 1024
+#define MOST_AA_SAMPLES 1024
 
 struct render_description {
     struct strategy_choice strategies[STRATEGY_KINDS];
@@ -246,9 +246,10 @@ struct render_description {
     ps_number_or_choice bounces; /* a whole number, or all */
     int64_t seed;
     int64_t light_samples; /* shadow rays for each light that has a size, pixel and pass */
-    int32_t light_join;    /* 1: pixels take in what shadow rays of those around them found */
-    int64_t edge_samples; /* camera samples of a pixel at an edge, in each pass; 1: as everywhere */
-    int32_t direct;       /* enum direct_light */
+    int32_t
+        discontinuity_buffer; /* 1: pixels take in what shadow rays of those around them found */
+    int64_t aa_samples; /* camera samples of a pixel at an edge, in each pass; 1: as everywhere */
+    int32_t direct;     /* enum direct_light */
     int64_t direct_resolution;
     double indirect_exposure; /* factor on the indirect light when it joins the direct light */
     ps_rgb ambient;           /* radiance of pixels that no indirect light reached */

@@ -263,12 +263,12 @@ static void shading_frame(const ps_hit *hit, ps_vec3 frame[3])
     ps_frame(frame[2], &frame[0], &frame[1]);
 }
 
-static ps_scatter mirror(const struct lobe *lobe, const struct view *view)
+static ps_bsdf_sample mirror(const struct lobe *lobe, const struct view *view)
 {
     const struct component *component = lobe->component;
     ps_vec3 n = view->hit->normal;
     ps_rgb reflected = reflector_albedo(component, view, view->cosine);
-    return (ps_scatter){
+    return (ps_bsdf_sample){
         .direction =
             ps_normalize(ps_add_scaled(ps_scale(view->out, -1.0f), 2.0f * ps_dot(view->out, n), n)),
         .weight = ps_rgb_scale(reflected, component->share),
@@ -276,8 +276,8 @@ static ps_scatter mirror(const struct lobe *lobe, const struct view *view)
     };
 }
 
-static ps_scatter reflect_roughly(const struct lobe *lobe, const struct view *view,
-                                  ps_direction direction, const float sample[4])
+static ps_bsdf_sample reflect_roughly(const struct lobe *lobe, const struct view *view,
+                                      ps_direction direction, const float sample[4])
 {
     const struct component *component = lobe->component;
     float roughness = roughness_at(component, view->hit);
@@ -290,7 +290,7 @@ static ps_scatter reflect_roughly(const struct lobe *lobe, const struct view *vi
     float eye = direction == PS_FROM_CAMERA ? out.z : in.z;
     ps_rgb weight = ps_rgb_multiply(microfacet_weight(roughness, f0, out, in),
                                     microfacet_compensation(view->table, f0, roughness, eye));
-    return (ps_scatter){
+    return (ps_bsdf_sample){
         .direction = ps_normalize(from_frame(frame, in)),
         .weight = ps_rgb_scale(weight, component->share),
         .pdf = microfacet_pdf(roughness, out, in),
@@ -298,13 +298,13 @@ static ps_scatter reflect_roughly(const struct lobe *lobe, const struct view *vi
     };
 }
 
-static ps_scatter scatter_diffusely(const struct view *view, ps_direction direction,
-                                    const float sample[4])
+static ps_bsdf_sample scatter_diffusely(const struct view *view, ps_direction direction,
+                                        const float sample[4])
 {
     ps_vec3 n = view->hit->normal;
     ps_vec3 w = ps_cosine_direction(n, sample[0], sample[1]);
     float cosine = ps_dot(w, n);
-    return (ps_scatter){
+    return (ps_bsdf_sample){
         .direction = w,
         .weight = all_diffuse_albedo(view, direction == PS_FROM_CAMERA ? view->cosine : cosine),
         .pdf = cosine / PS_PI,
@@ -320,8 +320,8 @@ static ps_rgb transmittance(ps_rgb absorption, float distance)
 
 /* Mirrors or refracts, by chance. Radiance is squeezed into a smaller solid angle on the denser side;
  * power is not. */
-static ps_scatter pass_surface(const struct lobe *lobe, const struct view *view,
-                               ps_direction direction, float number)
+static ps_bsdf_sample pass_surface(const struct lobe *lobe, const struct view *view,
+                                   ps_direction direction, float number)
 {
     const struct component *component = lobe->component;
     bool inside = view->hit->flags & PS_HIT_BACK;
@@ -331,7 +331,7 @@ static ps_scatter pass_surface(const struct lobe *lobe, const struct view *view,
     ps_rgb weight = {component->share, component->share, component->share};
     if (inside)
         weight = ps_rgb_multiply(weight, transmittance(component->absorption, view->hit->distance));
-    ps_scatter scattered = {.lobe = PS_SPECULAR, .weight = weight};
+    ps_bsdf_sample scattered = {.lobe = PS_SPECULAR, .weight = weight};
     if (number < reflectance) {
         scattered.direction =
             ps_add_scaled(ps_scale(view->out, -1.0f), 2.0f * ps_dot(view->out, n), n);
@@ -346,8 +346,8 @@ static ps_scatter pass_surface(const struct lobe *lobe, const struct view *view,
     return scattered;
 }
 
-static ps_scatter follow_lobe(const struct lobe *lobe, const struct view *view,
-                              ps_direction direction, const float sample[4], float number)
+static ps_bsdf_sample follow_lobe(const struct lobe *lobe, const struct view *view,
+                                  ps_direction direction, const float sample[4], float number)
 {
     const struct component *component = lobe->component;
     if (!component)
@@ -370,18 +370,19 @@ static float shading_correction(const struct view *view, ps_vec3 w)
     return fmaxf(in, 0.0f) * away;
 }
 
-ps_scatter material_scatter(const struct material *material, const struct microfacet_table *table,
-                            ps_direction direction, const ps_ray *ray, const ps_hit *hit,
-                            const float sample[4])
+ps_bsdf_sample material_scatter(const struct material *material,
+                                const struct microfacet_table *table, ps_direction direction,
+                                const ps_ray *ray, const ps_hit *hit, const float sample[4])
 {
     struct lobe lobes[MOST_LOBES];
     struct view view = view_of(material, table, hit, ray->direction);
     size_t count = list_lobes(&view, lobes);
     if (count == 0)
-        return (ps_scatter){.direction = hit->normal, .normal = hit->normal, .probability = 1.0f};
+        return (ps_bsdf_sample){
+            .direction = hit->normal, .normal = hit->normal, .probability = 1.0f};
     float number = sample[3];
     const struct lobe *lobe = choose_lobe(lobes, count, &number);
-    ps_scatter scattered = follow_lobe(lobe, &view, direction, sample, number);
+    ps_bsdf_sample scattered = follow_lobe(lobe, &view, direction, sample, number);
     scattered.probability = lobe->probability;
     scattered.pdf *= lobe->probability;
     float factor = 1.0f / lobe->probability;

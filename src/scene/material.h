@@ -77,9 +77,9 @@ ps_rgb material_albedo(const struct material *material, const struct microfacet_
 ps_rgb material_emission(const struct material *material, const ps_hit *hit);
 
 /* See ps_host.scatter. */
-ps_scatter material_scatter(const struct material *material, const struct microfacet_table *table,
-                            ps_direction direction, const ps_ray *ray, const ps_hit *hit,
-                            const float sample[4]);
+ps_bsdf_sample material_scatter(const struct material *material,
+                                const struct microfacet_table *table, ps_direction direction,
+                                const ps_ray *ray, const ps_hit *hit, const float sample[4]);
 
 /* Radiance towards the ray's origin by its rough reflectors for irradiance 1 across the beam that
  * comes from unit direction `in`: f * cosine, weighed against material_scatter's sampling for a light

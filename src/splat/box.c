@@ -4,7 +4,7 @@
 #include <psplat/math.h>
 
 /* Automatic size for FEW_PATHS, as a fraction of the scene's radius, and at most. With more paths splats shrink
- * less, since near light stays as near as it is there: little is left of what they would blur. */
+ * less, since short-range light stays as near as it is there: little is left of what they would blur. */
 #define FEW_PATHS 100000
 #define AUTOMATIC_SIZE 0.138
 #define LARGEST_AUTOMATIC_SIZE 0.25
@@ -113,16 +113,16 @@ static float bounded(const struct box_scene *scene, double length)
  * creases, so there is a limit. */
 static float growth(const ps_box_settings *settings, const ps_source *source)
 {
-    if (!(settings->grow > 1.0 && source->merged > 1.0f))
+    if (!(settings->max_merge_scale > 1.0 && source->merged > 1.0f))
         return 1.0f;
-    return ps_min(sqrtf(source->merged), (float)fmin(settings->grow, 1e9));
+    return ps_min(sqrtf(source->merged), (float)fmin(settings->max_merge_scale, 1e9));
 }
 
 /* From which distance on a splat gives all of its light. All the way, where shadow rays would not find the light
  * that it sends on: caustics, and what other surfaces lit. */
-static float full_from(const struct box_scene *scene, const ps_source *source)
+static float blend_distance(const struct box_scene *scene, const ps_source *source)
 {
-    return source->bounce == 1 && !source->specular ? scene->near_distance : 0.0f;
+    return source->bounce == 1 && !source->specular ? scene->gather_distance : 0.0f;
 }
 
 /* What a size that follows the distance may not fall below. Smaller ones than n pixels, of which every
@@ -133,7 +133,7 @@ static float smallest(const struct box_scene *scene, const ps_source *source, fl
     ps_vec3 lit =
         ps_add_scaled(source->position, ps_min(distance, 4.0f * scene->radius), source->direction);
     float pixels = (float)scene->interleave * camera_pixel_size(scene->camera, lit);
-    bool wide = source->bounce > 1 || full_from(scene, source) > 0.0f;
+    bool wide = source->bounce > 1 || blend_distance(scene, source) > 0.0f;
     float part = wide ? SMALLEST_LIT_BY_SURFACES : SMALLEST_LIT_BY_LAMPS;
     return ps_max(part * size, ps_min(pixels, size));
 }
@@ -141,7 +141,7 @@ static float smallest(const struct box_scene *scene, const ps_source *source, fl
 /* Half-width where nothing was merged and no distance is followed. */
 static float box_size(const struct box_scene *scene, const ps_box_settings *settings)
 {
-    return settings->size > 0 ? bounded(scene, settings->size) : scene->automatic_size;
+    return settings->radius > 0 ? bounded(scene, settings->radius) : scene->automatic_size;
 }
 
 float box_widest(const struct box_scene *scene, const ps_box_settings *settings,
@@ -151,24 +151,24 @@ float box_widest(const struct box_scene *scene, const ps_box_settings *settings,
     return bounded(scene, size * (double)growth(settings, source));
 }
 
-float box_near_distance(const struct box_scene *scene, const ps_box_settings *settings,
-                        uint64_t paths)
+float box_gather_distance(const struct box_scene *scene, const ps_box_settings *settings,
+                          uint64_t paths)
 {
-    if (settings->step_back_rule != STEP_BACK_FULL || !(settings->follow > 0))
+    if (settings->step_back_rule != STEP_BACK_FULL || !(settings->bandwidth_scale > 0))
         return 0.0f;
-    if (!(settings->size > 0))
+    if (!(settings->radius > 0))
         return scene->automatic_near;
     double wider = pow(fmax((double)paths / FEW_PATHS, 1), -POWER_OF_MANY);
-    return bounded(scene, (double)NEAR_IN_SIZES * wider * settings->size);
+    return bounded(scene, (double)NEAR_IN_SIZES * wider * settings->radius);
 }
 
 float box_half_width(const struct box_scene *scene, const ps_box_settings *settings,
                      const ps_source *source, float distance)
 {
     float size = box_widest(scene, settings, source);
-    if (!(settings->follow > 0))
+    if (!(settings->bandwidth_scale > 0))
         return size;
-    return ps_max(ps_min(size, (float)fmin(settings->follow, 1e9) * distance),
+    return ps_max(ps_min(size, (float)fmin(settings->bandwidth_scale, 1e9) * distance),
                   smallest(scene, source, distance, size));
 }
 
@@ -192,8 +192,8 @@ static void place_full(const struct box_scene *scene, const ps_box_settings *set
     float slope = sqrtf(splat->start_slope_u * splat->start_slope_u +
                         splat->start_slope_v * splat->start_slope_v);
     splat->near_depth = ps_min(splat->source_depth - slope * splat->half_width, 0.0f);
-    splat->follow = (float)fmin(settings->follow, 1e9);
-    splat->full_from = full_from(scene, source);
+    splat->follow = (float)fmin(settings->bandwidth_scale, 1e9);
+    splat->blend_distance = blend_distance(scene, source);
     splat->widest = box_widest(scene, settings, source);
     splat->narrowest = smallest(scene, source, distance, splat->widest);
 }

@@ -36,11 +36,11 @@ struct box_scene {
     float radius;         /* of the scene */
     float surface_offset; /* see ps_pass */
     float automatic_size; /* half-width where the settings leave it open */
-    float automatic_near; /* how near light is near there */
+    float automatic_near; /* how short-range light is near there */
     uint64_t seed;        /* rotates the frames */
     const struct camera *camera;
-    uint32_t interleave; /* see field.h */
-    float near_distance; /* of the light that splats leave to near rays; 0: none */
+    uint32_t interleave;   /* see field.h */
+    float gather_distance; /* of the light that splats leave to near rays; 0: none */
 };
 
 /* How far above its source's tangent plane a full beam of that half-width starts. */
@@ -56,13 +56,13 @@ float box_clearance(float surface_offset, float half_width, bool hollow);
  * shadows, as a small lamp does, so splats become smaller where that is little beside the scene. */
 float box_automatic_size(float scene_radius, float light_spread, uint64_t paths, uint32_t pass);
 
-/* How near light has to come from for splats to leave part of it to near rays (near_share.h): two and a half
+/* How short-range light has to come from for splats to leave part of it to near rays (gather_share.h): two and a half
  * half-widths of the first pass of 100,000 paths. More of them have smaller splats; if the distance shrank with
  * these, what lies just past it would be blurred as much as before, for ever. 0 where beams don't start at their
  * sources and follow the distance. (After the bias compensation of virtual point lights: Kollig and Keller
  * 2006, "Illumination in the presence of weak singularities".) */
-float box_near_distance(const struct box_scene *scene, const ps_box_settings *settings,
-                        uint64_t paths);
+float box_gather_distance(const struct box_scene *scene, const ps_box_settings *settings,
+                          uint64_t paths);
 
 /* That distance where the settings leave the size open. */
 float box_automatic_near(float scene_radius, float light_spread, uint64_t paths);

@@ -140,7 +140,7 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
         .source_depth = splat->follow > 0.0f ? splat->source_depth : splat->start_depth,
         .clearance =
             splat->follow > 0.0f ? ps_max(splat->start_depth - splat->source_depth, 0.0f) : 0.0f,
-        .near = near_share_until(splat->follow > 0.0f ? splat->full_from : 0.0f),
+        .near = gather_share_until(splat->follow > 0.0f ? splat->blend_distance : 0.0f),
         .width = prepare_width(splat),
         .bias_constant = splat->bias_constant,
         .bias_slope = splat->bias_slope,

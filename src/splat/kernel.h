@@ -13,7 +13,7 @@
  * A bundle starts a little above its source's surface (box_clearance); for a pixel that takes less of the
  * disc, by as much less, so that where two walls meet light reaches the crease.
  *
- * Near to the source's plane pixels get a part of the light only (near_share.h): the rest is the estimator's.
+ * Near to the source's plane pixels get a part of the light only (gather_share.h): the rest is the estimator's.
  *
  * A splat that stands for several sources weighs as much as they would (Hoet 2014, section 3.2.1); the
  * loop has that as a larger k of a lesser power.
@@ -32,7 +32,7 @@
 #define SPLAT_KERNEL_H
 
 #include "splat/field.h"
-#include "splat/near_share.h"
+#include "splat/gather_share.h"
 #include "splat/width.h"
 #include <psplat/types.h>
 #include <stdbool.h>
@@ -59,7 +59,7 @@ struct kernel_splat {
     float source_depth, start_u,
         start_v;     /* depth of the source's plane: source_depth + start_u * u + start_v * v */
     float clearance; /* from there to the start plane */
-    struct near_share near; /* which part of the light pixels get, by their distance from there */
+    struct gather_share near; /* which part of the light pixels get, by their distance from there */
     struct width width;
     float bias_constant, bias_slope;
     float by_width;     /* 1: k goes by 1 / h^2; 0: it is the same for all pixels (counting) */

@@ -203,7 +203,8 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
         /* A product, not a choice, which would make the loop scalar. */
         float weight = (float)is_lit * height[i] * splat->kernel_scale * narrowing;
         light->weight[i] = weight;
-        light->projected[i] = near_share_of_splats(splat->near, placed->above[i]) * weight * facing;
+        light->projected[i] =
+            gather_share_of_splats(splat->near, placed->above[i]) * weight * facing;
         lit[i] = -is_lit;
     }
     return lanes_count(lanes_mask(lit));

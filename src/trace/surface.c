@@ -1,6 +1,6 @@
 #include "trace/surface.h"
 
-#include "scene/relief.h"
+#include "scene/bump.h"
 
 /* The shape, and how it stands in the world. */
 struct placed {
@@ -126,9 +126,9 @@ static ps_vec3 bend(const struct placed *placed, const struct material *material
     else
         mesh_tangents(shape, at->triangle, &by_u, &by_v);
     if (material->normal_map)
-        normal = relief_normal_map(material->normal_map, hit->uv, normal, by_u, by_v);
+        normal = bump_normal_map(material->normal_map, hit->uv, normal, by_u, by_v);
     if (material->has_bump)
-        normal = relief_bump(&material->bump, hit->texture_point, hit->uv, normal, by_u, by_v);
+        normal = bump_bump(&material->bump, hit->texture_point, hit->uv, normal, by_u, by_v);
     return normal;
 }
 

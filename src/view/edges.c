@@ -22,7 +22,7 @@ struct looks {
     struct view_points points;
     uint32_t x[PS_TILE_PIXELS], y[PS_TILE_PIXELS]; /* their pixels */
     struct light_runs light_runs;
-    float pattern[MOST_EDGE_SAMPLES][2]; /* where in each pixel they look */
+    float pattern[MOST_AA_SAMPLES][2]; /* where in each pixel they look */
 };
 
 static void draw_pattern(const struct edge_pass *pass, struct looks *looks)

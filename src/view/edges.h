@@ -31,7 +31,7 @@ struct edge_pass {
     bool *edges; /* which lanes of its tiles are edges; set by the first pass */
     uint64_t seed;
     uint32_t number;  /* of the pass */
-    uint32_t samples; /* of a pixel at an edge, at most MOST_EDGE_SAMPLES */
+    uint32_t samples; /* of a pixel at an edge, at most MOST_AA_SAMPLES */
 };
 
 /* Which pixels of a tile differ from a neighbour to the left, right, top or bottom, or show what they do by

@@ -120,8 +120,9 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
     for (size_t i = 0; i < sight->count; i++) {
         float numbers[4];
         sample_point(key, sight->indices[sight->lanes[i]], numbers);
-        ps_scatter on = material_scatter(&scene->materials[hits[i].material], scene->microfacets,
-                                         PS_FROM_CAMERA, &sight->rays[i], &hits[i], numbers);
+        ps_bsdf_sample on =
+            material_scatter(&scene->materials[hits[i].material], scene->microfacets,
+                             PS_FROM_CAMERA, &sight->rays[i], &hits[i], numbers);
         by_chance[sight->lanes[i]] |= on.probability < 1.0f || on.lobe == PS_GLOSSY;
         if (on.lobe == PS_DIFFUSE) {
             ps_rgb throughput = ps_rgb_scale(sight->throughput[i], 1.0f / on.probability);

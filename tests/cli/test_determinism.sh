@@ -27,13 +27,13 @@ same quiet --quiet
 
 # With light from neighbours, and more samples at edges, which read what other threads' tiles hold.
 lamp="$PSPLAT_SOURCE/scenes/cornell-area.psd --size 70x40 -q -p injection=photon:count=500"
-run 0 $lamp --set render.light_join=yes --threads 1 -o join.exr
-run 0 $lamp --set render.light_join=yes --threads 3 -o join3.exr
+run 0 $lamp --set render.discontinuity_buffer=yes --threads 1 -o join.exr
+run 0 $lamp --set render.discontinuity_buffer=yes --threads 3 -o join3.exr
 expect_same join3.exr join.exr
 run 0 $lamp --threads 3 -o alone.exr
 expect_different join.exr alone.exr
-run 0 $scene --set render.edge_samples=5 --threads 1 -o edges.exr
-run 0 $scene --set render.edge_samples=5 --threads 3 -o edges3.exr
+run 0 $scene --set render.aa_samples=5 --threads 1 -o edges.exr
+run 0 $scene --set render.aa_samples=5 --threads 3 -o edges3.exr
 expect_same edges3.exr edges.exr
 run 1 compare edges.exr one.exr --fail 'rel_rmse>0.001'
 

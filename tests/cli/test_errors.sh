@@ -116,7 +116,7 @@ fi
 # --- numbers at the edge of what is allowed ---
 
 for size in 1e-30 1e18 1e300; do
-    run 0 $small -q -p visibility=shadowmap:size=$size,depth=1e300,bias=1e300,follow=1e300 -o edge.exr "$cornell"
+    run 0 $small -q -p visibility=shadowmap:radius=$size,depth=1e300,bias=1e300,bandwidth_scale=1e300 -o edge.exr "$cornell"
 done
 cat >huge.psd <<'END'
 psd: 1

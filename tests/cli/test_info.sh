@@ -33,7 +33,7 @@ expect_text out "psplat.direct: rays"
 expect_text out "psplat.injection: photon:count=500,roulette=2"
 expect_text out "psplat.bounces: 1"
 expect_text out "psplat.stratification: none"
-expect_text out "psplat.visibility: shadowmap:size=30,follow=0.6,"
+expect_text out "psplat.visibility: shadowmap:radius=30,bandwidth_scale=0.6,"
 expect_text out "psplat.filter: gaussian:sigma=0.5"
 expect_text out "psplat.estimator: splat"
 expect_text out "psplat.normalization: density"
@@ -41,7 +41,7 @@ expect_text out "psplat.denoiser: none"
 
 # Everything that can be set on the command line.
 run 0 --size 30x20 --passes 2 --seed 9007199254740992 --threads 2 --batch 77 \
-    -p injection=photon:count=300 --bounces all -p visibility=none:size=12.345,step_back=full \
+    -p injection=photon:count=300 --bounces all -p visibility=none:radius=12.345,step_back=full \
     -p filter=gaussian:sigma=0.33333333333333331 -p normalization=weight:exposure=0.1 \
     -p denoiser=gaussian:size=3x3 -o all.exr "$cornell"
 repeats all.exr

@@ -92,7 +92,7 @@ gather_statistics() {
 photon="-p injection=photon:count=200"
 gather_statistics -p injection=rsm:resolution=8
 gather_statistics -p injection=voxel:resolution=8
-gather_statistics $photon --set render.edge_samples=2
+gather_statistics $photon --set render.aa_samples=2
 for choice in stratification=cascade estimator=splat estimator=photonmap estimator=vpl:lights=8 estimator=ssao \
     denoiser=gaussian visibility=imperfect:points=1000; do
     gather_statistics $photon -p $choice --direct shadowmap --direct-resolution 8

@@ -88,8 +88,8 @@ run 2 $small -p injection=photon:count=1.5 "$cornell"
 expect_text err "count: expected integer"
 run 2 $small -p denoiser=gaussian:size=4x4 "$cornell"
 expect_text err "size: expected 3x3 | 5x5 | 7x7 | 9x9, got '4x4'"
-run 2 $small -p visibility=shadowmap:size=0 "$cornell"
-expect_text err "size: expected auto | number > 0, got '0'"
+run 2 $small -p visibility=shadowmap:radius=0 "$cornell"
+expect_text err "radius: expected auto | number > 0, got '0'"
 run 2 $small -p filter=gaussian:sigma=1,sigma=2 "$cornell"
 expect_text err "--plugin filter: parameter 'sigma' is given twice"
 run 2 $small -p filter=gaussian:sigma "$cornell"
@@ -125,28 +125,28 @@ scene=merge.psd
 sed '/^render:/,$d' "$cornell" >$scene
 cat >>$scene <<'END'
 render:
-  visibility: {shadowmap: {size: =10*3, resolution: 4}}
+  visibility: {shadowmap: {radius: =10*3, resolution: 4}}
   filter: {gaussian: {sigma: 0.7}}
   normalization: weight
 END
-shadowmap="follow=0.6,depth=auto,step_back=full,grow=1.5,walls=yes"
+shadowmap="bandwidth_scale=0.6,depth=auto,step_back=full,max_merge_scale=1.5,boundary_correction=yes"
 # What the scene says.
-chosen visibility "shadowmap:size=30,$shadowmap,resolution=4,bias=slope" $scene
+chosen visibility "shadowmap:radius=30,$shadowmap,resolution=4,bias=slope" $scene
 chosen filter "gaussian:sigma=0.7" $scene
 chosen normalization "weight:exposure=auto" $scene
 # The same strategy: the scene's other parameters stay.
-chosen visibility "shadowmap:size=20,$shadowmap,resolution=4,bias=slope" -p visibility=shadowmap:size=20 $scene
-chosen visibility "shadowmap:size=30,$shadowmap,resolution=4,bias=2" -p visibility=shadowmap:bias=2 $scene
-chosen visibility "shadowmap:size=30,$shadowmap,resolution=4,bias=slope" -p visibility=shadowmap $scene
+chosen visibility "shadowmap:radius=20,$shadowmap,resolution=4,bias=slope" -p visibility=shadowmap:radius=20 $scene
+chosen visibility "shadowmap:radius=30,$shadowmap,resolution=4,bias=2" -p visibility=shadowmap:bias=2 $scene
+chosen visibility "shadowmap:radius=30,$shadowmap,resolution=4,bias=slope" -p visibility=shadowmap $scene
 chosen normalization "weight:exposure=2" -p normalization=weight:exposure=2 $scene
 # Another strategy: nothing of the scene's choice stays.
-chosen visibility "none:size=auto,follow=0.6,depth=auto,step_back=auto,grow=1.5,walls=no" -p visibility=none $scene
+chosen visibility "none:radius=auto,bandwidth_scale=0.6,depth=auto,step_back=auto,max_merge_scale=1.5,boundary_correction=no" -p visibility=none $scene
 chosen filter "box" -p filter=box $scene
 # There and back again: the scene's parameters are gone.
 chosen filter "gaussian:sigma=0.5" -p filter=box -p filter=gaussian $scene
 # Several options of one kind add up, and the last word counts.
-chosen visibility "shadowmap:size=1,$shadowmap,resolution=2,bias=3" \
-    -p visibility=shadowmap:size=9,bias=3 -p visibility=shadowmap:size=1,resolution=2 $scene
+chosen visibility "shadowmap:radius=1,$shadowmap,resolution=2,bias=3" \
+    -p visibility=shadowmap:radius=9,bias=3 -p visibility=shadowmap:radius=1,resolution=2 $scene
 # Where the scene says nothing, the default is laid over.
 chosen denoiser "none" $scene
 chosen denoiser "gaussian:size=7x7" -p denoiser=gaussian:size=7x7 $scene
@@ -157,8 +157,8 @@ chosen injection "photon:count=50,roulette=3,split=auto" -p injection=photon:rou
 run 0 -q $small -o default.exr "$cornell"
 for choice in filter=box filter=tent filter=gaussian:sigma=0.2 filter=cone filter=cone:k=9 \
     filter=epanechnikov visibility=none \
-    visibility=shadowmap:resolution=8 visibility=shadowmap:size=60 visibility=shadowmap:step_back=auto \
-    visibility=shadowmap:step_back=15,bias=5 visibility=shadowmap:follow=0 visibility=shadowmap:depth=1 \
+    visibility=shadowmap:resolution=8 visibility=shadowmap:radius=60 visibility=shadowmap:step_back=auto \
+    visibility=shadowmap:step_back=15,bias=5 visibility=shadowmap:bandwidth_scale=0 visibility=shadowmap:depth=1 \
     estimator=pathtrace estimator=photonmap estimator=vpl estimator=ambient estimator=ssao estimator=vpl:visibility=no \
     normalization=weight normalization=intensity:exposure=9 denoiser=gaussian \
     denoiser=bilateral denoiser=bilateral:normal=1,sigma=9 injection=photon:roulette=1 injection=rsm; do

@@ -170,7 +170,7 @@ static void test_lamp_by_splatting(void **state)
     (void)state;
     static const char *const choices[] = {"estimator=splat", "injection=photon:count=200000",
                                           "bounces=all",
-                                          "visibility=shadowmap:size=10,resolution=8", NULL};
+                                          "visibility=shadowmap:radius=10,resolution=8", NULL};
     compare_scene("A_full.exr", "cornell-area.psd", 2, choices, 0.01, 0.25);
 }
 

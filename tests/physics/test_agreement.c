@@ -61,9 +61,9 @@ static void test_single_bounce(void **state)
     (void)state;
     static const struct method methods[] = {
         {"splat, step_back auto", "estimator=splat", "injection=photon:count=300000",
-         "visibility=shadowmap:size=10,resolution=8,step_back=auto", 0.02},
+         "visibility=shadowmap:radius=10,resolution=8,step_back=auto", 0.02},
         {"splat, full beams", "estimator=splat", "injection=photon:count=300000",
-         "visibility=shadowmap:size=10,resolution=8,step_back=full", 0.025},
+         "visibility=shadowmap:radius=10,resolution=8,step_back=full", 0.025},
         {"photonmap", "estimator=photonmap:neighbours=60", "injection=photon:count=300000", NULL,
          0.025},
         {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",
@@ -79,7 +79,7 @@ static void test_all_bounces(void **state)
     (void)state;
     static const struct method methods[] = {
         {"splat, step_back auto", "estimator=splat", "injection=photon:count=300000",
-         "visibility=shadowmap:size=10,resolution=8,step_back=auto", 0.025},
+         "visibility=shadowmap:radius=10,resolution=8,step_back=auto", 0.025},
         {"photonmap", "estimator=photonmap:neighbours=60", "injection=photon:count=300000", NULL,
          0.03},
         {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",

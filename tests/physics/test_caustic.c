@@ -78,7 +78,7 @@ static double mean_from_image(void)
 static const struct method mirror_methods[] = {
     {"splat",
      {"estimator=splat", "injection=photon:count=100000", "bounces=all",
-      "visibility=shadowmap:size=0.08", NULL},
+      "visibility=shadowmap:radius=0.08", NULL},
      0.01},
     {"photonmap",
      {"estimator=photonmap:neighbours=60", "injection=photon:count=100000", "bounces=all", NULL},
@@ -149,7 +149,7 @@ static void test_absorbing_plate(void **state)
     static const struct method methods[] = {
         {"splat",
          {"estimator=splat", "injection=photon:count=50000", "bounces=all",
-          "visibility=shadowmap:size=0.05", NULL},
+          "visibility=shadowmap:radius=0.05", NULL},
          0.01},
         {"photonmap",
          {"estimator=photonmap:neighbours=60", "injection=photon:count=50000", "bounces=all", NULL},
@@ -184,7 +184,7 @@ static void test_absorbing_plate(void **state)
 static const struct method agreeing[] = {
     {"splat",
      {"estimator=splat", "injection=photon:count=200000", "bounces=all",
-      "visibility=shadowmap:size=0.05", NULL},
+      "visibility=shadowmap:radius=0.05", NULL},
      0.01},
     {"photonmap",
      {"estimator=photonmap:neighbours=500,max_radius=0.05,filter=box",

@@ -61,7 +61,7 @@ static void expect_convergence(const struct approximation *approximation)
 }
 
 /* Splats of one size, or those of what was merged would be larger ones. */
-#define EVEN "visibility=shadowmap:grow=1"
+#define EVEN "visibility=shadowmap:max_merge_scale=1"
 
 static void test_stratifications_converge_to_none(void **state)
 {
@@ -88,15 +88,15 @@ static void test_visibilities_converge_to_raycast(void **state)
 {
     (void)state;
     static const struct approximation approximations[] = {
-        {{"visibility=raycast:size=30,walls=no", PHOTONS, "stratification=none"},
-         {"visibility=shadowmap:size=30,walls=no,resolution=2",
-          "visibility=shadowmap:size=30,walls=no,resolution=8",
-          "visibility=shadowmap:size=30,walls=no,resolution=32"},
+        {{"visibility=raycast:radius=30,boundary_correction=no", PHOTONS, "stratification=none"},
+         {"visibility=shadowmap:radius=30,boundary_correction=no,resolution=2",
+          "visibility=shadowmap:radius=30,boundary_correction=no,resolution=8",
+          "visibility=shadowmap:radius=30,boundary_correction=no,resolution=32"},
          0.02},
-        {{"visibility=raycast:size=30,walls=no", PHOTONS, "stratification=none"},
-         {"visibility=imperfect:size=30,walls=no,points=1000,resolution=4",
-          "visibility=imperfect:size=30,walls=no,points=20000,resolution=8",
-          "visibility=imperfect:size=30,walls=no,points=200000,resolution=16"},
+        {{"visibility=raycast:radius=30,boundary_correction=no", PHOTONS, "stratification=none"},
+         {"visibility=imperfect:radius=30,boundary_correction=no,points=1000,resolution=4",
+          "visibility=imperfect:radius=30,boundary_correction=no,points=20000,resolution=8",
+          "visibility=imperfect:radius=30,boundary_correction=no,points=200000,resolution=16"},
          0.06},
     };
     for (size_t i = 0; i < sizeof approximations / sizeof approximations[0]; i++)
@@ -107,11 +107,11 @@ static void test_injections_converge_to_photon(void **state)
 {
     (void)state;
     static const struct approximation approximations[] = {
-        {{"injection=photon:count=60000", "visibility=none:size=50", "stratification=none"},
+        {{"injection=photon:count=60000", "visibility=none:radius=50", "stratification=none"},
          {"injection=rsm:count=60000,resolution=2", "injection=rsm:count=60000,resolution=8",
           "injection=rsm:count=60000,resolution=128"},
          0.25},
-        {{"injection=photon:count=60000", "visibility=none:size=50", "stratification=none"},
+        {{"injection=photon:count=60000", "visibility=none:radius=50", "stratification=none"},
          {"injection=voxel:resolution=8", "injection=voxel:resolution=32",
           "injection=voxel:resolution=128"},
          0.5},

@@ -72,7 +72,7 @@ static double splat_all(const char *text, const char *visibility)
 {
     const char *const choices[] = {
         "injection=photon:count=300000,split=1", "bounces=1", visibility, "filter=tent",
-        "estimator=splat:near_rays=0",           NULL};
+        "estimator=splat:gather_rays=0",         NULL};
     struct rendering rendering = render_text(text, 2, choices);
     const float *green = image_channel(&rendering.image, "indirect.G");
     double sum = 0;
@@ -89,11 +89,11 @@ static void test_converges_to_the_gather(void **state)
     char *text = cornell_text(WIDTH, HEIGHT);
     double truth = gather_all(text);
     double large =
-        splat_all(text, "visibility=shadowmap:step_back=auto,size=40,resolution=8") / truth;
+        splat_all(text, "visibility=shadowmap:step_back=auto,radius=40,resolution=8") / truth;
     double medium =
-        splat_all(text, "visibility=shadowmap:step_back=auto,size=20,resolution=8") / truth;
+        splat_all(text, "visibility=shadowmap:step_back=auto,radius=20,resolution=8") / truth;
     double small =
-        splat_all(text, "visibility=shadowmap:step_back=auto,size=10,resolution=8") / truth;
+        splat_all(text, "visibility=shadowmap:step_back=auto,radius=10,resolution=8") / truth;
     print_message("splatted / gathered: %.4f %.4f %.4f at 40, 20, 10 mm\n", large, medium, small);
     assert_true(fabs(small - 1.0) < 0.03);
     assert_true(fabs(medium - 1.0) < 0.04);
@@ -105,7 +105,7 @@ static void test_full_beams_keep_the_energy(void **state)
 {
     (void)state;
     char *text = cornell_text(WIDTH, HEIGHT);
-    double ratio = splat_all(text, "visibility=shadowmap:step_back=full,size=10,resolution=8") /
+    double ratio = splat_all(text, "visibility=shadowmap:step_back=full,radius=10,resolution=8") /
                    gather_all(text);
     print_message("full beams: splatted / gathered %.4f\n", ratio);
     assert_true(fabs(ratio - 1.0) < 0.03);
@@ -117,9 +117,11 @@ static void test_walls_give_back_what_creases_lose(void **state)
 {
     (void)state;
     char *text = cornell_text(WIDTH, HEIGHT);
-    double truth = splat_all(text, "visibility=shadowmap:size=8,resolution=4,follow=0");
-    double lost = splat_all(text, "visibility=shadowmap:size=50,walls=no") / truth - 1;
-    double left = splat_all(text, "visibility=shadowmap:size=50,walls=yes") / truth - 1;
+    double truth = splat_all(text, "visibility=shadowmap:radius=8,resolution=4,bandwidth_scale=0");
+    double lost =
+        splat_all(text, "visibility=shadowmap:radius=50,boundary_correction=no") / truth - 1;
+    double left =
+        splat_all(text, "visibility=shadowmap:radius=50,boundary_correction=yes") / truth - 1;
     print_message("beams of 50 mm against 8: %+.4f, making up for walls %+.4f\n", lost, left);
     assert_true(lost < -0.02);
     assert_true(fabs(left) < 0.5 * fabs(lost));
@@ -133,11 +135,12 @@ static void test_fixed_step_back_loses_energy(void **state)
     (void)state;
     char *text = cornell_text(WIDTH, HEIGHT);
     double truth = gather_all(text);
-    double fixed = splat_all(text, "visibility=shadowmap:step_back=20,size=20,resolution=8,bias=2,"
-                                   "depth=20") /
-                   truth;
+    double fixed =
+        splat_all(text, "visibility=shadowmap:step_back=20,radius=20,resolution=8,bias=2,"
+                        "depth=20") /
+        truth;
     double by_slope =
-        splat_all(text, "visibility=shadowmap:step_back=auto,size=20,resolution=8") / truth;
+        splat_all(text, "visibility=shadowmap:step_back=auto,radius=20,resolution=8") / truth;
     print_message("fixed step-back: %.4f, auto: %.4f\n", fixed, by_slope);
     assert_true(fixed < by_slope - 0.02);
     free(text);

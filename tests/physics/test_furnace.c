@@ -26,7 +26,7 @@
     "materials: {wall: {diffuse: %s}}\n"                                                           \
     "lights: [{point: {location: [0, 0, 0], intensity: 4}}]\n"                                     \
     "objects: [{sphere: {center: [0, 0, 0], radius: 2, material: wall}}]\n"                        \
-    "render: {visibility: {shadowmap: {size: %s, step_back: %s}}}\n"
+    "render: {visibility: {shadowmap: {radius: %s, step_back: %s}}}\n"
 
 static void expect_mean_with(const char *albedo, const char *injection, const char *bounces,
                              const char *size, const char *step_back, double irradiance)
@@ -95,11 +95,11 @@ static void test_even_light_in_a_box(void **state)
         "materials: {wall: {diffuse: 0.5, emission: 1, emission_both: yes}}\n"
         "objects: [{box: {corners: [[0, 0, 0], [2, 2, 2]], material: wall}}]\n";
     static const char *const visibilities[] = {
-        "visibility=raycast:size=0.15",
-        "visibility=raycast:size=0.3",
-        "visibility=shadowmap:size=0.15",
-        "visibility=shadowmap:size=0.3",
-        "visibility=shadowmap:size=0.15,resolution=4",
+        "visibility=raycast:radius=0.15",
+        "visibility=raycast:radius=0.3",
+        "visibility=shadowmap:radius=0.15",
+        "visibility=shadowmap:radius=0.3",
+        "visibility=shadowmap:radius=0.15,resolution=4",
     };
     for (size_t i = 0; i < sizeof visibilities / sizeof visibilities[0]; i++) {
         const char *const choices[] = {"injection=photon:count=200000", visibilities[i], NULL};

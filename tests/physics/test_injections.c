@@ -16,7 +16,7 @@
 
 #define WIDTH 96
 #define HEIGHT 54
-#define SMALL_SPLATS "visibility=shadowmap:size=10,resolution=8"
+#define SMALL_SPLATS "visibility=shadowmap:radius=10,resolution=8"
 
 static const char *const channels[] = {"indirect.R", "indirect.G", "indirect.B"};
 

@@ -89,7 +89,7 @@ static const struct method path_tracing = {
 static const struct method photons[] = {
     {"splat",
      {"estimator=splat", "injection=photon:count=6000", "bounces=all",
-      "visibility=shadowmap:size=0.05", NULL},
+      "visibility=shadowmap:radius=0.05", NULL},
      0.01},
     {"photonmap, gather",
      {"estimator=photonmap:neighbours=40,gather=8", "injection=photon:count=6000", "bounces=all",

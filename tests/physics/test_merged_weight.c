@@ -27,8 +27,8 @@ static const char two_beams[] =
 static struct rendering render(const char *stratification, const char *normalization)
 {
     const char *const choices[] = {"injection=photon:count=1000",
-                                   "visibility=none:size=0.5,follow=0,grow=1", stratification,
-                                   normalization, NULL};
+                                   "visibility=none:radius=0.5,bandwidth_scale=0,max_merge_scale=1",
+                                   stratification, normalization, NULL};
     return render_text(two_beams, 2, choices);
 }
 

@@ -44,7 +44,7 @@ static struct rendering render_seed(int seed, const char *const choices[])
 
 #define SINGLE "injection=photon:count=25000,split=1"
 #define SEVERAL "injection=photon:count=15000,split=1" /* and bounces */
-#define FIXED "visibility=shadowmap:grow=1"
+#define FIXED "visibility=shadowmap:max_merge_scale=1"
 
 static const char *bounces_with(const char *injection)
 {
@@ -135,7 +135,8 @@ static void test_drift_of_the_others(void **state)
     struct drift dominant =
         drift_of(SINGLE, "stratification=grid:resolution=64,representative=dominant", FIXED);
     assert_true(fabs(dominant.mean) > 0.03);
-    drift_of(SINGLE, "stratification=grid:resolution=64", "visibility=shadowmap:grow=1000");
+    drift_of(SINGLE, "stratification=grid:resolution=64",
+             "visibility=shadowmap:max_merge_scale=1000");
 }
 
 static void expect_same_pictures(const struct image *a, const struct image *b)

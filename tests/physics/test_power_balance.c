@@ -95,7 +95,7 @@ static const struct method methods[] = {
     {"pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0},
     {"splat",
      {"estimator=splat", "injection=photon:count=4000", "bounces=all",
-      "visibility=shadowmap:size=0.06", NULL},
+      "visibility=shadowmap:radius=0.06", NULL},
      0.02},
     {"photonmap",
      {"estimator=photonmap:neighbours=40", "injection=photon:count=4000", "bounces=all", NULL},

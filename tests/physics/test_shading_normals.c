@@ -32,7 +32,7 @@ static const struct method truth = {
 static const struct method methods[] = {
     {"splat",
      {"estimator=splat", "injection=photon:count=12000", "bounces=all",
-      "visibility=shadowmap:size=0.05", NULL},
+      "visibility=shadowmap:radius=0.05", NULL},
      0.02},
     {"photonmap",
      {"estimator=photonmap:neighbours=40", "injection=photon:count=12000", "bounces=all", NULL},

@@ -177,7 +177,7 @@ static struct rendering render_penumbra(int light_samples, const char *join)
         "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: floor}\n"
         "  - quad: {corners: [[-9, 2, 9], [0, 2, 9], [0, 2, -9], [-9, 2, -9]], material: screen,\n"
         "           camera: no}\n"
-        "render: {light_samples: %d, light_join: %s}\n";
+        "render: {light_samples: %d, discontinuity_buffer: %s}\n";
     static const char *const choices[] = {"estimator=ambient:irradiance=0", NULL};
     char with[sizeof text + 16];
     snprintf(with, sizeof with, text, light_samples, join);

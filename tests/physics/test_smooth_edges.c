@@ -30,13 +30,13 @@ static const char scene[] =
     "  - sphere: {center: [0, 0.6, 0], radius: 0.6, material: ball}\n"
     "  - quad: {corners: [[0.5, 0, 2], [0.5, 2, 2], [2.5, 2, 1.5], [2.5, 0, 1.5]],\n"
     "           material: mirror}\n"
-    "render: {passes: %d, edge_samples: %d}\n";
+    "render: {passes: %d, aa_samples: %d}\n";
 
-static struct rendering look(int passes, int edge_samples)
+static struct rendering look(int passes, int aa_samples)
 {
     static const char *const choices[] = {"estimator=ambient:irradiance=2", NULL};
     char text[2048];
-    snprintf(text, sizeof text, scene, passes, edge_samples);
+    snprintf(text, sizeof text, scene, passes, aa_samples);
     return render_text(text, 2, choices);
 }
 
@@ -96,7 +96,7 @@ static void test_one_pass_comes_close_to_many(void **state)
     "  - quad: {corners: [[-9, -9, -5], [9, -9, -5], [9, 9, -5], [-9, 9, -5]],\n"                  \
     "           material: shining}\n"
 
-static double mean_light(const char *camera, const char *objects, int passes, int edge_samples)
+static double mean_light(const char *camera, const char *objects, int passes, int aa_samples)
 {
     static const char *const choices[] = {"estimator=ambient:irradiance=0", NULL};
     static const char format[] = "psd: 1\n"
@@ -106,9 +106,9 @@ static double mean_light(const char *camera, const char *objects, int passes, in
                                  "  shining: {diffuse: 0, emission: 1, emission_both: yes}\n"
                                  "  glass: {dielectric: {ior: 1.5}}\n"
                                  "%s"
-                                 "render: {passes: %d, edge_samples: %d}\n";
+                                 "render: {passes: %d, aa_samples: %d}\n";
     char text[2048];
-    snprintf(text, sizeof text, format, camera, objects, passes, edge_samples);
+    snprintf(text, sizeof text, format, camera, objects, passes, aa_samples);
     struct rendering rendering = render_text(text, 2, choices);
     double mean = mean_of_all(&rendering.image, "R");
     rendering_release(&rendering);

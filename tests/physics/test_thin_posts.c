@@ -27,7 +27,7 @@ static const char scene[] =
 static double light_of(double half_width, const char *visibility)
 {
     const char *const choices[] = {"injection=photon:count=400000", visibility,
-                                   "estimator=splat:near_rays=0", NULL};
+                                   "estimator=splat:gather_rays=0", NULL};
     char text[1024];
     snprintf(text, sizeof text, scene, -half_width, half_width, half_width, -half_width);
     struct rendering rendering = render_text(text, 2, choices);
@@ -47,13 +47,13 @@ static void expect_as_bright(const char *visibility)
 static void test_maps(void **state)
 {
     (void)state;
-    expect_as_bright("visibility=shadowmap:size=0.3,resolution=16");
+    expect_as_bright("visibility=shadowmap:radius=0.3,resolution=16");
 }
 
 static void test_rays(void **state)
 {
     (void)state;
-    expect_as_bright("visibility=raycast:size=0.3");
+    expect_as_bright("visibility=raycast:radius=0.3");
 }
 
 int main(void)

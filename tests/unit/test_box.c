@@ -59,7 +59,7 @@ static ps_splat place(ps_box_settings settings, float distance, float cosine)
 static void test_carries_the_source(void **state)
 {
     (void)state;
-    ps_splat splat = place((ps_box_settings){.size = 2}, 10, 1);
+    ps_splat splat = place((ps_box_settings){.radius = 2}, 10, 1);
     expect_near(splat.centre.y, 10);
     assert_true(splat.power.r == 1 && splat.power.g == 2 && splat.power.b == 3);
     assert_true(splat.path == 55);
@@ -69,8 +69,8 @@ static void test_carries_the_source(void **state)
 static void test_size(void **state)
 {
     (void)state;
-    expect_near(place((ps_box_settings){.size = 3}, 10, 1).half_width, 3);
-    expect_near(place((ps_box_settings){.size = 0}, 10, 1).half_width, 2);
+    expect_near(place((ps_box_settings){.radius = 3}, 10, 1).half_width, 3);
+    expect_near(place((ps_box_settings){.radius = 0}, 10, 1).half_width, 2);
 }
 
 /* By the fourth root of few paths, the fifth root of many, the sixth root of the passes; never a large part of
@@ -106,17 +106,17 @@ static void test_size_by_the_spread_of_light(void **state)
 static void test_size_follows_distance(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.size = 3, .follow = 0.25};
+    const ps_box_settings settings = {.radius = 3, .bandwidth_scale = 0.25};
     expect_near(place(settings, 100, 1).half_width, 3);
     expect_near(place(settings, 12.1f, 1).half_width, 3);
     expect_near(place(settings, 8, 1).half_width, 2);
     expect_near(place(settings, 4, 1).half_width, 1);
     expect_near(place(settings, 2, 1).half_width, 0.9);
     expect_near(place(settings, 0.001f, 1).half_width, 0.9);
-    const ps_box_settings automatic = {.follow = 0.25};
+    const ps_box_settings automatic = {.bandwidth_scale = 0.25};
     expect_near(place(automatic, 4, 1).half_width, 1);
     expect_near(place(automatic, 0.1f, 1).half_width, 0.6);
-    const ps_box_settings unlimited = {.size = 3};
+    const ps_box_settings unlimited = {.radius = 3};
     expect_near(place(unlimited, 0.001f, 1).half_width, 3);
 }
 
@@ -124,7 +124,7 @@ static void test_size_follows_distance(void **state)
 static void test_size_follows_less_far_after_the_first_bounce(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.size = 3, .follow = 0.25};
+    const ps_box_settings settings = {.radius = 3, .bandwidth_scale = 0.25};
     ps_source source = {.normal = {0, 1, 0}, .direction = {0, 1, 0}, .power = {1, 1, 1}};
     ps_hit hit = {.position = {0, 2, 0}, .distance = 2, .normal = {0, -1, 0}};
     const double half_widths[3] = {0.9, 1.8, 1.8}; /* of bounce 1, 2, 3 */
@@ -137,20 +137,20 @@ static void test_size_follows_less_far_after_the_first_bounce(void **state)
 static ps_splat place_near(ps_box_settings settings, uint16_t bounce, uint8_t specular)
 {
     struct box_scene own = scene;
-    own.near_distance = box_near_distance(&own, &settings, 100000);
+    own.gather_distance = box_gather_distance(&own, &settings, 100000);
     ps_source source = {
         .normal = {0, 1, 0}, .direction = {0, 1, 0}, .bounce = bounce, .specular = specular};
     ps_hit hit = {.position = {0, 0.01f, 0}, .distance = 0.01f, .normal = {0, -1, 0}};
     return place_one(&own, &settings, &source, &hit);
 }
 
-/* Many paths make smaller splats, and leave near light as near as it was. */
-static void test_near_light_stays_as_near(void **state)
+/* Many paths make smaller splats, and leave short-range light as near as it was. */
+static void test_short_range_light_stays_as_near(void **state)
 {
     (void)state;
-    const ps_box_settings by_hand = {.size = 3, .follow = 0.25, .step_back_rule = 1};
-    expect_near(box_near_distance(&scene, &by_hand, 6250), 2.5 * 3);
-    expect_near(box_near_distance(&scene, &by_hand, 3200000), 2.5 * 6);
+    const ps_box_settings by_hand = {.radius = 3, .bandwidth_scale = 0.25, .step_back_rule = 1};
+    expect_near(box_gather_distance(&scene, &by_hand, 6250), 2.5 * 3);
+    expect_near(box_gather_distance(&scene, &by_hand, 3200000), 2.5 * 6);
     double size = box_automatic_size(RADIUS, 0, 100000, 0);
     expect_near(box_automatic_near(RADIUS, 0, 100000), 2.5 * size);
     expect_near(box_automatic_near(RADIUS, 0, 3200000), 2.5 * size);
@@ -159,28 +159,28 @@ static void test_near_light_stays_as_near(void **state)
 }
 
 /* As far as splats are wide, and more, where the light was reflected once, and diffusely; splats may be wide then. */
-static void test_near_light_is_left(void **state)
+static void test_short_range_light_is_left(void **state)
 {
     (void)state;
-    const ps_box_settings full = {.size = 3, .follow = 0.25, .step_back_rule = 1};
-    expect_near(place_near(full, 1, 0).full_from, 2.5 * 3);
+    const ps_box_settings full = {.radius = 3, .bandwidth_scale = 0.25, .step_back_rule = 1};
+    expect_near(place_near(full, 1, 0).blend_distance, 2.5 * 3);
     expect_near(place_near(full, 1, 0).half_width, 0.6 * 3);
-    expect_near(place_near(full, 1, 1).full_from, 0);
+    expect_near(place_near(full, 1, 1).blend_distance, 0);
     expect_near(place_near(full, 1, 1).half_width, 0.3 * 3);
-    expect_near(place_near(full, 2, 0).full_from, 0);
-    const ps_box_settings automatic = {.follow = 0.25, .step_back_rule = 1};
-    expect_near(place_near(automatic, 1, 0).full_from, 2);
-    const ps_box_settings sloped = {.size = 3, .follow = 0.25},
-                          still = {.size = 3, .step_back_rule = 1};
-    expect_near(place_near(sloped, 1, 0).full_from, 0);
-    expect_near(place_near(still, 1, 0).full_from, 0);
+    expect_near(place_near(full, 2, 0).blend_distance, 0);
+    const ps_box_settings automatic = {.bandwidth_scale = 0.25, .step_back_rule = 1};
+    expect_near(place_near(automatic, 1, 0).blend_distance, 2);
+    const ps_box_settings sloped = {.radius = 3, .bandwidth_scale = 0.25},
+                          still = {.radius = 3, .step_back_rule = 1};
+    expect_near(place_near(sloped, 1, 0).blend_distance, 0);
+    expect_near(place_near(still, 1, 0).blend_distance, 0);
 }
 
 /* Nor less than the pixels that are averaged in the end, of which these settings have 4x4. */
 static void test_size_follows_no_further_than_pixels(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.size = 3, .follow = 0.25};
+    const ps_box_settings settings = {.radius = 3, .bandwidth_scale = 0.25};
     camera.across = (ps_vec3){0.3f, 0, 0};
     expect_near(place(settings, 8, 1).half_width, 2);
     expect_near(place(settings, 0.001f, 1).half_width, 1.2);
@@ -205,20 +205,20 @@ static double half_width_of(float merged, ps_box_settings settings, float distan
 static void test_size_grows_with_what_was_merged(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.size = 2, .grow = 3};
+    const ps_box_settings settings = {.radius = 2, .max_merge_scale = 3};
     expect_near(half_width_of(4, settings, 100), 4);
     expect_near(half_width_of(2, settings, 100), 2 * sqrt(2));
     expect_near(half_width_of(9, settings, 100), 6);
     expect_near(half_width_of(1000, settings, 100), 6);
     assert_true(half_width_of(1, settings, 100) == 2);
     assert_true(half_width_of(0.5f, settings, 100) == 2);
-    const ps_box_settings none = {.size = 2, .grow = 1};
+    const ps_box_settings none = {.radius = 2, .max_merge_scale = 1};
     assert_true(half_width_of(9, none, 100) == 2);
-    const ps_box_settings follows = {.size = 2, .grow = 3, .follow = 0.25};
+    const ps_box_settings follows = {.radius = 2, .max_merge_scale = 3, .bandwidth_scale = 0.25};
     expect_near(half_width_of(9, follows, 100), 6);
     expect_near(half_width_of(9, follows, 16), 4);
     expect_near(half_width_of(9, follows, 0.1f), 1.8);
-    const ps_box_settings vast = {.size = 2, .grow = INFINITY};
+    const ps_box_settings vast = {.radius = 2, .max_merge_scale = INFINITY};
     expect_near(half_width_of(1e12f, vast, 100), 4 * RADIUS);
 }
 
@@ -226,7 +226,7 @@ static void test_size_grows_with_what_was_merged(void **state)
 static void test_automatic_step_back(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.size = 2};
+    const ps_box_settings settings = {.radius = 2};
     ps_splat flat = place(settings, 10, 1);
     expect_near(flat.near_depth, -1);
     expect_near(flat.far_depth, 2);
@@ -243,7 +243,7 @@ static void test_automatic_step_back(void **state)
 static void test_steep_slopes_are_limited(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.size = 1};
+    const ps_box_settings settings = {.radius = 1};
     ps_splat grazing = place(settings, 1000, 1e-3f);
     expect_near(grazing.near_depth, -(10 + 0.5));
     expect_near(grazing.far_depth, 11);
@@ -254,13 +254,14 @@ static void test_steep_slopes_are_limited(void **state)
 static void test_numbers(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.size = 2, .depth = 7, .step_back = 3, .step_back_rule = -1};
+    const ps_box_settings settings = {
+        .radius = 2, .depth = 7, .step_back = 3, .step_back_rule = -1};
     ps_splat splat = place(settings, 10, 0.6f);
     expect_near(splat.near_depth, -3);
     expect_near(splat.start_depth, -3);
     expect_near(splat.far_depth, 7);
     expect_near(place(settings, 2, 0.6f).near_depth, -2); /* the source is nearer */
-    const ps_box_settings none = {.size = 2, .step_back = 0, .step_back_rule = -1};
+    const ps_box_settings none = {.radius = 2, .step_back = 0, .step_back_rule = -1};
     expect_near(place(none, 10, 1).near_depth, 0);
 }
 
@@ -268,7 +269,7 @@ static void test_numbers(void **state)
 static void test_full_beam_straight_up(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.size = 2, .step_back_rule = 1};
+    const ps_box_settings settings = {.radius = 2, .step_back_rule = 1};
     ps_splat splat = place(settings, 10, 1);
     expect_near(splat.start_depth, 0.25 - 10);
     expect_near(splat.start_slope_u, 0);
@@ -284,7 +285,7 @@ static void test_full_beam_straight_up(void **state)
 static void test_full_beam_starts_along_the_surface(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.size = 2, .step_back_rule = 1};
+    const ps_box_settings settings = {.radius = 2, .step_back_rule = 1};
     ps_splat splat = place_along((ps_vec3){0.8f, 0.6f, 0}, settings, 10, 1);
     float earliest = 0;
     for (int i = 0; i < 32; i++) { /* around the edge of the disc */
@@ -304,7 +305,7 @@ static void test_a_miss_lights_nothing(void **state)
 {
     (void)state;
     for (int rule = -1; rule <= 1; rule++) {
-        const ps_box_settings settings = {.size = 2, .step_back = 1, .step_back_rule = rule};
+        const ps_box_settings settings = {.radius = 2, .step_back = 1, .step_back_rule = rule};
         ps_source source = {.normal = {0, 1, 0}, .direction = {0, 1, 0}, .power = {1, 1, 1}};
         ps_hit hit = {.distance = INFINITY, .object = PS_NO_OBJECT};
         assert_true(place_one(&scene, &settings, &source, &hit).half_width == 0);
@@ -315,7 +316,7 @@ static ps_splat frame_of(uint64_t seed, uint64_t path, uint32_t bounce, ps_vec3 
 {
     const struct box_scene own = {
         .radius = RADIUS, .surface_offset = 0.001f, .seed = seed, .camera = &camera};
-    const ps_box_settings settings = {.size = 2};
+    const ps_box_settings settings = {.radius = 2};
     ps_source source = {.normal = w, .direction = w, .bounce = bounce, .path = path};
     ps_hit hit = {.position = w, .distance = 1, .normal = ps_scale(w, -1)};
     return place_one(&own, &settings, &source, &hit);
@@ -407,8 +408,8 @@ int main(void)
         cmocka_unit_test(test_size_by_the_spread_of_light),
         cmocka_unit_test(test_size_follows_distance),
         cmocka_unit_test(test_size_follows_less_far_after_the_first_bounce),
-        cmocka_unit_test(test_near_light_stays_as_near),
-        cmocka_unit_test(test_near_light_is_left),
+        cmocka_unit_test(test_short_range_light_stays_as_near),
+        cmocka_unit_test(test_short_range_light_is_left),
         cmocka_unit_test(test_size_follows_no_further_than_pixels),
         cmocka_unit_test(test_size_grows_with_what_was_merged),
         cmocka_unit_test(test_automatic_step_back),

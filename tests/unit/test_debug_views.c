@@ -78,9 +78,14 @@ static void test_overlap_is_the_weight_of_a_box(void **state)
 {
     (void)state;
     char *text = cornell_text(WIDTH, HEIGHT);
-    expect_weights(text, "visibility=none:size=50,follow=0,grow=1,walls=no");
-    expect_weights(text, "visibility=shadowmap:size=50,follow=0,grow=1,walls=no");
-    expect_weights(text, "visibility=raycast:size=50,follow=0,grow=1,walls=no");
+    expect_weights(
+        text,
+        "visibility=none:radius=50,bandwidth_scale=0,max_merge_scale=1,boundary_correction=no");
+    expect_weights(text, "visibility=shadowmap:radius=50,bandwidth_scale=0,max_merge_scale=1,"
+                         "boundary_correction=no");
+    expect_weights(
+        text,
+        "visibility=raycast:radius=50,bandwidth_scale=0,max_merge_scale=1,boundary_correction=no");
     free(text);
 }
 
@@ -146,7 +151,7 @@ static void test_overlap_is_the_count_by_hand(void **state)
     const char *const choices[] = {"injection=photon:count=2000",
                                    "bounces=2",
                                    "filter=gaussian",
-                                   "visibility=none:size=60",
+                                   "visibility=none:radius=60",
                                    "stratification=grid:resolution=20",
                                    NULL};
     char *text = cornell_text(WIDTH, HEIGHT);

@@ -72,7 +72,7 @@ static struct bench *make_bench(void)
             .follow = s % 2 ? 0.6f : 0.0f,
             .narrowest = 0.1f,
             .widest = 0.5f,
-            .full_from = s % 4 == 1 ? 0.8f : 0.0f,
+            .blend_distance = s % 4 == 1 ? 0.8f : 0.0f,
             .power = {1, 2, 3},
             .wall_count = s % 3,
             .walls = {{cosf(angle), sinf(angle), random_unit(&random)},

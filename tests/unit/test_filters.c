@@ -73,7 +73,7 @@ struct spot {
 static struct spot spot_of(const char *filter)
 {
     const char *const choices[] = {"injection=photon:count=1", filter,
-                                   "visibility=none:size=1.5,follow=0",
+                                   "visibility=none:radius=1.5,bandwidth_scale=0",
                                    "estimator=splat:interleave=1", NULL};
     struct rendering rendering = render_text(floor_text, 1, choices);
     const float *green = image_channel(&rendering.image, "indirect.G");

@@ -14,7 +14,7 @@
 #define WIDTH 160
 #define HEIGHT 90
 #define PHOTONS "injection=photon:count=60000"
-#define SHADOW_MAPS "visibility=shadowmap:size=40,resolution=4"
+#define SHADOW_MAPS "visibility=shadowmap:radius=40,resolution=4"
 
 static char *cornell, *cornell_in_passes;
 
@@ -120,8 +120,8 @@ static void test_other_injections_keep_the_brightness(void **state)
 static void test_interleaving_saves_tests(void **state)
 {
     (void)state;
-    struct rendering all = render_by(SHADOW_MAPS ",follow=0", cornell, PHOTONS, 1);
-    struct rendering some = render_by(SHADOW_MAPS ",follow=0", cornell, PHOTONS, 4);
+    struct rendering all = render_by(SHADOW_MAPS ",bandwidth_scale=0", cornell, PHOTONS, 1);
+    struct rendering some = render_by(SHADOW_MAPS ",bandwidth_scale=0", cornell, PHOTONS, 4);
     double tests = statistics_counter(&some.statistics, "pixel-splat tests") /
                    statistics_counter(&all.statistics, "pixel-splat tests");
     double lit = statistics_counter(&some.statistics, "pixel-splat tests with weight") /

@@ -98,7 +98,7 @@ static void add_width(ps_splat *splat, struct random *random)
     splat->follow = random_between(random, 0.2f, 2.0f);
     splat->narrowest = random_between(random, 0.1f, 0.5f) * splat->half_width;
     splat->widest = random_between(random, 0.5f, 1.5f) * splat->half_width;
-    splat->full_from = random_between(random, -0.3f, 0.6f);
+    splat->blend_distance = random_between(random, -0.3f, 0.6f);
 }
 
 static ps_splat random_splat(struct random *random)
@@ -246,8 +246,8 @@ static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel,
     sums->borderline |= fabs(entry - floor(entry + 0.5)) < 2e-3;
     sums->weight += k;
     sums->lit++;
-    if (splat->follow > 0 && splat->full_from > 0)
-        k *= smooth_step(above / (double)splat->full_from);
+    if (splat->follow > 0 && splat->blend_distance > 0)
+        k *= smooth_step(above / (double)splat->blend_distance);
     sums->r += splat->power.r * k * cosine;
     sums->g += splat->power.g * k * cosine;
     sums->b += splat->power.b * k * cosine;

@@ -64,7 +64,7 @@ static void test_darkness(void **state)
 
 static ps_result check_size(void *user, struct render *render, struct error *error)
 {
-    const ps_box_settings automatic = {.size = 0};
+    const ps_box_settings automatic = {.radius = 0};
     const ps_hit hit = {.distance = 1, .normal = {0, -1, 0}, .position = {0, 1, 0}};
     const ps_source *sources;
     size_t n;

@@ -81,8 +81,8 @@ static struct meeting meet(float cosine, uint32_t flags)
     };
 }
 
-static ps_scatter scatter(const struct material *material, const struct meeting *meeting,
-                          ps_direction direction, struct random *random)
+static ps_bsdf_sample scatter(const struct material *material, const struct meeting *meeting,
+                              ps_direction direction, struct random *random)
 {
     float numbers[4];
     for (int k = 0; k < 4; k++)
@@ -187,7 +187,7 @@ static void test_diffuse_parts_count_once(void **state)
     struct random random = {3};
     double ends = 0;
     for (int i = 0; i < SAMPLES; i++) {
-        ps_scatter on = scatter(&mix, &meeting, PS_FROM_CAMERA, &random);
+        ps_bsdf_sample on = scatter(&mix, &meeting, PS_FROM_CAMERA, &random);
         if (on.lobe == PS_DIFFUSE)
             ends += 1.0 / (double)on.probability;
     }
@@ -202,7 +202,7 @@ static double share_that_passes(const struct material *glass, const struct meeti
     struct random random = {23};
     int passed = 0;
     for (int i = 0; i < SAMPLES; i++) {
-        ps_scatter on = scatter(glass, meeting, PS_FROM_CAMERA, &random);
+        ps_bsdf_sample on = scatter(glass, meeting, PS_FROM_CAMERA, &random);
         assert_int_equal(on.lobe, PS_SPECULAR);
         assert_true(on.pdf == 0);
         assert_true(fabsf(ps_length(on.direction) - 1) < 1e-5f);
@@ -258,7 +258,7 @@ static void test_glass_absorbs_by_distance(void **state)
     struct meeting inside = meet(0.6f, PS_HIT_BACK);
     struct random random = {1};
     inside.hit.distance = 3;
-    ps_scatter on = scatter(&glass, &inside, PS_FROM_CAMERA, &random);
+    ps_bsdf_sample on = scatter(&glass, &inside, PS_FROM_CAMERA, &random);
     assert_true(fabsf(on.weight.r - 1) < 1e-6f);
     assert_true(fabsf(on.weight.g - expf(-1.5f)) < 1e-6f);
     assert_true(fabsf(on.weight.b - expf(-6)) < 1e-6f);
@@ -272,7 +272,7 @@ static void test_mirror_direction(void **state)
     struct material mirror = made_one(plain(MATERIAL_MIRROR, 1));
     struct meeting meeting = meet(0.6f, 0);
     struct random random = {1};
-    ps_scatter on = scatter(&mirror, &meeting, PS_FROM_CAMERA, &random);
+    ps_bsdf_sample on = scatter(&mirror, &meeting, PS_FROM_CAMERA, &random);
     assert_true(fabsf(on.direction.x - 0.8f) < 1e-6f && fabsf(on.direction.y - 0.6f) < 1e-6f);
 }
 
@@ -290,7 +290,7 @@ static void test_directions_follow_the_densities(void **state)
     int diffuse = 0;
     double probability = 0;
     for (int i = 0; i < SAMPLES; i++) {
-        ps_scatter on = scatter(&glossy, &meeting, PS_FROM_CAMERA, &random);
+        ps_bsdf_sample on = scatter(&glossy, &meeting, PS_FROM_CAMERA, &random);
         if (on.lobe != PS_DIFFUSE)
             continue;
         diffuse++;
@@ -316,7 +316,7 @@ static void test_tilted_normals(void **state)
     struct random random = {31};
     int through = 0;
     for (int i = 0; i < SAMPLES; i++) {
-        ps_scatter on = scatter(&diffuse, &meeting, PS_FROM_LIGHT, &random);
+        ps_bsdf_sample on = scatter(&diffuse, &meeting, PS_FROM_LIGHT, &random);
         if (on.direction.y <= 0) {
             through++;
             assert_true(on.weight.g == 0);
@@ -360,7 +360,7 @@ static void test_shares_of_the_two_samplings_sum_to_one(void **state)
     struct meeting meeting = meet(0.7f, 0);
     struct random random = {41};
     for (int i = 0; i < 100; i++) {
-        ps_scatter on = scatter(&metal, &meeting, PS_FROM_CAMERA, &random);
+        ps_bsdf_sample on = scatter(&metal, &meeting, PS_FROM_CAMERA, &random);
         if (!(on.weight.g > 0))
             continue;
         float light = 0.7f;

@@ -1,6 +1,6 @@
 /* test_pipeline.c: the driver: sources pass through, dark pixels are filled and counted, layers
  * join, and the picture depends on neither threads nor batches. */
-#include "gather/near_light.h"
+#include "gather/gathered_light.h"
 #include "support/render_scene.h"
 
 #include <math.h>
@@ -81,7 +81,7 @@ static void test_ambient_fills_dark_pixels(void **state)
     (void)state;
     char *text = cornell_with("ambient: [1.5, 2.5, 3.5]");
     struct rendering rendering =
-        render(text, "injection=photon:count=8", "estimator=splat:near_rays=0");
+        render(text, "injection=photon:count=8", "estimator=splat:gather_rays=0");
     const struct image *image = &rendering.image;
     const float *weight = image_channel(image, "weight"), *z = image_channel(image, "Z");
     const float *red = image_channel(image, "indirect.R");
@@ -188,24 +188,24 @@ static void test_determined_with_shadow_maps(void **state)
 static void test_determined_without_visibility(void **state)
 {
     (void)state;
-    const char *const choices[] = {"injection=photon:count=1000", "visibility=none:size=60",
+    const char *const choices[] = {"injection=photon:count=1000", "visibility=none:radius=60",
                                    "filter=tent", NULL};
     expect_determined(choices);
 }
 
-static void test_rays_for_near_light(void **state)
+static void test_rays_of_the_short_range_gather(void **state)
 {
     (void)state;
-    assert_int_equal(near_light_rays(400000), 170);
-    assert_int_equal(near_light_rays(1600000), 340);
-    assert_int_equal(near_light_rays(1), 16);
-    assert_int_equal(near_light_rays(UINT64_MAX), 4096);
+    assert_int_equal(gathered_light_rays(400000), 170);
+    assert_int_equal(gathered_light_rays(1600000), 340);
+    assert_int_equal(gathered_light_rays(1), 16);
+    assert_int_equal(gathered_light_rays(UINT64_MAX), 4096);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rays_for_near_light),
+        cmocka_unit_test(test_rays_of_the_short_range_gather),
         cmocka_unit_test(test_no_stratification_passes_sources_through),
         cmocka_unit_test(test_bounces_add_sources),
         cmocka_unit_test(test_ambient_fills_dark_pixels),

@@ -55,7 +55,7 @@ static void test_a_board_beside_the_axis(void **state)
 {
     (void)state;
     struct board board = {.distance = 10, .top = 9};
-    struct beam beam = find(&board, (ps_box_settings){.size = 2}, nothing);
+    struct beam beam = find(&board, (ps_box_settings){.radius = 2}, nothing);
     assert_true(beam.half_width == 2);
     assert_true(beam.hit.distance > 12 && beam.hit.distance < 14.2f);
     assert_true(fabsf(beam.hit.position.x - beam.hit.distance * 0.70710678f) < 1e-4f);
@@ -68,7 +68,7 @@ static void test_a_board_too_far_from_the_axis(void **state)
 {
     (void)state;
     struct board board = {.distance = 10, .top = 6};
-    struct beam beam = find(&board, (ps_box_settings){.size = 2}, nothing);
+    struct beam beam = find(&board, (ps_box_settings){.radius = 2}, nothing);
     assert_true(beam.half_width == 2 && beam.hit.distance == 2);
     assert_true(board.packets == 1);
 }
@@ -80,7 +80,8 @@ static void test_something_near_before_something_far(void **state)
     (void)state;
     struct board board = {.distance = 10, .top = 1e9f};
     const ps_hit near = {.distance = 3, .position = {1, 2, 3}, .normal = {0, 0, 1}};
-    const ps_box_settings wide = {.size = 2, .follow = 0.2}, narrow = {.size = 2, .follow = 0.05};
+    const ps_box_settings wide = {.radius = 2, .bandwidth_scale = 0.2},
+                          narrow = {.radius = 2, .bandwidth_scale = 0.05};
     struct beam beam = find(&board, wide, near);
     assert_true(beam.half_width == 2);
     assert_true(beam.hit.distance == 3 && ps_same(beam.hit.position, near.position));
@@ -94,10 +95,10 @@ static void test_leaves_wide_beams_and_none(void **state)
     (void)state;
     struct board board = {.distance = 10, .top = 9};
     const ps_hit far = {.distance = 30};
-    const ps_box_settings settings = {.size = 2, .follow = 0.2};
+    const ps_box_settings settings = {.radius = 2, .bandwidth_scale = 0.2};
     assert_true(find(&board, settings, far).half_width == 2);
-    assert_true(find(&board, (ps_box_settings){.size = 2}, (ps_hit){.distance = 0.1f}).half_width ==
-                2);
+    assert_true(
+        find(&board, (ps_box_settings){.radius = 2}, (ps_hit){.distance = 0.1f}).half_width == 2);
     ps_host host = {.core = &board, .intersect_packets = trace};
     const ps_source source = {.normal = {0, 1, 0}, .direction = {0, 1, 0}};
     ps_hit hit = nothing;

@@ -124,9 +124,9 @@ static struct floor_pair plate_floor(const char *visibility)
 static void test_shadow_maps_keep_light_from_under_a_plate(void **state)
 {
     (void)state;
-    struct floor_pair none = plate_floor("visibility=none:size=0.6");
-    struct floor_pair map = plate_floor("visibility=shadowmap:size=0.6,step_back=auto");
-    struct floor_pair full = plate_floor("visibility=shadowmap:size=0.6,step_back=full");
+    struct floor_pair none = plate_floor("visibility=none:radius=0.6");
+    struct floor_pair map = plate_floor("visibility=shadowmap:radius=0.6,step_back=auto");
+    struct floor_pair full = plate_floor("visibility=shadowmap:radius=0.6,step_back=full");
     assert_true(map.under < 0.2 * none.under);
     assert_true(full.under < 0.2 * none.under);
     assert_true(none.under > 0.5 * none.open); /* it leaks right through */
@@ -137,9 +137,9 @@ static void test_shadow_maps_keep_light_from_under_a_plate(void **state)
 static void test_light_leaks_without_visibility(void **state)
 {
     (void)state;
-    struct moments none = measure(cornell, "visibility=none:size=80", NULL, NULL);
+    struct moments none = measure(cornell, "visibility=none:radius=80", NULL, NULL);
     struct moments map =
-        measure(cornell, "visibility=shadowmap:size=80,step_back=auto", NULL, NULL);
+        measure(cornell, "visibility=shadowmap:radius=80,step_back=auto", NULL, NULL);
     print_message("Cornell box: none / shadowmap %.4f\n", none.mean / map.mean);
     assert_true(none.mean > 1.02 * map.mean);
 }
@@ -212,7 +212,7 @@ static void test_gaussian_denoiser_smooths(void **state)
     struct moments before = {0};
     for (int i = 0; i < 4; i++) {
         struct moments moments =
-            measure(cornell, choices[i], "visibility=none:size=15,follow=0", NULL);
+            measure(cornell, choices[i], "visibility=none:radius=15,bandwidth_scale=0", NULL);
         print_message("%s: mean %.4f, deviation %.4f\n", choices[i], moments.mean,
                       moments.deviation);
         if (i > 0) {

@@ -56,7 +56,8 @@ static void test_raycast_finds_a_hard_edge(void **state)
 {
     (void)state;
     struct rendering rendering =
-        render(edge_text, "visibility=raycast:size=0.03,follow=0", "injection=photon:count=200000");
+        render(edge_text, "visibility=raycast:radius=0.03,bandwidth_scale=0",
+               "injection=photon:count=200000");
     const float *x = image_channel(&rendering.image, "P.X");
     const float *light = image_channel(&rendering.image, "indirect.G");
     double pixel, place = edge_place(&rendering.image, &pixel);
@@ -120,9 +121,9 @@ static void test_shadow_maps_converge_to_raycast(void **state)
     double before = INFINITY;
     for (int resolution = 4; resolution <= 64; resolution *= 2) {
         char visibility[80];
-        snprintf(visibility, sizeof visibility, "visibility=shadowmap:size=0.5,resolution=%d",
+        snprintf(visibility, sizeof visibility, "visibility=shadowmap:radius=0.5,resolution=%d",
                  resolution);
-        double now = distance_to_raycast(plate_text, "visibility=raycast:size=0.5", visibility);
+        double now = distance_to_raycast(plate_text, "visibility=raycast:radius=0.5", visibility);
         assert_true(now < 0.9 * before);
         before = now;
     }
@@ -132,8 +133,8 @@ static void test_shadow_maps_converge_to_raycast(void **state)
 static void test_no_visibility_agrees_where_nothing_is_in_the_way(void **state)
 {
     (void)state;
-    static const char *const raycast = "visibility=raycast:size=0.5,step_back=auto";
-    static const char *const none = "visibility=none:size=0.5,step_back=auto";
+    static const char *const raycast = "visibility=raycast:radius=0.5,step_back=auto";
+    static const char *const none = "visibility=none:radius=0.5,step_back=auto";
     assert_true(distance_to_raycast(open_text, raycast, none) < 1e-5);
     assert_true(distance_to_raycast(plate_text, raycast, none) > 0.1);
 }
@@ -141,8 +142,8 @@ static void test_no_visibility_agrees_where_nothing_is_in_the_way(void **state)
 static void test_rays_are_counted(void **state)
 {
     (void)state;
-    struct rendering exact = render(plate_text, "visibility=raycast:size=0.5", PHOTONS);
-    struct rendering map = render(plate_text, "visibility=shadowmap:size=0.5", PHOTONS);
+    struct rendering exact = render(plate_text, "visibility=raycast:radius=0.5", PHOTONS);
+    struct rendering map = render(plate_text, "visibility=shadowmap:radius=0.5", PHOTONS);
     double rays = statistics_counter(&exact.statistics, "visibility rays");
     double lit = statistics_counter(&exact.statistics, "pixel-splat tests with weight");
     print_message("%.0f rays, %.0f pairs lit\n", rays, lit);
@@ -155,7 +156,7 @@ static void test_rays_are_counted(void **state)
 static void test_raycast_is_deterministic(void **state)
 {
     (void)state;
-    const char *const choices[] = {"visibility=raycast:size=0.5", PHOTONS, NULL};
+    const char *const choices[] = {"visibility=raycast:radius=0.5", PHOTONS, NULL};
     struct rendering one = render_text_in_batches(plate_text, 1, 4096, choices);
     struct rendering two = render_text_in_batches(plate_text, 3, 77, choices);
     size_t bytes = one.image.width * one.image.height * sizeof(float);
@@ -171,8 +172,8 @@ static void test_raycast_is_deterministic(void **state)
 static void test_sheets_have_two_sides(void **state)
 {
     (void)state;
-    struct rendering one = render(plate_text, "visibility=shadowmap:size=0.5", PHOTONS);
-    struct rendering two = render(turned_plate_text, "visibility=shadowmap:size=0.5", PHOTONS);
+    struct rendering one = render(plate_text, "visibility=shadowmap:radius=0.5", PHOTONS);
+    struct rendering two = render(turned_plate_text, "visibility=shadowmap:radius=0.5", PHOTONS);
     assert_true(relative_rms(&one.image, &two.image, "indirect.G") < 1e-5);
     rendering_release(&one);
     rendering_release(&two);
@@ -215,10 +216,13 @@ static double light_below_the_box(const char *visibility)
 static void test_light_that_starts_inside_a_box_stays_there(void **state)
 {
     (void)state;
-    assert_true(light_below_the_box("visibility=none:size=0.3,follow=0,step_back=full") > 1e-3);
-    assert_true(light_below_the_box("visibility=raycast:size=0.3,follow=0") == 0);
-    assert_true(light_below_the_box("visibility=shadowmap:size=0.3,follow=0,resolution=4") < 1e-6);
-    assert_true(light_below_the_box("visibility=shadowmap:size=0.3,follow=0,resolution=16") < 1e-6);
+    assert_true(light_below_the_box("visibility=none:radius=0.3,bandwidth_scale=0,step_back=full") >
+                1e-3);
+    assert_true(light_below_the_box("visibility=raycast:radius=0.3,bandwidth_scale=0") == 0);
+    assert_true(light_below_the_box(
+                    "visibility=shadowmap:radius=0.3,bandwidth_scale=0,resolution=4") < 1e-6);
+    assert_true(light_below_the_box(
+                    "visibility=shadowmap:radius=0.3,bandwidth_scale=0,resolution=16") < 1e-6);
 }
 
 /* --- shadow maps: borders --- */
@@ -260,11 +264,14 @@ static void test_slopes_keep_their_weight_up_to_the_rim(void **state)
     for (size_t t = 0; t < 3; t++)
         for (size_t r = 0; r < 4; r++) {
             char visibility[96];
-            snprintf(visibility, sizeof visibility,
-                     "visibility=shadowmap:size=0.15,follow=0,step_back=auto,resolution=%d",
-                     resolutions[r]);
-            assert_true(weight_lost(tilts[t], visibility,
-                                    "visibility=raycast:size=0.15,follow=0,step_back=auto") < 1e-4);
+            snprintf(
+                visibility, sizeof visibility,
+                "visibility=shadowmap:radius=0.15,bandwidth_scale=0,step_back=auto,resolution=%d",
+                resolutions[r]);
+            assert_true(
+                weight_lost(tilts[t], visibility,
+                            "visibility=raycast:radius=0.15,bandwidth_scale=0,step_back=auto") <
+                1e-4);
         }
 }
 
@@ -274,9 +281,10 @@ static void test_edges_and_corners_keep_their_light(void **state)
 {
     (void)state;
     char *cornell = cornell_text(96, 54);
-    struct rendering exact = render(cornell, "visibility=raycast:size=50,walls=no", PHOTONS);
-    struct rendering map =
-        render(cornell, "visibility=shadowmap:size=50,walls=no,resolution=4", PHOTONS);
+    struct rendering exact =
+        render(cornell, "visibility=raycast:radius=50,boundary_correction=no", PHOTONS);
+    struct rendering map = render(
+        cornell, "visibility=shadowmap:radius=50,boundary_correction=no,resolution=4", PHOTONS);
     double ratio = mean_of_all(&map.image, "indirect.G") / mean_of_all(&exact.image, "indirect.G");
     double rms = relative_rms(&exact.image, &map.image, "indirect.G");
     print_message("Cornell box: 4x4 maps give %.4f of the light, RMS %.4f\n", ratio, rms);

@@ -51,13 +51,14 @@ static void test_converges_to_shadow_maps(void **state)
     (void)state;
     char *cornell = cornell_text(64, 36);
     static const char *const many = "injection=photon:count=40000";
-    const char *const exact[] = {many, "visibility=shadowmap:size=50,walls=no", NULL};
+    const char *const exact[] = {many, "visibility=shadowmap:radius=50,boundary_correction=no",
+                                 NULL};
     struct rendering reference = render_text(cornell, 2, exact);
     double before = INFINITY, ratio = 0;
     for (int points = 1000; points <= 100000; points *= 10) {
         char visibility[96];
-        snprintf(visibility, sizeof visibility, "visibility=imperfect:size=50,points=%d,walls=no",
-                 points);
+        snprintf(visibility, sizeof visibility,
+                 "visibility=imperfect:radius=50,points=%d,boundary_correction=no", points);
         const char *const choices[] = {many, visibility, NULL};
         struct rendering rendering = render_text(cornell, 2, choices);
         double now = relative_rms(&reference.image, &rendering.image);
@@ -77,7 +78,7 @@ static void test_converges_to_shadow_maps(void **state)
 static void test_threads_and_batches_change_nothing(void **state)
 {
     (void)state;
-    const char *const choices[] = {PHOTONS, "visibility=imperfect:size=0.5,points=5000", NULL};
+    const char *const choices[] = {PHOTONS, "visibility=imperfect:radius=0.5,points=5000", NULL};
     struct rendering one = render_text_in_batches(plate_text, 1, 4096, choices);
     struct rendering two = render_text_in_batches(plate_text, 3, 77, choices);
     size_t bytes = one.image.width * one.image.height * sizeof(float);
@@ -117,13 +118,14 @@ static struct floor_light floor_light(const char *visibility)
 
 /* Few points, small texels: maps are full of holes. The box reaches from the plate to the floor. */
 #define HOLES                                                                                      \
-    "visibility=imperfect:size=0.8,follow=0,step_back=auto,depth=2,resolution=16,points=3000"
+    "visibility=imperfect:radius=0.8,bandwidth_scale=0,step_back=auto,depth=2,resolution=16,"      \
+    "points=3000"
 
 static void test_pull_push_fills_holes(void **state)
 {
     (void)state;
-    struct floor_light map =
-        floor_light("visibility=shadowmap:size=0.8,follow=0,step_back=auto,depth=2,resolution=16");
+    struct floor_light map = floor_light(
+        "visibility=shadowmap:radius=0.8,bandwidth_scale=0,step_back=auto,depth=2,resolution=16");
     struct floor_light open = floor_light(HOLES ",pull=0");
     struct floor_light filled = floor_light(HOLES ",pull=3");
     assert_true(open.below > 4 * filled.below);

@@ -1,7 +1,7 @@
-/* near_light.h: the light that splats of a pass leave out, pixel by pixel.
+/* gathered_light.h: the light that splats of a pass leave out, pixel by pixel.
  *
- * It is gathered with few rays a pixel (near_gather.h), and becomes a mean over the window that splats are
- * interleaved over, or would be if they were fewer and larger (pair_mean.h). Beside a thing no larger than a
+ * It is gathered with few rays a pixel (gather.h), and becomes a mean over the window that splats are
+ * interleaved over, or would be if they were fewer and larger (geometry_filter.h). Beside a thing no larger than a
  * pixel, and along contacts, that is too wide. So a pixel whose own rays found something else than the mean, by
  * D with a variance of s^2 (both of the sum of its channels), goes from the mean to its own by the part
  *
@@ -11,18 +11,18 @@
  * shrinkage denoising using the non-negative garrote"). Means over 9, 25 and 49 pixels in between gain nothing
  * more.
  */
-#ifndef GATHER_NEAR_LIGHT_H
-#define GATHER_NEAR_LIGHT_H
+#ifndef GATHER_GATHERED_LIGHT_H
+#define GATHER_GATHERED_LIGHT_H
 
 #include "film/gbuffer.h"
 
-struct near_light {
+struct gathered_light {
     float distance;    /* from within which it comes, in this pass; 0: none is left */
     ps_rgb *found;     /* irradiance, a value for each lane of each tile; owned; NULL: none yet */
     float *variances;  /* of that, of its channels' sum; likewise */
     ps_rgb *joined;    /* room for its means, likewise */
     uint8_t *averaged; /* how many pixels they are taken over, likewise */
-    /* For near_pilot.h, a value for each tile; likewise. */
+    /* For gather_pilot.h, a value for each tile; likewise. */
     float *ray_variances; /* of what single rays find there */
     float *noises;        /* its root, there and around */
     double mean_noise;
@@ -32,17 +32,18 @@ struct near_light {
 
 /* So many rays a pixel, and those that it is averaged with, have less noise than the splats of so many paths:
  * both fall by the root of their number, nearly. */
-uint32_t near_light_rays(uint64_t paths);
+uint32_t gathered_light_rays(uint64_t paths);
 
 /* Starts a pass in which light from within a distance is left, and makes room where there is none.
  * `interleave`: n. */
-ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffer, float distance,
-                           uint32_t interleave, uint32_t threads, struct error *error);
+ps_result gathered_light_begin(struct gathered_light *near, const struct gbuffer *gbuffer,
+                               float distance, uint32_t interleave, uint32_t threads,
+                               struct error *error);
 /* What that takes for a G-buffer of this size. */
-size_t near_light_bytes(const struct gbuffer *gbuffer);
-void near_light_release(struct near_light *near);
+size_t gathered_light_bytes(const struct gbuffer *gbuffer);
+void gathered_light_release(struct gathered_light *near);
 
 /* Adds what was found to the G-buffer's tiles, without weight. */
-void near_light_end(struct near_light *near, struct gbuffer *gbuffer, uint32_t threads);
+void gathered_light_end(struct gathered_light *near, struct gbuffer *gbuffer, uint32_t threads);
 
 #endif

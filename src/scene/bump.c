@@ -1,4 +1,4 @@
-#include "scene/relief.h"
+#include "scene/bump.h"
 
 #include <float.h>
 #include <psplat/math.h>
@@ -29,8 +29,8 @@ static ps_vec3 project(ps_vec3 v, ps_vec3 n)
     return ps_add_scaled(v, -ps_dot(v, n), n);
 }
 
-ps_vec3 relief_bump(const struct pigment *height, ps_vec3 point, const float uv[2], ps_vec3 normal,
-                    ps_vec3 dpdu, ps_vec3 dpdv)
+ps_vec3 bump_bump(const struct pigment *height, ps_vec3 point, const float uv[2], ps_vec3 normal,
+                  ps_vec3 dpdu, ps_vec3 dpdv)
 {
     if (pigment_is_constant(height))
         return normal;
@@ -56,8 +56,8 @@ static ps_vec3 map_vector(const struct texture *map, const float uv[2])
                      fmaxf((rgba[2] - middle) * scale, LEAST_HEIGHT)};
 }
 
-ps_vec3 relief_normal_map(const struct texture *map, const float uv[2], ps_vec3 normal,
-                          ps_vec3 dpdu, ps_vec3 dpdv)
+ps_vec3 bump_normal_map(const struct texture *map, const float uv[2], ps_vec3 normal, ps_vec3 dpdu,
+                        ps_vec3 dpdv)
 {
     const ps_vec3 none = {0, 0, 0};
     ps_vec3 along_u = unit_or(project(dpdu, normal), none);

@@ -1,13 +1,13 @@
-#include "gather/near_rays.h"
+#include "gather/gather_rays.h"
 
-#include "splat/near_share.h"
+#include "splat/gather_share.h"
 #include <math.h>
 
 #define TILES_AT_A_TIME 256 /* until the user may stop */
 
 /* Shoots one ray from each point, and moves what they meet to the front; returns how many. targets[i]: the
  * point of hit i. */
-static size_t look(const struct near_rays *pass_rays, const ps_points *points, uint32_t set,
+static size_t look(const struct gather_rays *pass_rays, const ps_points *points, uint32_t set,
                    const uint64_t *indices, ps_ray *rays, ps_hit *hits, uint32_t *targets)
 {
     const ps_host *host = pass_rays->host;
@@ -36,9 +36,9 @@ static size_t look(const struct near_rays *pass_rays, const ps_points *points, u
     return met;
 }
 
-size_t near_rays_shoot(const struct near_rays *pass_rays, const ps_points *points,
-                       struct near_numbers numbers, uint64_t *indices, uint32_t *targets,
-                       ps_rgb *radiance)
+size_t gather_rays_shoot(const struct gather_rays *pass_rays, const ps_points *points,
+                         struct gather_streams numbers, uint64_t *indices, uint32_t *targets,
+                         ps_rgb *radiance)
 {
     const ps_host *host = pass_rays->host;
     ps_ray rays[PS_TILE_PIXELS];
@@ -47,22 +47,22 @@ size_t near_rays_shoot(const struct near_rays *pass_rays, const ps_points *point
     for (size_t i = 0; i < met; i++)
         indices[i] = indices[targets[i]]; /* targets[i] >= i */
     host->direct_radiance(host, rays, hits, PS_STREAM_PATH, numbers.lamps, indices, met, radiance);
-    struct near_share share = near_share_until(pass_rays->near->distance);
+    struct gather_share share = gather_share_until(pass_rays->near->distance);
     for (size_t i = 0; i < met; i++) {
-        float left = 1.0f - near_share_of_splats(share, hits[i].distance);
+        float left = 1.0f - gather_share_of_splats(share, hits[i].distance);
         radiance[i] = ps_rgb_scale(radiance[i], left);
     }
     return met;
 }
 
-void near_rays_move(ps_points *points, size_t from, size_t to)
+void gather_rays_move(ps_points *points, size_t from, size_t to)
 {
     points->positions[to] = points->positions[from];
     points->normals[to] = points->normals[from];
     points->lanes[to] = points->lanes[from];
 }
 
-ps_result near_rays_over_tiles(struct near_rays *rays, ps_body body, void *user)
+ps_result gather_rays_over_tiles(struct gather_rays *rays, ps_body body, void *user)
 {
     uint64_t tiles = rays->pass->tile_count;
     for (rays->first_tile = 0; rays->first_tile < tiles; rays->first_tile += TILES_AT_A_TIME) {

@@ -1,8 +1,8 @@
-/* light_join.h: soft shadows with few rays: pixels take in what the pixels around them found.
+/* discontinuity_buffer.h: soft shadows with few rays: pixels take in what the pixels around them found.
  *
  * A pixel in a half-shadow has light that its few shadow rays tell badly; those of its neighbours, which
  * go to other points of the same lamp, tell nearly the same. So the direct irradiance of a pixel becomes
- * a mean over 5x5 pixels (pair_mean.h), of those that see the lights alike.
+ * a mean over 5x5 pixels (geometry_filter.h), of those that see the lights alike.
  *
  * The pixels of any 5x5 share one run of numbers, of which each place in such a window has a part: together
  * they look at the lamp as evenly as one pixel with 25 times as many rays. Under a lamp they have as much noise
@@ -13,17 +13,17 @@
  * A shadow finer than that, inside of a half-shadow, is blurred. That is a bias, and the reason for asking
  * first.
  */
-#ifndef DIRECT_LIGHT_JOIN_H
-#define DIRECT_LIGHT_JOIN_H
+#ifndef DIRECT_DISCONTINUITY_BUFFER_H
+#define DIRECT_DISCONTINUITY_BUFFER_H
 
 #include "direct/direct.h"
 
 /* The runs of a tile's lanes, of `samples` numbers for each pass. */
-void light_join_runs(const struct gbuffer *gbuffer, uint32_t tile, uint32_t pass, uint32_t samples,
-                     struct light_runs *runs);
+void discontinuity_buffer_runs(const struct gbuffer *gbuffer, uint32_t tile, uint32_t pass,
+                               uint32_t samples, struct light_runs *runs);
 
 /* Puts joined direct irradiance in the place of what each lane found by itself; after
  * gbuffer_prepare_join. */
-void light_join(struct gbuffer *gbuffer, uint32_t threads);
+void discontinuity_buffer(struct gbuffer *gbuffer, uint32_t threads);
 
 #endif

@@ -1,7 +1,7 @@
-#include "gather/near_gather.h"
+#include "gather/gather.h"
 
-#include "film/pair_mean.h"
-#include "gather/near_pilot.h"
+#include "film/geometry_filter.h"
+#include "gather/gather_pilot.h"
 #include <math.h>
 
 /* Rays of each pixel that tell whether anything is near to the block that it lies in. Where none of the
@@ -11,10 +11,10 @@
 #define BLOCK 4 /* pixels along the side of a block */
 #define BLOCKS (PS_TILE_PIXELS / (BLOCK * BLOCK))
 
-static const struct near_numbers numbers = {NEAR_DIRECTIONS, NEAR_LAMPS};
+static const struct gather_streams numbers = {GATHER_DIRECTIONS, GATHER_LAMPS};
 
 struct gathering {
-    struct near_rays rays;
+    struct gather_rays rays;
     /* Of a pixel in the middle of a surface and those that it is averaged with. */
     double window_rays;
 };
@@ -37,10 +37,10 @@ static uint64_t power_of_two(double number)
  * with sqrt(n / c) times as many there. A power of two, since these are spread most evenly. */
 static uint64_t rays_of(const struct gathering *work, uint64_t tile, uint32_t lane)
 {
-    const struct near_light *near = work->rays.near;
+    const struct gathered_light *near = work->rays.near;
     double averaged = near->averaged[tile * PS_TILE_PIXELS + lane];
-    double rays = near_pilot_share(near, tile) * work->window_rays;
-    return power_of_two(rays / sqrt(pair_mean_window(near->reach) * averaged));
+    double rays = gather_pilot_share(near, tile) * work->window_rays;
+    return power_of_two(rays / sqrt(geometry_filter_window(near->reach) * averaged));
 }
 
 /* The samples of a tile's pixels, and where those of a pixel begin. */
@@ -54,7 +54,7 @@ static void share_samples(const struct gathering *work, uint64_t tile, const ps_
                           struct sample_runs *samples)
 {
     uint64_t most[BLOCKS] = {0};
-    uint64_t largest = power_of_two(NEAR_PILOT_LARGEST_SHARE * work->window_rays);
+    uint64_t largest = power_of_two(GATHER_PILOT_LARGEST_SHARE * work->window_rays);
     uint64_t before = work->rays.pass->number * BLOCK * BLOCK * largest;
     samples->most = 0;
     for (size_t i = 0; i < points->count; i++) {
@@ -83,7 +83,7 @@ static void gather(const struct gathering *work, const struct sample_runs *sampl
     uint32_t targets[PS_TILE_PIXELS];
     for (size_t i = 0; i < points->count; i++)
         indices[i] = samples->first[points->lanes[i]] + sample;
-    size_t met = near_rays_shoot(&work->rays, points, numbers, indices, targets, radiance);
+    size_t met = gather_rays_shoot(&work->rays, points, numbers, indices, targets, radiance);
     for (size_t i = 0; i < met; i++) {
         uint32_t lane = points->lanes[targets[i]];
         ps_rgb found = ps_rgb_scale(radiance[i], PS_PI / (float)samples->rays[lane]);
@@ -104,7 +104,7 @@ static void keep_looking(const struct sample_runs *samples, uint64_t sample, con
         uint32_t lane = points->lanes[i];
         if (sample >= samples->rays[lane] || (sample >= SCOUTS && !near[block_of(lane)]))
             continue;
-        near_rays_move(points, i, kept++);
+        gather_rays_move(points, i, kept++);
     }
     points->count = kept;
 }
@@ -140,12 +140,12 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     }
 }
 
-ps_result near_gather(const ps_host *host, const ps_pass *pass, struct near_light *near,
-                      double rays)
+ps_result short_range_gather(const ps_host *host, const ps_pass *pass, struct gathered_light *near,
+                             double rays)
 {
     struct gathering work = {{host, pass, near, 0}, rays};
-    ps_result result = near_pilot(&work.rays, rays);
+    ps_result result = gather_pilot(&work.rays, rays);
     if (result != PS_OK)
         return result;
-    return near_rays_over_tiles(&work.rays, gather_tile, &work);
+    return gather_rays_over_tiles(&work.rays, gather_tile, &work);
 }

@@ -1,4 +1,4 @@
-/* test_near_light.c: light from nearer than splats are wide, in closed form.
+/* test_short_range_gather.c: light from nearer than splats are wide, in closed form.
  *
  * The sun shines along a floor onto a wall of height h and half-length L that stands on it, and lights the floor
  * not at all. A floor point before the middle of the wall, at distance d, sees the wall, whose radiosity is
@@ -9,7 +9,7 @@
  *
  * Splats of half-width h and more smear that over the crease; short rays find it.
  */
-#include "gather/near_pilot.h"
+#include "gather/gather_pilot.h"
 #include "pipeline/render_state.h"
 #include "support/render_scene.h"
 #include <math.h>
@@ -78,11 +78,11 @@ static double worst_column(const char *visibility, const char *estimator)
 static void test_crease(void **state)
 {
     (void)state;
-    assert_true(worst_column("visibility=shadowmap:size=0.4", "estimator=splat:near_rays=0") >
+    assert_true(worst_column("visibility=shadowmap:radius=0.4", "estimator=splat:gather_rays=0") >
                 0.25);
-    assert_true(worst_column("visibility=shadowmap:size=0.4", "estimator=splat:near_rays=4096") <
-                0.03);
-    assert_true(worst_column("visibility=raycast:size=0.4", "estimator=splat:near_rays=4096") <
+    assert_true(
+        worst_column("visibility=shadowmap:radius=0.4", "estimator=splat:gather_rays=4096") < 0.03);
+    assert_true(worst_column("visibility=raycast:radius=0.4", "estimator=splat:gather_rays=4096") <
                 0.03);
 }
 
@@ -90,8 +90,8 @@ static void test_crease(void **state)
 static void test_interleaved(void **state)
 {
     (void)state;
-    assert_true(worst_column("visibility=shadowmap:size=0.4",
-                             "estimator=splat:near_rays=16384,interleave=2") < 0.08);
+    assert_true(worst_column("visibility=shadowmap:radius=0.4",
+                             "estimator=splat:gather_rays=16384,interleave=2") < 0.08);
 }
 
 /* A wall that is two pixels wide and as high, in the middle of the picture. */
@@ -116,8 +116,8 @@ static void test_small_things(void **state)
 {
     (void)state;
     static const char *const choices[] = {"injection=photon:count=1000",
-                                          "visibility=shadowmap:size=0.4",
-                                          "estimator=splat:near_rays=65536,interleave=8", NULL};
+                                          "visibility=shadowmap:radius=0.4",
+                                          "estimator=splat:gather_rays=65536,interleave=8", NULL};
     const double d = POST / 4;
     double expected =
         radiance_before_end(d, POST, POST / 2 - d) + radiance_before_end(d, POST, POST / 2 + d);
@@ -135,9 +135,9 @@ static void test_boxes_leave_nothing(void **state)
 {
     (void)state;
     static const char *const without[] = {"visibility=shadowmap:step_back=auto",
-                                          "estimator=splat:near_rays=0", NULL};
+                                          "estimator=splat:gather_rays=0", NULL};
     static const char *const with[] = {"visibility=shadowmap:step_back=auto",
-                                       "estimator=splat:near_rays=64", NULL};
+                                       "estimator=splat:gather_rays=64", NULL};
     struct rendering a = render_text(crease, 2, without), b = render_text(crease, 2, with);
     assert_true(mean_of_all(&a.image, "indirect.G") > 0);
     expect_same_image(&a.image, &b.image);
@@ -159,7 +159,7 @@ static ps_result check_shares(void *user, struct render *render, struct error *e
     assert_int_equal(render->gbuffer.tile_count, 4);
     double shares[4], sum = 0;
     for (uint64_t tile = 0; tile < 4; tile++)
-        sum += shares[tile] = near_pilot_share(&render->near_light, tile);
+        sum += shares[tile] = gather_pilot_share(&render->gathered_light, tile);
     print_message("shares of the rays: %.2f %.2f %.2f %.2f\n", shares[0], shares[1], shares[2],
                   shares[3]);
     assert_true(shares[0] > 1.5 && shares[0] > shares[1] && shares[1] > shares[2]);
@@ -172,8 +172,8 @@ static void test_rays_go_where_the_noise_is(void **state)
 {
     (void)state;
     static const char *const choices[] = {"injection=photon:count=1000",
-                                          "visibility=shadowmap:size=0.16",
-                                          "estimator=splat:near_rays=64", NULL};
+                                          "visibility=shadowmap:radius=0.16",
+                                          "estimator=splat:gather_rays=64", NULL};
     inspect_text(strip, choices, check_shares, NULL);
 }
 

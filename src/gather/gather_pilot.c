@@ -1,6 +1,6 @@
-#include "gather/near_pilot.h"
+#include "gather/gather_pilot.h"
 
-#include "film/pair_mean.h"
+#include "film/geometry_filter.h"
 #include <math.h>
 
 #define PILOT_PART 0.125 /* of the rays */
@@ -8,10 +8,10 @@
 /* A tile gets some rays in any case, the others by the standard deviation of what single rays find there. */
 #define EVEN_SHARE 0.25
 
-static const struct near_numbers numbers = {NEAR_PILOT_DIRECTIONS, NEAR_PILOT_LAMPS};
+static const struct gather_streams numbers = {GATHER_PILOT_DIRECTIONS, GATHER_PILOT_LAMPS};
 
 struct pilot {
-    struct near_rays *rays;
+    struct gather_rays *rays;
     uint64_t count; /* rays of every step-th pixel */
     uint32_t step;
 };
@@ -20,7 +20,7 @@ static void keep_every(uint32_t step, ps_points *points)
 {
     size_t kept = 0;
     for (size_t i = 0; i < points->count; i += step)
-        near_rays_move(points, i, kept++);
+        gather_rays_move(points, i, kept++);
     points->count = kept;
 }
 
@@ -38,7 +38,7 @@ static void shoot(const struct pilot *pilot, uint64_t tile, const ps_points *poi
     uint64_t before = pilot->rays->pass->number * pilot->count;
     for (size_t i = 0; i < points->count; i++)
         indices[i] = ps_sample_block(tile, points->lanes[i]) + before + ray;
-    size_t met = near_rays_shoot(pilot->rays, points, numbers, indices, targets, radiance);
+    size_t met = gather_rays_shoot(pilot->rays, points, numbers, indices, targets, radiance);
     for (size_t i = 0; i < met; i++) {
         double found = (double)radiance[i].r + (double)radiance[i].g + (double)radiance[i].b;
         findings->sum += found;
@@ -65,7 +65,7 @@ static void shoot_from_tile(void *user, uint64_t index, uint32_t worker)
 }
 
 /* Standard deviation, by a tile and those around it, of which each saw few rays. */
-static double noise_around(const struct near_light *near, uint32_t tiles, uint32_t tile)
+static double noise_around(const struct gathered_light *near, uint32_t tiles, uint32_t tile)
 {
     uint32_t across = near->tiles_across, down = tiles / across;
     uint32_t x = tile % across, y = tile / across;
@@ -78,7 +78,7 @@ static double noise_around(const struct near_light *near, uint32_t tiles, uint32
     return sqrt(sum / count);
 }
 
-static void find_noise(struct near_light *near, uint32_t tiles)
+static void find_noise(struct gathered_light *near, uint32_t tiles)
 {
     near->mean_noise = 0;
     for (uint32_t tile = 0; tile < tiles; tile++) {
@@ -87,21 +87,22 @@ static void find_noise(struct near_light *near, uint32_t tiles)
     }
 }
 
-double near_pilot_share(const struct near_light *near, uint64_t tile)
+double gather_pilot_share(const struct gathered_light *near, uint64_t tile)
 {
     double by_noise = near->mean_noise > 0 ? (double)near->noises[tile] / near->mean_noise : 1;
-    return fmin(EVEN_SHARE + (1 - EVEN_SHARE) * by_noise, NEAR_PILOT_LARGEST_SHARE);
+    return fmin(EVEN_SHARE + (1 - EVEN_SHARE) * by_noise, GATHER_PILOT_LARGEST_SHARE);
 }
 
-ps_result near_pilot(struct near_rays *rays, double window_rays)
+ps_result gather_pilot(struct gather_rays *rays, double window_rays)
 {
-    double count = PILOT_PART * window_rays / pair_mean_window(rays->near->reach); /* of a pixel */
+    double count =
+        PILOT_PART * window_rays / geometry_filter_window(rays->near->reach); /* of a pixel */
     struct pilot pilot = {
         .rays = rays,
         .count = (uint64_t)fmax(count, 1),
         .step = (uint32_t)fmin(fmax(1 / count, 1), PS_TILE_PIXELS - 1) | 1, /* crosses rows */
     };
-    ps_result result = near_rays_over_tiles(rays, shoot_from_tile, &pilot);
+    ps_result result = gather_rays_over_tiles(rays, shoot_from_tile, &pilot);
     if (result == PS_OK)
         find_noise(rays->near, rays->pass->tile_count);
     return result;

@@ -1,7 +1,7 @@
-#include "gather/near_light.h"
+#include "gather/gathered_light.h"
 
 #include "base/parallel.h"
-#include "film/pair_mean.h"
+#include "film/geometry_filter.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 #define LEAST_RAYS 16
 #define MOST_RAYS 4096
 
-uint32_t near_light_rays(uint64_t paths)
+uint32_t gathered_light_rays(uint64_t paths)
 {
     double rays = RAYS * sqrt((double)paths / 4e5);
     return (uint32_t)fmin(fmax(rays, LEAST_RAYS), MOST_RAYS);
@@ -24,14 +24,15 @@ static size_t lanes_of(const struct gbuffer *gbuffer)
     return (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
 }
 
-size_t near_light_bytes(const struct gbuffer *gbuffer)
+size_t gathered_light_bytes(const struct gbuffer *gbuffer)
 {
     size_t of_lane = 2 * sizeof(ps_rgb) + sizeof(float) + sizeof(uint8_t);
     return lanes_of(gbuffer) * of_lane + gbuffer->tile_count * 2 * sizeof(float);
 }
 
-ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffer, float distance,
-                           uint32_t interleave, uint32_t threads, struct error *error)
+ps_result gathered_light_begin(struct gathered_light *near, const struct gbuffer *gbuffer,
+                               float distance, uint32_t interleave, uint32_t threads,
+                               struct error *error)
 {
     size_t lanes = lanes_of(gbuffer);
     near->distance = distance;
@@ -51,14 +52,15 @@ ps_result near_light_begin(struct near_light *near, const struct gbuffer *gbuffe
         near->noises = malloc(gbuffer->tile_count * sizeof *near->noises);
     if (!near->found || !near->joined || !near->variances || !near->averaged ||
         !near->ray_variances || !near->noises)
-        return error_memory(error, near_light_bytes(gbuffer), "near light");
+        return error_memory(error, gathered_light_bytes(gbuffer), "short-range light");
     memset(near->found, 0, lanes * sizeof *near->found);
-    struct pair_mean count = {.gbuffer = gbuffer, .reach = near->reach, .counts = near->averaged};
-    pair_mean_take(&count, threads);
+    struct geometry_filter count = {
+        .gbuffer = gbuffer, .reach = near->reach, .counts = near->averaged};
+    geometry_filter_take(&count, threads);
     return PS_OK;
 }
 
-void near_light_release(struct near_light *near)
+void gathered_light_release(struct gathered_light *near)
 {
     free(near->found);
     free(near->joined);
@@ -66,13 +68,13 @@ void near_light_release(struct near_light *near)
     free(near->averaged);
     free(near->ray_variances);
     free(near->noises);
-    *near = (struct near_light){.found = NULL};
+    *near = (struct gathered_light){.found = NULL};
 }
 
 /* So many standard deviations may be chance; squared. */
 #define CHANCE2 4.0f
 
-/* From the mean of a window to what the pixel found itself, as far as that is no chance (near_light.h). */
+/* From the mean of a window to what the pixel found itself, as far as that is no chance (gathered_light.h). */
 static ps_rgb between(ps_rgb mean, ps_rgb own, float variance)
 {
     ps_rgb apart = {own.r - mean.r, own.g - mean.g, own.b - mean.b};
@@ -83,7 +85,7 @@ static ps_rgb between(ps_rgb mean, ps_rgb own, float variance)
 
 struct adding {
     struct gbuffer *gbuffer;
-    const struct near_light *near;
+    const struct gathered_light *near;
 };
 
 static void add_tile(void *user, uint64_t index, uint32_t worker)
@@ -91,7 +93,7 @@ static void add_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct adding *adding = user;
     ps_tile *tile = &adding->gbuffer->tiles[index];
-    const struct near_light *near = adding->near;
+    const struct gathered_light *near = adding->near;
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
         size_t i = index * PS_TILE_PIXELS + lane;
         if (tile->object[lane] == PS_NO_OBJECT)
@@ -103,13 +105,13 @@ static void add_tile(void *user, uint64_t index, uint32_t worker)
     }
 }
 
-void near_light_end(struct near_light *near, struct gbuffer *gbuffer, uint32_t threads)
+void gathered_light_end(struct gathered_light *near, struct gbuffer *gbuffer, uint32_t threads)
 {
     if (!(near->distance > 0.0f))
         return;
-    struct pair_mean mean = {
+    struct geometry_filter mean = {
         .gbuffer = gbuffer, .reach = near->reach, .from = near->found, .to = near->joined};
-    pair_mean_take(&mean, threads);
+    geometry_filter_take(&mean, threads);
     struct adding adding = {gbuffer, near};
     parallel_for(threads, gbuffer->tile_count, add_tile, &adding);
 }

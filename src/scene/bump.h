@@ -1,4 +1,4 @@
-/* relief.h: shading normals bent as if the surface had relief.
+/* bump.h: shading normals bent as if the surface had bump.
  *
  * Bumps: Blinn 1978, "Simulation of wrinkled surfaces": of a surface raised by a height h along its
  * normal n, the normal is that of n - grad h, grad h being the height's gradient along the surface.
@@ -12,22 +12,22 @@
  * Results are of length 1 and on the side of `normal`, which they equal where nothing sensible can
  * be said. Pure functions.
  */
-#ifndef SCENE_RELIEF_H
-#define SCENE_RELIEF_H
+#ifndef SCENE_BUMP_H
+#define SCENE_BUMP_H
 
 #include "scene/pigment.h"
 
 /* `normal` has length 1; `dpdu`, `dpdv` are derivatives of the position by u and v, or 0 where the
  * surface has no (u, v): then images have no effect. */
-ps_vec3 relief_bump(const struct pigment *height, ps_vec3 point, const float uv[2], ps_vec3 normal,
-                    ps_vec3 dpdu, ps_vec3 dpdv);
+ps_vec3 bump_bump(const struct pigment *height, ps_vec3 point, const float uv[2], ps_vec3 normal,
+                  ps_vec3 dpdu, ps_vec3 dpdv);
 
 /* A map of normals in the surface's own frame: red along u, green along v (upwards, as OpenGL and
  * glTF have it), blue along the normal. It holds (n + 1) / 2; in 8-bit maps the middle is 128, the
  * value that makers of maps store for "flat", with 255 for 1. It must be loaded with
  * ENCODING_LINEAR. The frame is made orthonormal, u first: tilts do not depend on the picture's
  * stretch. (u, v) are the picture's own: whoever scales them does so first. */
-ps_vec3 relief_normal_map(const struct texture *map, const float uv[2], ps_vec3 normal,
-                          ps_vec3 dpdu, ps_vec3 dpdv);
+ps_vec3 bump_normal_map(const struct texture *map, const float uv[2], ps_vec3 normal, ps_vec3 dpdu,
+                        ps_vec3 dpdv);
 
 #endif

@@ -1,4 +1,4 @@
-#include "film/pair_mean.h"
+#include "film/geometry_filter.h"
 
 #include "base/parallel.h"
 #include "film/apron.h"
@@ -22,8 +22,8 @@ struct row_sums {
 };
 
 /* `count` pixels beside each other in one row of a tile. */
-static void load_run(const struct pair_mean *mean, uint32_t tile, uint32_t lane, int count, int row,
-                     int column, struct apron *apron)
+static void load_run(const struct geometry_filter *mean, uint32_t tile, uint32_t lane, int count,
+                     int row, int column, struct apron *apron)
 {
     const ps_tile *from = &mean->gbuffer->tiles[tile];
     size_t first = (size_t)tile * PS_TILE_PIXELS + lane, floats = (size_t)count * sizeof(float);
@@ -43,7 +43,7 @@ static void load_run(const struct pair_mean *mean, uint32_t tile, uint32_t lane,
 }
 
 /* What lies outside of the picture stays as it is. */
-static void load_row(const struct pair_mean *mean, int64_t left, int64_t y, int row,
+static void load_row(const struct geometry_filter *mean, int64_t left, int64_t y, int row,
                      struct apron *apron)
 {
     int first = APRON_MARGIN - mean->reach, end = APRON_MARGIN + SIDE + mean->reach;
@@ -59,7 +59,7 @@ static void load_row(const struct pair_mean *mean, int64_t left, int64_t y, int 
     }
 }
 
-static void load_apron(const struct pair_mean *mean, uint32_t tile, struct apron *apron)
+static void load_apron(const struct geometry_filter *mean, uint32_t tile, struct apron *apron)
 {
     int64_t left = (int64_t)(tile % mean->gbuffer->tiles_across) * SIDE - APRON_MARGIN;
     int64_t top = (int64_t)(tile / mean->gbuffer->tiles_across) * SIDE - APRON_MARGIN;
@@ -69,8 +69,8 @@ static void load_apron(const struct pair_mean *mean, uint32_t tile, struct apron
 }
 
 /* Which pixels of a row are like their neighbours at (dx, dy): 1 or 0. */
-static void find_alike(const struct pair_mean *mean, const struct apron *apron, int row, int dx,
-                       int dy, int *alike)
+static void find_alike(const struct geometry_filter *mean, const struct apron *apron, int row,
+                       int dx, int dy, int *alike)
 {
     int here = APRON_MARGIN + row, there = here + dy;
     apron_find_same(&apron->at, row, dx, dy, LEAST_COSINE, alike);
@@ -80,8 +80,8 @@ static void find_alike(const struct pair_mean *mean, const struct apron *apron, 
 }
 
 /* Adds to the pixels of a row their neighbours at (dx, dy) and (-dx, -dy), where both are like them. */
-static void add_pairs(const struct pair_mean *mean, const struct apron *apron, int row, int dx,
-                      int dy, struct row_sums *restrict sums)
+static void add_pairs(const struct geometry_filter *mean, const struct apron *apron, int row,
+                      int dx, int dy, struct row_sums *restrict sums)
 {
     int one[SIDE], other[SIDE];
     find_alike(mean, apron, row, dx, dy, one);
@@ -97,7 +97,7 @@ static void add_pairs(const struct pair_mean *mean, const struct apron *apron, i
     }
 }
 
-static void mean_of_row(const struct pair_mean *mean, const struct apron *apron, int row,
+static void mean_of_row(const struct geometry_filter *mean, const struct apron *apron, int row,
                         size_t first)
 {
     struct row_sums sums;
@@ -118,7 +118,7 @@ static void mean_of_row(const struct pair_mean *mean, const struct apron *apron,
         mean->counts[first + i] = (uint8_t)sums.count[i];
 }
 
-static void keep_tile(const struct pair_mean *mean, size_t first)
+static void keep_tile(const struct geometry_filter *mean, size_t first)
 {
     if (mean->counts)
         memset(&mean->counts[first], 1, PS_TILE_PIXELS);
@@ -126,7 +126,7 @@ static void keep_tile(const struct pair_mean *mean, size_t first)
         memcpy(&mean->to[first], &mean->from[first], PS_TILE_PIXELS * sizeof *mean->to);
 }
 
-static bool all_met_alike(const struct pair_mean *mean, const struct apron *apron)
+static bool all_met_alike(const struct geometry_filter *mean, const struct apron *apron)
 {
     uint64_t met = apron->met[APRON_MARGIN][APRON_MARGIN];
     int others = 0, first = APRON_MARGIN - mean->reach, end = APRON_MARGIN + SIDE + mean->reach;
@@ -137,10 +137,11 @@ static bool all_met_alike(const struct pair_mean *mean, const struct apron *apro
 }
 
 /* Where all pixels are alike. */
-static void mean_of_flat(const struct pair_mean *mean, const struct apron *apron, size_t first)
+static void mean_of_flat(const struct geometry_filter *mean, const struct apron *apron,
+                         size_t first)
 {
     float r[SIDE][SIDE], g[SIDE][SIDE], b[SIDE][SIDE];
-    int window = pair_mean_window(mean->reach);
+    int window = geometry_filter_window(mean->reach);
     if (mean->counts)
         memset(&mean->counts[first], window, PS_TILE_PIXELS);
     if (!mean->to)
@@ -157,7 +158,7 @@ static void mean_of_flat(const struct pair_mean *mean, const struct apron *apron
 static void mean_of_tile(void *user, uint64_t tile, uint32_t worker)
 {
     (void)worker;
-    const struct pair_mean *mean = user;
+    const struct geometry_filter *mean = user;
     if (gbuffer_sees_nothing(&mean->gbuffer->tiles[tile])) {
         keep_tile(mean, tile * PS_TILE_PIXELS);
         return;
@@ -172,7 +173,7 @@ static void mean_of_tile(void *user, uint64_t tile, uint32_t worker)
         mean_of_row(mean, &apron, row, tile * PS_TILE_PIXELS + (size_t)(row * SIDE));
 }
 
-void pair_mean_take(struct pair_mean *mean, uint32_t threads)
+void geometry_filter_take(struct geometry_filter *mean, uint32_t threads)
 {
     parallel_for(threads, mean->gbuffer->tile_count, mean_of_tile, mean);
 }

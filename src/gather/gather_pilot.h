@@ -1,22 +1,22 @@
-/* near_pilot.h: how near rays are shared out among tiles, by their noise (Neyman 1934, "On the two different aspects
+/* gather_pilot.h: how near rays are shared out among tiles, by their noise (Neyman 1934, "On the two different aspects
  * of the representative method").
  *
  * A part of the rays goes ahead as a pilot, which tells the noise: where the sun shines on what is near it is hundreds
  * of times that of a dark corner. The light that the pilot finds does not count: where it happens to find more than
  * there is, more rays follow, so that the mean of all of them would be too small.
  */
-#ifndef GATHER_NEAR_PILOT_H
-#define GATHER_NEAR_PILOT_H
+#ifndef GATHER_GATHER_PILOT_H
+#define GATHER_GATHER_PILOT_H
 
-#include "gather/near_rays.h"
+#include "gather/gather_rays.h"
 
 /* The largest part of the rays that a tile may have, of 1 on average. */
-#define NEAR_PILOT_LARGEST_SHARE 16.0
+#define GATHER_PILOT_LARGEST_SHARE 16.0
 
-/* Fills near->noises and mean_noise; `window_rays` as in near_gather. PS_CANCELLED when the user stops it. */
-ps_result near_pilot(struct near_rays *rays, double window_rays);
+/* Fills near->noises and mean_noise; `window_rays` as in gather. PS_CANCELLED when the user stops it. */
+ps_result gather_pilot(struct gather_rays *rays, double window_rays);
 
 /* Of the rays of a tile, 1 on average or a little less. */
-double near_pilot_share(const struct near_light *near, uint64_t tile);
+double gather_pilot_share(const struct gathered_light *near, uint64_t tile);
 
 #endif

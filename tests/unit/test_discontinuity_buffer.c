@@ -1,5 +1,5 @@
-/* test_light_join.c: which pixels join their direct light: on synthetic G-buffers, wider than a tile. */
-#include "direct/light_join.h"
+/* test_discontinuity_buffer.c: which pixels join their direct light: on synthetic G-buffers, wider than a tile. */
+#include "direct/discontinuity_buffer.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -59,7 +59,7 @@ static void join(struct sight (*at)(uint32_t x, uint32_t y))
             gbuffer.direct[i] = (ps_rgb){sight.direct, 2 * sight.direct, 0};
             gbuffer.met[i] = sight.met;
         }
-    light_join(&gbuffer, 3);
+    discontinuity_buffer(&gbuffer, 3);
 }
 
 static float joined(uint32_t x, uint32_t y)
@@ -169,7 +169,7 @@ static uint64_t first_number(uint32_t x, uint32_t y, uint32_t pass)
 {
     uint32_t lane, tile = gbuffer_tile_of(&gbuffer, x, y, &lane);
     struct light_runs runs;
-    light_join_runs(&gbuffer, tile, pass, 4, &runs);
+    discontinuity_buffer_runs(&gbuffer, tile, pass, 4, &runs);
     assert_true(runs.of_lane[lane] < runs.count);
     return runs.first[runs.of_lane[lane]];
 }

@@ -1,4 +1,4 @@
-/* pair_mean.h: pixels take in what the pixels around them found, where it may be the same.
+/* geometry_filter.h: pixels take in what the pixels around them found, where it may be the same.
  *
  * A few rays tell a pixel's light badly; those of its neighbours tell nearly the same light (interleaved
  * sampling: Keller and Heidrich 2001, section 4). So what a pixel found becomes a mean over a window. Of it
@@ -12,13 +12,13 @@
  *
  * What bends within the window is blurred, which is a bias.
  */
-#ifndef FILM_PAIR_MEAN_H
-#define FILM_PAIR_MEAN_H
+#ifndef FILM_GEOMETRY_FILTER_H
+#define FILM_GEOMETRY_FILTER_H
 
 #include "film/gbuffer.h"
 
 /* Arrays have a value for each lane of each tile; borrowed. */
-struct pair_mean {
+struct geometry_filter {
     const struct gbuffer *gbuffer;
     const uint64_t *met; /* see gbuffer_met_alike; NULL: does not matter */
     int reach;           /* pixels to each side, at most APRON_MARGIN (apron.h) */
@@ -28,11 +28,11 @@ struct pair_mean {
 };
 
 /* The most pixels that a mean is taken over. */
-static inline int pair_mean_window(int reach)
+static inline int geometry_filter_window(int reach)
 {
     return (2 * reach + 1) * (2 * reach + 1);
 }
 
-void pair_mean_take(struct pair_mean *mean, uint32_t threads);
+void geometry_filter_take(struct geometry_filter *mean, uint32_t threads);
 
 #endif

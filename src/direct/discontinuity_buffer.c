@@ -1,0 +1,32 @@
+#include "direct/discontinuity_buffer.h"
+
+#include "film/geometry_filter.h"
+
+#define REACH 2 /* pixels to each side */
+#define SIDE (2 * REACH + 1)
+
+void discontinuity_buffer_runs(const struct gbuffer *gbuffer, uint32_t tile, uint32_t pass,
+                               uint32_t samples, struct light_runs *runs)
+{
+    runs->count = SIDE * SIDE;
+    for (uint32_t run = 0; run < SIDE * SIDE; run++)
+        runs->first[run] = ((uint64_t)pass * SIDE * SIDE + run) * samples;
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        uint32_t x, y;
+        gbuffer_pixel(gbuffer, tile, lane, &x, &y);
+        runs->of_lane[lane] = (uint8_t)(y % SIDE * SIDE + x % SIDE);
+    }
+}
+
+void discontinuity_buffer(struct gbuffer *gbuffer, uint32_t threads)
+{
+    ps_rgb *found = gbuffer->direct;
+    struct geometry_filter mean = {.gbuffer = gbuffer,
+                                   .met = gbuffer->met,
+                                   .reach = REACH,
+                                   .from = found,
+                                   .to = gbuffer->joined};
+    geometry_filter_take(&mean, threads);
+    gbuffer->direct = gbuffer->joined;
+    gbuffer->joined = found;
+}
