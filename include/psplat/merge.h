@@ -42,9 +42,10 @@ enum { PS_KEEP_RANDOM = 0, PS_KEEP_NEAREST_MEAN = 1, PS_KEEP_DOMINANT = 2 };
     static const char *const merge_representative[] = {"random", "nearest_mean", "dominant", NULL};
 
 #define PS_MERGE_PARAMS(state)                                                                     \
-    PS_CHOICE(state, representative, "random", merge_representative,                               \
-              "the source that stays; random by power has no bias, the others have"),              \
-        PS_NUMBER(state, normal_angle, "60", 5, 180, 0, "degrees",                                 \
+    PS_ROW(state, representative, PS_PARAM_CHOICE, "random", 0, 0, PS_PARAM_EXPERT,                \
+           merge_representative, "",                                                               \
+           "the source that stays; random by power has no bias, the others have"),                 \
+        PS_NUMBER(state, normal_angle, "60", 5, 180, PS_PARAM_EXPERT, "degrees",                   \
                   "largest angle between the normal of a stratum's first source and the others; "  \
                   "180: any")
 

@@ -38,11 +38,13 @@ typedef struct ps_number_or_choice {
 
 #define PS_PARAM_OPEN_MIN 1u /* the minimum itself is not allowed */
 #define PS_PARAM_OPEN_MAX 2u
+#define PS_PARAM_EXPERT                                                                            \
+    4u /* its default is right for all but experiments: lists show it on request */
 
 typedef struct ps_param {
     const char *name;
     uint32_t type;  /* ps_param_type */
-    uint32_t flags; /* PS_PARAM_OPEN_... */
+    uint32_t flags; /* PS_PARAM_... */
     uint64_t offset;
     const char *default_value; /* as a user would write it; NULL: the parameter is required */
     double minimum, maximum; /* of numbers, or of each component; unbounded: -INFINITY, INFINITY */
@@ -51,7 +53,8 @@ typedef struct ps_param {
     const char *help;           /* one line, no full stop */
 } ps_param;
 
-/* Rows of a table; the parameter is named as the member that it fills. */
+/* Rows of a table; the parameter is named as the member that it fills. PS_ROW has all members, for rows whose
+ * type takes no flags below. */
 #define PS_ROW(state, member, type_, default_, minimum_, maximum_, flags_, choices_, unit_, help_) \
     {                                                                                              \
         .name = #member, .type = (type_), .flags = (flags_), .offset = offsetof(state, member),    \

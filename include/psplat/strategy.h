@@ -154,21 +154,23 @@ typedef struct ps_denoiser_vtable {
 #define PS_BOX_PARAMS(state, step_back_default, boundary_correction_default)                       \
     PS_NUMBER_OR(                                                                                  \
         state, radius, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",            \
-        "half-width of the box; auto: by the scene, its light and the number of light paths"),     \
-        PS_NUMBER(state, bandwidth_scale, "0.6", 0, INFINITY, 0, "",                               \
+        "radius of a splat; auto: by the scene, its light and the number of light paths"),     \
+        PS_NUMBER(state, bandwidth_scale, "0.6", 0, INFINITY, PS_PARAM_EXPERT, "",                 \
                   "limit of the radius, down to a part of it or to the interleaved pixels, as a "  \
                   "fraction of "                                                                   \
                   "the distance travelled; 0: none"),                                              \
-        PS_NUMBER_OR(state, depth, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto,               \
-                     "scene units",                                                                \
+        PS_NUMBER_OR(state, depth, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN | PS_PARAM_EXPERT,       \
+                     box_auto, "scene units",                                                      \
                      "reach of the box past the first hit; auto: what the hit's slope needs"),     \
         PS_NUMBER_OR(                                                                              \
-            state, step_back, step_back_default, 0, INFINITY, 0, box_step_back, "scene units",     \
+            state, step_back, step_back_default, 0, INFINITY, PS_PARAM_EXPERT, box_step_back,      \
+            "scene units",                                                                         \
             "start of the box before the first hit; auto: by its slope, full: the source"),        \
-        PS_NUMBER(state, max_merge_scale, "1.5", 1, INFINITY, 0, "",                               \
+        PS_NUMBER(state, max_merge_scale, "1.5", 1, INFINITY, PS_PARAM_EXPERT, "",                 \
                   "limit of the growth of the radius, sqrt(sources merged into one); 1: none"),    \
-        PS_BOOL(state, boundary_correction, boundary_correction_default,                           \
-                "full beams make up for the part that walls beside their source keep back")
+        PS_ROW(state, boundary_correction, PS_PARAM_BOOL, boundary_correction_default, 0, 1,       \
+               PS_PARAM_EXPERT, NULL, "",                                                          \
+               "full beams make up for the part that walls beside their source keep back")
 
 /* The parameters as host->place_boxes wants them. */
 #define PS_BOX_SETTINGS(state)                                                                     \

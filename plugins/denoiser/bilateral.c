@@ -238,12 +238,12 @@ static int32_t init(void *opaque, const ps_host *host, char *message, size_t mes
 static const ps_param params[] = {
     PS_INT(struct state, size, "9", 3, LARGEST, "pixels",
            "side of the square that a pixel's light is gathered from; odd"),
-    PS_NUMBER_OR(struct state, sigma, "auto", 0.1, 100, 0, automatic, "pixels",
+    PS_NUMBER_OR(struct state, sigma, "auto", 0.1, 100, PS_PARAM_EXPERT, automatic, "pixels",
                  "standard deviation of the blur; auto: what fits the size"),
-    PS_NUMBER(struct state, normal, "30", 1, 90, 0, "degrees",
+    PS_NUMBER(struct state, normal, "30", 1, 90, PS_PARAM_EXPERT, "degrees",
               "angle between normals from which on nothing crosses"),
-    PS_NUMBER_OR(struct state, distance, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, automatic,
-                 "scene units",
+    PS_NUMBER_OR(struct state, distance, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN | PS_PARAM_EXPERT,
+                 automatic, "scene units",
                  "distance from the tangent plane from which on nothing crosses; auto: 1 % of the "
                  "scene's radius"),
 };

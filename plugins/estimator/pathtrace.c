@@ -237,7 +237,7 @@ static ps_result accumulate(const void *state, const ps_host *host, const ps_pas
 static const ps_param params[] = {
     PS_INT(struct state, samples, "64", 1, 1 << 20, "paths",
            "paths for each pixel and pass; powers of two are best"),
-    PS_INT(struct state, roulette, "3", 1, 1000, "bounces",
+    PS_ROW(struct state, roulette, PS_PARAM_INT, "3", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),
 };
 

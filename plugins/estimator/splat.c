@@ -71,11 +71,12 @@ static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pa
 static const char *const gather_rays_choices[] = {"auto", NULL};
 
 static const ps_param params[] = {
-    PS_INT(struct state, interleave, "0", 0, PS_MOST_INTERLEAVE, "pixels",
+    PS_ROW(struct state, interleave, PS_PARAM_INT, "0", 0, PS_MOST_INTERLEAVE, PS_PARAM_EXPERT,
+           NULL, "pixels",
            "n: a splat lights every n-th pixel across and down, and neighbours are averaged; 0: by "
            "the picture's size and the number of light paths"),
     PS_NUMBER_OR(
-        struct state, gather_rays, "auto", 0, 65536, 0, gather_rays_choices, "rays",
+        struct state, gather_rays, "auto", 0, 65536, PS_PARAM_EXPERT, gather_rays_choices, "rays",
         "short rays, of each pixel and those that it is averaged with, for light from nearby, "
         "which splats would blur; 0: it is splatted, too; auto: by the number of light paths"),
 };

@@ -18,7 +18,7 @@ static void weigh(const void *opaque, const float *r2, float *weights, size_t n)
 }
 
 static const ps_param params[] = {
-    PS_NUMBER(struct state, k, "2", 1, 1000, 0, "half-widths",
+    PS_NUMBER(struct state, k, "2", 1, 1000, 0, "radii",
               "radius at which the weight would reach 0; 1: tent, large: box"),
 };
 

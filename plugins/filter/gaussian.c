@@ -14,8 +14,8 @@ static void weigh(const void *opaque, const float *r2, float *weights, size_t n)
 }
 
 static const ps_param params[] = {
-    PS_NUMBER(struct state, sigma, "0.5", 0.05, 10, 0, "half-widths",
-              "standard deviation, as a fraction of the splat's half-width"),
+    PS_NUMBER(struct state, sigma, "0.5", 0.05, 10, 0, "radii",
+              "standard deviation, as a fraction of the splat's radius"),
 };
 
 static const ps_filter_vtable vtable = {.size = sizeof vtable, .weigh = weigh};

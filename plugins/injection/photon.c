@@ -325,10 +325,10 @@ static const char *const split_choices[] = {"auto", NULL};
 
 static const ps_param params[] = {
     PS_INT(struct state, count, "100000", 1, 2000000000, "paths", "light paths in each pass"),
-    PS_INT(struct state, roulette, "2", 1, 1000, "bounces",
+    PS_ROW(struct state, roulette, PS_PARAM_INT, "2", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),
     PS_NUMBER_OR(
-        struct state, split, "auto", 1, MOST_SPLIT, 0, split_choices, "paths",
+        struct state, split, "auto", 1, MOST_SPLIT, PS_PARAM_EXPERT, split_choices, "paths",
         "light paths that share a walk, and leave its surfaces in so many directions; auto: 4 for "
         "estimators that splat where nothing mirrors, else 1"),
 };

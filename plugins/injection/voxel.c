@@ -466,7 +466,7 @@ static int32_t init(void *opaque, const ps_host *host, char *message, size_t siz
 static const ps_param params[] = {
     PS_INT(struct state, resolution, "128", 1, 16384, "cells",
            "cells across the sphere around the scene, along each axis"),
-    PS_INT(struct state, rays, "2", 1, 64, "rays",
+    PS_ROW(struct state, rays, PS_PARAM_INT, "2", 1, 64, PS_PARAM_EXPERT, NULL, "rays",
            "rays across a cell, in rows and columns, that find its surfaces"),
 };
 

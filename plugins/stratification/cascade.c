@@ -163,17 +163,18 @@ static int32_t init(void *opaque, const ps_host *host, char *message, size_t siz
 }
 
 static const ps_param params[] = {
-    PS_INT(struct state, levels, "4", 1, MOST_LEVELS, "cascades", "number of grids"),
+    PS_ROW(struct state, levels, PS_PARAM_INT, "4", 1, MOST_LEVELS, PS_PARAM_EXPERT, NULL,
+           "cascades", "number of grids"),
     PS_INT(struct state, resolution, "256", 2, 1000000, "cells",
            "cells along the side of each grid"),
     PS_NUMBER_OR(struct state, cell, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, cell_choices,
                  "scene units",
                  "side of the innermost cells; auto: so that the outermost grid holds the scene"),
-    PS_NUMBER(struct state, growth, "2", 1, 16, PS_PARAM_OPEN_MIN, "",
+    PS_NUMBER(struct state, growth, "2", 1, 16, PS_PARAM_OPEN_MIN | PS_PARAM_EXPERT, "",
               "side of the cells of a grid over that of the next one inside"),
-    PS_CHOICE(
-        struct state, beyond, "merge", beyond_choices,
-        "sources outside of all grids; merge: by cells of the outermost size, drop: lose them"),
+    PS_ROW(struct state, beyond, PS_PARAM_CHOICE, "merge", 0, 0, PS_PARAM_EXPERT, beyond_choices,
+           "",
+           "sources outside of all grids; merge: by cells of the outermost size, drop: lose them"),
     PS_MERGE_PARAMS(struct state),
 };
 

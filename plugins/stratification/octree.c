@@ -117,7 +117,7 @@ static ps_result cells(const void *opaque, const ps_host *host, const ps_pass *p
 static const ps_param params[] = {
     PS_INT(struct state, capacity, "8", 1, 1000000000, "sources",
            "a node that holds more splits into eight"),
-    PS_INT(struct state, depth, "10", 0, 20, "levels",
+    PS_ROW(struct state, depth, PS_PARAM_INT, "10", 0, 20, PS_PARAM_EXPERT, NULL, "levels",
            "how often nodes split at most; the sources of a deepest node merge, however many"),
     PS_MERGE_PARAMS(struct state),
 };

@@ -575,11 +575,11 @@ static void depth_maps(const void *opaque, const ps_host *host, const ps_splat *
 static const ps_param params[] = {
     PS_BOX_PARAMS(struct state, "full", "yes"),
     PS_INT(struct state, resolution, "8", 1, MOST_TEXELS, "texels", "side of a depth map"),
-    PS_NUMBER_OR(struct state, bias, "slope", 0, INFINITY, 0, bias_choices, "scene units",
-                 "depth tolerance; slope: 0.75 texels times the receiver's slope"),
+    PS_NUMBER_OR(struct state, bias, "slope", 0, INFINITY, PS_PARAM_EXPERT, bias_choices,
+                 "scene units", "depth tolerance; slope: 0.75 texels times the receiver's slope"),
     PS_INT(struct state, points, "100000", 1, 100000000, "points",
            "points that stand for the scene's surfaces"),
-    PS_INT(struct state, pull, "2", 0, 6, "levels",
+    PS_ROW(struct state, pull, PS_PARAM_INT, "2", 0, 6, PS_PARAM_EXPERT, NULL, "levels",
            "levels of pull-push, which fills holes of up to 2^pull - 1 texels; 0: none"),
 };
 

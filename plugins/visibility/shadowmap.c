@@ -157,8 +157,8 @@ static void depth_maps(const void *opaque, const ps_host *host, const ps_splat *
 static const ps_param params[] = {
     PS_BOX_PARAMS(struct state, "full", "yes"),
     PS_INT(struct state, resolution, "8", 1, MOST_TEXELS, "texels", "side of a depth map"),
-    PS_NUMBER_OR(struct state, bias, "slope", 0, INFINITY, 0, bias_choices, "scene units",
-                 "depth tolerance; slope: 0.75 texels times the receiver's slope"),
+    PS_NUMBER_OR(struct state, bias, "slope", 0, INFINITY, PS_PARAM_EXPERT, bias_choices,
+                 "scene units", "depth tolerance; slope: 0.75 texels times the receiver's slope"),
 };
 
 static const ps_visibility_vtable vtable = {

@@ -6,6 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 
+static const struct option options[] = {
+    {0, "expert", NULL, "show the parameters for experts too"},
+};
+
 static void print_kind(const struct kind *kind)
 {
     printf("%-15s %s (default: %s)\n", kind->name, kind->summary, kind->default_strategy);
@@ -43,7 +47,38 @@ static void print_parameter(const ps_param *row)
         printf("; required\n");
 }
 
-static int describe(struct loader *loader, ps_kind kind, const char *name)
+static bool is_expert(const ps_param *row)
+{
+    return (row->flags & PS_PARAM_EXPERT) != 0;
+}
+
+/* The parameters of one level under a heading, if there are any. */
+static void print_parameters(const struct param_table *table, bool expert, const char *heading)
+{
+    for (size_t i = 0; i < table->count; i++) {
+        if (is_expert(param_row(table, i)) != expert)
+            continue;
+        if (heading)
+            printf("%s\n", heading);
+        heading = NULL;
+        print_parameter(param_row(table, i));
+    }
+}
+
+/* That there are others, in one line. */
+static void name_experts(const struct param_table *table)
+{
+    const char *lead = "for experts, shown by --expert: ";
+    for (size_t i = 0; i < table->count; i++)
+        if (is_expert(param_row(table, i))) {
+            printf("%s%s", lead, param_row(table, i)->name);
+            lead = ", ";
+        }
+    if (lead[0] == ',')
+        printf("\n");
+}
+
+static int describe(struct loader *loader, ps_kind kind, const char *name, bool experts)
 {
     const ps_descriptor *descriptor;
     struct error error;
@@ -54,14 +89,18 @@ static int describe(struct loader *loader, ps_kind kind, const char *name)
     printf("%s=%s, version %s\n%s\nafter: %s\n", kinds[kind].name, descriptor->name,
            descriptor->version, descriptor->summary, descriptor->paper);
     struct param_table table = strategy_params(descriptor);
-    printf(table.count ? "parameters:\n" : "no parameters\n");
-    for (size_t i = 0; i < table.count; i++)
-        print_parameter(param_row(&table, i));
+    if (table.count == 0)
+        printf("no parameters\n");
+    print_parameters(&table, false, "parameters:");
+    if (experts)
+        print_parameters(&table, true, "parameters for experts:");
+    else
+        name_experts(&table);
     return STATUS_OK;
 }
 
 /* "injection" or "injection=photon" */
-static int print_one(struct loader *loader, const char *operand)
+static int print_one(struct loader *loader, const char *operand, bool experts)
 {
     const char *name;
     ps_kind kind = kind_parse(operand, &name);
@@ -73,7 +112,7 @@ static int print_one(struct loader *loader, const char *operand)
         fprintf(stderr, "\n");
         return STATUS_USAGE;
     }
-    return name ? describe(loader, kind, name) : list_kind(loader, kind);
+    return name ? describe(loader, kind, name, experts) : list_kind(loader, kind);
 }
 
 static int run(const struct argument *arguments, size_t count)
@@ -86,9 +125,16 @@ static int run(const struct argument *arguments, size_t count)
         return created == PS_ERROR_INVALID ? STATUS_USAGE : STATUS_FAILED;
     }
     int status = STATUS_OK;
+    size_t operands = 0;
+    bool experts = false;
+    for (size_t i = 0; i < count; i++) {
+        experts |= arguments[i].option != NULL;
+        operands += arguments[i].option == NULL;
+    }
     for (size_t i = 0; i < count && status == STATUS_OK; i++)
-        status = print_one(loader, arguments[i].value);
-    for (int kind = 0; kind < PS_KINDS && count == 0 && status == STATUS_OK; kind++)
+        if (!arguments[i].option)
+            status = print_one(loader, arguments[i].value, experts);
+    for (int kind = 0; kind < PS_KINDS && operands == 0 && status == STATUS_OK; kind++)
         status = list_kind(loader, (ps_kind)kind);
     loader_destroy(loader);
     return status;
@@ -98,5 +144,7 @@ const struct command command_plugins = {
     .name = "plugins",
     .operands = "[KIND[=NAME]]...",
     .summary = "lists strategies and their parameters",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
     .run = run,
 };

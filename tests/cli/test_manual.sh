@@ -63,11 +63,13 @@ agree "kinds of psplat-plugins(7)"
 part "$plugins" ".Sh STRATEGIES" | grep '^\.Ss' >page
 agree "strategies of psplat-plugins(7)"
 cp program strategies
+# Those for experts stand behind a line of their own.
 while read -r heading; do
-    "$PSPLAT" plugins "${heading#.Ss }" | awk '
+    "$PSPLAT" plugins --expert "${heading#.Ss }" | awk '
+        /^parameters for experts:/ { level = "expert " }
         /^  [^ ]/ { name = $1; line = 0; next }
-        /^      / { if (++line == 2) { sub(/^ */, ""); print ".It Cm " name " : No " $0 } }' >program
-    part "$plugins" "$heading" | grep '^\.It' >page
+        /^      / { if (++line == 2) { sub(/^ */, ""); print level ".It Cm " name " : No " $0 } }' >program
+    part "$plugins" "$heading" | awk '/^For experts:/ { level = "expert " } /^\.It/ { print level $0 }' >page
     agree "parameters of ${heading#.Ss }"
 done <strategies
 for row in $(sed 's/^\.Ss //' strategies); do

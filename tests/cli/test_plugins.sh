@@ -23,12 +23,22 @@ for kind in $kinds; do
         run 0 plugins "$kind=$name"
         expect_match out "^$kind=$name, version [0-9]+"
         expect_match out "^after: [A-Za-z]"
-        expect_match out '^(no parameters|parameters:)$'
+        expect_match out '^(no parameters|parameters:|for experts)'
     done
 done
 run 0 plugins visibility=shadowmap filter
 expect_text out "visibility=shadowmap, version"
 expect_text out "filter          radial weight"
+run 0 plugins visibility=shadowmap
+expect_match out '^  resolution$'
+! grep -q "^  step_back$" out || fail "a parameter for experts is listed"
+expect_text out "for experts, shown by --expert: bandwidth_scale, depth, step_back, max_merge_scale, boundary_correction, bias"
+run 0 plugins --expert visibility=shadowmap
+expect_match out '^parameters for experts:$'
+expect_match out '^  step_back$'
+expect_no_text out "shown by --expert"
+run 0 plugins filter=cone
+expect_no_text out expert
 run 0 plugins injection=photon
 expect_text out "light paths in each pass"
 expect_match out '^      integer 1\.\..*, in paths; default: 100000$'
