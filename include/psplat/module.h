@@ -1,7 +1,7 @@
 /* module.h: what a plugin exports.
  *
  * A module is a shared object with one data symbol, `psplat_module_v1`, a ps_module. The loader
- * judges magic, ABI and layout before any code of the module runs. A module holds one or more
+ * judges magic, ABI and layout before it calls any of the module's functions. A module holds one or more
  * descriptors; psplat's own modules hold one each: one strategy, one file, one shared object.
  *
  *     #include <psplat/plugin.h>

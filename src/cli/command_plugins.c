@@ -80,14 +80,16 @@ static void name_experts(const struct param_table *table)
 
 static int describe(struct loader *loader, ps_kind kind, const char *name, bool experts)
 {
-    const ps_descriptor *descriptor;
+    struct found_strategy found;
     struct error error;
-    if (loader_find(loader, kind, name, &descriptor, &error) != PS_OK) {
+    if (loader_find(loader, kind, name, &found, &error) != PS_OK) {
         print_error(error.text);
         return STATUS_USAGE;
     }
-    printf("%s=%s, version %s\n%s\nafter: %s\n", kinds[kind].name, descriptor->name,
-           descriptor->version, descriptor->summary, descriptor->paper);
+    const ps_descriptor *descriptor = found.descriptor;
+    printf("%s=%s, version %s\n%s\nafter: %s\nfile: %s\n", kinds[kind].name, descriptor->name,
+           descriptor->version, descriptor->summary, descriptor->paper,
+           found.file[0] ? found.file : "none; linked into the program");
     struct param_table table = strategy_params(descriptor);
     if (table.count == 0)
         printf("no parameters\n");

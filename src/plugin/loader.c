@@ -9,7 +9,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define LONGEST_PATH 4096
 #define LONGEST_ATTEMPTS 3400
 #define SUFFIX ".so"
 
@@ -69,7 +68,7 @@ static bool add_own_folder(struct loader *loader)
 {
     static const char from_program[] = PSPLAT_PLUGINS_FROM_PROGRAM;
     static const char installed[] = PSPLAT_PLUGINS_INSTALLED;
-    char path[LONGEST_PATH];
+    char path[LOADER_LONGEST_PATH];
     ssize_t length = readlink("/proc/self/exe", path, sizeof path);
     while (length > 0 && path[length - 1] != '/')
         length--;
@@ -86,7 +85,7 @@ ps_result loader_create(struct loader **created, struct error *error)
         return error_memory(error, sizeof *loader, "the plugin loader");
     ps_result result = add_environment(loader, error);
     if (result == PS_OK && !add_own_folder(loader))
-        result = error_memory(error, LONGEST_PATH, "the plugin path");
+        result = error_memory(error, LOADER_LONGEST_PATH, "the plugin path");
     if (result == PS_OK)
         *created = loader;
     else
@@ -124,6 +123,20 @@ static const ps_descriptor *find_static(ps_kind kind, const char *name)
     return NULL;
 }
 
+static void say_what_it_holds(const ps_module *module, ps_kind kind, const char *name,
+                              struct error *error)
+{
+    char held[400] = "";
+    for (uint32_t i = 0; i < module->descriptor_count; i++) {
+        const ps_descriptor *descriptor = module->descriptors[i];
+        size_t used = strlen(held);
+        snprintf(held + used, sizeof held - used, "%s%s '%.80s'", i ? ", " : "",
+                 kinds[descriptor->kind].name, descriptor->name);
+    }
+    error_set(error, PS_ERROR_INVALID, "it holds %s, no %s%s", held, kinds[kind].name,
+              name ? " of that name" : "");
+}
+
 /* The strategy of a kind in a file; name NULL takes any. */
 static const ps_descriptor *load_file(const char *path, ps_kind kind, const char *name,
                                       struct error *error)
@@ -156,25 +169,26 @@ static const ps_descriptor *load_file(const char *path, ps_kind kind, const char
         return NULL;
     const ps_descriptor *descriptor = pick(module, kind, name);
     if (!descriptor)
-        error_set(error, PS_ERROR_INVALID, "it has no %s of that name", kinds[kind].name);
+        say_what_it_holds(module, kind, name, error);
     return descriptor;
 }
 
-/* Searches the folders in order; appends "; tried PATH: REASON" to attempts for each miss. */
-static const ps_descriptor *search(struct loader *loader, ps_kind kind, const char *name,
-                                   char attempts[LONGEST_ATTEMPTS])
+/* Searches the folders in order; appends "; tried PATH: REASON" to attempts for each miss. Whether it was found. */
+static bool search(struct loader *loader, ps_kind kind, const char *name,
+                   char attempts[LONGEST_ATTEMPTS], struct found_strategy *found)
 {
-    const ps_descriptor *descriptor = find_static(kind, name);
-    for (size_t i = 0; i < loader->folder_count && !descriptor; i++) {
-        char path[LONGEST_PATH];
+    *found = (struct found_strategy){.descriptor = find_static(kind, name)};
+    for (size_t i = 0; i < loader->folder_count && !found->descriptor; i++) {
         struct error reason;
-        snprintf(path, sizeof path, "%s/%s/%s" SUFFIX, loader->folders[i], kinds[kind].name, name);
-        descriptor = load_file(path, kind, name, &reason);
+        snprintf(found->file, sizeof found->file, "%s/%s/%s" SUFFIX, loader->folders[i],
+                 kinds[kind].name, name);
+        found->descriptor = load_file(found->file, kind, name, &reason);
         size_t used = strlen(attempts);
-        if (!descriptor)
-            snprintf(attempts + used, LONGEST_ATTEMPTS - used, "; tried %s: %s", path, reason.text);
+        if (!found->descriptor)
+            snprintf(attempts + used, LONGEST_ATTEMPTS - used, "; tried %s: %s", found->file,
+                     reason.text);
     }
-    return descriptor;
+    return found->descriptor != NULL;
 }
 
 static void append_suggestion(void *user, const char *name, const ps_descriptor *descriptor,
@@ -203,12 +217,13 @@ static bool is_plain_name(const char *name)
 }
 
 ps_result loader_find(struct loader *loader, ps_kind kind, const char *name,
-                      const ps_descriptor **descriptor, struct error *error)
+                      struct found_strategy *found, struct error *error)
 {
     if (strchr(name, '/')) {
         struct error reason;
-        *descriptor = load_file(name, kind, NULL, &reason);
-        if (*descriptor)
+        *found = (struct found_strategy){.descriptor = load_file(name, kind, NULL, &reason)};
+        snprintf(found->file, sizeof found->file, "%s", name);
+        if (found->descriptor)
             return PS_OK;
         return error_set(error, PS_ERROR_INVALID, "%s plugin %.300s: %.600s", kinds[kind].name,
                          name, reason.text);
@@ -216,8 +231,9 @@ ps_result loader_find(struct loader *loader, ps_kind kind, const char *name,
     if (!is_plain_name(name))
         return not_found(loader, kind, name, "", error);
     char attempts[LONGEST_ATTEMPTS] = "";
-    *descriptor = search(loader, kind, name, attempts);
-    return *descriptor ? PS_OK : not_found(loader, kind, name, attempts, error);
+    if (search(loader, kind, name, attempts, found))
+        return PS_OK;
+    return not_found(loader, kind, name, attempts, error);
 }
 
 /* A growing list of names, for loader_list. */
@@ -248,7 +264,7 @@ static bool add_name(struct names *names, const char *name, size_t length)
 
 static bool add_names_of_folder(struct names *names, const char *folder, ps_kind kind)
 {
-    char path[LONGEST_PATH];
+    char path[LOADER_LONGEST_PATH];
     snprintf(path, sizeof path, "%s/%s", folder, kinds[kind].name);
     DIR *directory = opendir(path);
     if (!directory)
@@ -293,8 +309,9 @@ ps_result loader_list(struct loader *loader, ps_kind kind, loader_visit visit, v
         qsort(names.items, names.count, sizeof *names.items, compare_names);
     for (size_t i = 0; i < names.count; i++) {
         char attempts[LONGEST_ATTEMPTS] = "";
-        const ps_descriptor *descriptor = search(loader, kind, names.items[i], attempts);
-        visit(user, names.items[i], descriptor, attempts);
+        struct found_strategy found;
+        search(loader, kind, names.items[i], attempts, &found);
+        visit(user, names.items[i], found.descriptor, attempts);
     }
     release_names(&names);
     return PS_OK;

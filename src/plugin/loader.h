@@ -2,7 +2,7 @@
  *
  * A name is looked for as <folder>/<kind>/<name>.so in the folders of $PSPLAT_PLUGIN_PATH
  * (absolute, colon-separated), then in psplat's own folder; a name with a slash is a path. A module is judged
- * (magic, ABI, layout, descriptors) before any of its code runs. Modules are never unloaded:
+ * (magic, ABI, layout, descriptors) before any of its functions is called. Modules are never unloaded:
  * descriptors and their strings stay valid.
  */
 #ifndef PLUGIN_LOADER_H
@@ -18,10 +18,17 @@ struct loader;
 ps_result loader_create(struct loader **loader, struct error *error);
 void loader_destroy(struct loader *loader);
 
+#define LOADER_LONGEST_PATH 4096
+
+struct found_strategy {
+    const ps_descriptor *descriptor;
+    char file[LOADER_LONGEST_PATH]; /* empty: linked into the program */
+};
+
 /* Finds a strategy. The message of a failure lists every path that was tried and why each failed.
  * Main thread. */
 ps_result loader_find(struct loader *loader, ps_kind kind, const char *name,
-                      const ps_descriptor **descriptor, struct error *error);
+                      struct found_strategy *found, struct error *error);
 
 /* Calls visit for every strategy of a kind that can be found by name, in alphabetical order; a
  * module that can't be loaded is visited with a NULL descriptor and the reason. */

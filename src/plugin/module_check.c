@@ -1,4 +1,4 @@
-/* module_check.c: judges a module by its data alone, before any of its code runs. */
+/* module_check.c: judges a module by its data alone, before any of its functions is called. */
 #include "plugin/loader.h"
 
 #include <stdlib.h>

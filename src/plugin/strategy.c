@@ -13,10 +13,11 @@ struct param_table strategy_params(const ps_descriptor *descriptor)
 ps_result strategy_create(struct loader *loader, ps_kind kind, const char *name,
                           struct strategy *strategy, struct error *error)
 {
-    const ps_descriptor *descriptor;
-    ps_result found = loader_find(loader, kind, name, &descriptor, error);
-    if (found != PS_OK)
-        return found;
+    struct found_strategy found;
+    ps_result result = loader_find(loader, kind, name, &found, error);
+    if (result != PS_OK)
+        return result;
+    const ps_descriptor *descriptor = found.descriptor;
     size_t bytes = descriptor->state_size ? (size_t)descriptor->state_size : 1;
     *strategy = (struct strategy){
         .name = strdup(name),
@@ -29,7 +30,7 @@ ps_result strategy_create(struct loader *loader, ps_kind kind, const char *name,
     }
     struct param_table table = strategy_params(descriptor);
     struct error reason;
-    ps_result result = param_set_defaults(&table, strategy->state, &reason);
+    result = param_set_defaults(&table, strategy->state, &reason);
     if (result == PS_OK)
         return PS_OK;
     strategy_release(strategy);

@@ -46,6 +46,7 @@ build
 cp mine/filter/broken.so whole.so
 run 0 plugins filter=broken
 expect_text out "a filter that is broken by the tests"
+expect_text out "file: $PWD/mine/filter/broken.so"
 run 0 -q $small -p filter=broken -o whole.exr "$cornell"
 expect_picture whole.exr
 
@@ -71,7 +72,7 @@ broken "lacks a name, version, summary or paper" -DNAME=NULL
 broken "lacks a name, version, summary or paper" -DPAPER=NULL
 broken "its table of functions is too small" -DVTABLE=NULL
 broken "its table of functions is too small" -DVTABLE_SIZE=8
-broken "it has no filter" -DKIND=PS_DENOISER
+broken "it holds denoiser 'broken', no filter" -DKIND=PS_DENOISER
 # A function that must be there is not.
 broken "table of functions" -DWEIGH=NULL
 
@@ -80,7 +81,7 @@ build '-DNAME="other"'
 run 0 plugins filter=mine/filter/broken.so
 expect_text out "filter=other, version 1.0"
 run 2 check -p filter=broken "$cornell"
-expect_text err "it has no filter of that name"
+expect_text err "it holds filter 'other', no filter of that name"
 
 # --- parameters ---
 

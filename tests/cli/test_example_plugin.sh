@@ -55,7 +55,7 @@ run 0 -q $small -o scene.png scene.psd --allow-scene-plugins
 pixels scene.png >scene
 expect_same scene sharp
 run 2 -q $small -p denoiser=./mine/filter/cosine.so "$cornell"
-expect_match err '^psplat: error: denoiser plugin \./mine/filter/cosine\.so: it has no denoiser'
+expect_match err '^psplat: error: denoiser plugin \./mine/filter/cosine\.so: it holds filter .cosine., no denoiser$'
 
 # What info prints repeats a picture that a plugin's path made.
 run 0 info sharp.exr
