@@ -32,7 +32,7 @@ gbuffer:material 60x40
 gbuffer:throughput 60x40
 gbuffer:direct 60x40
 gbuffer:emitted 60x40
-maps 60x78
+maps 72x86
 overlap 60x77
 END
 rm out err
@@ -103,7 +103,7 @@ expect_same usual.png new/cornell-sources.png
 
 # A larger sheet where there are more maps; a scene from standard input; more maps than splats.
 run 0 debug maps $small --count 13 -o more.png
-expect_size 60x97 more.png
+expect_size 72x109 more.png
 run 0 debug maps --size 60x40 -p injection=photon:count=40 --count 10000000 "$cornell" -o all.png
 expect_picture all.png
 last="psplat debug voxels - <cornell.psd"

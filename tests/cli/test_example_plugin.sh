@@ -49,7 +49,6 @@ cat >>scene.psd <<'END'
 render:
   bounces: 1
   filter: {mine/filter/cosine.so: {sharpness: =1+2}}
-  visibility: {shadowmap: {radius: 30, resolution: 4}}
 END
 run 0 -q $small -o scene.png scene.psd --allow-scene-plugins
 pixels scene.png >scene

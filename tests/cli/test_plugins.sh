@@ -167,7 +167,7 @@ chosen injection "photon:count=50,roulette=3,split=auto" -p injection=photon:rou
 run 0 -q $small -o default.exr "$cornell"
 for choice in filter=box filter=tent filter=gaussian:sigma=0.2 filter=cone filter=cone:k=9 \
     filter=epanechnikov visibility=none \
-    visibility=shadowmap:resolution=8 visibility=shadowmap:radius=60 visibility=shadowmap:step_back=auto \
+    visibility=shadowmap:resolution=4 visibility=shadowmap:radius=60 visibility=shadowmap:step_back=auto \
     visibility=shadowmap:step_back=15,bias=5 visibility=shadowmap:bandwidth_scale=0 visibility=shadowmap:depth=1 \
     estimator=pathtrace estimator=photonmap estimator=vpl estimator=ambient estimator=ssao estimator=vpl:visibility=no \
     normalization=weight normalization=intensity:exposure=9 denoiser=gaussian \

@@ -173,7 +173,7 @@ char *cornell_text(int width, int height)
     size_t capacity = 1 << 16;
     char *text = calloc(1, capacity);
     assert_non_null(text);
-    size_t length = fread(text, 1, capacity - 64, file);
+    size_t length = fread(text, 1, capacity - 256, file);
     fclose(file);
     char *found = strstr(text, "image: {width: 1600, height: 900}");
     assert_non_null(found);
@@ -181,5 +181,6 @@ char *cornell_text(int width, int height)
     int added = snprintf(size, sizeof size, "image: {width: %d, height: %d}", width, height);
     memmove(found + added, found + old, length - (size_t)(found - text) - old + 1);
     memcpy(found, size, (size_t)added);
+    strcat(text, "  visibility: {shadowmap: {radius: 30, resolution: 4}}\n"); /* render comes last */
     return text;
 }
