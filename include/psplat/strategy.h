@@ -154,7 +154,7 @@ typedef struct ps_denoiser_vtable {
 #define PS_BOX_PARAMS(state, step_back_default, boundary_correction_default)                       \
     PS_NUMBER_OR(                                                                                  \
         state, radius, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",            \
-        "radius of a splat; auto: by the scene, its light and the number of light paths"),     \
+        "radius of a splat; auto: by the scene, its light and the number of light paths"),         \
         PS_NUMBER(state, bandwidth_scale, "0.6", 0, INFINITY, PS_PARAM_EXPERT, "",                 \
                   "limit of the radius, down to a part of it or to the interleaved pixels, as a "  \
                   "fraction of "                                                                   \

@@ -181,6 +181,7 @@ char *cornell_text(int width, int height)
     int added = snprintf(size, sizeof size, "image: {width: %d, height: %d}", width, height);
     memmove(found + added, found + old, length - (size_t)(found - text) - old + 1);
     memcpy(found, size, (size_t)added);
-    strcat(text, "  visibility: {shadowmap: {radius: 30, resolution: 4}}\n"); /* render comes last */
+    strcat(text,
+           "  visibility: {shadowmap: {radius: 30, resolution: 4}}\n"); /* render comes last */
     return text;
 }
