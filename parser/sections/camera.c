@@ -1,4 +1,4 @@
-/* camera.c: see camera.h. */
+/* camera.c: the sections of cameras. */
 #include "parser/sections/sections.h"
 
 #include "parser/schema/keys.h"

@@ -1,4 +1,4 @@
-/* fragment.c: see fragment.h. */
+/* fragment.c: joins what a mesh file brought with the description. */
 #include "parser/sections/object.h"
 
 #include "parser/sections/sections.h"

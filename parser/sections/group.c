@@ -1,4 +1,4 @@
-/* group.c: see group.h. A group is read when the first instance, or its turn, comes. */
+/* group.c: objects by name, and their instances. A group is read when the first instance, or its turn, comes. */
 #include "parser/sections/object.h"
 
 #include "parser/sections/fill.h"

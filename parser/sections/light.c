@@ -1,4 +1,4 @@
-/* light.c: see light.h. */
+/* light.c: the section of lights. */
 #include "parser/sections/sections.h"
 
 #include "parser/schema/keys.h"

@@ -1,4 +1,4 @@
-/* object.c: see object.h. */
+/* object.c: a list of objects, each by the table of its kind. */
 #include "parser/sections/object.h"
 
 #include "parser/sections/check.h"

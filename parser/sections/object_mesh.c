@@ -1,4 +1,4 @@
-/* object_mesh.c: see object_mesh.h. */
+/* object_mesh.c: mesh files as objects. */
 #include "parser/sections/object.h"
 
 #include "base/suggestion.h"

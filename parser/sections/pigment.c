@@ -1,4 +1,4 @@
-/* pigment.c: see pigment.h. */
+/* pigment.c: colours, or numbers, that may vary over a surface, and the pictures that they name. */
 #include "parser/sections/sections.h"
 
 #include "parser/sections/fill.h"

@@ -1,4 +1,4 @@
-/* placement.c: see placement.h.
+/* placement.c: from the keys of transforms to an affine map.
  *
  * A map counts as singular where the volume that it makes of a cube is less than a millionth of what
  * the lengths of the edges would allow: singular matrices become regular by rounding.

@@ -13,7 +13,7 @@ struct reader {
     struct diagnostics *sink;
     struct scene_description *description;
     struct arena *arena;               /* of the tree */
-    struct names materials, groups;    /* indices, see reference.h */
+    struct names materials, groups;    /* indices, see reference.c */
     struct names textures;             /* indices, by what makes them the same */
     struct group_entry *group_entries; /* of each group, see group.c */
     size_t object_count;               /* in the file and all groups */

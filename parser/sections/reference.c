@@ -1,4 +1,4 @@
-/* reference.c: see reference.h. */
+/* reference.c: what the file names to refer to it from elsewhere. */
 #include "parser/sections/sections.h"
 
 #include "base/suggestion.h"

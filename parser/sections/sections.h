@@ -35,14 +35,6 @@ void lights_read(struct reader *reader, const struct node *root);
 /* Adds the materials to the description, and their names to the reader. */
 void materials_read(struct reader *reader, const struct node *root);
 
-/* Reads the components of a mix; false where something was reported. */
-bool mix_read(struct reader *reader, const struct item *item,
-              struct material_description *material);
-
-/* Orders the description's materials so that components come before what is mixed from them; others
- * keep their order. Reports mixes that contain themselves. */
-void mix_order(struct reader *reader);
-
 /* --- colours, or numbers, that may vary over a surface ----------------------------------------- */
 
 /* A pigment of one colour, whatever it is. */
