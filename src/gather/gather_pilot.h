@@ -1,4 +1,4 @@
-/* gather_pilot.h: how near rays are shared out among tiles, by their noise (Neyman 1934, "On the two different aspects
+/* gather_pilot.h: how gather rays are shared out among tiles, by their noise (Neyman 1934, "On the two different aspects
  * of the representative method").
  *
  * A part of the rays goes ahead as a pilot, which tells the noise: where the sun shines on what is near it is hundreds

@@ -1,4 +1,4 @@
-/* bump.h: shading normals bent as if the surface had bump.
+/* bump.h: shading normals bent as if the surface were bumpy.
  *
  * Bumps: Blinn 1978, "Simulation of wrinkled surfaces": of a surface raised by a height h along its
  * normal n, the normal is that of n - grad h, grad h being the height's gradient along the surface.

@@ -13,7 +13,7 @@
  *             splatting").
  *
  * The size follows the distance d travelled, R = min(size, follow * d) but no less than a part of
- * size (0.3; 0.6 after the first bounce, or where light from close by is left to near rays), as a photon
+ * size (0.3; 0.6 after the first bounce, or where light from close by is left to gather rays), as a photon
  * differential would: light from close by, in a corner, makes small splats. Nor does it follow below the n x n
  * pixels that interleaved splats are averaged over in the end. The box of a full beam is as wide as its pixels'
  * sizes ask for (width.h, reach.h). Where sources were merged, `size` grows with the square root of their
@@ -40,7 +40,7 @@ struct box_scene {
     uint64_t seed;        /* rotates the frames */
     const struct camera *camera;
     uint32_t interleave;   /* see field.h */
-    float gather_distance; /* of the light that splats leave to near rays; 0: none */
+    float gather_distance; /* of the light that splats leave to gather rays; 0: none */
 };
 
 /* How far above its source's tangent plane a full beam of that half-width starts. */
@@ -56,7 +56,7 @@ float box_clearance(float surface_offset, float half_width, bool hollow);
  * shadows, as a small lamp does, so splats become smaller where that is little beside the scene. */
 float box_automatic_size(float scene_radius, float light_spread, uint64_t paths, uint32_t pass);
 
-/* How short-range light has to come from for splats to leave part of it to near rays (gather_share.h): two and a half
+/* How short-range light has to come from for splats to leave part of it to gather rays (gather_share.h): two and a half
  * half-widths of the first pass of 100,000 paths. More of them have smaller splats; if the distance shrank with
  * these, what lies just past it would be blurred as much as before, for ever. 0 where beams don't start at their
  * sources and follow the distance. (After the bias compensation of virtual point lights: Kollig and Keller

@@ -1,7 +1,7 @@
-/* gather_share.h: how much of the light from nearby splats give, and how much is left to near rays.
+/* gather_share.h: how much of the light from nearby splats give, and how much is left to gather rays.
  *
  * Splats blur light; rays that are shot from pixels find it as it is, with more noise, and only so far
- * (pipeline/gather.h). At distance t from the source's plane splats give the share
+ * (gather/gather.h). At distance t from the source's plane splats give the share
  *
  *     s^2 (3 - 2 s),   s = min(t / blend_distance, 1)
  *
