@@ -134,7 +134,7 @@ static ps_result host_gather_short_range(const ps_host *host, double rays)
         result =
             short_range_gather(host, &render->pass, near,
                                rays > 0.0 ? rays : gathered_light_rays(render->sources.path_count));
-    statistics_add_seconds(render->statistics, "near", clock_seconds() - start);
+    statistics_add_seconds(render->statistics, "gather", clock_seconds() - start);
     return result;
 }
 
