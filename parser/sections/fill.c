@@ -208,7 +208,7 @@ static void report_unknown(const struct reader *reader, const struct schema_sect
     struct param_table table = schema_table(section);
     struct suggestion suggestion = {.word = key->text};
     if (!diagnostics_is_full(reader->sink))
-        suggestion.best = param_suggest(&table, key->text);
+        suggestion = param_suggest(&table, key->text);
     char hint[SUGGESTION_TEXT];
     suggestion_text(&suggestion, hint);
     reader_error(reader, key, "unknown key '%s' in %s%s", key->text, section->name, hint);

@@ -25,16 +25,12 @@ const ps_param *param_find(const struct param_table *table, const char *name)
     return NULL;
 }
 
-const char *param_suggest(const struct param_table *table, const char *name)
+struct suggestion param_suggest(const struct param_table *table, const char *name)
 {
-    const char *best = NULL;
-    for (size_t i = 0; i < table->count; i++) {
-        const char *candidate = param_row(table, i)->name;
-        if (text_is_near(name, candidate) &&
-            (!best || text_distance(name, candidate) < text_distance(name, best)))
-            best = candidate;
-    }
-    return best;
+    struct suggestion suggestion = suggestion_start(name);
+    for (size_t i = 0; i < table->count; i++)
+        suggestion_consider(&suggestion, param_row(table, i)->name);
+    return suggestion;
 }
 
 static ps_result reject(const ps_param *row, const char *text, struct error *error)

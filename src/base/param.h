@@ -8,6 +8,7 @@
 #define BASE_PARAM_H
 
 #include "base/error.h"
+#include "base/suggestion.h"
 #include <psplat/param.h>
 
 /* Rows of `count` parameters, `stride` bytes apart (a plugin may have been built with more
@@ -23,8 +24,8 @@ const ps_param *param_row(const struct param_table *table, size_t index);
 /* NULL where the table has no such name. */
 const ps_param *param_find(const struct param_table *table, const char *name);
 
-/* The name in the table that `name` most likely meant, or NULL. */
-const char *param_suggest(const struct param_table *table, const char *name);
+/* The name in the table that `name` most likely meant. */
+struct suggestion param_suggest(const struct param_table *table, const char *name);
 
 /* Parses `text` for `row` and stores it in `state`. PS_ERROR_INVALID with a message such as
  * "expected a number above 0, got 'x'". A stored string is a copy that param_release frees. On an

@@ -1,5 +1,6 @@
 #include "cli/command.h"
 
+#include "base/suggestion.h"
 #include "base/text.h"
 #include <math.h>
 #include <stdio.h>
@@ -17,12 +18,13 @@ void print_error(const char *message)
 
 static bool usage_error(const struct command *command, const char *what, const char *word)
 {
+    bool is_long = strncmp(word, "--", 2) == 0;
+    struct suggestion suggestion = suggestion_start(is_long ? word + 2 : "");
+    for (size_t i = 0; i < command->option_count && is_long; i++)
+        suggestion_consider(&suggestion, command->options[i].name);
     fprintf(stderr, "psplat: error: %s '%s'", what, word);
-    for (size_t i = 0; i < command->option_count; i++)
-        if (strncmp(word, "--", 2) == 0 && text_is_near(word + 2, command->options[i].name)) {
-            fprintf(stderr, "; did you mean '--%s'?", command->options[i].name);
-            break;
-        }
+    if (suggestion.best)
+        fprintf(stderr, "; did you mean '--%s'?", suggestion.best);
     fprintf(stderr, "\nTry 'psplat %s --help'.\n", command->name);
     return false;
 }

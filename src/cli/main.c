@@ -1,7 +1,7 @@
 /* main.c: chooses the command. The only place where the process's exit status is decided. */
 #include "cli/command.h"
 
-#include "base/text.h"
+#include "base/suggestion.h"
 #include "base/version.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,13 +27,14 @@ static bool asks_for(char *const words[], size_t count, const char *letter, cons
 /* A word before others that is nearly a command was meant as one. */
 static bool suggest_command(const char *word)
 {
-    for (size_t i = 0; i < command_count; i++)
-        if (word[0] != '-' && text_is_near(word, commands[i]->name)) {
-            fprintf(stderr, "psplat: error: unknown command '%s'; did you mean '%s'?\n", word,
-                    commands[i]->name);
-            return true;
-        }
-    return false;
+    struct suggestion suggestion = suggestion_start(word);
+    char hint[SUGGESTION_TEXT];
+    for (size_t i = 0; i < command_count && word[0] != '-'; i++)
+        suggestion_consider(&suggestion, commands[i]->name);
+    suggestion_text(&suggestion, hint);
+    if (suggestion.best)
+        fprintf(stderr, "psplat: error: unknown command '%s'%s\n", word, hint);
+    return suggestion.best != NULL;
 }
 
 static int run(const struct command *command, char *const words[], size_t count)

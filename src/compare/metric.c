@@ -1,6 +1,7 @@
 /* metric.c: the metrics by name, and bounds on them. */
 #include "compare/metric.h"
 
+#include "base/suggestion.h"
 #include "base/text.h"
 #include "compare/flip.h"
 #include "compare/pixel_metrics.h"
@@ -47,10 +48,13 @@ ps_result metric_find(const char *name, size_t length, enum metric *metric, stru
             *metric = (enum metric)i;
             return PS_OK;
         }
+    struct suggestion suggestion = suggestion_start(word);
+    char hint[SUGGESTION_TEXT];
     for (int i = 0; i < METRIC_COUNT; i++)
-        if (text_is_near(word, metrics[i].name))
-            return error_set(error, PS_ERROR_INVALID, "unknown metric '%s'; did you mean '%s'?",
-                             word, metrics[i].name);
+        suggestion_consider(&suggestion, metrics[i].name);
+    suggestion_text(&suggestion, hint);
+    if (suggestion.best)
+        return error_set(error, PS_ERROR_INVALID, "unknown metric '%s'%s", word, hint);
     list_names(list, sizeof list);
     return error_set(error, PS_ERROR_INVALID, "unknown metric '%s'; there are: %s", word, list);
 }

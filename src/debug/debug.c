@@ -1,6 +1,6 @@
 #include "debug/debug.h"
 
-#include "base/text.h"
+#include "base/suggestion.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -11,16 +11,16 @@ enum { VIEWS = sizeof views / sizeof views[0] };
 static ps_result report_unknown(const char *name, struct error *error)
 {
     char known[256] = "";
-    const char *meant = NULL;
+    struct suggestion suggestion = suggestion_start(name);
+    char hint[SUGGESTION_TEXT];
     for (size_t i = 0; i < VIEWS; i++) {
         size_t length = strlen(known);
         snprintf(known + length, sizeof known - length, "%s%s", i > 0 ? ", " : "", views[i]->name);
-        if (text_is_near(name, views[i]->name))
-            meant = views[i]->name;
+        suggestion_consider(&suggestion, views[i]->name);
     }
-    if (meant)
-        return error_set(error, PS_ERROR_INVALID, "there is no view '%s'; did you mean '%s'?", name,
-                         meant);
+    suggestion_text(&suggestion, hint);
+    if (suggestion.best)
+        return error_set(error, PS_ERROR_INVALID, "there is no view '%s'%s", name, hint);
     return error_set(error, PS_ERROR_INVALID, "there is no view '%s'; there are: %s", name, known);
 }
 

@@ -24,10 +24,11 @@ static void report_unknown(struct resolution *resolution, const struct strategy 
     char message[512];
     const ps_descriptor *descriptor = strategy->descriptor;
     struct param_table table = strategy_params(descriptor);
-    const char *suggestion = param_suggest(&table, parameter->key);
-    snprintf(message, sizeof message, "unknown parameter '%.80s' of %s %s%s%s%s", parameter->key,
-             kinds[descriptor->kind].name, descriptor->name, suggestion ? "; did you mean '" : "",
-             suggestion ? suggestion : "", suggestion ? "'?" : "");
+    struct suggestion suggestion = param_suggest(&table, parameter->key);
+    char hint[SUGGESTION_TEXT];
+    suggestion_text(&suggestion, hint);
+    snprintf(message, sizeof message, "unknown parameter '%.80s' of %s %s%s", parameter->key,
+             kinds[descriptor->kind].name, descriptor->name, hint);
     fail(resolution, &parameter->key_origin, message);
 }
 

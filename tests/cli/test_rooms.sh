@@ -3,9 +3,8 @@
 
 # rooms_problems TREE: what is wrong with the includes of that tree, a line each.
 rooms_problems() {
-    (cd "$1" && find src parser plugins -name '*.[ch]' | sort | while read -r file; do
-        sed -n 's|^#include \(["<][^">]*\)[">].*|\1|p' "$file" | sed "s|^|$file |"
-    done) | awk '
+    (cd "$1" && grep -r --include='*.[ch]' '^#include' src parser plugins) |
+        sed 's|^\([^:]*\):#include \(["<][^">]*\).*|\1 \2|' | awk '
         function room_of(path, parts, depth) {
             sub(/^src\//, "", path)
             depth = split(path, parts, "/")

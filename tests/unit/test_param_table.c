@@ -85,10 +85,10 @@ static void test_find_and_suggest(void **state)
     assert_ptr_equal(param_find(&table, "tint"), &rows[7]);
     assert_null(param_find(&table, "tin"));
     assert_null(param_find(&table, ""));
-    assert_string_equal(param_suggest(&table, "cuont"), "count");
-    assert_string_equal(param_suggest(&table, "plaec"), "place");
-    assert_string_equal(param_suggest(&table, "mod"), "mode"); /* the nearest */
-    assert_null(param_suggest(&table, "photons"));
+    assert_string_equal(param_suggest(&table, "cuont").best, "count");
+    assert_string_equal(param_suggest(&table, "plaec").best, "place");
+    assert_string_equal(param_suggest(&table, "mod").best, "mode"); /* the nearest */
+    assert_null(param_suggest(&table, "photons").best);
 }
 
 /* A plugin built with more members than psplat knows has longer rows. */
