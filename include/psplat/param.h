@@ -53,13 +53,25 @@ typedef struct ps_param {
     const char *help;           /* one line, no full stop */
 } ps_param;
 
+/* The type_ of a row, if the member is of that type; otherwise the row does not compile. */
+#define PS_TYPE_OF_MEMBER(state, member, type_)                                                    \
+    _Generic(((state *)0)->member, PS_MEMBER_OF_##type_ : type_)
+#define PS_MEMBER_OF_PS_PARAM_BOOL int32_t
+#define PS_MEMBER_OF_PS_PARAM_INT int64_t
+#define PS_MEMBER_OF_PS_PARAM_NUMBER double
+#define PS_MEMBER_OF_PS_PARAM_VEC3 ps_vec3
+#define PS_MEMBER_OF_PS_PARAM_COLOR ps_rgb
+#define PS_MEMBER_OF_PS_PARAM_STRING const char *
+#define PS_MEMBER_OF_PS_PARAM_CHOICE int32_t
+#define PS_MEMBER_OF_PS_PARAM_NUMBER_OR_CHOICE ps_number_or_choice
+
 /* Rows of a table; the parameter is named as the member that it fills. PS_ROW has all members, for rows whose
  * type takes no flags below. */
 #define PS_ROW(state, member, type_, default_, minimum_, maximum_, flags_, choices_, unit_, help_) \
     {                                                                                              \
-        .name = #member, .type = (type_), .flags = (flags_), .offset = offsetof(state, member),    \
-        .default_value = (default_), .minimum = (minimum_), .maximum = (maximum_),                 \
-        .choices = (choices_), .unit = (unit_), .help = (help_)                                    \
+        .name = #member, .type = PS_TYPE_OF_MEMBER(state, member, type_), .flags = (flags_),       \
+        .offset = offsetof(state, member), .default_value = (default_), .minimum = (minimum_),     \
+        .maximum = (maximum_), .choices = (choices_), .unit = (unit_), .help = (help_)             \
     }
 #define PS_BOOL(state, member, default_, help_)                                                    \
     PS_ROW(state, member, PS_PARAM_BOOL, default_, 0, 1, 0, NULL, "", help_)

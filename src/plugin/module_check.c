@@ -69,9 +69,30 @@ static bool check_param(const ps_param *row, uint64_t state_size, struct error *
         return reject(error, "a parameter has no name, help, unit or known type");
     if (row->offset > state_size || state_size - row->offset < size || row->offset % 4 != 0)
         return reject(error, "a parameter lies outside of its state");
+    if (!(row->minimum <= row->maximum))
+        return reject(error, "a parameter's range is empty");
     bool wants_choices = row->type == PS_PARAM_CHOICE || row->type == PS_PARAM_NUMBER_OR_CHOICE;
     if (wants_choices != (row->choices != NULL))
         return reject(error, "a parameter's choices do not fit its type");
+    return true;
+}
+
+static const ps_param *row_at(const ps_descriptor *descriptor, uint32_t i)
+{
+    const char *row = (const char *)descriptor->params + (size_t)i * descriptor->param_size;
+    return (const ps_param *)(const void *)row;
+}
+
+static bool check_params(const ps_descriptor *descriptor, struct error *error)
+{
+    for (uint32_t i = 0; i < descriptor->param_count; i++) {
+        const ps_param *row = row_at(descriptor, i);
+        if (!check_param(row, descriptor->state_size, error))
+            return false;
+        for (uint32_t j = 0; j < i; j++)
+            if (strcmp(row->name, row_at(descriptor, j)->name) == 0)
+                return reject(error, "two of its parameters have the same name");
+    }
     return true;
 }
 
@@ -92,12 +113,7 @@ static bool check_descriptor(const ps_descriptor *descriptor, struct error *erro
         return reject(error, "its parameter table is missing");
     if (descriptor->param_count && descriptor->param_size < sizeof(ps_param))
         return reject(error, "its parameter rows are too small for this version");
-    for (uint32_t i = 0; i < descriptor->param_count; i++) {
-        const char *row = (const char *)descriptor->params + (size_t)i * descriptor->param_size;
-        if (!check_param((const ps_param *)(const void *)row, descriptor->state_size, error))
-            return false;
-    }
-    return true;
+    return check_params(descriptor, error);
 }
 
 bool module_check(const ps_module *module, struct error *error)

@@ -92,6 +92,9 @@ broken "a parameter lies outside of its state" -DPARAM_OFFSET=UINT64_MAX
 broken "a parameter lies outside of its state" -DSTATE_SIZE=0
 broken "a parameter has no name, help, unit or known type" -DPARAM_TYPE=99
 broken "a parameter has no name, help, unit or known type" -DPARAM_HELP=NULL
+broken "two of its parameters have the same name" -DPARAM_COUNT=2
+broken "a parameter's range is empty" -DPARAM_MINIMUM=3
+broken "a parameter's range is empty" -DPARAM_MINIMUM=NAN
 broken "a parameter's choices do not fit its type" -DPARAM_TYPE=PS_PARAM_CHOICE "-DSTATE_SIZE=64"
 
 # What no check of the module can see, but what comes after does.

@@ -64,6 +64,14 @@ eval "\"\$PSPLAT\" ${command#psplat } -q -o repeated.exr" >out 2>err </dev/null
 check_status $? 0
 expect_same repeated.exr sharp.exr
 
+# A row whose type is not that of its member does not compile.
+for row in 'PS_INT(struct state, sharpness, "1", 0, 16, "", "")' 'PS_BOOL(struct state, sharpness, "yes", "")'; do
+    sed "s/^    PS_NUMBER(.*/    $row,/" "$PSPLAT_SOURCE/tests/plugins/cosine.c" >wrong.c
+    last=$row
+    ! "$CC" -std=c11 -fsyntax-only -I "$PSPLAT_SOURCE/include" wrong.c 2>compiler || fail "it compiles"
+    grep -q "sharpness" wrong.c && grep -q "PS_TYPE_OF_MEMBER" compiler || fail "another error: $(cat compiler)"
+done
+
 # --- by name ---
 
 run 2 $small -p filter=cosine "$cornell"

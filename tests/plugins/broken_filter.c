@@ -122,18 +122,22 @@ int32_t refuse_silently(void *state, const ps_host *host, char *message, size_t 
     return -1;
 }
 
+#ifndef PARAM_MINIMUM
+#define PARAM_MINIMUM 0
+#endif
+#ifndef PARAM_COUNT
+#define PARAM_COUNT 1
+#endif
+
+#define FACTOR                                                                                     \
+    {                                                                                              \
+        .name = "factor", .type = PARAM_TYPE, .offset = PARAM_OFFSET,                              \
+        .default_value = PARAM_DEFAULT, .minimum = PARAM_MINIMUM, .maximum = 2,                    \
+        .choices = PARAM_CHOICES, .unit = "", .help = PARAM_HELP,                                  \
+    }
+
 extern const ps_param params[];
-const ps_param params[] = {{
-    .name = "factor",
-    .type = PARAM_TYPE,
-    .offset = PARAM_OFFSET,
-    .default_value = PARAM_DEFAULT,
-    .minimum = 0,
-    .maximum = 2,
-    .choices = PARAM_CHOICES,
-    .unit = "",
-    .help = PARAM_HELP,
-}};
+const ps_param params[] = {FACTOR, FACTOR};
 
 extern const ps_filter_vtable vtable;
 const ps_filter_vtable vtable = {.size = VTABLE_SIZE, .weigh = WEIGH};
@@ -147,7 +151,7 @@ const ps_descriptor descriptor = {
     .summary = "a filter that is broken by the tests",
     .paper = PAPER,
     .params = PARAMS,
-    .param_count = 1,
+    .param_count = PARAM_COUNT,
     .param_size = PARAM_SIZE,
     .state_size = STATE_SIZE,
     .init = INIT,
