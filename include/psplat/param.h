@@ -55,7 +55,7 @@ typedef struct ps_param {
 
 /* The type_ of a row, if the member is of that type; otherwise the row does not compile. */
 #define PS_TYPE_OF_MEMBER(state, member, type_)                                                    \
-    _Generic(((state *)0)->member, PS_MEMBER_OF_##type_ : type_)
+    _Generic(((state *)0)->member, PS_MEMBER_OF_##type_ : (type_))
 #define PS_MEMBER_OF_PS_PARAM_BOOL int32_t
 #define PS_MEMBER_OF_PS_PARAM_INT int64_t
 #define PS_MEMBER_OF_PS_PARAM_NUMBER double
