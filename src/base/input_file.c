@@ -83,6 +83,19 @@ ps_result input_file_open(const char *path, const char *folder, struct input_fil
     return result;
 }
 
+ps_result input_file_read(const struct input_file *file, void *bytes, size_t *size,
+                          struct error *error)
+{
+    size_t done = 0;
+    for (ssize_t count = 1; count != 0 && done<*size; done += count> 0 ? (size_t)count : 0) {
+        count = read(file->descriptor, (char *)bytes + done, *size - done);
+        if (count < 0 && errno != EINTR)
+            return error_set(error, PS_ERROR_IO, "cannot read: %s", strerror(errno));
+    }
+    *size = done;
+    return PS_OK;
+}
+
 bool input_file_exists(const char *path, const char *folder)
 {
     struct input_file file;

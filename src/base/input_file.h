@@ -26,6 +26,11 @@ struct input_file {
 ps_result input_file_open(const char *path, const char *folder, struct input_file *file,
                           struct error *error);
 
+/* Reads from where the file was left: `*size` bytes, or as many as there are up to its end, which `*size` then
+ * becomes. PS_ERROR_IO with a reason as above. */
+ps_result input_file_read(const struct input_file *file, void *bytes, size_t *size,
+                          struct error *error);
+
 /* Whether input_file_open would find a regular file there. */
 bool input_file_exists(const char *path, const char *folder);
 

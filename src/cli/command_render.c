@@ -56,8 +56,7 @@ static void handle_signals(void (*handler)(int signal_number))
 static void interrupt(int signal_number)
 {
     static const char message[] = "\npsplat: interrupted: finishing this batch, then writing the "
-                                  "picture without what is left; a "
-                                  "second signal ends at once\n";
+                                  "picture without what is left; a second signal ends at once\n";
     (void)signal_number;
     handle_signals(SIG_DFL);
     interrupted = 1;

@@ -5,7 +5,6 @@
 #include "image/raster_decode.h"
 
 #include "base/input_file.h"
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -124,35 +123,21 @@ static ps_result decode_or_release(const struct raster_source *source, struct ra
     return PS_OK;
 }
 
-static ps_result read_bytes(int descriptor, const char *path, unsigned char *bytes, size_t size,
-                            struct error *error)
-{
-    for (size_t done = 0; done < size;) {
-        ssize_t count = read(descriptor, bytes + done, size - done);
-        if (count < 0 && errno == EINTR) {
-            continue;
-        }
-        if (count < 0) {
-            return error_set(error, PS_ERROR_IO, "%s: cannot read: %s", path, strerror(errno));
-        }
-        if (count == 0) {
-            return error_set(error, PS_ERROR_IO, "%s: it became shorter while it was read", path);
-        }
-        done += (size_t)count;
-    }
-    return PS_OK;
-}
-
 static ps_result read_file(const char *path, const struct input_file *file, struct raster *raster,
                            struct error *error)
 {
     size_t size = (size_t)file->size;
+    struct error reason;
     unsigned char *bytes = malloc(size + 1);
     if (!bytes) {
         return error_set(error, PS_ERROR_MEMORY, "%s: out of memory: wanted %zu bytes", path, size);
     }
-    ps_result result = read_bytes(file->descriptor, path, bytes, size, error);
-    if (result == PS_OK) {
+    ps_result result = input_file_read(file, bytes, &size, &reason);
+    if (result != PS_OK) {
+        error_set(error, result, "%s: %.1000s", path, reason.text);
+    } else if (size < file->size) {
+        result = error_set(error, PS_ERROR_IO, "%s: it became shorter while it was read", path);
+    } else {
         struct raster_source source = {path, bytes, size};
         result = decode_or_release(&source, raster, error);
     }

@@ -6,7 +6,6 @@
 #include "import/files.h"
 
 #include "base/input_file.h"
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -49,21 +48,6 @@ static struct mesh_file *create_file(const char *path, size_t length)
     return NULL;
 }
 
-static ps_result fill(struct mesh_file *file, int descriptor, struct error *error)
-{
-    size_t done = 0;
-    ssize_t count = 1;
-    while (count != 0 && done < file->length) {
-        count = read(descriptor, file->bytes + done, file->length - done);
-        if (count < 0 && errno != EINTR)
-            return error_set(error, PS_ERROR_IO, "%s: cannot read: %s", file->path,
-                             strerror(errno));
-        done += count > 0 ? (size_t)count : 0;
-    }
-    file->length = done;
-    return PS_OK;
-}
-
 static ps_result read_opened(const char *path, const struct input_file *input,
                              struct mesh_file **read, struct error *error)
 {
@@ -74,7 +58,9 @@ static ps_result read_opened(const char *path, const struct input_file *input,
     if (!file)
         return error_memory(error, (size_t)input->size, "a mesh file");
     *read = file;
-    return fill(file, input->descriptor, error);
+    struct error reason;
+    result = input_file_read(input, file->bytes, &file->length, &reason);
+    return result == PS_OK ? PS_OK : error_set(error, result, "%s: %.1000s", path, reason.text);
 }
 
 static ps_result read_from_disk(const char *path, const char *folder, struct mesh_file **read,
