@@ -5,6 +5,7 @@
 #include "image/rectangle.h"
 #include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 /* Exit status, as in psplat(1). */
 enum status { STATUS_OK = 0, STATUS_FAILED = 1, STATUS_USAGE = 2 };
@@ -37,6 +38,12 @@ extern const struct command command_render, command_check, command_plugins, comm
 /* All commands; the first is what runs when none is named. */
 extern const struct command *const commands[];
 extern const size_t command_count;
+
+/* Whether the argument is the option of that long name. */
+static inline bool argument_is(const struct argument *argument, const char *name)
+{
+    return argument->option && strcmp(argument->option->name, name) == 0;
+}
 
 /* Splits the words that follow a command's name. Prints what is wrong to stderr and returns false;
  * --help is handled by the caller. `arguments` has room for `count` entries; *parsed is how many

@@ -3,18 +3,12 @@
 #include "cli/scene_input.h"
 
 #include <stdio.h>
-#include <string.h>
 
 static const struct option options[] = {
     {'p', "plugin", "KIND=NAME[:KEY=VALUE,...]", "check with another strategy"},
     SCENE_OPTIONS,
     {0, "parameters", NULL, "list the parameters of the scenes instead"},
 };
-
-static bool is_called(const struct argument *argument, const char *name)
-{
-    return argument->option && strcmp(argument->option->name, name) == 0;
-}
 
 /* Pictures are read, and shapes and lights made: what is wrong with those shows only then. */
 static bool builds(struct scene_input *input)
@@ -37,7 +31,7 @@ static bool check_scene(const struct argument *arguments, size_t count,
     struct render_settings settings;
     bool good = scene_input_read(&input, path, scene_options);
     for (size_t i = 0; i < count && good; i++)
-        if (is_called(&arguments[i], "plugin"))
+        if (argument_is(&arguments[i], "plugin"))
             good = scene_input_override(&input, arguments[i].value);
     if (good) {
         good = scene_input_resolve(&input, 1, 1, &settings);
@@ -89,7 +83,7 @@ static int check_scenes(const struct argument *arguments, size_t count,
     size_t scenes = 0;
     bool lists = false;
     for (size_t i = 0; i < count; i++)
-        lists = lists || is_called(&arguments[i], "parameters");
+        lists = lists || argument_is(&arguments[i], "parameters");
     for (size_t i = 0; i < count; i++) {
         const char *path = arguments[i].value;
         if (arguments[i].option)

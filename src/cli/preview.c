@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define WIDTH 640.0
 #define HEIGHT 360.0
@@ -26,7 +25,7 @@ static const struct argument stands_for[] = {
 static bool is_among(const struct argument *arguments, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        if (arguments[i].option && strcmp(arguments[i].option->name, "preview") == 0)
+        if (argument_is(&arguments[i], "preview"))
             return true;
     return false;
 }

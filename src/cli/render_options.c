@@ -121,8 +121,7 @@ static bool override(const struct render_options *options, struct scene_input *i
     struct scene_description *description = &input->description;
     for (size_t i = 0; i < options->argument_count; i++) {
         const struct argument *argument = &options->arguments[i];
-        if (argument->option && strcmp(argument->option->name, "plugin") == 0 &&
-            !scene_input_override(input, argument->value))
+        if (argument_is(argument, "plugin") && !scene_input_override(input, argument->value))
             return false;
     }
     if (options->seed >= 0)

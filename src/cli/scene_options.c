@@ -6,24 +6,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_called(const struct argument *argument, const char *name)
-{
-    return argument->option && strcmp(argument->option->name, name) == 0;
-}
-
 static size_t collect(const struct argument *arguments, size_t count, const char *name,
                       const char **words)
 {
     size_t found = 0;
     for (size_t i = 0; i < count; i++)
-        if (is_called(&arguments[i], name))
+        if (argument_is(&arguments[i], name))
             words[found++] = arguments[i].value;
     return found;
 }
 
 static const char *last_value(const struct argument *arguments, size_t count, const char *name)
 {
-    while (count > 0 && !is_called(&arguments[count - 1], name))
+    while (count > 0 && !argument_is(&arguments[count - 1], name))
         count--;
     return count > 0 ? arguments[count - 1].value : NULL;
 }
@@ -60,7 +55,7 @@ bool scene_options_take(struct scene_options *options, const struct argument *ar
         collect(arguments, count, "set", options->words + options->psd.parameter_count);
     options->camera = last_value(arguments, count, "camera");
     for (size_t i = 0; i < count; i++)
-        if (is_called(&arguments[i], "allow-scene-plugins"))
+        if (argument_is(&arguments[i], "allow-scene-plugins"))
             options->psd.allow_plugin_paths = true;
     return restrict_to(options, last_value(arguments, count, "restrict"));
 }
