@@ -27,7 +27,7 @@ class Run:
         self.indirect = sum(self.stages.get(stage, 0.0) for stage in INDIRECT_STAGES)
 
     def own_bytes(self):
-        """Sources, maps, bins, photons: what the method alone holds."""
+        """Photons, maps, bins, photon map: what the method alone holds."""
         own = sum(value for name, value in self.bytes.items() if name not in COMMON_MEMORY)
         return own + self.counters.get("photon tree bytes", 0)
 

@@ -1,5 +1,5 @@
 # scaling.gp: draws scaling.csv (given: csv, svg, all_threads): time against light paths and pixels, memory
-# against passes and light paths. Columns: series, x, threads, sources, seconds of the indirect light, of the
+# against passes and light paths. Columns: series, x, threads, photons, seconds of the indirect light, of the
 # wall, of the processor, own bytes, peak bytes.
 set terminal svg size 1000,760 font 'sans,13' background 'white'
 set output svg
@@ -24,6 +24,6 @@ do for [name in 'passes paths'] {
     set xlabel name eq 'paths' ? 'light paths' : 'passes'
     plot for [number in '8 9'] csv skip 1 \
         using (cell(name, first_threads, 2)):(cell(name, first_threads, int(number)) / 1e6) \
-        with linespoints title number eq '8' ? 'sources, maps, bins' : 'whole process at most'
+        with linespoints title number eq '8' ? 'photons, maps, bins' : 'whole process at most'
 }
 unset multiplot

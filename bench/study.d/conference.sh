@@ -44,7 +44,7 @@ conference_methods() {
 }
 
 # Figure 19: the same large splats with maps of 4x4 and of 32x32 texels. With psplat's full beams, whose maps see all
-# that lies between source and surface; the thesis's close box is measured too.
+# that lies between photon and surface; the thesis's close box is measured too.
 conference_chairs() {
     local texels box n
     n=$(paths 200000)

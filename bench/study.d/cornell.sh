@@ -70,7 +70,7 @@ cornell_curves() {
     done
 }
 
-# Stratified splatting without drift of intensity: many passes of few paths, whose sources alone are held at a time.
+# Stratified splatting without drift of intensity: many passes of few paths, whose photons alone are held at a time.
 cornell_open_end() {
     local passes=32 each=20000 half_width=12
     ((quick)) && passes=8
@@ -100,7 +100,7 @@ cornell_noise() {
     row figures noise_paths "$(paths 2500)"
 }
 
-# Merged sources at few and at many paths in the same cells, and as many sources as the latter that were never
+# Merged photons at few and at many paths in the same cells, and as many photons as the latter that were never
 # merged. No growth: all splats have one size.
 cornell_disparity() {
     local many kept injected equal
@@ -109,14 +109,14 @@ cornell_disparity() {
     twice merged-few "${options[@]}"
     set_options thesis_strata 400000 "$small_size" weight 128 1
     twice merged-many "${options[@]}"
-    kept=$(statistic counters sources "$work/merged-many-1.json")
-    injected=$(statistic counters 'sources injected' "$work/merged-many-1.json")
+    kept=$(statistic counters photons "$work/merged-many-1.json")
+    injected=$(statistic counters 'photons injected' "$work/merged-many-1.json")
     equal=$(awk -v kept="$kept" -v injected="$injected" -v paths="$many" 'BEGIN { printf "%d", kept * paths / injected }')
     twice unmerged --plugin injection=photon:count="$equal" --plugin "$(thesis_box "$small_size")" --plugin filter=gaussian \
         --plugin normalization=weight
     row figures merged_few_paths "$(paths 25000)"
     row figures merged_many_paths "$many"
-    row figures merged_sources "$kept"
+    row figures merged_photons "$kept"
     row figures noise_merged_few "$(noise merged-few)"
     row figures noise_merged_many "$(noise merged-many)"
     row figures noise_unmerged "$(noise unmerged)"
@@ -138,10 +138,10 @@ cornell_regions() {
     level "$behind_floor" floor ambient cornell "${leaks[@]}"
 }
 
-# data_megabytes RENDER: sources and strata, or photons: what the thesis's table counts.
+# data_megabytes RENDER: photons, strata and the photon map: what the thesis's table counts.
 data_megabytes() {
     local purpose bytes=0
-    for purpose in sources strata photons; do
+    for purpose in photons strata 'photon map'; do
         bytes="$bytes + $(statistic bytes "$purpose" "$work/$1.json")"
         bytes=${bytes% + }
     done
@@ -155,7 +155,7 @@ memory_row() {
 
 # Table 1. The thesis counts photons or voxels alone; psplat's last column is all that the method allocates.
 table_of_memory() {
-    echo 'id,method,thesis: structure,thesis: MB,psplat: paths,psplat: sources or photons (MB),psplat: all (MB)' \
+    echo 'id,method,thesis: structure,thesis: MB,psplat: paths,psplat: photons (MB),psplat: all (MB)' \
         >"$out/memory.csv"
     memory_row pm 'photon mapping' '50000 photons of 36 bytes' 1.71 pm-3
     memory_row small 'splatting; small maps' '25000 photons of 36 bytes' 0.85 small-weight-4

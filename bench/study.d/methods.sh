@@ -4,7 +4,7 @@
 # What the thesis does not state is chosen here. Size: 25,000 splats of a half-width of 60 mm overlap in the Cornell
 # box within the range of its Figure 18; its large maps are three times as large (Figure 17). Its box begins a fixed
 # distance before the hit and compares depths with a fixed tolerance: one size, and one texel, by which most of the
-# surfaces that a box meets stay inside of it. Merged sources may grow to the large size (section 4.3).
+# surfaces that a box meets stay inside of it. Merged photons may grow to the large size (section 4.3).
 
 small_size=60 large_size=180 # Cornell box, mm
 resolution=8

@@ -72,14 +72,14 @@ judge_trends() {
     trend ceiling-density "$(contrast_kept small-density-5)" '>' 0.85 \
         'density does not: share of the contrast that is kept'
     trend ceiling-strata "$(contrast_kept strat-density-4)" '>' 0.8 \
-        'nor does it where sources are stratified: share of the contrast that is kept'
+        'nor does it where photons are stratified: share of the contrast that is kept'
     for name in pm-3 large-weight-5 strat-weight-4 large-density-5 own-4; do
         row figures "contrast_${name//-/_}" "$(contrast_kept "$name")"
     done
     row figures contrast_reference \
         "$(ratio "$(cell levels ceiling-bright/reference level)" "$(cell levels ceiling-dim/reference level)")"
     trend disparity "$(ratio "$(cell figures noise_merged_many value)" "$(cell figures noise_unmerged value)")" '>' 1.2 \
-        'many photons a voxel make disparities: noise over that of as many sources never merged'
+        'many photons a voxel make disparities: noise over that of as many photons never merged'
     trend saturation "$(ratio "$(cell figures noise_merged_many value)" "$(cell figures noise_merged_few value)")" '>' 0.5 \
         'more photons in the same voxels help little: noise with 16 times as many (0.25 without merging)'
     trend drift "$(worst_bias open-1)" '<' 0.02 'stratified with density: no drift of intensity (largest bias of a channel)'

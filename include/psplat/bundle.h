@@ -12,9 +12,9 @@
 #include <psplat/param.h>
 
 /* How many walls a splat has: a plugin's own splats may claim anything. */
-static inline uint32_t ps_wall_count(const ps_splat *splat)
+static inline uint32_t ps_boundary_count(const ps_splat *splat)
 {
-    return splat->wall_count < PS_MOST_WALLS ? splat->wall_count : PS_MOST_WALLS;
+    return splat->boundary_count < PS_MOST_BOUNDARIES ? splat->boundary_count : PS_MOST_BOUNDARIES;
 }
 
 /* Where a point lies in a bundle: (u, v, t). */
@@ -43,13 +43,14 @@ static inline float ps_texel_centre(const ps_splat *splat, uint32_t side, uint32
     return (2.0f * ((float)i + 0.5f) / (float)side - 1.0f) * splat->half_width;
 }
 
-/* Opens full beams, for visibilities that follow their rays: they get no end where depth is
+/* Opens full bundles, for visibilities that follow their rays: they get no end where depth is
  * automatic. Maps are one-sided (a pixel before the map's depth is lit), since a ray that went on past
  * a point before it met anything must have passed it: where surfaces end within a texel (edges seen
- * against what lies farther away, walls that the beam sticks through, Hoet 2014, section 3.3), a
- * two-sided test would shadow them falsely, half a texel wide. The plane of the source keeps what lies
+ * against what lies farther away, walls that the bundle sticks through, Hoet 2014, section 3.3), a
+ * two-sided test would shadow them falsely, half a texel wide. The plane of the photon keeps what lies
  * behind it dark. */
-static inline void ps_open_full_beams(const ps_box_settings *settings, ps_splat *splats, size_t n)
+static inline void ps_open_full_bundles(const ps_footprint_settings *settings, ps_splat *splats,
+                                        size_t n)
 {
     if (settings->step_back_rule != 1 || settings->depth > 0)
         return;

@@ -1,9 +1,9 @@
-/* cell.h: sources in the order of the cells of space that they lie in, for stratifications.
+/* cell.h: photons in the order of the cells of space that they lie in, for stratifications.
  *
  * A cell is a cube of a lattice, and its key the Morton code of its three indices (Morton 1966): the
  * 8^k cells of a cube of 2^k cells a side share all but the last 3k bits. So sorted by key, the
- * sources of a cell, of a block of cells, and of an octree's node are runs, and memory goes by
- * sources; an array of all cells would grow with the cube of their number along an axis.
+ * photons of a cell, of a block of cells, and of an octree's node are runs, and memory goes by
+ * photons; an array of all cells would grow with the cube of their number along an axis.
  */
 #ifndef PSPLAT_CELL_H
 #define PSPLAT_CELL_H
@@ -23,7 +23,7 @@ typedef struct ps_lattice {
     double side; /* of a cell, > 0 */
 } ps_lattice;
 
-/* A source, by its index, and the cell that it lies in. */
+/* A photon, by its index, and the cell that it lies in. */
 typedef struct ps_cell_entry {
     uint64_t key;
     uint64_t index;

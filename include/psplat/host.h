@@ -23,29 +23,29 @@ typedef enum ps_stream {
     PS_STREAM_SPLAT = 3, /* rotation of a splat's frame */
     PS_STREAM_PATH = 4,  /* path tracing */
     PS_STREAM_VIEW = 5,  /* mirrors and glass between camera and surface */
-    PS_STREAM_LIGHT = 6, /* points of lights that have a size */
+    PS_STREAM_LIGHT = 6, /* points of area lights */
     PS_STREAM_PLUGIN = 64
 } ps_stream;
 
 /* How large a splat is and where its box begins: the parameters that every visibility shares
- * (PS_BOX_PARAMS in strategy.h gives the rows). Scene units. */
-typedef struct ps_box_settings {
+ * (PS_FOOTPRINT_PARAMS in strategy.h gives the rows). Scene units. */
+typedef struct ps_footprint_settings {
     double
         radius; /* R, half the side of the box; 0: automatic, by the scene, its light and the paths */
     double
         bandwidth_scale; /* R is at most bandwidth_scale * distance travelled, or 0.3 * radius (0.6 *
                                radius after the first bounce), or the interleaved pixels, whichever is
-                               largest; 0: no limit. Pixels of a full beam choose for themselves: see
+                               largest; 0: no limit. Pixels of a full bundle choose for themselves: see
                                ps_splat */
     double depth;        /* how far the box reaches past the first hit; 0: R tan(theta) + R */
     double step_back;    /* see step_back_rule */
-    int32_t step_back_rule; /* 0: auto, min(d, R tan(theta) + R/2); 1: full, from the source; -1:
+    int32_t step_back_rule; /* 0: auto, min(d, R tan(theta) + R/2); 1: full, from the photon; -1:
                                step_back */
     int32_t
-        boundary_correction; /* 1: full beams make up for what walls beside their source keep back */
-    double max_merge_scale;  /* where sources were merged, R is multiplied by min(sqrt(merged),
+        boundary_correction; /* 1: full bundles make up for what walls beside their photon keep back */
+    double max_merge_scale; /* where photons were merged, R is multiplied by min(sqrt(merged),
                                max_merge_scale); at most 1: not at all */
-} ps_box_settings;
+} ps_footprint_settings;
 
 /* What the estimator works on in one pass. */
 typedef struct ps_pass {
@@ -57,7 +57,7 @@ typedef struct ps_pass {
     float surface_offset;   /* how far to move a ray's origin off the surface it leaves, along the
                              normal */
     uint32_t specular;      /* 1: some surface mirrors, shines by gloss or refracts */
-    uint32_t shares_places; /* 1: several sources may leave one place without much harm */
+    uint32_t shares_places; /* 1: several photons may leave one place without much harm */
     uint32_t bounces;       /* diffuse surfaces that light may meet before the one that is seen: at
                                least 1; PS_ALL_BOUNCES: as many as it likes */
 } ps_pass;
@@ -136,24 +136,25 @@ struct ps_host {
     /* Centre and radius of the sphere around the scene. [any thread] */
     void (*scene_bounds)(const ps_host *host, ps_vec3 *center, float *radius);
 
-    /* Boxes around the first hits of sources: the geometry that every visibility shares (frame,
-     * size that follows distance or, of full beams, holds what all pixels take, step-back, walls
-     * beside the source). Automatic sizes go by the pass's number of paths and by where the lights' light
-     * lands, which begin_splats or next_sources finds out. A hit at INFINITY gives half_width 0, unless a
-     * full beam meets something beside its axis. After begin_splats, those that may light nothing in view
+    /* Boxes around the first hits of photons: the geometry that every visibility shares (frame,
+     * size that follows distance or, of full bundles, holds what all pixels take, step-back, walls
+     * beside the photon). Automatic sizes go by the pass's number of paths and by where the lights' light
+     * lands, which begin_splats or next_photons finds out. A hit at INFINITY gives half_width 0, unless a
+     * full bundle meets something beside its axis. After begin_splats, those that may light nothing in view
      * get half_width 0 too. [any thread] */
-    void (*place_boxes)(const ps_host *host, const ps_box_settings *settings,
-                        const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats);
+    void (*place_footprints)(const ps_host *host, const ps_footprint_settings *settings,
+                             const ps_photon *photons, const ps_hit *hits, size_t n,
+                             ps_splat *splats);
 
-    /* The pass's next batch of sources, injected and stratified, in the order of emission; n is 0 after
+    /* The pass's next batch of photons, injected and stratified, in the order of emission; n is 0 after
      * the last. `progress` becomes the share of the pass's paths that are done, 0..1. Borrowed until
      * the next call. [main thread, inside accumulate] */
-    ps_result (*next_sources)(const ps_host *host, const ps_source **sources, size_t *n,
+    ps_result (*next_photons)(const ps_host *host, const ps_photon **photons, size_t *n,
                               double *progress);
 
-    /* Carries sources to the surfaces they light, by the chosen visibility. [main thread, inside
+    /* Carries photons to the surfaces they light, by the chosen visibility. [main thread, inside
      * accumulate] */
-    ps_result (*place_splats)(const ps_host *host, const ps_source *sources, size_t n,
+    ps_result (*place_splats)(const ps_host *host, const ps_photon *photons, size_t n,
                               ps_splat *splats);
 
     /* Prepares the pass's splatting; before its first place_splats. A splat will light only the pixels
@@ -210,13 +211,13 @@ struct ps_host {
     void (*emit_from)(const ps_host *host, uint32_t index, const float (*samples)[4], size_t n,
                       ps_ray *rays, ps_rgb *power);
 
-    /* From now on in this pass place_boxes leaves short-range light out, by ps_splat.blend_distance: what surfaces that
+    /* From now on in this pass place_footprints leaves short-range light out, by ps_splat.blend_distance: what surfaces that
      * lights shine on reflect, diffusely and only once, over less than two and a half half-widths of the
      * boxes, automatic or given, which splats would blur; the less of it, the farther it comes from. It is
      * found by short rays instead, so many for a pixel in the middle of a surface and those that it is
      * averaged with; 0: as many as find it about as well as the pass's splats find the rest. When the
-     * pass ends it is added to the tiles, without weight. Does nothing where beams don't start at their
-     * sources and follow the distance. After begin_splats, before place_splats. [main thread, inside
+     * pass ends it is added to the tiles, without weight. Does nothing where bundles don't start at their
+     * photons and follow the distance. After begin_splats, before place_splats. [main thread, inside
      * accumulate] */
     ps_result (*gather_short_range)(const ps_host *host, double rays);
 };

@@ -18,7 +18,7 @@
 typedef struct ps_light_view {
     ps_vec3 origin;     /* of all rays; in parallel, of the one in the middle */
     ps_vec3 axis, u, v; /* orthonormal; axis is where the middle ray goes, u and v the sides */
-    float reach; /* half the width: at distance 1 along the axis; in parallel, in scene units */
+    float radius; /* half the width: at distance 1 along the axis; in parallel, in scene units */
     uint32_t parallel; /* 1: all rays go along the axis */
 } ps_light_view;
 
@@ -42,17 +42,17 @@ static inline ps_light_view ps_light_view_of(const ps_light *light, uint32_t fac
         .axis = ps_scale(sides[face / 2], face % 2 ? -1.0f : 1.0f),
         .u = sides[(face / 2 + 1) % 3],
         .v = sides[(face / 2 + 2) % 3],
-        .reach = cosine < PS_WIDEST_MAP_COSINE ? 1.0f : sqrtf(1.0f - cosine * cosine) / cosine,
+        .radius = cosine < PS_WIDEST_MAP_COSINE ? 1.0f : sqrtf(1.0f - cosine * cosine) / cosine,
     };
 }
 
-/* The ray through the place (x, y) of the square, both 0..1. It starts at tnear = `offset`, since a lamp
+/* The ray through the place (x, y) of the square, both 0..1. It starts at tnear = `offset`, since a light
  * may lie on a surface; see ps_pass.surface_offset. */
 static inline ps_ray ps_light_view_ray(const ps_light_view *view, float x, float y, float offset)
 {
     ps_vec3 from = view->parallel ? view->origin : view->axis;
-    from = ps_add_scaled(from, (2.0f * x - 1.0f) * view->reach, view->u);
-    from = ps_add_scaled(from, (2.0f * y - 1.0f) * view->reach, view->v);
+    from = ps_add_scaled(from, (2.0f * x - 1.0f) * view->radius, view->u);
+    from = ps_add_scaled(from, (2.0f * y - 1.0f) * view->radius, view->v);
     if (view->parallel)
         return (ps_ray){from, offset, view->axis, INFINITY};
     return (ps_ray){view->origin, offset, ps_normalize(from), INFINITY};

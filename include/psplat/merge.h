@@ -1,10 +1,10 @@
-/* merge.h: many sources into one, for stratifications (Hoet 2014, sections 3.2.1 and 4.2).
+/* merge.h: many photons into one, for stratifications (Hoet 2014, sections 3.2.1 and 4.2).
  *
- * The sources i of a stratum, each of power Phi_i from its own place in its own direction, become
+ * The photons i of a stratum, each of power Phi_i from its own place in its own direction, become
  * one of them with the power of all. What the light does on average decides which one may stay:
  *
- *   random        Source i with probability p_i = Y(Phi_i) / sum_j Y(Phi_j), Y the luminance. If f_i
- *                 is what a pixel gets of a unit of source i, the mean of what it gets is
+ *   random        Photon i with probability p_i = Y(Phi_i) / sum_j Y(Phi_j), Y the luminance. If f_i
+ *                 is what a pixel gets of a unit of photon i, the mean of what it gets is
  *                 sum_i p_i f_i sum_j Phi_j, and in luminance that is sum_i f_i Y(Phi_i): what it
  *                 would get without merging. So no bias, only noise; colours mix within a stratum.
  *                 With even odds, as in the thesis, this holds only where all powers are the same.
@@ -14,9 +14,9 @@
  *                 directions that a surface sends light in shrink towards its normal: a large bias.
  *
  * Means themselves are no choice: a mean position may lie inside of something, and a mean direction
- * goes where no source did (Hoet 2014, section 3.2.1).
+ * goes where no photon did (Hoet 2014, section 3.2.1).
  *
- * Sources of any bounce may merge, since light does not remember; the one that stays keeps path,
+ * Photons of any bounce may merge, since light does not remember; the one that stays keeps path,
  * bounce, position, normal and direction, and its place in the array: what is left is in path order.
  */
 #ifndef PSPLAT_MERGE_H
@@ -44,39 +44,39 @@ enum { PS_KEEP_RANDOM = 0, PS_KEEP_NEAREST_MEAN = 1, PS_KEEP_DOMINANT = 2 };
 #define PS_MERGE_PARAMS(state)                                                                     \
     PS_ROW(state, representative, PS_PARAM_CHOICE, "random", 0, 0, PS_PARAM_EXPERT,                \
            merge_representative, "",                                                               \
-           "the source that stays; random by power has no bias, the others have"),                 \
+           "the photon that stays; random by power has no bias, the others have"),                 \
         PS_NUMBER(state, normal_angle, "60", 5, 180, PS_PARAM_EXPERT, "degrees",                   \
-                  "largest angle between the normal of a stratum's first source and the others; "  \
+                  "largest angle between the normal of a stratum's first photon and the others; "  \
                   "180: any")
 
 typedef struct ps_merge_settings {
     int32_t representative;
     int32_t reserved;
     double normal_angle; /* degrees */
-    uint64_t per_cell;   /* how many sources stay where there are as many; 0 counts as 1 */
-    uint64_t bucket;     /* how many sources may become one; 0: any number */
+    uint64_t per_cell;   /* how many photons stay where there are as many; 0 counts as 1 */
+    uint64_t bucket;     /* how many photons may become one; 0: any number */
 } ps_merge_settings;
 
 /* The strata of a pass while they are made. Stratum i is entries[starts[i]] to entries[starts[i + 1]
- * - 1]; sources without an entry stay as they are. */
+ * - 1]; photons without an entry stay as they are. */
 typedef struct ps_strata {
     const ps_host *host;
     const ps_pass *pass;
-    ps_source *sources;
+    ps_photon *photons;
     void *memory; /* of the three arrays */
     ps_cell_entry *entries, *spare;
     size_t *starts;
     size_t entry_count, count;
     uint64_t drawn;  /* random numbers used */
-    uint64_t merged; /* sources that became part of another */
+    uint64_t merged; /* photons that became part of another */
 } ps_strata;
 
-/* Room for the strata of n sources: 40 bytes a source, whatever the number of cells. 0 where there
+/* Room for the strata of n photons: 40 bytes a photon, whatever the number of cells. 0 where there
  * is no memory; else release it with ps_strata_release. */
 static inline int ps_strata_create(ps_strata *strata, const ps_host *host, const ps_pass *pass,
-                                   ps_source *sources, size_t n)
+                                   ps_photon *photons, size_t n)
 {
-    *strata = (ps_strata){.host = host, .pass = pass, .sources = sources};
+    *strata = (ps_strata){.host = host, .pass = pass, .photons = photons};
     size_t each = 2 * sizeof(ps_cell_entry) + sizeof(size_t);
     if (n > SIZE_MAX / 2 / each)
         return 0;
@@ -94,7 +94,7 @@ static inline void ps_strata_release(ps_strata *strata)
     strata->host->release(strata->host, strata->memory);
 }
 
-/* Source `index` lies in the cell of `key`. Each source at most once, in order. */
+/* Photon `index` lies in the cell of `key`. Each photon at most once, in order. */
 static inline void ps_strata_add(ps_strata *strata, size_t index, uint64_t key)
 {
     strata->entries[strata->entry_count++] = (ps_cell_entry){key, index};
@@ -155,11 +155,11 @@ static inline void ps_strata_from_cells(ps_strata *strata)
             ps_strata_end_at(strata, i);
 }
 
-/* Takes a source away from the result. A negative number of sources is none that a source can stand
+/* Takes a photon away from the result. A negative number of photons is none that a photon can stand
  * for, so it serves as the mark. */
-static inline void ps_source_remove(ps_source *source)
+static inline void ps_photon_remove(ps_photon *photon)
 {
-    source->merged = -1.0f;
+    photon->merged = -1.0f;
 }
 
 /* In [0, 1), of its own for each choice of each pass. */
@@ -171,9 +171,9 @@ static inline double ps_strata_draw(ps_strata *strata)
     return (double)numbers[0][0] + (double)numbers[0][1] * 0x1p-24;
 }
 
-static inline const ps_source *ps_entry_source(const ps_strata *strata, const ps_cell_entry *entry)
+static inline const ps_photon *ps_entry_photon(const ps_strata *strata, const ps_cell_entry *entry)
 {
-    return &strata->sources[entry->index];
+    return &strata->photons[entry->index];
 }
 
 /* Each choice is among n > 0 entries of one stratum. */
@@ -181,32 +181,32 @@ static inline size_t ps_choose_by_power(ps_strata *strata, const ps_cell_entry *
 {
     double total = 0, sum = 0;
     for (size_t i = 0; i < n; i++)
-        total += ps_luminance(ps_entry_source(strata, &entries[i])->power);
+        total += ps_luminance(ps_entry_photon(strata, &entries[i])->power);
     double wanted = ps_strata_draw(strata) * total;
     for (size_t i = 0; i < n; i++) {
-        sum += ps_luminance(ps_entry_source(strata, &entries[i])->power);
+        sum += ps_luminance(ps_entry_photon(strata, &entries[i])->power);
         if (sum > wanted)
             return i;
     }
     return 0; /* no power at all */
 }
 
-/* The mean position is taken relative to the first source's, for precision. */
+/* The mean position is taken relative to the first photon's, for precision. */
 static inline size_t ps_choose_nearest_mean(const ps_strata *strata, const ps_cell_entry *entries,
                                             size_t n)
 {
-    ps_vec3 first = ps_entry_source(strata, entries)->position, mean = {0, 0, 0};
+    ps_vec3 first = ps_entry_photon(strata, entries)->position, mean = {0, 0, 0};
     float total = 0, least = INFINITY;
     size_t nearest = 0;
     for (size_t i = 0; i < n; i++) {
-        const ps_source *source = ps_entry_source(strata, &entries[i]);
-        float weight = ps_luminance(source->power);
-        mean = ps_add_scaled(mean, weight, ps_subtract(source->position, first));
+        const ps_photon *photon = ps_entry_photon(strata, &entries[i]);
+        float weight = ps_luminance(photon->power);
+        mean = ps_add_scaled(mean, weight, ps_subtract(photon->position, first));
         total += weight;
     }
     mean = ps_add_scaled(first, total > 0.0f ? 1.0f / total : 0.0f, mean);
     for (size_t i = 0; i < n; i++) {
-        ps_vec3 away = ps_subtract(ps_entry_source(strata, &entries[i])->position, mean);
+        ps_vec3 away = ps_subtract(ps_entry_photon(strata, &entries[i])->position, mean);
         if (ps_dot(away, away) < least) {
             least = ps_dot(away, away);
             nearest = i;
@@ -222,11 +222,11 @@ static inline size_t ps_choose_dominant(const ps_strata *strata, const ps_cell_e
     float most = -INFINITY;
     size_t closest = 0;
     for (size_t i = 0; i < n; i++) {
-        const ps_source *source = ps_entry_source(strata, &entries[i]);
-        mean = ps_add_scaled(mean, ps_luminance(source->power), source->direction);
+        const ps_photon *photon = ps_entry_photon(strata, &entries[i]);
+        mean = ps_add_scaled(mean, ps_luminance(photon->power), photon->direction);
     }
     for (size_t i = 0; i < n; i++) {
-        float along = ps_dot(mean, ps_entry_source(strata, &entries[i])->direction);
+        float along = ps_dot(mean, ps_entry_photon(strata, &entries[i])->direction);
         if (along > most) {
             most = along;
             closest = i;
@@ -254,20 +254,20 @@ static inline void ps_merge_into_one(ps_strata *strata, int32_t rule, const ps_c
     size_t chosen = ps_choose_representative(strata, rule, entries, n);
     double r = 0, g = 0, b = 0, merged = 0;
     for (size_t i = 0; i < n; i++) {
-        ps_source *source = &strata->sources[entries[i].index];
-        r += source->power.r;
-        g += source->power.g;
-        b += source->power.b;
-        merged += source->merged;
-        ps_source_remove(source);
+        ps_photon *photon = &strata->photons[entries[i].index];
+        r += photon->power.r;
+        g += photon->power.g;
+        b += photon->power.b;
+        merged += photon->merged;
+        ps_photon_remove(photon);
     }
-    ps_source *kept = &strata->sources[entries[chosen].index];
+    ps_photon *kept = &strata->photons[entries[chosen].index];
     kept->power = (ps_rgb){(float)r, (float)g, (float)b};
     kept->merged = (float)merged;
     strata->merged += n - 1;
 }
 
-/* Deals the entries evenly, as they stand, among as many sources as the settings ask for. */
+/* Deals the entries evenly, as they stand, among as many photons as the settings ask for. */
 static inline void ps_merge_parts(ps_strata *strata, const ps_merge_settings *settings,
                                   const ps_cell_entry *entries, size_t n)
 {
@@ -288,11 +288,11 @@ static inline void ps_merge_parts(ps_strata *strata, const ps_merge_settings *se
 static inline size_t ps_gather_facing(const ps_strata *strata, float least_cosine,
                                       ps_cell_entry *entries, size_t n, ps_cell_entry *rest)
 {
-    ps_vec3 first = ps_entry_source(strata, entries)->normal;
+    ps_vec3 first = ps_entry_photon(strata, entries)->normal;
     size_t near = 0, far = 0;
     for (size_t i = 0; i < n; i++) {
         ps_cell_entry entry = entries[i];
-        if (i == 0 || ps_dot(ps_entry_source(strata, &entry)->normal, first) >= least_cosine)
+        if (i == 0 || ps_dot(ps_entry_photon(strata, &entry)->normal, first) >= least_cosine)
             entries[near++] = entry;
         else
             rest[far++] = entry;
@@ -301,9 +301,9 @@ static inline size_t ps_gather_facing(const ps_strata *strata, float least_cosin
     return near;
 }
 
-/* Merges the sources of each stratum whose normals agree, removes those that are no more, and counts
- * strata and sources merged in the statistics: a stratum counts once for each group of normals. *n becomes the number
- * of sources that are left. */
+/* Merges the photons of each stratum whose normals agree, removes those that are no more, and counts
+ * strata and photons merged in the statistics: a stratum counts once for each group of normals. *n becomes the number
+ * of photons that are left. */
 static inline void ps_strata_merge(ps_strata *strata, const ps_merge_settings *settings, size_t *n)
 {
     float least_cosine = settings->normal_angle < 180.0
@@ -319,10 +319,10 @@ static inline void ps_strata_merge(ps_strata *strata, const ps_merge_settings *s
         }
     }
     for (size_t i = 0; i < *n; i++)
-        if (strata->sources[i].merged >= 0.0f)
-            strata->sources[left++] = strata->sources[i];
+        if (strata->photons[i].merged >= 0.0f)
+            strata->photons[left++] = strata->photons[i];
     strata->host->count(strata->host, "strata", (double)groups);
-    strata->host->count(strata->host, "sources merged", (double)strata->merged);
+    strata->host->count(strata->host, "photons merged", (double)strata->merged);
     *n = left;
 }
 

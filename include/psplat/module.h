@@ -40,7 +40,7 @@ typedef enum ps_kind {
 /* A checksum of the sizes that host and plugin must agree on; it differs where a compiler or a flag
  * laid out the crossing structs otherwise. */
 #define PS_LAYOUT_FINGERPRINT                                                                      \
-    ((uint64_t)sizeof(void *) | (uint64_t)sizeof(ps_source) << 8 |                                 \
+    ((uint64_t)sizeof(void *) | (uint64_t)sizeof(ps_photon) << 8 |                                 \
      (uint64_t)sizeof(ps_hit) << 16 | (uint64_t)sizeof(ps_ray) << 24 |                             \
      (uint64_t)sizeof(ps_splat) << 32 | (uint64_t)(sizeof(ps_packet) / 64) << 40 |                 \
      (uint64_t)(sizeof(ps_tile) / 256) << 48)
@@ -60,7 +60,7 @@ typedef struct ps_descriptor {
 
     /* Checks what no table can, and prepares what follows from the parameters. Main thread, once,
      * before any other callback and before the first pass: the host's ray queries, samples, lights,
-     * bounds and memory are there, its tiles, sources, splats and progress not yet. The state is
+     * bounds and memory are there, its tiles, photons, splats and progress not yet. The state is
      * const afterwards, except to an injection's prepare. On failure returns non-zero and writes why
      * into message (at most message_size bytes with the terminator). May be NULL. */
     int32_t (*init)(void *state, const ps_host *host, char *message, size_t message_size);

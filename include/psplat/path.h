@@ -40,7 +40,7 @@ static inline size_t ps_trace_kept(const ps_host *host, ps_ray *rays, size_t n, 
     return met;
 }
 
-/* For an injection whose sources lie where lights shine, in prepare: says, once a render, that there is light of
+/* For an injection whose photons lie where lights shine, in prepare: says, once a render, that there is light of
  * one bounce alone where more is asked for. */
 static inline void ps_warn_of_single_bounce(const ps_host *host, const ps_pass *pass,
                                             const char *warning)

@@ -15,24 +15,24 @@
 #include <psplat/host.h>
 #include <psplat/param.h>
 
-/* Takes the sources that an injection makes; copies them. Returns PS_OK or PS_ERROR_MEMORY. */
-typedef struct ps_source_sink {
+/* Takes the photons that an injection makes; copies them. Returns PS_OK or PS_ERROR_MEMORY. */
+typedef struct ps_photon_sink {
     void *core;
-    ps_result (*append)(void *core, const ps_source *sources, size_t n);
-} ps_source_sink;
+    ps_result (*append)(void *core, const ps_photon *photons, size_t n);
+} ps_photon_sink;
 
 typedef struct ps_injection_vtable {
     uint32_t size;
     uint32_t reserved;
     /* Light paths in a pass; automatic sizes go by it. [main thread] */
     uint64_t (*path_count)(const void *state);
-    /* Makes the sources of paths [first, first + n), n <= PS_PATH_CHUNK, of the pass, in an order
+    /* Makes the photons of paths [first, first + n), n <= PS_PATH_CHUNK, of the pass, in an order
      * that depends on these alone. Any run of paths has to be a fair part of the pass: runs share
      * out the pixels (host->begin_splats). [worker] */
     ps_result (*emit)(const void *state, const ps_host *host, const ps_pass *pass, uint64_t first,
-                      size_t n, const ps_source_sink *sink);
+                      size_t n, const ps_photon_sink *sink);
     /* Makes what emit needs in this pass and keeps it in the state, which no other callback uses
-     * meanwhile. Before path_count and emit, in each pass whose sources are asked for; passes may
+     * meanwhile. Before path_count and emit, in each pass whose photons are asked for; passes may
      * not depend on each other. May be NULL. [main thread] */
     ps_result (*prepare)(void *state, const ps_host *host, const ps_pass *pass);
 } ps_injection_vtable;
@@ -41,18 +41,18 @@ typedef struct ps_injection_vtable {
 
 typedef struct ps_stratification_vtable {
     uint32_t size;
-    /* 1: combine sees all sources of a pass at once; 0: batch by batch, which bounds memory. */
+    /* 1: combine sees all photons of a pass at once; 0: batch by batch, which bounds memory. */
     uint32_t whole_pass;
-    /* Combines neighbours in place: the first *n entries of `sources` become the result, *n
+    /* Combines neighbours in place: the first *n entries of `photons` become the result, *n
      * shrinks. The sum of powers must stay. [main thread] */
     ps_result (*combine)(const void *state, const ps_host *host, const ps_pass *pass,
-                         ps_source *sources, size_t *n);
-    /* Numbers the cells that `count` points lie in, for pictures of them: sources of the same number
+                         ps_photon *photons, size_t *n);
+    /* Numbers the cells that `count` points lie in, for pictures of them: photons of the same number
      * are those that combine would make one, given these n of the pass, but for their normals and for
      * limits on how many; PS_NO_CELL where it would merge none. May be NULL: there are no cells.
      * [main thread] */
     ps_result (*cells)(const void *state, const ps_host *host, const ps_pass *pass,
-                       const ps_source *sources, size_t n, const ps_vec3 *points, size_t count,
+                       const ps_photon *photons, size_t n, const ps_vec3 *points, size_t count,
                        uint64_t *numbers);
     uint32_t keeps_all; /* 1: combine leaves all as it is; see ps_pass.shares_places */
     uint32_t reserved;
@@ -65,8 +65,8 @@ typedef struct ps_visibility_vtable {
     uint32_t reserved;
     /* Texels along the side of a depth map, 1..64; 0: no maps. [main thread] */
     uint32_t (*resolution)(const void *state);
-    /* Boxes of sources whose first hits are known; usually host->place_boxes. [worker] */
-    void (*place)(const void *state, const ps_host *host, const ps_source *sources,
+    /* Boxes of photons whose first hits are known; usually host->place_footprints. [worker] */
+    void (*place)(const void *state, const ps_host *host, const ps_photon *photons,
                   const ps_hit *hits, size_t n, ps_splat *splats);
     /* Depth maps of n splats: texel (i, j), u along i, at depths[(s * resolution + j) * resolution
      * + i]; the depth along axis_w relative to the centre, INFINITY where nothing was hit. NULL
@@ -80,9 +80,9 @@ typedef struct ps_visibility_vtable {
      * NULL where depth maps decide, or everything inside a box is lit. [worker] */
     void (*visible)(const void *state, const ps_host *host, const ps_splat *splat,
                     const ps_vec3 *points, size_t n, uint8_t *lit);
-    /* The settings by which all boxes are placed with host->place_boxes. NULL: they are placed otherwise;
+    /* The settings by which all boxes are placed with host->place_footprints. NULL: they are placed otherwise;
      * then splats leave out no short-range light. [main thread] */
-    ps_box_settings (*boxes)(const void *state);
+    ps_footprint_settings (*boxes)(const void *state);
 } ps_visibility_vtable;
 
 typedef struct ps_filter_vtable {
@@ -138,8 +138,8 @@ typedef struct ps_denoiser_vtable {
     ps_result (*filter)(const void *state, const ps_host *host, const ps_image_view *image);
 } ps_denoiser_vtable;
 
-/* The rows that every visibility shares; the plugin's state holds PS_BOX_MEMBERS. */
-#define PS_BOX_MEMBERS                                                                             \
+/* The rows that every visibility shares; the plugin's state holds PS_FOOTPRINT_MEMBERS. */
+#define PS_FOOTPRINT_MEMBERS                                                                       \
     ps_number_or_choice radius;                                                                    \
     double bandwidth_scale;                                                                        \
     ps_number_or_choice depth;                                                                     \
@@ -147,11 +147,11 @@ typedef struct ps_denoiser_vtable {
     double max_merge_scale;                                                                        \
     int32_t boundary_correction;
 
-#define PS_BOX_CHOICES                                                                             \
+#define PS_FOOTPRINT_CHOICES                                                                       \
     static const char *const box_auto[] = {"auto", NULL};                                          \
     static const char *const box_step_back[] = {"auto", "full", NULL};
 
-#define PS_BOX_PARAMS(state, step_back_default, boundary_correction_default)                       \
+#define PS_FOOTPRINT_PARAMS(state, step_back_default, boundary_correction_default)                 \
     PS_NUMBER_OR(                                                                                  \
         state, radius, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",            \
         "radius of a splat; auto: by the scene, its light and the number of light paths"),         \
@@ -165,16 +165,16 @@ typedef struct ps_denoiser_vtable {
         PS_NUMBER_OR(                                                                              \
             state, step_back, step_back_default, 0, INFINITY, PS_PARAM_EXPERT, box_step_back,      \
             "scene units",                                                                         \
-            "start of the box before the first hit; auto: by its slope, full: the source"),        \
+            "start of the box before the first hit; auto: by its slope, full: the photon"),        \
         PS_NUMBER(state, max_merge_scale, "1.5", 1, INFINITY, PS_PARAM_EXPERT, "",                 \
-                  "limit of the growth of the radius, sqrt(sources merged into one); 1: none"),    \
+                  "limit of the growth of the radius, sqrt(photons merged into one); 1: none"),    \
         PS_ROW(state, boundary_correction, PS_PARAM_BOOL, boundary_correction_default, 0, 1,       \
                PS_PARAM_EXPERT, NULL, "",                                                          \
-               "full beams make up for the part that walls beside their source keep back")
+               "full bundles make up for the part that walls beside their photon keep back")
 
-/* The parameters as host->place_boxes wants them. */
-#define PS_BOX_SETTINGS(state)                                                                     \
-    (ps_box_settings)                                                                              \
+/* The parameters as host->place_footprints wants them. */
+#define PS_FOOTPRINT_SETTINGS(state)                                                               \
+    (ps_footprint_settings)                                                                        \
     {                                                                                              \
         .radius = (state)->radius.number, .bandwidth_scale = (state)->bandwidth_scale,             \
         .depth = (state)->depth.number, .step_back = (state)->step_back.number,                    \

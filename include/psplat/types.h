@@ -89,9 +89,9 @@ typedef struct ps_packet {
 
 /* An indirect light source: one bundled light ray (Hoet 2014, section 3.2). All strategies exchange
  * these. `power` is what the bundle carries away from `position` along `direction`. */
-typedef struct ps_source {
+typedef struct ps_photon {
     ps_vec3 position;
-    ps_vec3 normal; /* of the surface that the source lies on */
+    ps_vec3 normal; /* of the surface that the photon lies on */
     ps_vec3 direction;
     ps_rgb power; /* W */
     uint16_t
@@ -99,20 +99,20 @@ typedef struct ps_source {
     uint8_t lobe; /* ps_lobe by which the surface sent it out; not PS_DIFFUSE: a caustic */
     uint8_t specular; /* 1: some surface on the light's way, this one included, did not scatter it
                          diffusely */
-    float merged;     /* how many emitted sources this one stands for (1 when none were merged) */
+    float merged;     /* how many emitted photons this one stands for (1 when none were merged) */
     uint64_t path;    /* number of the light path, counted over all passes; keys random streams */
-} ps_source;
+} ps_photon;
 
-/* A wall beside a source, behind which part of its bundle would start: the ray at (u, v), in
+/* A wall beside a photon, behind which part of its bundle would start: the ray at (u, v), in
  * half-widths, starts distance - u * normal_u - v * normal_v in front of it. */
-typedef struct ps_wall {
+typedef struct ps_boundary {
     float normal_u, normal_v; /* length 1 */
     float distance;
-} ps_wall;
+} ps_boundary;
 
-#define PS_MOST_WALLS 2
+#define PS_MOST_BOUNDARIES 2
 
-/* A source carried to the surface that it lights: an orthographic box around the first hit, or around a
+/* A photon carried to the surface that it lights: an orthographic box around the first hit, or around a
  * point of the axis beside which something is met.
  * A point p lies at depth t = (p - centre).axis_w, and is inside where
  * |(p - centre).axis_u|, |(p - centre).axis_v| <= half_width and near_depth <= t <= far_depth. */
@@ -124,13 +124,13 @@ typedef struct ps_splat {
     /* Depth at which rays of the bundle start (what lies before stays dark, but see below), at the
      * centre, and its change along u and v (a tilted start plane). */
     float start_depth, start_slope_u, start_slope_v;
-    /* Of full beams: where the source's tangent plane, parallel to the start plane, crosses the axis. At
+    /* Of full bundles: where the photon's tangent plane, parallel to the start plane, crosses the axis. At
      * distance t from it a pixel takes the part of the disc around its own ray of half-width follow * t /
      * (1 + follow * s), s the change of t across the bundle over its surface, between `narrowest` > 0
      * and `widest`; and where that is less than the box's, the bundle starts as much nearer to the
-     * source's plane. follow 0: all pixels take all of it, and source_depth says nothing. */
-    float source_depth, follow, narrowest, widest;
-    /* Of full beams that follow the distance: what lies this far from the source's plane, or farther, gets all
+     * photon's plane. follow 0: all pixels take all of it, and photon_depth says nothing. */
+    float photon_depth, follow, narrowest, widest;
+    /* Of full bundles that follow the distance: what lies this far from the photon's plane, or farther, gets all
      * of the light; what lies nearer, the less of it, the nearer. The rest is gathered otherwise
      * (host->gather_short_range). 0: all gets all. */
     float blend_distance;
@@ -138,17 +138,17 @@ typedef struct ps_splat {
      * receiver's normal. */
     float bias_constant, bias_slope;
     ps_rgb power;  /* W */
-    float merged;  /* sources that it stands for: how often its weight counts; 0 is as 1 */
-    uint64_t path; /* of its source */
-    uint32_t wall_count;
-    ps_wall walls[PS_MOST_WALLS];
+    float merged;  /* photons that it stands for: how often its weight counts; 0 is as 1 */
+    uint64_t path; /* of its photon */
+    uint32_t boundary_count;
+    ps_boundary boundaries[PS_MOST_BOUNDARIES];
 } ps_splat;
 
 /* What the rays of a light have in common. */
 typedef enum ps_light_kind {
     PS_LIGHT_POINT = 0,   /* they leave one point: a point light or a spotlight */
     PS_LIGHT_SUN = 1,     /* they come from infinity, out of one direction or a small cone */
-    PS_LIGHT_SURFACE = 2, /* they leave a surface: a lamp that has a size, an object that shines */
+    PS_LIGHT_SURFACE = 2, /* they leave a surface: an area light, an object that shines */
     PS_LIGHT_SKY = 3      /* they come from infinity, out of all directions */
 } ps_light_kind;
 

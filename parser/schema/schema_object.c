@@ -76,7 +76,7 @@ static const struct schema_row cone_rows[] = {
     POINT_ROW("from", points[0], "the middle of one end"),
     LENGTH_ROW("from_radius", radius, "radius there; 0: a tip", FROM_0),
     POINT_ROW("to", points[1], "the middle of the other end"),
-    LENGTH_ROW("to_radius", cap_radius, "radius there; 0: a tip", FROM_0),
+    LENGTH_ROW("to_radius", to_radius, "radius there; 0: a tip", FROM_0),
     OPEN_ROW,
     SEGMENTS_ROW,
     SHAPE_ROWS,

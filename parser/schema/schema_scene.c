@@ -78,10 +78,10 @@ static const char *const direct_ways[] = {"rays", "shadowmap", NULL};
 
 static const struct schema_row render_rows[] = {
     STRATEGY_ROW(0, "injection", "plugin that makes indirect light sources"),
-    STRATEGY_ROW(1, "stratification", "plugin that merges neighbouring sources"),
-    STRATEGY_ROW(2, "visibility", "plugin that decides what a source lights"),
+    STRATEGY_ROW(1, "stratification", "plugin that merges neighbouring photons"),
+    STRATEGY_ROW(2, "visibility", "plugin that decides what a photon lights"),
     STRATEGY_ROW(3, "filter", "plugin that weighs a splat by distance from its axis"),
-    STRATEGY_ROW(4, "estimator", "plugin that turns sources into light on the picture"),
+    STRATEGY_ROW(4, "estimator", "plugin that turns photons into light on the picture"),
     STRATEGY_ROW(5, "normalization", "plugin that turns what was gathered into radiance"),
     STRATEGY_ROW(6, "denoiser", "plugin that smooths the indirect light"),
     VALUE(PS_INT(struct render_description, passes, "1", 1, 1e6, "",
@@ -92,7 +92,7 @@ static const struct schema_row render_rows[] = {
     VALUE(PS_INT(struct render_description, seed, "0", 0, LARGEST_SEED, "",
                  "start of the random numbers")),
     VALUE(PS_INT(struct render_description, light_samples, "4", 1, 65536, "",
-                 "shadow rays to each light that has a size, for a pixel and pass")),
+                 "shadow rays to each area light, for a pixel and pass")),
     BOOL(
         "discontinuity_buffer", offsetof(struct render_description, discontinuity_buffer), "no",
         "whether pixels take in what their neighbours' shadow rays found, where they met the same"),

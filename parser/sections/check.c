@@ -137,7 +137,7 @@ static bool check_cone(const struct reader *reader, const struct node *at, const
     bool good = expect(reader, !is_same(object->points[0], object->points[1]),
                        value_of(map, at, "to"), "its two ends are at the same point");
     return expect(reader,
-                  object->kind == OBJECT_CYLINDER || object->radius > 0 || object->cap_radius > 0,
+                  object->kind == OBJECT_CYLINDER || object->radius > 0 || object->to_radius > 0,
                   value_of(map, at, "to_radius"), "both radii of the cone are 0") &&
            good;
 }

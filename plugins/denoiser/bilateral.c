@@ -52,7 +52,7 @@ struct work {
     const ps_host *host;
     const ps_image_view *image;
     float *planes[PLANES];
-    int reach;
+    int radius;
     float near[LARGEST]; /* the spatial weight along one axis */
     float bend_scale;    /* 1 / (1 - cos(normal)) */
     float height_scale;  /* 1 / distance^2 */
@@ -141,7 +141,7 @@ static void add_neighbours(const struct work *work, int x, int row, int n, int d
         return;
     size_t at = (size_t)row * (size_t)width + (size_t)(x + skip);
     size_t from = (size_t)(row + dy) * (size_t)width + (size_t)(x + skip + dx);
-    float space = work->near[dx + work->reach] * work->near[dy + work->reach], weight[BLOCK];
+    float space = work->near[dx + work->radius] * work->near[dy + work->radius], weight[BLOCK];
     stop_at_edges(work, at, from, end - skip, weight);
     for (int c = 0; c < 3; c++) {
         const float *light = work->planes[LIGHT_R + c] + from;
@@ -170,13 +170,13 @@ static void filter_row(void *user, uint64_t row, uint32_t worker)
     const struct work *work = user;
     if (work->host->cancelled(work->host))
         return;
-    int width = (int)work->image->width, reach = work->reach;
+    int width = (int)work->image->width, radius = work->radius;
     for (int x = 0; x < width; x += BLOCK) {
         int n = width - x < BLOCK ? width - x : BLOCK;
         struct sums sums;
         memset(&sums, 0, sizeof sums);
-        for (int dy = -reach; dy <= reach; dy++)
-            for (int dx = -reach; dx <= reach; dx++)
+        for (int dy = -radius; dy <= radius; dy++)
+            for (int dx = -radius; dx <= radius; dx++)
                 add_neighbours(work, x, (int)row, n, dx, dy, &sums);
         store_block(work, row * work->image->width + (size_t)x, n, &sums);
     }
@@ -195,16 +195,16 @@ static double farthest(const struct state *state, const ps_host *host)
 /* The same rule for the deviation that fits a size as the denoiser gaussian has. */
 static double deviation(const struct state *state)
 {
-    double reach = 0.5 * (double)(state->size - 1);
-    return state->sigma.choice >= 0 ? 0.3 * (reach - 1) + 0.8 : state->sigma.number;
+    double radius = 0.5 * (double)(state->size - 1);
+    return state->sigma.choice >= 0 ? 0.3 * (radius - 1) + 0.8 : state->sigma.number;
 }
 
 static void prepare(const struct state *state, const ps_host *host, struct work *work)
 {
     double sigma = deviation(state), distance = farthest(state, host);
-    work->reach = (int)(state->size / 2);
-    for (int i = -work->reach; i <= work->reach; i++)
-        work->near[i + work->reach] = (float)exp(-0.5 * i * i / (sigma * sigma));
+    work->radius = (int)(state->size / 2);
+    for (int i = -work->radius; i <= work->radius; i++)
+        work->near[i + work->radius] = (float)exp(-0.5 * i * i / (sigma * sigma));
     work->bend_scale = (float)(1 / (1 - cos(state->normal * (double)PS_PI / 180)));
     work->height_scale = (float)(1 / (distance * distance));
 }

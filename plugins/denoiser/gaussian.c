@@ -15,7 +15,7 @@ struct state {
 };
 
 struct kernel {
-    int reach; /* taps on either side */
+    int radius; /* taps on either side */
     float taps[MOST_TAPS];
 };
 
@@ -23,10 +23,10 @@ struct kernel {
  * nothing. */
 static struct kernel make_kernel(int32_t size)
 {
-    struct kernel kernel = {.reach = size + 1};
-    float sigma = 0.3f * ((float)kernel.reach - 1.0f) + 0.8f;
-    for (int i = -kernel.reach; i <= kernel.reach; i++)
-        kernel.taps[i + kernel.reach] = expf(-0.5f * (float)(i * i) / (sigma * sigma));
+    struct kernel kernel = {.radius = size + 1};
+    float sigma = 0.3f * ((float)kernel.radius - 1.0f) + 0.8f;
+    for (int i = -kernel.radius; i <= kernel.radius; i++)
+        kernel.taps[i + kernel.radius] = expf(-0.5f * (float)(i * i) / (sigma * sigma));
     return kernel;
 }
 
@@ -48,11 +48,11 @@ static void blur_row(void *user, uint64_t row, uint32_t worker)
         size_t pixel = row * blur->width + x;
         int at = blur->across ? (int)x : (int)row;
         float sum = 0.0f;
-        for (int tap = -blur->kernel->reach; tap <= blur->kernel->reach; tap++)
+        for (int tap = -blur->kernel->radius; tap <= blur->kernel->radius; tap++)
             if (at + tap >= 0 && at + tap < length) {
                 size_t from =
                     tap < 0 ? pixel - (size_t)-tap * stride : pixel + (size_t)tap * stride;
-                sum += blur->kernel->taps[tap + blur->kernel->reach] * blur->in[from];
+                sum += blur->kernel->taps[tap + blur->kernel->radius] * blur->in[from];
             }
         blur->out[pixel] = sum;
     }

@@ -1,6 +1,6 @@
 /* photonmap.c: photon mapping, the reference of the thesis (Hoet 2014, section 4.5).
  *
- * Jensen 1996. Every source is traced to the surface it lights and stored there as a photon; at
+ * Jensen 1996. Every photon is traced to the surface it lights and stored there; at
  * each pixel the k nearest photons estimate the irradiance, with r the distance of the k-th:
  *
  *     E(p) = sum over photons nearer than r of Phi * w(d / r) / (pi r^2 W)
@@ -11,7 +11,7 @@
  * or the estimate would be k / (k - 1) too large. Neighbourhoods are discs: photons off the tangent
  * plane weigh less, and those that arrive from behind the surface nothing.
  *
- * With `gather`, photons stay where the sources are, with the power that leaves the surface, and
+ * With `gather`, photons stay where they leave a surface, with the power that leaves the surface, and
  * the estimate is looked up where cosine-distributed rays from the pixel land (final gather), after
  * mirrors, gloss and glass on their way.
  *
@@ -44,7 +44,7 @@ struct state {
     int64_t gather;
 };
 
-struct photon {
+struct stored_photon {
     ps_vec3 direction; /* of arrival */
     ps_vec3 normal;    /* of the surface it lies on */
     ps_rgb power;      /* W */
@@ -52,7 +52,7 @@ struct photon {
 
 struct map {
     float *positions; /* three for each photon: what FLANN searches */
-    struct photon *photons;
+    struct stored_photon *photons;
     size_t count, capacity;
     flann_index_t index;
     struct FLANNParameters parameters;
@@ -81,8 +81,8 @@ static ps_result map_reserve(const ps_host *host, struct map *map, size_t more)
     if (map->count + more <= map->capacity)
         return PS_OK;
     size_t capacity = 2 * map->capacity + more;
-    float *positions = host->allocate(host, capacity * 3 * sizeof *positions, "photons");
-    struct photon *photons = host->allocate(host, capacity * sizeof *photons, "photons");
+    float *positions = host->allocate(host, capacity * 3 * sizeof *positions, "photon map");
+    struct stored_photon *photons = host->allocate(host, capacity * sizeof *photons, "photon map");
     if (!positions || !photons) {
         host->release(host, positions);
         host->release(host, photons);
@@ -107,7 +107,7 @@ static void map_add(struct map *map, ps_vec3 position, ps_vec3 normal, ps_vec3 d
     to[0] = position.x;
     to[1] = position.y;
     to[2] = position.z;
-    map->photons[map->count++] = (struct photon){direction, normal, power};
+    map->photons[map->count++] = (struct stored_photon){direction, normal, power};
 }
 
 /* The photons' density in a surface falls with the slope to the surface itself; irradiance is meant
@@ -120,48 +120,48 @@ static float shading_factor(const ps_ray *ray, const ps_hit *hit)
     return fmaxf(0.0f, -ps_dot(ray->direction, hit->normal)) / fmaxf(cosine, 1e-4f);
 }
 
-/* Where the light of sources arrives. */
-static void store_arrivals(const ps_host *host, const ps_pass *pass, const ps_source *sources,
+/* Where the light of photons arrives. */
+static void store_arrivals(const ps_host *host, const ps_pass *pass, const ps_photon *photons,
                            size_t n, struct map *map)
 {
     ps_ray rays[PS_PATH_CHUNK];
     ps_hit hits[PS_PATH_CHUNK];
     for (size_t i = 0; i < n; i++)
-        rays[i] = ps_leave_surface(sources[i].position, sources[i].normal, sources[i].direction,
+        rays[i] = ps_leave_surface(photons[i].position, photons[i].normal, photons[i].direction,
                                    pass->surface_offset);
     host->intersect(host, rays, n, hits);
     for (size_t i = 0; i < n; i++)
         if (hits[i].distance < INFINITY)
-            map_add(map, hits[i].position, hits[i].geometric_normal, sources[i].direction,
-                    ps_rgb_scale(sources[i].power, shading_factor(&rays[i], &hits[i])));
+            map_add(map, hits[i].position, hits[i].geometric_normal, photons[i].direction,
+                    ps_rgb_scale(photons[i].power, shading_factor(&rays[i], &hits[i])));
 }
 
 /* Where it leaves diffuse surfaces: the direction does not matter then. */
-static void store_departures(const ps_source *sources, size_t n, struct map *map)
+static void store_departures(const ps_photon *photons, size_t n, struct map *map)
 {
     for (size_t i = 0; i < n; i++)
-        if (sources[i].lobe == PS_DIFFUSE)
-            map_add(map, sources[i].position, sources[i].normal, ps_scale(sources[i].normal, -1.0f),
-                    sources[i].power);
+        if (photons[i].lobe == PS_DIFFUSE)
+            map_add(map, photons[i].position, photons[i].normal, ps_scale(photons[i].normal, -1.0f),
+                    photons[i].power);
 }
 
 static ps_result store_photons(const struct state *state, const ps_host *host, const ps_pass *pass,
                                struct map *map)
 {
-    const ps_source *sources;
+    const ps_photon *photons;
     size_t n;
     double progress;
     ps_result result;
     do {
-        result = host->next_sources(host, &sources, &n, &progress);
+        result = host->next_photons(host, &photons, &n, &progress);
         if (result == PS_OK)
             result = map_reserve(host, map, n);
         for (size_t first = 0; result == PS_OK && first < n; first += PS_PATH_CHUNK) {
             size_t count = n - first < PS_PATH_CHUNK ? n - first : PS_PATH_CHUNK;
             if (state->gather)
-                store_departures(sources + first, count, map);
+                store_departures(photons + first, count, map);
             else
-                store_arrivals(host, pass, sources + first, count, map);
+                store_arrivals(host, pass, photons + first, count, map);
         }
     } while (result == PS_OK && n > 0);
     return result;
@@ -230,7 +230,7 @@ static ps_rgb estimate(const struct work *work, ps_vec3 position, ps_vec3 normal
     ps_rgb sum = {0, 0, 0};
     float highest = FLATNESS * sqrtf(radius2);
     for (int i = 0; i < count && distances[i] < radius2; i++) {
-        const struct photon *photon = &map->photons[indices[i]];
+        const struct stored_photon *photon = &map->photons[indices[i]];
         const float *at = map->positions + 3 * (size_t)indices[i];
         ps_vec3 offset = {at[0] - position.x, at[1] - position.y, at[2] - position.z};
         float height = fabsf(ps_dot(offset, normal)) / highest;
@@ -442,7 +442,7 @@ static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pa
         result = map_build(state, &map);
     if (map.index)
         host->count(host, "photon tree bytes", (double)flann_used_memory_float(map.index));
-    host->count(host, "photons", (double)map.count);
+    host->count(host, "photons stored", (double)map.count);
     /* One photon can't tell a density. */
     if (result == PS_OK && map.count < 2)
         host->log(host, PS_LOG_WARNING, "fewer than two photons: no indirect light");

@@ -1,6 +1,6 @@
-/* splat.c: photon splatting: every source is carried to the surface it lights and splatted there.
+/* splat.c: photon splatting: every photon is carried to the surface it lights and splatted there.
  *
- * Hoet 2014, chapter 3. A source carries power Phi along w. With a kernel K (1/m^2) that integrates
+ * Hoet 2014, chapter 3. A photon carries power Phi along w. With a kernel K (1/m^2) that integrates
  * to 1 over the disc across the beam, and visibility V of the bundle,
  *
  *     E(p) += Phi * K(p) * V(p) * max(0, -n.w)        irradiance, W/m^2
@@ -21,7 +21,7 @@ struct state {
     ps_number_or_choice gather_rays;
 };
 
-static ps_result splat_batches(const ps_host *host, const ps_source *sources, size_t n,
+static ps_result splat_batches(const ps_host *host, const ps_photon *photons, size_t n,
                                ps_splat *splats)
 {
     ps_result result = PS_OK;
@@ -29,7 +29,7 @@ static ps_result splat_batches(const ps_host *host, const ps_source *sources, si
         size_t count = n - first < BATCH ? n - first : BATCH;
         if (host->cancelled(host))
             return PS_CANCELLED;
-        result = host->place_splats(host, sources + first, count, splats);
+        result = host->place_splats(host, photons + first, count, splats);
         if (result == PS_OK)
             result = host->splat(host, splats, count);
     }
@@ -38,14 +38,14 @@ static ps_result splat_batches(const ps_host *host, const ps_source *sources, si
 
 static ps_result splat_all(const ps_host *host, ps_splat *splats)
 {
-    const ps_source *sources;
+    const ps_photon *photons;
     size_t n = 1;
     double progress;
     ps_result result = PS_OK;
     while (result == PS_OK && n > 0) {
-        result = host->next_sources(host, &sources, &n, &progress);
+        result = host->next_photons(host, &photons, &n, &progress);
         if (result == PS_OK)
-            result = splat_batches(host, sources, n, splats);
+            result = splat_batches(host, photons, n, splats);
         host->progress(host, progress);
     }
     return result;

@@ -1,18 +1,18 @@
-/* vpl.c: instant radiosity: the sources as point lights over their hemispheres.
+/* vpl.c: instant radiosity: the photons as point lights over their hemispheres.
  *
- * Keller 1997. A source of power Phi (its direction is ignored) on a diffuse surface has intensity
- * Phi / pi * cos(theta_source); at distance d it gives
+ * Keller 1997. A photon of power Phi (its direction is ignored) on a diffuse surface has intensity
+ * Phi / pi * cos(theta_photon); at distance d it gives
  *
- *     E(p) += Phi / pi * G * V,   G = cos(theta_source) * cos(theta_receiver) / d^2
+ *     E(p) += Phi / pi * G * V,   G = cos(theta_photon) * cos(theta_receiver) / d^2
  *
- * G has no bound as d goes to 0: bright blotches near the sources. Clamping d removes them, and the
+ * G has no bound as d goes to 0: bright blotches near the photons. Clamping d removes them, and the
  * light that corners get from close by with them. Without visibility it is splatting indirect
  * illumination (Dachsbacher and Stamminger 2006), and the left half of figure 5 in Hoet 2014.
  *
- * Sources on mirrors and glass shine into one direction and can't be point lights: caustics are left
+ * Photons on mirrors and glass shine into one direction and can't be point lights: caustics are left
  * out. They are counted in the statistics.
  *
- * Cost is lights times pixels, so only `lights` sources, drawn at random from all, are used, with
+ * Cost is lights times pixels, so only `lights` photons, drawn at random from all, are used, with
  * the power of all.
  */
 #include <psplat/plugin.h>
@@ -28,14 +28,14 @@ struct state {
 struct work {
     const ps_host *host;
     const ps_pass *pass;
-    const ps_source *lights;
+    const ps_photon *lights;
     size_t count;
     float nearest2; /* squared; distances below count as this */
     int visibility;
 };
 
 /* Irradiance of a point by a light, were nothing in between; the shadow ray goes from the point. */
-static ps_rgb connect(const struct work *work, const ps_source *light, ps_vec3 position,
+static ps_rgb connect(const struct work *work, const ps_photon *light, ps_vec3 position,
                       ps_vec3 normal, ps_ray *ray)
 {
     static const ps_rgb nothing = {0, 0, 0};
@@ -45,16 +45,16 @@ static ps_rgb connect(const struct work *work, const ps_source *light, ps_vec3 p
     ps_vec3 between = ps_subtract(to, from);
     float distance2 = ps_dot(between, between), distance = sqrtf(distance2);
     ps_vec3 direction = ps_scale(between, 1.0f / distance);
-    float receiver = ps_dot(normal, direction), source = -ps_dot(light->normal, direction);
-    if (!(receiver > 0.0f && source > 0.0f))
+    float receiver = ps_dot(normal, direction), photon = -ps_dot(light->normal, direction);
+    if (!(receiver > 0.0f && photon > 0.0f))
         return nothing;
     *ray = (ps_ray){from, 0.0f, direction, distance};
-    float geometry = receiver * source / fmaxf(distance2, work->nearest2);
+    float geometry = receiver * photon / fmaxf(distance2, work->nearest2);
     return ps_rgb_scale(light->power, geometry / PS_PI);
 }
 
 /* Adds one light to all points of a tile. */
-static void add_light(const struct work *work, const ps_source *light, const ps_points *points,
+static void add_light(const struct work *work, const ps_photon *light, const ps_points *points,
                       ps_rgb *sums)
 {
     ps_ray rays[PS_TILE_PIXELS];
@@ -89,25 +89,25 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
         ps_add_irradiance(tile, points.lanes[i], sums[i]);
 }
 
-static int can_be_light(const ps_source *source)
+static int can_be_light(const ps_photon *photon)
 {
-    return source->lobe == PS_DIFFUSE;
+    return photon->lobe == PS_DIFFUSE;
 }
 
-/* Of the sources that can be point lights; the others are counted. */
-static double total_power(const ps_source *sources, size_t n, uint64_t *left_out)
+/* Of the photons that can be point lights; the others are counted. */
+static double total_power(const ps_photon *photons, size_t n, uint64_t *left_out)
 {
     double total = 0;
     for (size_t i = 0; i < n; i++) {
-        if (can_be_light(&sources[i]))
-            total += ps_luminance(sources[i].power);
+        if (can_be_light(&photons[i]))
+            total += ps_luminance(photons[i].power);
         else
             ++*left_out;
     }
     return total;
 }
 
-/* Whether the next of `seen` sources enters the sample, and in whose place: every one ends up in it
+/* Whether the next of `seen` photons enters the sample, and in whose place: every one ends up in it
  * with the same probability, whatever their number (reservoir sampling, Vitter 1985). */
 static size_t place_in_sample(const ps_host *host, const ps_pass *pass, uint64_t seen, size_t room)
 {
@@ -120,31 +120,31 @@ static size_t place_in_sample(const ps_host *host, const ps_pass *pass, uint64_t
     return place < (double)room ? (size_t)place : room;
 }
 
-/* Draws sources from all of the pass, and gives them the power of all. */
+/* Draws photons from all of the pass, and gives them the power of all. */
 static ps_result choose_lights(const struct state *state, const ps_host *host, const ps_pass *pass,
-                               ps_source *lights, size_t *count)
+                               ps_photon *lights, size_t *count)
 {
-    const ps_source *sources;
+    const ps_photon *photons;
     size_t n, room = (size_t)state->lights;
     uint64_t seen = 0, left_out = 0;
     double progress, power = 0;
     ps_result result;
     do {
-        result = host->next_sources(host, &sources, &n, &progress);
+        result = host->next_photons(host, &photons, &n, &progress);
         for (size_t i = 0; result == PS_OK && i < n; i++) {
-            if (!can_be_light(&sources[i]))
+            if (!can_be_light(&photons[i]))
                 continue;
             size_t place = place_in_sample(host, pass, seen++, room);
             if (place < room)
-                lights[place] = sources[i];
+                lights[place] = photons[i];
         }
-        power += result == PS_OK ? total_power(sources, n, &left_out) : 0;
+        power += result == PS_OK ? total_power(photons, n, &left_out) : 0;
     } while (result == PS_OK && n > 0);
     size_t taken = seen < room ? (size_t)seen : room;
     double share = total_power(lights, taken, &left_out);
     for (size_t i = 0; i < taken && share > 0; i++)
         lights[i].power = ps_rgb_scale(lights[i].power, (float)(power / share));
-    host->count(host, "sources left out", (double)left_out);
+    host->count(host, "photons left out", (double)left_out);
     *count = taken;
     return result;
 }
@@ -160,7 +160,7 @@ static float nearest_distance(const struct state *state, const ps_host *host)
 static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pass *pass)
 {
     const struct state *state = opaque;
-    ps_source *lights =
+    ps_photon *lights =
         host->allocate(host, (size_t)state->lights * sizeof *lights, "virtual lights");
     if (!lights)
         return PS_ERROR_MEMORY;
@@ -176,7 +176,7 @@ static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pa
 
 static const ps_param params[] = {
     PS_INT(struct state, lights, "256", 1, 10000000, "lights",
-           "sources used as point lights, drawn from all; they get the power of all"),
+           "photons used as point lights, drawn from all; they get the power of all"),
     PS_BOOL(struct state, visibility, "yes", "whether shadow rays decide what a light reaches"),
     PS_NUMBER_OR(struct state, clamp, "auto", 0, INFINITY, 0, clamp_choices, "scene units",
                  "shorter distances count as this; auto: 5 % of the scene's radius, 0: none"),
@@ -189,7 +189,7 @@ static const ps_descriptor descriptor = {
     .kind = PS_ESTIMATOR,
     .name = "vpl",
     .version = "1.0",
-    .summary = "instant radiosity: sources as point lights over the hemisphere",
+    .summary = "instant radiosity: photons as point lights over the hemisphere",
     .paper = "Keller 1997, Instant radiosity",
     .params = params,
     .param_count = sizeof params / sizeof params[0],

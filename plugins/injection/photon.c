@@ -1,10 +1,10 @@
-/* photon.c: sources by photon tracing.
+/* photon.c: photons by photon tracing.
  *
  * Light paths start at the lights with a share Phi / N of their power. At every surface a path leaves
- * a source in a direction that the surface scatters to, with the power that it scatters (at a diffuse
- * one, power * albedo), and goes on along that very direction: the source's bundled ray is the path's
+ * a photon in a direction that the surface scatters to, with the power that it scatters (at a diffuse
+ * one, power * albedo), and goes on along that very direction: the photon's bundled ray is the path's
  * next segment. So the first bounce needs no special case, and one bounce is the thesis's single
- * one. Sources on mirrors and glass make caustics; these surfaces do not count as bounces.
+ * one. Photons on mirrors and glass make caustics; these surfaces do not count as bounces.
  * Russian roulette (Arvo and Kirk 1990) ends paths at diffuse surfaces with the albedo's complement
  * and divides the survivors' power, which keeps the mean.
  *
@@ -12,7 +12,7 @@
  * direction, bounce direction) together.
  *
  * Splitting (Arvo and Kirk 1990): `split` light paths in a row share a walk. At every diffuse surface it
- * leaves a source for each of them, into directions of a lattice that the walk's own numbers shift, and
+ * leaves a photon for each of them, into directions of a lattice that the walk's own numbers shift, and
  * goes on along the first. A pixel sees splats that come from all over, few of them from one place, so
  * their noise is nearly that of as many walks; but the walk is traced, and the walls around the
  * place are looked for, once for all. Each path keeps its own share Phi / N, so the mean is the same
@@ -143,9 +143,9 @@ static float largest_weight(const struct fan *fan, size_t walk, size_t walks)
     return largest;
 }
 
-/* Whether a walk leaves sources at a surface that scatters like this in the direction in which the walk goes
+/* Whether a walk leaves photons at a surface that scatters like this in the direction in which the walk goes
  * on, and has such a weight at most in any. `arriving` is then the power with which it came, but for roulette. */
-static int leaves_sources(const struct state *state, const ps_pass *pass,
+static int leaves_photons(const struct state *state, const ps_pass *pass,
                           const ps_bsdf_sample *scattered, float weight, struct walk *walk,
                           ps_rgb *arriving)
 {
@@ -218,10 +218,10 @@ static void fan_out(const ps_host *host, const struct walk *walks, const ps_ray 
                   fan->count, fan->scattered);
 }
 
-static ps_source source_of(const struct walk *walk, const ps_hit *hit,
+static ps_photon photon_of(const struct walk *walk, const ps_hit *hit,
                            const ps_bsdf_sample *scattered, ps_rgb arriving)
 {
-    return (ps_source){
+    return (ps_photon){
         .position = hit->position,
         .normal = scattered->normal,
         .direction = scattered->direction,
@@ -234,37 +234,37 @@ static ps_source source_of(const struct walk *walk, const ps_hit *hit,
     };
 }
 
-/* The sources of all paths of a walk; returns how many. A mirror sends all paths the same way: one source
+/* The photons of all paths of a walk; returns how many. A mirror sends all paths the same way: one photon
  * has the power of all. */
-static size_t leave_sources(const struct walk *walk, const ps_hit *hit,
-                            const ps_bsdf_sample *scattered, ps_rgb arriving, ps_source *sources)
+static size_t leave_photons(const struct walk *walk, const ps_hit *hit,
+                            const ps_bsdf_sample *scattered, ps_rgb arriving, ps_photon *photons)
 {
     size_t left = 0;
     if (scattered->lobe != PS_DIFFUSE) {
-        sources[left] = source_of(walk, hit, scattered, arriving);
-        sources[left].power = ps_rgb_scale(sources[left].power, (float)walk->count);
+        photons[left] = photon_of(walk, hit, scattered, arriving);
+        photons[left].power = ps_rgb_scale(photons[left].power, (float)walk->count);
         return 1;
     }
     scattered += walk->skipped > 0;
     for (uint32_t i = 0; i < walk->count; i++) {
-        sources[left] = source_of(walk, hit, &scattered[i], arriving);
-        sources[left].path += i;
-        left += ps_rgb_maximum(sources[left].power) > 0.0f;
+        photons[left] = photon_of(walk, hit, &scattered[i], arriving);
+        photons[left].path += i;
+        left += ps_rgb_maximum(photons[left].power) > 0.0f;
     }
     return left;
 }
 
-/* Whether a walk that left sources may leave others: past the last diffuse bounce only mirrors and
+/* Whether a walk that left photons may leave others: past the last diffuse bounce only mirrors and
  * glass can make one. */
 static int may_go_on(const ps_pass *pass, const struct walk *walk)
 {
     return ps_rgb_maximum(walk->power) > 0.0f && (pass->specular || walk->bounces < pass->bounces);
 }
 
-/* Carries all walks to their next surface, where they leave `count` sources; returns how many go on,
+/* Carries all walks to their next surface, where they leave `count` photons; returns how many go on,
  * moved to the front. */
 static size_t extend_walks(const struct state *state, const ps_host *host, const ps_pass *pass,
-                           uint32_t segment, struct walk *walks, size_t n, ps_source *sources,
+                           uint32_t segment, struct walk *walks, size_t n, ps_photon *photons,
                            size_t *count)
 {
     ps_ray rays[PS_PATH_CHUNK];
@@ -281,9 +281,9 @@ static size_t extend_walks(const struct state *state, const ps_host *host, const
         const ps_bsdf_sample *scattered = &fan.scattered[fan.first[i]];
         ps_rgb arriving;
         float weight = largest_weight(&fan, i, n);
-        if (!leaves_sources(state, pass, scattered, weight, &walk, &arriving))
+        if (!leaves_photons(state, pass, scattered, weight, &walk, &arriving))
             continue;
-        *count += leave_sources(&walk, &hits[i], scattered, arriving, sources + *count);
+        *count += leave_photons(&walk, &hits[i], scattered, arriving, photons + *count);
         walk.power = ps_rgb_multiply(arriving, scattered->weight);
         walk.ray = ps_leave_surface(hits[i].position, scattered->normal, scattered->direction,
                                     pass->surface_offset);
@@ -294,18 +294,18 @@ static size_t extend_walks(const struct state *state, const ps_host *host, const
 }
 
 static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pass, uint64_t first,
-                      size_t n, const ps_source_sink *sink)
+                      size_t n, const ps_photon_sink *sink)
 {
     const struct state *state = opaque;
     struct walk walks[PS_PATH_CHUNK];
-    ps_source sources[PS_PATH_CHUNK];
+    ps_photon photons[PS_PATH_CHUNK];
     n = share_out(state, pass, first, n, walks);
     start_walks(state, host, walks, n);
     ps_result result = PS_OK;
     for (uint32_t segment = 0; n > 0 && result == PS_OK; segment++) {
         size_t count;
-        n = extend_walks(state, host, pass, segment, walks, n, sources, &count);
-        result = sink->append(sink->core, sources, count);
+        n = extend_walks(state, host, pass, segment, walks, n, photons, &count);
+        result = sink->append(sink->core, photons, count);
     }
     return result;
 }
@@ -344,7 +344,7 @@ static const ps_descriptor descriptor = {
     .kind = PS_INJECTION,
     .name = "photon",
     .version = "1.0",
-    .summary = "traces photons from the lights; each diffuse surface they meet becomes a source",
+    .summary = "traces photons from the lights; each diffuse surface they meet becomes a photon",
     .paper = "Jensen 1996, Global illumination using photon maps; Hoet 2014, section 3.2",
     .params = params,
     .param_count = sizeof params / sizeof params[0],

@@ -1,4 +1,4 @@
-/* rsm.c: sources by reflective shadow maps (Dachsbacher and Stamminger 2005).
+/* rsm.c: photons by reflective shadow maps (Dachsbacher and Stamminger 2005).
  *
  * A map is the scene as a light sees it. Each of its pixels is a candidate: a place on a surface, and
  * the flux that the light sends there,
@@ -8,20 +8,20 @@
  *
  * Of all candidates `count` are chosen with probabilities p in proportion to the flux that they reflect
  * (importance sampling as in Dachsbacher and Stamminger 2006, "Splatting indirect illumination"; Hoet
- * 2014, section 4.2), by an alias table. Each choice leaves one source, in a direction that the surface
- * scatters to, with the power flux * reflectance / (p * count). That is the same for all sources but
+ * 2014, section 4.2), by an alias table. Each choice leaves one photon, in a direction that the surface
+ * scatters to, with the power flux * reflectance / (p * count). That is the same for all photons but
  * for colour, so none stands out.
  *
  * A spotlight's map is a perspective one, as wide as its cone; wide cones and point lights have the six
  * faces of a cube. A sun's pixels share out the disc across its light that holds the scene, in equal
- * areas. Lamps with a size and skies have no one place to look from: each of their pixels is a ray of
- * its own, from a place on the lamp in a direction of its own.
+ * areas. Area lights and skies have no one place to look from: each of their pixels is a ray of
+ * its own, from a place on the light in a direction of its own.
  *
  * Rays are traced rather than triangles rasterized, so a candidate needs no memory but its weight: the
  * ray of a chosen one is traced again. In each pass the rays go through another place of their pixels.
  *
  * A map sees one bounce. Mirrors and glass do not count as one, as in `photon`: what they send on makes
- * sources too, before and after the diffuse surface. Where two diffuse surfaces follow each other, light
+ * photons too, before and after the diffuse surface. Where two diffuse surfaces follow each other, light
  * ends.
  */
 #include <psplat/plugin.h>
@@ -111,7 +111,7 @@ static void look_through(const struct state *state, const ps_host *host, const p
                          ps_rgb *power)
 {
     ps_vec3 directions[PS_PATH_CHUNK] = {{0, 0, 0}};
-    float step = 2.0f * map->view.reach / (float)state->resolution;
+    float step = 2.0f * map->view.radius / (float)state->resolution;
     for (size_t i = 0; i < n; i++) {
         float place[2];
         place_pixel(state, pixels[i], place);
@@ -226,7 +226,7 @@ static ps_result prepare(void *opaque, const ps_host *host, const ps_pass *pass)
     return PS_OK;
 }
 
-/* --- sources ------------------------------------------------------------------------------------------- */
+/* --- photons ------------------------------------------------------------------------------------------- */
 
 /* None where no light meets anything. */
 static uint64_t path_count(const void *opaque)
@@ -295,10 +295,10 @@ static void scatter_paths(const ps_host *host, uint32_t segment, const struct pa
     host->scatter(host, PS_FROM_LIGHT, rays, hits, (const float(*)[4])numbers, n, scattered);
 }
 
-/* Leaves sources where the paths meet something, but on a second diffuse surface. Paths that may yet
+/* Leaves photons where the paths meet something, but on a second diffuse surface. Paths that may yet
  * leave another are moved to the front. */
 static size_t extend_paths(const ps_host *host, const ps_pass *pass, uint32_t segment,
-                           struct path *paths, size_t n, ps_source *sources, size_t *count)
+                           struct path *paths, size_t n, ps_photon *photons, size_t *count)
 {
     ps_ray rays[PS_PATH_CHUNK];
     ps_hit hits[PS_PATH_CHUNK];
@@ -314,7 +314,7 @@ static size_t extend_paths(const ps_host *host, const ps_pass *pass, uint32_t se
         path.specular |= scattered[i].lobe != PS_DIFFUSE;
         if (!(ps_rgb_maximum(path.power) > 0.0f) || path.bounces > 1)
             continue;
-        sources[(*count)++] = (ps_source){
+        photons[(*count)++] = (ps_photon){
             .position = hits[i].position,
             .normal = scattered[i].normal,
             .direction = scattered[i].direction,
@@ -334,16 +334,16 @@ static size_t extend_paths(const ps_host *host, const ps_pass *pass, uint32_t se
 }
 
 static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pass, uint64_t first,
-                      size_t n, const ps_source_sink *sink)
+                      size_t n, const ps_photon_sink *sink)
 {
     struct path paths[PS_PATH_CHUNK];
-    ps_source sources[PS_PATH_CHUNK];
+    ps_photon photons[PS_PATH_CHUNK];
     start_paths(opaque, host, pass, first, n, paths);
     ps_result result = PS_OK;
     for (uint32_t segment = 0; n > 0 && result == PS_OK; segment++) {
         size_t count;
-        n = extend_paths(host, pass, segment, paths, n, sources, &count);
-        result = sink->append(sink->core, sources, count);
+        n = extend_paths(host, pass, segment, paths, n, photons, &count);
+        result = sink->append(sink->core, photons, count);
     }
     return result;
 }
@@ -392,8 +392,8 @@ static int32_t init(void *opaque, const ps_host *host, char *message, size_t siz
 }
 
 static const ps_param params[] = {
-    PS_INT(struct state, count, "100000", 1, 2000000000, "sources",
-           "pixels that are chosen in each pass, each for a source"),
+    PS_INT(struct state, count, "100000", 1, 2000000000, "photons",
+           "pixels that are chosen in each pass, each for a photon"),
     PS_INT(struct state, resolution, "256", 1, 8192, "pixels", "pixels along the side of each map"),
 };
 
@@ -409,7 +409,7 @@ static const ps_descriptor descriptor = {
     .kind = PS_INJECTION,
     .name = "rsm",
     .version = "1.0",
-    .summary = "looks from the lights; pixels of these maps become sources, chosen by flux",
+    .summary = "looks from the lights; pixels of these maps become photons, chosen by flux",
     .paper = "Dachsbacher and Stamminger 2005, Reflective shadow maps; Hoet 2014, section 4.2",
     .params = params,
     .param_count = sizeof params / sizeof params[0],

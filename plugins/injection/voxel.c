@@ -1,9 +1,9 @@
-/* voxel.c: sources by voxels: the scene in cubes, each of which reflects the light that it gets.
+/* voxel.c: photons by voxels: the scene in cubes, each of which reflects the light that it gets.
  *
  * The surfaces in a cubic cell are simplified into at most six voxels, one for each side that they may
  * face: a place on a real surface with its normal and albedo, and an area (Hoet 2014, section 4.2, third
  * method, after the injection of Kaplanyan and Dachsbacher 2010, Cascaded light propagation volumes).
- * Each voxel that a light reaches leaves one source in each pass, with a direction w around the normal
+ * Each voxel that a light reaches leaves one photon in each pass, with a direction w around the normal
  * by the cosine, and the power pi L(w) A, where L is the radiance that the place reflects there of light
  * straight from the lights: shadow rays decide what is lit.
  *
@@ -17,10 +17,10 @@
  *
  * between s^2 / sqrt(3) and s^2. A voxel's area is the sum over the crossings in it, and its place is one
  * of them, by chance in proportion to area. As the grids are shifted in each pass, the mean of the
- * sources' power is right at any resolution; what a fine one improves is noise, and places.
+ * photons' power is right at any resolution; what a fine one improves is noise, and places.
  *
  * Voxels are sorted by key rather than kept in a grid, so memory goes by surfaces and not by the cube of
- * the resolution. Mirrors and glass leave no sources, nor do surfaces outside of the sphere around the
+ * the resolution. Mirrors and glass leave no photons, nor do surfaces outside of the sphere around the
  * scene (planes go on for ever).
  */
 #include <psplat/plugin.h>
@@ -30,7 +30,7 @@
 
 #define STREAM_SHIFT PS_STREAM_PLUGIN       /* of the lines; set: the axis, index: the pass */
 #define STREAM_PLACE (PS_STREAM_PLUGIN + 1) /* which crossing is a voxel's place */
-#define STREAM_LAMP (PS_STREAM_PLUGIN + 2)  /* places on lamps that have a size */
+#define STREAM_LIGHT (PS_STREAM_PLUGIN + 2) /* places on area lights */
 
 #define MEMORY "voxels"
 
@@ -158,7 +158,7 @@ static struct crossing crossing_of(const struct state *state, const ps_hit *hit,
     };
 }
 
-/* Whether light that meets the surface may leave it again: lamps are black. */
+/* Whether light that meets the surface may leave it again: lights are black. */
 static int reflects(const ps_hit *hit)
 {
     return hit->flags & PS_HIT_SPECULAR || ps_rgb_maximum(hit->albedo) > 0.0f;
@@ -347,7 +347,7 @@ static ps_result prepare(void *opaque, const ps_host *host, const ps_pass *pass)
     return result;
 }
 
-/* --- sources ---------------------------------------------------------------------------------------------- */
+/* --- photons ---------------------------------------------------------------------------------------------- */
 
 static uint64_t path_count(const void *opaque)
 {
@@ -417,25 +417,25 @@ static uint64_t fair_path(const struct state *state, const ps_pass *pass, uint64
 }
 
 static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pass, uint64_t first,
-                      size_t n, const ps_source_sink *sink)
+                      size_t n, const ps_photon_sink *sink)
 {
     const struct state *state = opaque;
     uint64_t indices[PS_PATH_CHUNK] = {0};
     ps_ray rays[PS_PATH_CHUNK];
     ps_hit hits[PS_PATH_CHUNK];
     ps_rgb radiance[PS_PATH_CHUNK];
-    ps_source sources[PS_PATH_CHUNK];
+    ps_photon photons[PS_PATH_CHUNK];
     size_t count = 0;
     for (size_t i = 0; i < n; i++)
         indices[i] = sample_index(pass, first + i);
     find_places(state, host, first, n, hits);
     choose_directions(state, host, indices, hits, n, rays);
     look_back(host, rays, hits, n);
-    host->direct_radiance(host, rays, hits, STREAM_LAMP, 0, indices, n, radiance);
+    host->direct_radiance(host, rays, hits, STREAM_LIGHT, 0, indices, n, radiance);
     for (size_t i = 0; i < n; i++) {
         if (!(ps_rgb_maximum(radiance[i]) > 0.0f))
             continue;
-        sources[count++] = (ps_source){
+        photons[count++] = (ps_photon){
             .position = hits[i].position,
             .normal = hits[i].geometric_normal,
             .direction = ps_scale(rays[i].direction, -1.0f),
@@ -446,7 +446,7 @@ static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pa
             .path = fair_path(state, pass, first + i),
         };
     }
-    return sink->append(sink->core, sources, count);
+    return sink->append(sink->core, photons, count);
 }
 
 /* --- the plugin ------------------------------------------------------------------------------------------- */
@@ -482,7 +482,7 @@ static const ps_descriptor descriptor = {
     .kind = PS_INJECTION,
     .name = "voxel",
     .version = "1.0",
-    .summary = "simplifies the scene into voxels; those that a light reaches become sources",
+    .summary = "simplifies the scene into voxels; those that a light reaches become photons",
     .paper = "Kaplanyan and Dachsbacher 2010, Cascaded light propagation volumes; Hoet 2014, "
              "section 4.2",
     .params = params,

@@ -1,13 +1,13 @@
-/* cascade.c: the sources of each cell become one; cells are coarser farther from the camera.
+/* cascade.c: the photons of each cell become one; cells are coarser farther from the camera.
  *
  * Grids of `resolution` cells a side lie in one another, all around the camera; each has cells
- * `growth` times as large as the one inside of it, and a source belongs to the smallest that it lies
+ * `growth` times as large as the one inside of it, and a photon belongs to the smallest that it lies
  * in. So what is close to the viewer keeps its detail, and far light costs little (Kaplanyan and
  * Dachsbacher 2010, "Cascaded light propagation volumes for real-time indirect illumination"; for
  * splatting Hoet 2014, sections 3.2.1 and 5.3.2). What lies outside of all of them is for `beyond`
  * to decide.
  *
- * `drop` loses the light of sources beyond, here alone of all stratifications, and the statistics
+ * `drop` loses the light of photons beyond, here alone of all stratifications, and the statistics
  * count them.
  */
 #include <psplat/plugin.h>
@@ -33,7 +33,7 @@ struct state {
 
 struct cascades {
     ps_lattice lattices[MOST_LEVELS + 1]; /* the last is for what lies beyond */
-    double reach[MOST_LEVELS];            /* half the side of each cascade */
+    double half_side[MOST_LEVELS];        /* half the side of each cascade */
     ps_vec3 middle;
     uint32_t count;
 };
@@ -52,9 +52,9 @@ static double innermost_side(const struct state *state, const ps_host *host, ps_
     if (state->cell.choice < 0)
         return state->cell.number;
     host->scene_bounds(host, &center, &radius);
-    double reach = (double)ps_length(ps_subtract(center, middle)) + (double)radius;
+    double half_side = (double)ps_length(ps_subtract(center, middle)) + (double)radius;
     /* Rounding must leave nothing outside. */
-    return 1.001 * 2.0 * reach / ((double)state->resolution * outermost_growth(state));
+    return 1.001 * 2.0 * half_side / ((double)state->resolution * outermost_growth(state));
 }
 
 static struct cascades cascades_of(const struct state *state, const ps_host *host)
@@ -66,9 +66,9 @@ static struct cascades cascades_of(const struct state *state, const ps_host *hos
     host->scene_bounds(host, &center, &radius);
     double side = innermost_side(state, host, cascades.middle);
     for (uint32_t i = 0; i < cascades.count; i++, side *= state->growth) {
-        double reach = 0.5 * side * (double)state->resolution;
-        ps_vec3 half = {(float)reach, (float)reach, (float)reach};
-        cascades.reach[i] = reach;
+        double half_side = 0.5 * side * (double)state->resolution;
+        ps_vec3 half = {(float)half_side, (float)half_side, (float)half_side};
+        cascades.half_side[i] = half_side;
         cascades.lattices[i] = (ps_lattice){ps_subtract(cascades.middle, half), side};
     }
     const ps_lattice *outermost = &cascades.lattices[cascades.count - 1];
@@ -83,7 +83,7 @@ static uint32_t cascade_around(const struct cascades *cascades, ps_vec3 position
     ps_vec3 away = ps_subtract(position, cascades->middle);
     float farthest = fmaxf(fabsf(away.x), fmaxf(fabsf(away.y), fabsf(away.z)));
     uint32_t layer = 0;
-    while (layer < cascades->count && !((double)farthest < cascades->reach[layer]))
+    while (layer < cascades->count && !((double)farthest < cascades->half_side[layer]))
         layer++;
     return layer;
 }
@@ -97,25 +97,25 @@ static uint64_t key_in(const struct state *state, const struct cascades *cascade
     return ps_cell_key(&cascades->lattices[layer], layer, position);
 }
 
-static void add_sources(const struct state *state, const ps_host *host, ps_source *sources,
+static void add_photons(const struct state *state, const ps_host *host, ps_photon *photons,
                         size_t n, ps_strata *strata)
 {
     struct cascades cascades = cascades_of(state, host);
     size_t beyond = 0;
     for (size_t i = 0; i < n; i++) {
-        uint32_t layer = cascade_around(&cascades, sources[i].position);
-        uint64_t key = key_in(state, &cascades, layer, sources[i].position);
+        uint32_t layer = cascade_around(&cascades, photons[i].position);
+        uint64_t key = key_in(state, &cascades, layer, photons[i].position);
         beyond += layer == cascades.count;
         if (key != PS_NO_CELL)
             ps_strata_add(strata, i, key);
         else if (state->beyond == BEYOND_DROP)
-            ps_source_remove(&sources[i]);
+            ps_photon_remove(&photons[i]);
     }
-    host->count(host, "sources beyond", (double)beyond);
+    host->count(host, "photons beyond", (double)beyond);
 }
 
 static ps_result combine(const void *opaque, const ps_host *host, const ps_pass *pass,
-                         ps_source *sources, size_t *n)
+                         ps_photon *photons, size_t *n)
 {
     const struct state *state = opaque;
     ps_strata strata;
@@ -124,9 +124,9 @@ static ps_result combine(const void *opaque, const ps_host *host, const ps_pass 
         .normal_angle = state->normal_angle,
         .per_cell = 1,
     };
-    if (!ps_strata_create(&strata, host, pass, sources, *n))
+    if (!ps_strata_create(&strata, host, pass, photons, *n))
         return PS_ERROR_MEMORY;
-    add_sources(state, host, sources, *n, &strata);
+    add_photons(state, host, photons, *n, &strata);
     ps_strata_from_cells(&strata);
     ps_strata_merge(&strata, &settings, n);
     ps_strata_release(&strata);
@@ -134,11 +134,11 @@ static ps_result combine(const void *opaque, const ps_host *host, const ps_pass 
 }
 
 static ps_result cells(const void *opaque, const ps_host *host, const ps_pass *pass,
-                       const ps_source *sources, size_t n, const ps_vec3 *points, size_t count,
+                       const ps_photon *photons, size_t n, const ps_vec3 *points, size_t count,
                        uint64_t *numbers)
 {
     (void)pass;
-    (void)sources;
+    (void)photons;
     (void)n;
     struct cascades cascades = cascades_of(opaque, host);
     for (size_t i = 0; i < count; i++)
@@ -174,7 +174,7 @@ static const ps_param params[] = {
               "side of the cells of a grid over that of the next one inside"),
     PS_ROW(struct state, beyond, PS_PARAM_CHOICE, "merge", 0, 0, PS_PARAM_EXPERT, beyond_choices,
            "",
-           "sources outside of all grids; merge: by cells of the outermost size, drop: lose them"),
+           "photons outside of all grids; merge: by cells of the outermost size, drop: lose them"),
     PS_MERGE_PARAMS(struct state),
 };
 
@@ -190,7 +190,7 @@ static const ps_descriptor descriptor = {
     .kind = PS_STRATIFICATION,
     .name = "cascade",
     .version = "1.0",
-    .summary = "the sources of each cell become one; cells are coarser farther from the camera",
+    .summary = "the photons of each cell become one; cells are coarser farther from the camera",
     .paper = "Hoet 2014, sections 3.2.1 and 5.3.2; Kaplanyan and Dachsbacher 2010",
     .params = params,
     .param_count = sizeof params / sizeof params[0],

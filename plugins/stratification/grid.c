@@ -1,13 +1,13 @@
-/* grid.c: the sources of each cell of a grid become one (Hoet 2014, sections 3.2.1 and 4.2).
+/* grid.c: the photons of each cell of a grid become one (Hoet 2014, sections 3.2.1 and 4.2).
  *
- * Where a cell holds fewer sources than `threshold`, it and its block of 2x2x2 cells merge as a
- * whole, and blocks of blocks do, level by level. A bucket limits what becomes one source: without,
- * crowded cells end as few very bright sources beside dim ones, which shows as blotches (section
+ * Where a cell holds fewer photons than `threshold`, it and its block of 2x2x2 cells merge as a
+ * whole, and blocks of blocks do, level by level. A bucket limits what becomes one photon: without,
+ * crowded cells end as few very bright photons beside dim ones, which shows as blotches (section
  * 5.3.2).
  *
- * The grid is a sorted list of sources (see cell.h), not an array of cells: 40 bytes a source at any
+ * The grid is a sorted list of photons (see cell.h), not an array of cells: 40 bytes a photon at any
  * resolution, where the array took 40 bytes a cell, 256^3 of them (section 5.1). So it has no
- * outside either: cells go on wherever sources are, and `centre` only says where borders lie.
+ * outside either: cells go on wherever photons are, and `centre` only says where borders lie.
  */
 #include <psplat/plugin.h>
 #include <stdio.h>
@@ -46,12 +46,12 @@ static ps_lattice lattice_of(const struct state *state, const ps_host *host)
     return ps_lattice_over(corner, state->side, center, radius);
 }
 
-static void add_sources(const struct state *state, const ps_host *host, const ps_source *sources,
+static void add_photons(const struct state *state, const ps_host *host, const ps_photon *photons,
                         size_t n, ps_strata *strata)
 {
     ps_lattice lattice = lattice_of(state, host);
     for (size_t i = 0; i < n; i++)
-        ps_strata_add(strata, i, ps_cell_key(&lattice, 0, sources[i].position));
+        ps_strata_add(strata, i, ps_cell_key(&lattice, 0, photons[i].position));
 }
 
 static uint64_t block_of(const ps_strata *strata, size_t stratum, unsigned level)
@@ -84,17 +84,17 @@ static void join_level(const struct state *state, ps_strata *strata, unsigned le
     }
 }
 
-static void make_strata(const struct state *state, const ps_host *host, const ps_source *sources,
+static void make_strata(const struct state *state, const ps_host *host, const ps_photon *photons,
                         size_t n, ps_strata *strata)
 {
-    add_sources(state, host, sources, n, strata);
+    add_photons(state, host, photons, n, strata);
     ps_strata_from_cells(strata);
     for (unsigned level = 1; level <= (unsigned)state->levels && state->threshold > 1; level++)
         join_level(state, strata, level);
 }
 
 static ps_result combine(const void *opaque, const ps_host *host, const ps_pass *pass,
-                         ps_source *sources, size_t *n)
+                         ps_photon *photons, size_t *n)
 {
     const struct state *state = opaque;
     ps_strata strata;
@@ -104,9 +104,9 @@ static ps_result combine(const void *opaque, const ps_host *host, const ps_pass 
         .per_cell = (uint64_t)state->per_cell,
         .bucket = (uint64_t)state->bucket,
     };
-    if (!ps_strata_create(&strata, host, pass, sources, *n))
+    if (!ps_strata_create(&strata, host, pass, photons, *n))
         return PS_ERROR_MEMORY;
-    make_strata(state, host, sources, *n, &strata);
+    make_strata(state, host, photons, *n, &strata);
     ps_strata_merge(&strata, &settings, n);
     ps_strata_release(&strata);
     return PS_OK;
@@ -122,7 +122,7 @@ static uint64_t number_of(const ps_strata *strata, uint64_t key)
 }
 
 static ps_result cells(const void *opaque, const ps_host *host, const ps_pass *pass,
-                       const ps_source *sources, size_t n, const ps_vec3 *points, size_t count,
+                       const ps_photon *photons, size_t n, const ps_vec3 *points, size_t count,
                        uint64_t *numbers)
 {
     const struct state *state = opaque;
@@ -130,7 +130,7 @@ static ps_result cells(const void *opaque, const ps_host *host, const ps_pass *p
     ps_strata strata;
     if (!ps_strata_create(&strata, host, pass, NULL, n))
         return PS_ERROR_MEMORY;
-    make_strata(state, host, sources, n, &strata);
+    make_strata(state, host, photons, n, &strata);
     for (size_t i = 0; i < count; i++)
         numbers[i] = number_of(&strata, ps_cell_key(&lattice, 0, points[i]));
     ps_strata_release(&strata);
@@ -160,13 +160,13 @@ static const ps_param params[] = {
     PS_ROW(struct state, centre, PS_PARAM_CHOICE, "scene", 0, 0, PS_PARAM_EXPERT, centre_choices,
            "", "where the middle of the grid lies"),
     PS_ROW(struct state, threshold, PS_PARAM_INT, "2", 1, 1000000000, PS_PARAM_EXPERT, NULL,
-           "sources", "a cell with fewer merges with its block of 2x2x2; 1: none does"),
+           "photons", "a cell with fewer merges with its block of 2x2x2; 1: none does"),
     PS_ROW(struct state, levels, PS_PARAM_INT, "1", 0, 20, PS_PARAM_EXPERT, NULL, "levels",
            "how often blocks may merge"),
-    PS_ROW(struct state, bucket, PS_PARAM_INT, "0", 0, 1000000000, PS_PARAM_EXPERT, NULL, "sources",
-           "how many sources may become one; 0: any number"),
+    PS_ROW(struct state, bucket, PS_PARAM_INT, "0", 0, 1000000000, PS_PARAM_EXPERT, NULL, "photons",
+           "how many photons may become one; 0: any number"),
     PS_ROW(struct state, per_cell, PS_PARAM_INT, "1", 1, 1000000000, PS_PARAM_EXPERT, NULL,
-           "sources", "how many sources stay in a cell that holds as many"),
+           "photons", "how many photons stay in a cell that holds as many"),
     PS_MERGE_PARAMS(struct state),
 };
 
@@ -182,7 +182,7 @@ static const ps_descriptor descriptor = {
     .kind = PS_STRATIFICATION,
     .name = "grid",
     .version = "1.0",
-    .summary = "the sources of each cell of a grid become one",
+    .summary = "the photons of each cell of a grid become one",
     .paper = "Hoet 2014, sections 3.2.1 and 4.2",
     .params = params,
     .param_count = sizeof params / sizeof params[0],

@@ -1,13 +1,13 @@
-/* none.c: every source stays what it is. */
+/* none.c: every photon stays what it is. */
 #include <psplat/plugin.h>
 
 static ps_result combine(const void *state, const ps_host *host, const ps_pass *pass,
-                         ps_source *sources, size_t *n)
+                         ps_photon *photons, size_t *n)
 {
     (void)state;
     (void)host;
     (void)pass;
-    (void)sources;
+    (void)photons;
     (void)n;
     return PS_OK;
 }
@@ -23,7 +23,7 @@ static const ps_descriptor descriptor = {
     .kind = PS_STRATIFICATION,
     .name = "none",
     .version = "1.0",
-    .summary = "keeps every source as it was injected",
+    .summary = "keeps every photon as it was injected",
     .paper = "Hoet 2014, section 3.2: stratification is optional",
     .vtable = &vtable,
 };

@@ -1,10 +1,10 @@
-/* octree.c: the sources of each leaf of an octree become one.
+/* octree.c: the photons of each leaf of an octree become one.
  *
- * A node splits while it holds more than `capacity` sources, down to `depth`. So cells are small
- * where light is dense and large where it is not, and the power of the sources that are left differs
+ * A node splits while it holds more than `capacity` photons, down to `depth`. So cells are small
+ * where light is dense and large where it is not, and the power of the photons that are left differs
  * little: Hoet 2014 (section 5.1) names the octree as what a grid of fixed cells lacks.
  *
- * No tree is built. Sorted by Morton code (see cell.h), a node is a run of sources that share the
+ * No tree is built. Sorted by Morton code (see cell.h), a node is a run of photons that share the
  * leading bits (Warren and Salmon 1993, "A parallel hashed oct-tree N-body algorithm").
  */
 #include <psplat/plugin.h>
@@ -27,11 +27,11 @@ static ps_lattice lattice_of(const ps_host *host)
                         2.0 * (double)radius / PS_CELLS_ACROSS};
 }
 
-static void add_sources(const ps_host *host, const ps_source *sources, size_t n, ps_strata *strata)
+static void add_photons(const ps_host *host, const ps_photon *photons, size_t n, ps_strata *strata)
 {
     ps_lattice lattice = lattice_of(host);
     for (size_t i = 0; i < n; i++)
-        ps_strata_add(strata, i, ps_cell_key(&lattice, 0, sources[i].position));
+        ps_strata_add(strata, i, ps_cell_key(&lattice, 0, photons[i].position));
 }
 
 /* Whether the two lie in the same node of that depth. */
@@ -65,7 +65,7 @@ static void split_into_leaves(const struct state *state, ps_strata *strata)
 }
 
 static ps_result combine(const void *opaque, const ps_host *host, const ps_pass *pass,
-                         ps_source *sources, size_t *n)
+                         ps_photon *photons, size_t *n)
 {
     const struct state *state = opaque;
     ps_strata strata;
@@ -74,9 +74,9 @@ static ps_result combine(const void *opaque, const ps_host *host, const ps_pass 
         .normal_angle = state->normal_angle,
         .per_cell = 1,
     };
-    if (!ps_strata_create(&strata, host, pass, sources, *n))
+    if (!ps_strata_create(&strata, host, pass, photons, *n))
         return PS_ERROR_MEMORY;
-    add_sources(host, sources, *n, &strata);
+    add_photons(host, photons, *n, &strata);
     ps_strata_sort(&strata);
     split_into_leaves(state, &strata);
     ps_strata_merge(&strata, &settings, n);
@@ -84,7 +84,7 @@ static ps_result combine(const void *opaque, const ps_host *host, const ps_pass 
     return PS_OK;
 }
 
-/* The leaf that a cell of the deepest level lies in, whether it holds sources or not: its path from the
+/* The leaf that a cell of the deepest level lies in, whether it holds photons or not: its path from the
  * root, behind a leading 1. */
 static uint64_t leaf_around(const struct state *state, const ps_strata *strata, uint64_t key)
 {
@@ -99,14 +99,14 @@ static uint64_t leaf_around(const struct state *state, const ps_strata *strata, 
 }
 
 static ps_result cells(const void *opaque, const ps_host *host, const ps_pass *pass,
-                       const ps_source *sources, size_t n, const ps_vec3 *points, size_t count,
+                       const ps_photon *photons, size_t n, const ps_vec3 *points, size_t count,
                        uint64_t *numbers)
 {
     ps_lattice lattice = lattice_of(host);
     ps_strata strata;
     if (!ps_strata_create(&strata, host, pass, NULL, n))
         return PS_ERROR_MEMORY;
-    add_sources(host, sources, n, &strata);
+    add_photons(host, photons, n, &strata);
     ps_strata_sort(&strata);
     for (size_t i = 0; i < count; i++)
         numbers[i] = leaf_around(opaque, &strata, ps_cell_key(&lattice, 0, points[i]));
@@ -115,10 +115,10 @@ static ps_result cells(const void *opaque, const ps_host *host, const ps_pass *p
 }
 
 static const ps_param params[] = {
-    PS_INT(struct state, capacity, "8", 1, 1000000000, "sources",
+    PS_INT(struct state, capacity, "8", 1, 1000000000, "photons",
            "a node that holds more splits into eight"),
     PS_ROW(struct state, depth, PS_PARAM_INT, "10", 0, 20, PS_PARAM_EXPERT, NULL, "levels",
-           "how often nodes split at most; the sources of a deepest node merge, however many"),
+           "how often nodes split at most; the photons of a deepest node merge, however many"),
     PS_MERGE_PARAMS(struct state),
 };
 
@@ -134,7 +134,7 @@ static const ps_descriptor descriptor = {
     .kind = PS_STRATIFICATION,
     .name = "octree",
     .version = "1.0",
-    .summary = "the sources of each leaf of an octree become one",
+    .summary = "the photons of each leaf of an octree become one",
     .paper = "Hoet 2014, section 5.1; Warren and Salmon 1993, A parallel hashed oct-tree N-body "
              "algorithm",
     .params = params,

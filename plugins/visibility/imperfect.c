@@ -1,7 +1,7 @@
 /* imperfect.c: imperfect shadow maps (Ritschel et al. 2008): depth maps of points instead of rays.
  *
  * Once, before the first pass, points are scattered over the scene's surfaces; a map is then made
- * of the points in its beam alone, and what they leave open is filled by pull-push. Its cost does
+ * of the points in its bundle alone, and what they leave open is filled by pull-push. Its cost does
  * not depend on how the geometry is made, and its maps leak a little: it is the approximation that
  * Hoet 2014, section 4.3, proposes for real-time use.
  *
@@ -17,14 +17,14 @@
  * at each texel's centre; the nearest counts. So a flat surface gets the very depth that a ray would
  * find, and only its border is off, by a disc's radius, which falls with the root of `points`.
  *
- * Points lie in a grid. A beam walks it slab by slab from its start, along the axis that it is
+ * Points lie in a grid. A bundle walks it slab by slab from its start, along the axis that it is
  * closest to, and stops when no point farther on could change the map.
  */
 #include <psplat/plugin.h>
 #include <stdio.h>
 #include <string.h>
 
-PS_BOX_CHOICES
+PS_FOOTPRINT_CHOICES
 
 /* Area of a disc, in areas that a point stands for: leaves exp(-3) of a surface open, 5 %. Larger
  * discs leave less to pull-push, but stand out farther over edges. */
@@ -56,7 +56,7 @@ struct cloud {
 };
 
 struct state {
-    PS_BOX_MEMBERS
+    PS_FOOTPRINT_MEMBERS
     int64_t resolution;
     ps_number_or_choice bias;
     int64_t points;
@@ -291,15 +291,15 @@ static void draw_point(struct map *map, const struct point *point)
             draw_texel(map, column, row, place, normal);
 }
 
-/* The beam against the grid. Axes are numbered so that axis[0] is the one it is closest to, and all
+/* The bundle against the grid. Axes are numbered so that axis[0] is the one it is closest to, and all
  * vectors are in that order, from the grid's corner and in cells. */
 struct walk {
     int axis[3];
     float centre[3], w[3];
     float across[2][3]; /* u and v */
-    float extent[3];    /* of the beam's cross-section */
-    float reach;        /* half-width of the beam, with a disc's radius */
-    float start, end;   /* depths between which the beam is walked */
+    float extent[3];    /* of the bundle's cross-section */
+    float reach;        /* half-width of the bundle, with a disc's radius */
+    float start, end;   /* depths between which the bundle is walked */
 };
 
 static void order_axes(ps_vec3 w, int axis[3])
@@ -343,7 +343,7 @@ struct range {
     float from, to;
 };
 
-/* Depths of the beam within a slab. */
+/* Depths of the bundle within a slab. */
 static struct range slab_depths(const struct walk *walk, int slab)
 {
     float low = (float)slab - walk->centre[0] - walk->extent[0];
@@ -353,7 +353,7 @@ static struct range slab_depths(const struct walk *walk, int slab)
                           fmaxf(low * inverse, high * inverse)};
 }
 
-/* Where the beam lies along axis i between two depths. */
+/* Where the bundle lies along axis i between two depths. */
 static struct range beam_along(const struct walk *walk, int i, struct range depths)
 {
     float a = walk->centre[i] + depths.from * walk->w[i];
@@ -361,7 +361,7 @@ static struct range beam_along(const struct walk *walk, int i, struct range dept
     return (struct range){fminf(a, b) - walk->extent[i], fmaxf(a, b) + walk->extent[i]};
 }
 
-/* Cuts a row of cells, (slab, row, x) for x in `range`, to what lies between the beam's walls. */
+/* Cuts a row of cells, (slab, row, x) for x in `range`, to what lies between the bundle's walls. */
 static struct range cut_row(const struct walk *walk, int slab, int row, struct range range)
 {
     for (int wall = 0; wall < 2; wall++) {
@@ -538,19 +538,19 @@ static uint32_t resolution(const void *state)
     return (uint32_t)((const struct state *)state)->resolution;
 }
 
-static ps_box_settings boxes(const void *opaque)
+static ps_footprint_settings boxes(const void *opaque)
 {
     const struct state *state = opaque;
-    return PS_BOX_SETTINGS(state);
+    return PS_FOOTPRINT_SETTINGS(state);
 }
 
-static void place(const void *opaque, const ps_host *host, const ps_source *sources,
+static void place(const void *opaque, const ps_host *host, const ps_photon *photons,
                   const ps_hit *hits, size_t n, ps_splat *splats)
 {
     const struct state *state = opaque;
-    ps_box_settings settings = boxes(state);
-    host->place_boxes(host, &settings, sources, hits, n, splats);
-    ps_open_full_beams(&settings, splats, n);
+    ps_footprint_settings settings = boxes(state);
+    host->place_footprints(host, &settings, photons, hits, n, splats);
+    ps_open_full_bundles(&settings, splats, n);
     ps_set_bias(state->bias, (uint32_t)state->resolution, splats, n);
 }
 
@@ -573,7 +573,7 @@ static void depth_maps(const void *opaque, const ps_host *host, const ps_splat *
 }
 
 static const ps_param params[] = {
-    PS_BOX_PARAMS(struct state, "full", "yes"),
+    PS_FOOTPRINT_PARAMS(struct state, "full", "yes"),
     PS_INT(struct state, resolution, "8", 1, MOST_TEXELS, "texels", "side of a depth map"),
     PS_NUMBER_OR(struct state, bias, "slope", 0, INFINITY, PS_PARAM_EXPERT, bias_choices,
                  "scene units", "depth tolerance; slope: 0.75 texels times the receiver's slope"),

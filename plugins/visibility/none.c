@@ -6,10 +6,10 @@
  */
 #include <psplat/plugin.h>
 
-PS_BOX_CHOICES
+PS_FOOTPRINT_CHOICES
 
 struct state {
-    PS_BOX_MEMBERS
+    PS_FOOTPRINT_MEMBERS
 };
 
 static uint32_t resolution(const void *state)
@@ -18,21 +18,21 @@ static uint32_t resolution(const void *state)
     return 0;
 }
 
-static ps_box_settings boxes(const void *opaque)
+static ps_footprint_settings boxes(const void *opaque)
 {
     const struct state *state = opaque;
-    return PS_BOX_SETTINGS(state);
+    return PS_FOOTPRINT_SETTINGS(state);
 }
 
-static void place(const void *opaque, const ps_host *host, const ps_source *sources,
+static void place(const void *opaque, const ps_host *host, const ps_photon *photons,
                   const ps_hit *hits, size_t n, ps_splat *splats)
 {
     const struct state *state = opaque;
-    ps_box_settings settings = boxes(state);
-    host->place_boxes(host, &settings, sources, hits, n, splats);
+    ps_footprint_settings settings = boxes(state);
+    host->place_footprints(host, &settings, photons, hits, n, splats);
 }
 
-static const ps_param params[] = {PS_BOX_PARAMS(struct state, "auto", "no")};
+static const ps_param params[] = {PS_FOOTPRINT_PARAMS(struct state, "auto", "no")};
 
 static const ps_visibility_vtable vtable = {
     .size = sizeof vtable,

@@ -6,14 +6,14 @@
  * point rather than from the bundle's start, because the point's surface is known there and an
  * offset along its normal is enough to clear it at any slope.
  *
- * Without a map a full beam is not cut to what it meets, so more tiles are tested, too.
+ * Without a map a full bundle is not cut to what it meets, so more tiles are tested, too.
  */
 #include <psplat/plugin.h>
 
-PS_BOX_CHOICES
+PS_FOOTPRINT_CHOICES
 
 struct state {
-    PS_BOX_MEMBERS
+    PS_FOOTPRINT_MEMBERS
 };
 
 static uint32_t resolution(const void *state)
@@ -22,19 +22,19 @@ static uint32_t resolution(const void *state)
     return 0;
 }
 
-static ps_box_settings boxes(const void *opaque)
+static ps_footprint_settings boxes(const void *opaque)
 {
     const struct state *state = opaque;
-    return PS_BOX_SETTINGS(state);
+    return PS_FOOTPRINT_SETTINGS(state);
 }
 
-static void place(const void *opaque, const ps_host *host, const ps_source *sources,
+static void place(const void *opaque, const ps_host *host, const ps_photon *photons,
                   const ps_hit *hits, size_t n, ps_splat *splats)
 {
     const struct state *state = opaque;
-    ps_box_settings settings = boxes(state);
-    host->place_boxes(host, &settings, sources, hits, n, splats);
-    ps_open_full_beams(&settings, splats, n);
+    ps_footprint_settings settings = boxes(state);
+    host->place_footprints(host, &settings, photons, hits, n, splats);
+    ps_open_full_bundles(&settings, splats, n);
 }
 
 static void visible_tile(const ps_host *host, const ps_splat *splat, const ps_vec3 *points,
@@ -68,7 +68,7 @@ static void visible(const void *state, const ps_host *host, const ps_splat *spla
     }
 }
 
-static const ps_param params[] = {PS_BOX_PARAMS(struct state, "full", "yes")};
+static const ps_param params[] = {PS_FOOTPRINT_PARAMS(struct state, "full", "yes")};
 
 static const ps_visibility_vtable vtable = {
     .size = sizeof vtable,

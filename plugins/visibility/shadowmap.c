@@ -4,7 +4,7 @@
  * Back faces count: a map that starts inside of something must see its far side, or light leaks
  * through.
  *
- * Pixels take light from before the walls beside a source alone (ps_splat.walls), but a texel that such
+ * Pixels take light from before the walls beside a photon alone (ps_splat.boundaries), but a texel that such
  * a wall cuts may have its centre behind it, from where a ray would start inside of a block, or in the next
  * room, and darken the texel's other part for nothing. With 4x4 texels that kept back 1 % of all light in
  * the Cornell box. So rays start before the walls, too.
@@ -14,7 +14,7 @@
 #include <psplat/plugin.h>
 #include <string.h>
 
-PS_BOX_CHOICES
+PS_FOOTPRINT_CHOICES
 
 #define BLOCK 4 /* texels along the side of a packet */
 #define RAYS (BLOCK * BLOCK)
@@ -26,7 +26,7 @@ PS_BOX_CHOICES
 static const char *const bias_choices[] = {"slope", NULL};
 
 struct state {
-    PS_BOX_MEMBERS
+    PS_FOOTPRINT_MEMBERS
     int64_t resolution;
     ps_number_or_choice bias;
 };
@@ -36,19 +36,19 @@ static uint32_t resolution(const void *state)
     return (uint32_t)((const struct state *)state)->resolution;
 }
 
-static ps_box_settings boxes(const void *opaque)
+static ps_footprint_settings boxes(const void *opaque)
 {
     const struct state *state = opaque;
-    return PS_BOX_SETTINGS(state);
+    return PS_FOOTPRINT_SETTINGS(state);
 }
 
-static void place(const void *opaque, const ps_host *host, const ps_source *sources,
+static void place(const void *opaque, const ps_host *host, const ps_photon *photons,
                   const ps_hit *hits, size_t n, ps_splat *splats)
 {
     const struct state *state = opaque;
-    ps_box_settings settings = boxes(state);
-    host->place_boxes(host, &settings, sources, hits, n, splats);
-    ps_open_full_beams(&settings, splats, n);
+    ps_footprint_settings settings = boxes(state);
+    host->place_footprints(host, &settings, photons, hits, n, splats);
+    ps_open_full_bundles(&settings, splats, n);
     ps_set_bias(state->bias, (uint32_t)state->resolution, splats, n);
 }
 
@@ -88,8 +88,8 @@ static struct places places_of(const ps_splat *splat, const struct centres *cent
 static void move_before_walls(const ps_splat *splat, struct places *places)
 {
     for (int turn = 0; turn < 2; turn++)
-        for (uint32_t k = 0; k < ps_wall_count(splat); k++) {
-            const ps_wall wall = splat->walls[k];
+        for (uint32_t k = 0; k < ps_boundary_count(splat); k++) {
+            const ps_boundary wall = splat->boundaries[k];
             float most = (wall.distance - BEFORE_WALLS) * splat->half_width;
 #pragma omp simd
             for (int i = 0; i < RAYS; i++) {
@@ -120,14 +120,14 @@ static void trace_block(const ps_host *host, const ps_splat *splat, struct place
                         float found[RAYS])
 {
     _Alignas(64) ps_packet packet;
-    float start[RAYS], reach[RAYS];
+    float start[RAYS], lengths[RAYS];
     move_before_walls(splat, &places);
     load_rays(splat, &places, &packet, start);
-    memcpy(reach, packet.tfar, sizeof reach);
+    memcpy(lengths, packet.tfar, sizeof lengths);
     host->intersect_packets(host, &packet, 1, 1);
 #pragma omp simd
     for (int i = 0; i < RAYS; i++)
-        found[i] = packet.tfar[i] < reach[i] ? start[i] + packet.tfar[i] : INFINITY;
+        found[i] = packet.tfar[i] < lengths[i] ? start[i] + packet.tfar[i] : INFINITY;
 }
 
 static void trace_map(const ps_host *host, const ps_splat *splat, const struct centres *centres,
@@ -155,7 +155,7 @@ static void depth_maps(const void *opaque, const ps_host *host, const ps_splat *
 }
 
 static const ps_param params[] = {
-    PS_BOX_PARAMS(struct state, "full", "yes"),
+    PS_FOOTPRINT_PARAMS(struct state, "full", "yes"),
     PS_INT(struct state, resolution, "8", 1, MOST_TEXELS, "texels", "side of a depth map"),
     PS_NUMBER_OR(struct state, bias, "slope", 0, INFINITY, PS_PARAM_EXPERT, bias_choices,
                  "scene units", "depth tolerance; slope: 0.75 texels times the receiver's slope"),
@@ -175,7 +175,7 @@ static const ps_descriptor descriptor = {
     .name = "shadowmap",
     .version = "1.0",
     .summary = "lights what a small orthographic depth map of the bundle sees",
-    .paper = "Hoet 2014, section 3.3; full beams after Herzog et al. 2007",
+    .paper = "Hoet 2014, section 3.3; full bundles after Herzog et al. 2007",
     .params = params,
     .param_count = sizeof params / sizeof params[0],
     .param_size = sizeof params[0],

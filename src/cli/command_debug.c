@@ -12,10 +12,10 @@
 
 static const struct option options[] = {
     {'o', "output", "FILE.png", "default: the scene's name, the view's, and .png"},
-    {0, "count", "N", "sources: dots at most (20000); maps: splats (12)"},
+    {0, "count", "N", "photons: dots at most (20000); maps: splats (12)"},
     {0, "resolution", "N", "voxels: cells across the scene, not the stratification's own"},
-    {0, "top", "NUMBER", "sources, overlap: the scale's upper end; default: by what there is"},
-    {0, "color", "power|bounce", "sources: what the dots' colours tell; default: power"},
+    {0, "top", "NUMBER", "photons, overlap: the scale's upper end; default: by what there is"},
+    {0, "color", "power|bounce", "photons: what the dots' colours tell; default: power"},
     RENDER_OPTIONS,
 };
 
@@ -214,7 +214,7 @@ static int run(const struct argument *arguments, size_t count)
 
 const struct command command_debug = {
     .name = "debug",
-    .operands = "sources|voxels|gbuffer[:LAYER]|maps|overlap SCENE.psd",
+    .operands = "photons|voxels|gbuffer[:LAYER]|maps|overlap SCENE.psd",
     .summary = "draws what goes on inside of a render",
     .options = options,
     .option_count = sizeof options / sizeof options[0],

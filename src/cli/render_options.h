@@ -16,7 +16,7 @@
          "instruction set: baseline, avx2 or avx512; default: the best there is"},                 \
         {0, "batch", "N", "splats held in memory at a time; nor on these"},                        \
         {0, "direct", "rays|shadowmap",                                                            \
-         "how direct light finds shadows; lights that have a size: by rays alone"},                \
+         "how direct light finds shadows; area lights: by rays alone"},                            \
         {0, "direct-resolution", "N", "pixels along the side of each of these shadow maps"},       \
         {0, "exposure", "STOPS", "brightness of the PNG: a factor of 2^STOPS"},                    \
     {                                                                                              \

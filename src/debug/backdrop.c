@@ -3,7 +3,7 @@
 #include "image/tonemap.h"
 #include <psplat/math.h>
 
-#define LAMP_SHARE 0.12f /* of white, where a surface faces the camera */
+#define HEADLIGHT_SHARE 0.12f /* of white, where a surface faces the camera */
 #define DIRECT_SHARE 0.15f
 
 static ps_vec3 vector_at(const struct film *film, enum film_plane x, size_t pixel)
@@ -26,8 +26,8 @@ static float brightness(const struct render *render, size_t pixel, float factor)
         return DIRECT_SHARE * direct;
     float cosine =
         fabsf(ps_dot(vector_at(film, FILM_NORMAL_X, pixel), render->scene->camera.forward));
-    float lamp = luminance_at(film, FILM_ALBEDO_R, pixel) * (0.3f + 0.7f * fminf(cosine, 1.0f));
-    return LAMP_SHARE * lamp + DIRECT_SHARE * direct;
+    float light = luminance_at(film, FILM_ALBEDO_R, pixel) * (0.3f + 0.7f * fminf(cosine, 1.0f));
+    return HEADLIGHT_SHARE * light + DIRECT_SHARE * direct;
 }
 
 void backdrop_draw(const struct render *render, double exposure, struct canvas *canvas)

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct debug_view *const views[] = {&debug_sources, &debug_voxels, &debug_gbuffer,
+static const struct debug_view *const views[] = {&debug_photons, &debug_voxels, &debug_gbuffer,
                                                  &debug_maps, &debug_overlap};
 enum { VIEWS = sizeof views / sizeof views[0] };
 

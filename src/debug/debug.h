@@ -11,10 +11,10 @@
 
 struct debug_options {
     double exposure;     /* of what shows light, in stops */
-    uint32_t count;      /* sources or maps at most; 0: the view's default */
+    uint32_t count;      /* photons or maps at most; 0: the view's default */
     uint32_t resolution; /* cells across the scene; 0: the view's default */
     double top;          /* upper end of a scale; 0: by what there is */
-    bool by_bounce;      /* sources coloured by bounce, not by power */
+    bool by_bounce;      /* photons coloured by bounce, not by power */
 };
 
 struct debug_view {
@@ -40,7 +40,7 @@ ps_result debug_draw(const struct debug_request *request, const struct scene *sc
                      struct render_settings *settings, const struct render_callbacks *callbacks,
                      struct statistics *statistics, struct canvas *canvas, struct error *error);
 
-extern const struct debug_view debug_sources, debug_voxels, debug_gbuffer, debug_maps,
+extern const struct debug_view debug_photons, debug_voxels, debug_gbuffer, debug_maps,
     debug_overlap;
 
 #endif

@@ -9,8 +9,8 @@
 #include "debug/backdrop.h"
 #include "debug/debug.h"
 #include "debug/font.h"
+#include "debug/project.h"
 #include "debug/selection.h"
-#include "debug/sight.h"
 #include "image/magnify.h"
 #include "image/tonemap.h"
 #include <psplat/math.h>
@@ -23,18 +23,19 @@
 
 static const struct colour ink = {255, 220, 120};
 
-static ps_result offer_splats(struct render *render, const ps_source *sources, size_t n,
+static ps_result offer_splats(struct render *render, const ps_photon *photons, size_t n,
                               ps_splat *placed, struct selection *splats)
 {
     for (size_t first = 0; first < n; first += BATCH) {
         size_t count = n - first < BATCH ? n - first : BATCH;
-        ps_result result = render->host.place_splats(&render->host, sources + first, count, placed);
+        ps_result result = render->host.place_splats(&render->host, photons + first, count, placed);
         if (result != PS_OK)
             return result;
         for (size_t i = 0; i < count; i++) {
             float x, y;
             ps_vec3 back = ps_scale(placed[i].axis_w, -1.0f);
-            if (placed[i].half_width > 0.0f && sight_of(render, placed[i].centre, back, &x, &y))
+            if (placed[i].half_width > 0.0f &&
+                project_visible(render, placed[i].centre, back, &x, &y))
                 selection_offer(splats, &placed[i]);
         }
     }
@@ -44,7 +45,7 @@ static ps_result offer_splats(struct render *render, const ps_source *sources, s
 /* Chooses among the splats whose middles are seen. */
 static ps_result choose_splats(struct render *render, struct selection *splats, struct error *error)
 {
-    const ps_source *sources;
+    const ps_photon *photons;
     size_t n = 0;
     double progress;
     ps_splat *placed = malloc(BATCH * sizeof *placed);
@@ -53,9 +54,9 @@ static ps_result choose_splats(struct render *render, struct selection *splats, 
     ps_result result;
     do {
         render->error.text[0] = '\0';
-        result = render->host.next_sources(&render->host, &sources, &n, &progress);
+        result = render->host.next_photons(&render->host, &photons, &n, &progress);
         if (result == PS_OK)
-            result = offer_splats(render, sources, n, placed, splats);
+            result = offer_splats(render, photons, n, placed, splats);
         render->host.progress(&render->host, progress);
     } while (result == PS_OK && n > 0);
     free(placed);

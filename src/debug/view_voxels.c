@@ -1,6 +1,6 @@
-/* view_voxels.c: the cells that a stratification sorts sources into, each in a colour of its own (Hoet
+/* view_voxels.c: the cells that a stratification sorts photons into, each in a colour of its own (Hoet
  * 2014, figure 9). An octree's leaves, and the cells of a grid that merge with their neighbours, follow
- * from the sources of the pass. Where a number of cells is asked for, and where the stratification has
+ * from the photons of the pass. Where a number of cells is asked for, and where the stratification has
  * no cells, they are those of a grid by itself: cubes, that many across the sphere around the scene.
  */
 #include "debug/debug.h"
@@ -68,12 +68,12 @@ static ps_result find_in_strata(struct render *render, struct places *places, st
 {
     const struct strategy *strategy = &render->settings->strategies[PS_STRATIFICATION];
     const ps_stratification_vtable *vtable = strategy->descriptor->vtable;
-    const ps_source *sources;
+    const ps_photon *photons;
     size_t n;
-    ps_result result = source_stream_injected(&render->sources, &sources, &n, error);
+    ps_result result = photon_stream_injected(&render->photons, &photons, &n, error);
     if (result != PS_OK)
         return result;
-    result = vtable->cells(strategy->state, &render->host, &render->pass, sources, n,
+    result = vtable->cells(strategy->state, &render->host, &render->pass, photons, n,
                            places->points, places->count, places->cells);
     return result == PS_OK ? PS_OK : error_set(error, result, "stratification failed");
 }

@@ -17,7 +17,7 @@ struct receivers {
     const ps_ray *rays; /* NULL: irradiance is asked for */
     const ps_hit *hits;
     float (*numbers)[4]; /* NULL: no light has a size */
-    uint64_t *met;       /* what rays to the lights met, see gbuffer_met; NULL: nobody asks */
+    uint64_t *occlusion; /* what rays to the lights met, see gbuffer_occlusion; NULL: nobody asks */
 };
 
 /* Two of a point's four numbers, or these moved by Roberts's sequence for many lights. */
@@ -87,9 +87,9 @@ static ps_rgb connect(const struct receivers *to, size_t i, ps_vec3 origin,
     if (!(ps_rgb_maximum(sample->weight) > 0.0f &&
           ps_dot(sample->direction, to->normals[i]) > 0.0f))
         return (ps_rgb){0, 0, 0};
-    /* A lamp may lie on a surface, which must not shadow it. */
-    float reach = ps_max(sample->distance - to->lighting->scene->surface_offset, 0.0f);
-    *ray = (ps_ray){origin, 0.0f, sample->direction, reach};
+    /* A light may lie on a surface, which must not shadow it. */
+    float radius = ps_max(sample->distance - to->lighting->scene->surface_offset, 0.0f);
+    *ray = (ps_ray){origin, 0.0f, sample->direction, radius};
     return ps_rgb_multiply(sample->weight, response(to, i, sample->direction, sample->pdf));
 }
 
@@ -129,8 +129,8 @@ static void add_light(const struct receivers *to, size_t light, ps_rgb *sums)
     find_lit(to->lighting, light, rays, normals, count, lit);
     for (size_t i = 0; i < count; i++) {
         sums[targets[i]] = ps_rgb_add(sums[targets[i]], ps_rgb_scale(unshadowed[i], lit[i]));
-        if (to->met)
-            to->met[targets[i]] |= gbuffer_met(light, lit[i]);
+        if (to->occlusion)
+            to->occlusion[targets[i]] |= gbuffer_occlusion(light, lit[i]);
     }
 }
 
@@ -144,7 +144,7 @@ static void add_lights(const struct receivers *to, ps_rgb *sums)
 static float (*draw(const struct scene *scene, const struct light_numbers *from, size_t first,
                     size_t n, float (*room)[4]))[4]
 {
-    if (!scene->has_sized_lights)
+    if (!scene->has_area_lights)
         return NULL;
     uint32_t key = sample_key(from->seed, from->stream, from->set);
     sample_points(key, from->indices + first, n, room);
@@ -240,7 +240,7 @@ static void add_samples(const struct receivers *receivers, uint64_t seed,
         return;
     float numbers[PS_TILE_PIXELS][4];
     struct receivers to = *receivers;
-    to.numbers = to.lighting->scene->has_sized_lights ? numbers : NULL;
+    to.numbers = to.lighting->scene->has_area_lights ? numbers : NULL;
     for (uint32_t sample = 0; sample < samples; sample++) {
         if (to.numbers)
             draw_runs(runs, seed, sample, points, numbers);
@@ -253,20 +253,20 @@ void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer,
 {
     ps_rgb *direct = &gbuffer->direct[(size_t)index * PS_TILE_PIXELS];
     ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}};
-    uint64_t met[PS_TILE_PIXELS] = {0};
-    samples = lighting->scene->has_sized_lights ? samples : 1;
+    uint64_t occlusion[PS_TILE_PIXELS] = {0};
+    samples = lighting->scene->has_area_lights ? samples : 1;
     ps_points points;
     ps_collect_points(&gbuffer->tiles[index], &points);
     const struct receivers to = {.lighting = lighting,
                                  .n = points.count,
                                  .positions = points.positions,
                                  .normals = points.normals,
-                                 .met = gbuffer->met ? met : NULL};
+                                 .occlusion = gbuffer->occlusion ? occlusion : NULL};
     add_samples(&to, seed, runs, &points, samples, irradiance);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         direct[lane] = (ps_rgb){0, 0, 0};
     for (size_t i = 0; i < points.count; i++)
         direct[points.lanes[i]] = ps_rgb_scale(irradiance[i], 1.0f / (float)samples);
-    for (size_t i = 0; i < points.count && gbuffer->met; i++)
-        gbuffer->met[(size_t)index * PS_TILE_PIXELS + points.lanes[i]] = met[i];
+    for (size_t i = 0; i < points.count && gbuffer->occlusion; i++)
+        gbuffer->occlusion[(size_t)index * PS_TILE_PIXELS + points.lanes[i]] = occlusion[i];
 }

@@ -22,8 +22,8 @@ void discontinuity_buffer(struct gbuffer *gbuffer, uint32_t threads)
 {
     ps_rgb *found = gbuffer->direct;
     struct geometry_filter mean = {.gbuffer = gbuffer,
-                                   .met = gbuffer->met,
-                                   .reach = REACH,
+                                   .occlusion = gbuffer->occlusion,
+                                   .radius = REACH,
                                    .from = found,
                                    .to = gbuffer->joined};
     geometry_filter_take(&mean, threads);

@@ -31,7 +31,7 @@ struct shadow_maps {
 /* The sphere around the scene, seen from outside. */
 static ps_light_view view_of_sun(const struct scene *scene, ps_vec3 axis)
 {
-    ps_light_view view = {.axis = axis, .reach = scene->radius, .parallel = 1};
+    ps_light_view view = {.axis = axis, .radius = scene->radius, .parallel = 1};
     view.origin = ps_add_scaled(scene->center, -2.0f * scene->radius, axis);
     ps_frame(axis, &view.u, &view.v);
     return view;
@@ -198,12 +198,12 @@ static struct place place_of(const struct shadow_maps *maps, const ps_light_view
 {
     ps_vec3 from = ps_subtract(point, view->origin);
     float deep = ps_dot(from, view->axis), side = (float)maps->side;
-    float reach = view->parallel ? view->reach : view->reach * deep;
+    float radius = view->parallel ? view->radius : view->radius * deep;
     return (struct place){
-        .x = 0.5f * (ps_dot(from, view->u) / reach + 1.0f) * side - 0.5f,
-        .y = 0.5f * (ps_dot(from, view->v) / reach + 1.0f) * side - 0.5f,
+        .x = 0.5f * (ps_dot(from, view->u) / radius + 1.0f) * side - 0.5f,
+        .y = 0.5f * (ps_dot(from, view->v) / radius + 1.0f) * side - 0.5f,
         .depth = view->parallel ? deep : ps_length(from),
-        .pixel = 2.0f * reach / side,
+        .pixel = 2.0f * radius / side,
         .light = ps_scale(view->parallel ? view->axis : ps_normalize(from), -1.0f),
     };
 }

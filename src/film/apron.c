@@ -49,9 +49,9 @@ static float least_spacing(const struct apron_surfaces *at, int first, int end, 
     return least;
 }
 
-bool apron_is_flat(const struct apron_surfaces *at, int reach)
+bool apron_is_flat(const struct apron_surfaces *at, int radius)
 {
-    int first = APRON_MARGIN - reach, end = APRON_MARGIN + PS_TILE_SIZE + reach;
+    int first = APRON_MARGIN - radius, end = APRON_MARGIN + PS_TILE_SIZE + radius;
     if (!has_one_normal(at, first, end))
         return false;
     float spacing =
@@ -59,18 +59,18 @@ bool apron_is_flat(const struct apron_surfaces *at, int reach)
     return most_off(at, first, end) <= MOST_OFF2 * spacing;
 }
 
-void apron_sum(const float from[APRON_SIDE][APRON_SIDE], int reach, float border,
+void apron_sum(const float from[APRON_SIDE][APRON_SIDE], int radius, float border,
                float to[PS_TILE_SIZE][PS_TILE_SIZE])
 {
     for (int row = 0; row < PS_TILE_SIZE; row++) {
         float columns[APRON_SIDE] = {0}, sums[PS_TILE_SIZE] = {0};
-        for (int dy = -reach; dy <= reach; dy++) {
-            float share = dy == -reach || dy == reach ? border : 1.0f;
+        for (int dy = -radius; dy <= radius; dy++) {
+            float share = dy == -radius || dy == radius ? border : 1.0f;
             for (int i = 0; i < APRON_SIDE; i++)
                 columns[i] += share * from[APRON_MARGIN + row + dy][i];
         }
-        for (int dx = -reach; dx <= reach; dx++) {
-            float share = dx == -reach || dx == reach ? border : 1.0f;
+        for (int dx = -radius; dx <= radius; dx++) {
+            float share = dx == -radius || dx == radius ? border : 1.0f;
             for (int i = 0; i < PS_TILE_SIZE; i++)
                 sums[i] += share * columns[APRON_MARGIN + i + dx];
         }

@@ -43,13 +43,13 @@ static inline void apron_find_same(const struct apron_surfaces *at, int row, int
     }
 }
 
-/* Whether all pixels of the tile and up to `reach` around it lie on one plane, with one normal: then any two are
+/* Whether all pixels of the tile and up to `radius` around it lie on one plane, with one normal: then any two are
  * on the same surface, and means are plain sums. Most tiles of most pictures. */
-bool apron_is_flat(const struct apron_surfaces *at, int reach);
+bool apron_is_flat(const struct apron_surfaces *at, int radius);
 
-/* Sums over the window of each pixel of the tile, up to `reach` to each side; the border of the window counts
+/* Sums over the window of each pixel of the tile, up to `radius` to each side; the border of the window counts
  * `border` times. */
-void apron_sum(const float from[APRON_SIDE][APRON_SIDE], int reach, float border,
+void apron_sum(const float from[APRON_SIDE][APRON_SIDE], int radius, float border,
                float to[PS_TILE_SIZE][PS_TILE_SIZE]);
 
 #endif

@@ -34,17 +34,17 @@ ps_result gbuffer_create(size_t width, size_t height, struct gbuffer *gbuffer, s
 ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error)
 {
     size_t lanes = (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
-    gbuffer->met = calloc(lanes, sizeof *gbuffer->met);
+    gbuffer->occlusion = calloc(lanes, sizeof *gbuffer->occlusion);
     gbuffer->joined = calloc(lanes, sizeof *gbuffer->joined);
-    if (gbuffer->met && gbuffer->joined)
+    if (gbuffer->occlusion && gbuffer->joined)
         return PS_OK;
-    return error_memory(error, lanes * (sizeof *gbuffer->met + sizeof *gbuffer->joined),
+    return error_memory(error, lanes * (sizeof *gbuffer->occlusion + sizeof *gbuffer->joined),
                         "direct light");
 }
 
 void gbuffer_release(struct gbuffer *gbuffer)
 {
-    free(gbuffer->met);
+    free(gbuffer->occlusion);
     free(gbuffer->joined);
     free(gbuffer->tiles);
     free(gbuffer->direct);
@@ -55,7 +55,7 @@ void gbuffer_release(struct gbuffer *gbuffer)
 
 size_t gbuffer_bytes(const struct gbuffer *gbuffer)
 {
-    size_t join = gbuffer->met ? sizeof *gbuffer->met + sizeof *gbuffer->joined : 0;
+    size_t join = gbuffer->occlusion ? sizeof *gbuffer->occlusion + sizeof *gbuffer->joined : 0;
     return gbuffer->tile_count *
            (sizeof(ps_tile) + PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool) + join));
 }

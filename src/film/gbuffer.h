@@ -20,9 +20,9 @@ struct gbuffer {
     ps_rgb *direct;  /* direct irradiance, tile_count * PS_TILE_PIXELS, owned */
     ps_rgb *emitted; /* radiance collected on the way there, of the same size, owned */
     bool *by_chance; /* whether another look would take another way (a lens, gloss), likewise */
-    /* What shadow rays met (see gbuffer_met_alike), and room for direct light that is joined; likewise,
+    /* What shadow rays met (see gbuffer_occlusion_alike), and room for direct light that is joined; likewise,
      * or NULL where nobody joins it. */
-    uint64_t *met;
+    uint64_t *occlusion;
     ps_rgb *joined;
 };
 
@@ -72,20 +72,20 @@ static inline int gbuffer_same_surface(float cosine, float off_plane, float dist
 
 /* What a ray to light `light` met, of which the share `lit` came through: light i of 32 has bits 2 i, some
  * light came through, and 2 i + 1, some was stopped. Further lights share them. */
-static inline uint64_t gbuffer_met(size_t light, float lit)
+static inline uint64_t gbuffer_occlusion(size_t light, float lit)
 {
     uint64_t bits = (uint64_t)(lit > 0.0f) | (uint64_t)(lit < 1.0f) << 1;
     return bits << 2 * (light % 32);
 }
 
-static inline uint64_t gbuffer_either_bit(uint64_t met)
+static inline uint64_t gbuffer_either_bit(uint64_t mask)
 {
-    return (met | met >> 1) & UINT64_C(0x5555555555555555);
+    return (mask | mask >> 1) & UINT64_C(0x5555555555555555);
 }
 
 /* Whether two points see the lights alike: none that shines on one of them whole is hidden from the other,
  * nor out of its reach. So the edge of a hard shadow lies between them, or nothing does. */
-static inline bool gbuffer_met_alike(uint64_t a, uint64_t b)
+static inline bool gbuffer_occlusion_alike(uint64_t a, uint64_t b)
 {
     return gbuffer_either_bit(a & b) == gbuffer_either_bit(a | b);
 }

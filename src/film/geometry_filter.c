@@ -13,7 +13,7 @@
 struct apron {
     struct apron_surfaces at;
     float r[APRON_SIDE][APRON_SIDE], g[APRON_SIDE][APRON_SIDE], b[APRON_SIDE][APRON_SIDE];
-    uint64_t met[APRON_SIDE][APRON_SIDE];
+    uint64_t occlusion[APRON_SIDE][APRON_SIDE];
 };
 
 /* What a row of pixels has gathered. */
@@ -33,8 +33,9 @@ static void load_run(const struct geometry_filter *mean, uint32_t tile, uint32_t
     memcpy(&apron->at.normal_x[row][column], &from->normal_x[lane], floats);
     memcpy(&apron->at.normal_y[row][column], &from->normal_y[lane], floats);
     memcpy(&apron->at.normal_z[row][column], &from->normal_z[lane], floats);
-    if (mean->met)
-        memcpy(&apron->met[row][column], &mean->met[first], (size_t)count * sizeof *mean->met);
+    if (mean->occlusion)
+        memcpy(&apron->occlusion[row][column], &mean->occlusion[first],
+               (size_t)count * sizeof *mean->occlusion);
     for (int i = 0; i < count && mean->from; i++) {
         apron->r[row][column + i] = mean->from[first + (size_t)i].r;
         apron->g[row][column + i] = mean->from[first + (size_t)i].g;
@@ -46,7 +47,7 @@ static void load_run(const struct geometry_filter *mean, uint32_t tile, uint32_t
 static void load_row(const struct geometry_filter *mean, int64_t left, int64_t y, int row,
                      struct apron *apron)
 {
-    int first = APRON_MARGIN - mean->reach, end = APRON_MARGIN + SIDE + mean->reach;
+    int first = APRON_MARGIN - mean->radius, end = APRON_MARGIN + SIDE + mean->radius;
     for (int column = first, next; column < end; column = next) {
         int64_t x = left + column;
         next = column < APRON_MARGIN ? APRON_MARGIN : column + SIDE;
@@ -63,7 +64,7 @@ static void load_apron(const struct geometry_filter *mean, uint32_t tile, struct
 {
     int64_t left = (int64_t)(tile % mean->gbuffer->tiles_across) * SIDE - APRON_MARGIN;
     int64_t top = (int64_t)(tile / mean->gbuffer->tiles_across) * SIDE - APRON_MARGIN;
-    int first = APRON_MARGIN - mean->reach, end = APRON_MARGIN + SIDE + mean->reach;
+    int first = APRON_MARGIN - mean->radius, end = APRON_MARGIN + SIDE + mean->radius;
     for (int row = first; row < end; row++)
         load_row(mean, left, top + row, row, apron);
 }
@@ -74,9 +75,9 @@ static void find_alike(const struct geometry_filter *mean, const struct apron *a
 {
     int here = APRON_MARGIN + row, there = here + dy;
     apron_find_same(&apron->at, row, dx, dy, LEAST_COSINE, alike);
-    for (int i = 0; i < SIDE && mean->met; i++)
-        alike[i] &= gbuffer_met_alike(apron->met[here][APRON_MARGIN + i],
-                                      apron->met[there][APRON_MARGIN + i + dx]);
+    for (int i = 0; i < SIDE && mean->occlusion; i++)
+        alike[i] &= gbuffer_occlusion_alike(apron->occlusion[here][APRON_MARGIN + i],
+                                            apron->occlusion[there][APRON_MARGIN + i + dx]);
 }
 
 /* Adds to the pixels of a row their neighbours at (dx, dy) and (-dx, -dy), where both are like them. */
@@ -101,15 +102,15 @@ static void mean_of_row(const struct geometry_filter *mean, const struct apron *
                         size_t first)
 {
     struct row_sums sums;
-    int reach = mean->reach, here = APRON_MARGIN + row;
+    int radius = mean->radius, here = APRON_MARGIN + row;
     for (int i = 0; i < SIDE; i++) {
         sums.r[i] = apron->r[here][APRON_MARGIN + i];
         sums.g[i] = apron->g[here][APRON_MARGIN + i];
         sums.b[i] = apron->b[here][APRON_MARGIN + i];
         sums.count[i] = 1.0f;
     }
-    for (int dy = 0; dy <= reach; dy++)
-        for (int dx = dy == 0 ? 1 : -reach; dx <= reach; dx++)
+    for (int dy = 0; dy <= radius; dy++)
+        for (int dx = dy == 0 ? 1 : -radius; dx <= radius; dx++)
             add_pairs(mean, apron, row, dx, dy, &sums);
     for (size_t i = 0; i < SIDE && mean->to; i++)
         mean->to[first + i] =
@@ -126,14 +127,14 @@ static void keep_tile(const struct geometry_filter *mean, size_t first)
         memcpy(&mean->to[first], &mean->from[first], PS_TILE_PIXELS * sizeof *mean->to);
 }
 
-static bool all_met_alike(const struct geometry_filter *mean, const struct apron *apron)
+static bool all_occluded_alike(const struct geometry_filter *mean, const struct apron *apron)
 {
-    uint64_t met = apron->met[APRON_MARGIN][APRON_MARGIN];
-    int others = 0, first = APRON_MARGIN - mean->reach, end = APRON_MARGIN + SIDE + mean->reach;
+    uint64_t mask = apron->occlusion[APRON_MARGIN][APRON_MARGIN];
+    int others = 0, first = APRON_MARGIN - mean->radius, end = APRON_MARGIN + SIDE + mean->radius;
     for (int row = first; row < end; row++)
         for (int i = first; i < end; i++)
-            others += apron->met[row][i] != met;
-    return others == 0 && gbuffer_met_alike(met, met);
+            others += apron->occlusion[row][i] != mask;
+    return others == 0 && gbuffer_occlusion_alike(mask, mask);
 }
 
 /* Where all pixels are alike. */
@@ -141,14 +142,14 @@ static void mean_of_flat(const struct geometry_filter *mean, const struct apron 
                          size_t first)
 {
     float r[SIDE][SIDE], g[SIDE][SIDE], b[SIDE][SIDE];
-    int window = geometry_filter_window(mean->reach);
+    int window = geometry_filter_window(mean->radius);
     if (mean->counts)
         memset(&mean->counts[first], window, PS_TILE_PIXELS);
     if (!mean->to)
         return;
-    apron_sum(apron->r, mean->reach, 1.0f, r);
-    apron_sum(apron->g, mean->reach, 1.0f, g);
-    apron_sum(apron->b, mean->reach, 1.0f, b);
+    apron_sum(apron->r, mean->radius, 1.0f, r);
+    apron_sum(apron->g, mean->radius, 1.0f, g);
+    apron_sum(apron->b, mean->radius, 1.0f, b);
     for (int row = 0; row < SIDE; row++)
         for (int i = 0; i < SIDE; i++)
             mean->to[first + (size_t)(row * SIDE + i)] =
@@ -165,7 +166,8 @@ static void mean_of_tile(void *user, uint64_t tile, uint32_t worker)
     }
     struct apron apron = {0};
     load_apron(mean, (uint32_t)tile, &apron);
-    if (apron_is_flat(&apron.at, mean->reach) && (!mean->met || all_met_alike(mean, &apron))) {
+    if (apron_is_flat(&apron.at, mean->radius) &&
+        (!mean->occlusion || all_occluded_alike(mean, &apron))) {
         mean_of_flat(mean, &apron, tile * PS_TILE_PIXELS);
         return;
     }

@@ -5,7 +5,7 @@
  * count
  *
  * - pixels on the same surface, all but flat: bumps keep their shading;
- * - those that see the lights alike (gbuffer_met_alike), where that was asked for: nothing crosses the edge
+ * - those that see the lights alike (gbuffer_occlusion_alike), where that was asked for: nothing crosses the edge
  *   of a hard shadow;
  * - pairs that lie opposite each other, both or none. A mean over pairs keeps what falls off evenly, where
  *   one over part of a window would flatten what lies along the rims of surfaces.
@@ -20,17 +20,17 @@
 /* Arrays have a value for each lane of each tile; borrowed. */
 struct geometry_filter {
     const struct gbuffer *gbuffer;
-    const uint64_t *met; /* see gbuffer_met_alike; NULL: does not matter */
-    int reach;           /* pixels to each side, at most APRON_MARGIN (apron.h) */
+    const uint64_t *occlusion; /* see gbuffer_occlusion_alike; NULL: does not matter */
+    int radius;                /* pixels to each side, at most APRON_MARGIN (apron.h) */
     const ps_rgb *from;
     ps_rgb *to;      /* both NULL: pixels are only counted */
     uint8_t *counts; /* over how many pixels, itself included; NULL: does not matter */
 };
 
 /* The most pixels that a mean is taken over. */
-static inline int geometry_filter_window(int reach)
+static inline int geometry_filter_window(int radius)
 {
-    return (2 * reach + 1) * (2 * reach + 1);
+    return (2 * radius + 1) * (2 * radius + 1);
 }
 
 void geometry_filter_take(struct geometry_filter *mean, uint32_t threads);

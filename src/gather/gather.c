@@ -40,7 +40,7 @@ static uint64_t rays_of(const struct gathering *work, uint64_t tile, uint32_t la
     const struct gathered_light *near = work->rays.near;
     double averaged = near->averaged[tile * PS_TILE_PIXELS + lane];
     double rays = gather_pilot_share(near, tile) * work->window_rays;
-    return power_of_two(rays / sqrt(geometry_filter_window(near->reach) * averaged));
+    return power_of_two(rays / sqrt(geometry_filter_window(near->radius) * averaged));
 }
 
 /* The samples of a tile's pixels, and where those of a pixel begin. */

@@ -96,7 +96,7 @@ double gather_pilot_share(const struct gathered_light *near, uint64_t tile)
 ps_result gather_pilot(struct gather_rays *rays, double window_rays)
 {
     double count =
-        PILOT_PART * window_rays / geometry_filter_window(rays->near->reach); /* of a pixel */
+        PILOT_PART * window_rays / geometry_filter_window(rays->near->radius); /* of a pixel */
     struct pilot pilot = {
         .rays = rays,
         .count = (uint64_t)fmax(count, 1),

@@ -46,7 +46,7 @@ size_t gather_rays_shoot(const struct gather_rays *pass_rays, const ps_points *p
     size_t met = look(pass_rays, points, numbers.directions, indices, rays, hits, targets);
     for (size_t i = 0; i < met; i++)
         indices[i] = indices[targets[i]]; /* targets[i] >= i */
-    host->direct_radiance(host, rays, hits, PS_STREAM_PATH, numbers.lamps, indices, met, radiance);
+    host->direct_radiance(host, rays, hits, PS_STREAM_PATH, numbers.lights, indices, met, radiance);
     struct gather_share share = gather_share_until(pass_rays->near->distance);
     for (size_t i = 0; i < met; i++) {
         float left = 1.0f - gather_share_of_splats(share, hits[i].distance);

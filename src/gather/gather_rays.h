@@ -1,4 +1,4 @@
-/* gather_rays.h: short rays from pixels, and the light that what they meet gets straight from the lamps. */
+/* gather_rays.h: short rays from pixels, and the light that what they meet gets straight from the lights. */
 #ifndef GATHER_GATHER_RAYS_H
 #define GATHER_GATHER_RAYS_H
 
@@ -17,9 +17,9 @@ struct gather_rays {
 /* Sets of random numbers. */
 enum { GATHER_DIRECTIONS = 1, GATHER_LAMPS, GATHER_PILOT_DIRECTIONS, GATHER_PILOT_LAMPS };
 
-/* Those for directions, and for points on lamps. */
+/* Those for directions, and for points on lights. */
 struct gather_streams {
-    uint32_t directions, lamps;
+    uint32_t directions, lights;
 };
 
 /* What one ray of each point, cosine-distributed, finds of the light that splats leave out: radiance[i] comes to point

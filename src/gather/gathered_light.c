@@ -37,7 +37,7 @@ ps_result gathered_light_begin(struct gathered_light *near, const struct gbuffer
     size_t lanes = lanes_of(gbuffer);
     near->distance = distance;
     near->tiles_across = gbuffer->tiles_across;
-    near->reach = (int)interleave / 2;
+    near->radius = (int)interleave / 2;
     if (!near->averaged)
         near->averaged = malloc(lanes);
     if (!near->found)
@@ -55,7 +55,7 @@ ps_result gathered_light_begin(struct gathered_light *near, const struct gbuffer
         return error_memory(error, gathered_light_bytes(gbuffer), "short-range light");
     memset(near->found, 0, lanes * sizeof *near->found);
     struct geometry_filter count = {
-        .gbuffer = gbuffer, .reach = near->reach, .counts = near->averaged};
+        .gbuffer = gbuffer, .radius = near->radius, .counts = near->averaged};
     geometry_filter_take(&count, threads);
     return PS_OK;
 }
@@ -110,7 +110,7 @@ void gathered_light_end(struct gathered_light *near, struct gbuffer *gbuffer, ui
     if (!(near->distance > 0.0f))
         return;
     struct geometry_filter mean = {
-        .gbuffer = gbuffer, .reach = near->reach, .from = near->found, .to = near->joined};
+        .gbuffer = gbuffer, .radius = near->radius, .from = near->found, .to = near->joined};
     geometry_filter_take(&mean, threads);
     struct adding adding = {gbuffer, near};
     parallel_for(threads, gbuffer->tile_count, add_tile, &adding);

@@ -26,7 +26,7 @@ struct gathered_light {
     float *ray_variances; /* of what single rays find there */
     float *noises;        /* its root, there and around */
     double mean_noise;
-    int reach;             /* pixels to each side of those means' windows */
+    int radius;            /* pixels to each side of those means' windows */
     uint32_t tiles_across; /* as in the G-buffer */
 };
 

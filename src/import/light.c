@@ -1,7 +1,7 @@
 /* light.c: lights, from glTF's JSON or from assimp's list.
  *
  * KHR_lights_punctual counts in candela and lux. 683 lm are taken as one watt, the rate of Blender's
- * exporter ("standard" lighting mode, its default): a lamp of P watts leaves Blender as
+ * exporter ("standard" lighting mode, its default): a light of P watts leaves Blender as
  * 683 P / (4 pi) cd and becomes P / (4 pi) W/sr here, P watts in all; a sun's W/m^2 come back as they
  * were. A spot has the intensity of the whole sphere's share, there as here. Other formats have no
  * units: their numbers are taken as W/sr, a sun's as W/m^2.

@@ -109,14 +109,14 @@ static void host_camera(const ps_host *host, ps_vec3 *position, ps_vec3 *directi
     *direction = render_of(host)->scene->camera.forward;
 }
 
-static ps_result host_next_sources(const ps_host *host, const ps_source **sources, size_t *n,
+static ps_result host_next_photons(const ps_host *host, const ps_photon **photons, size_t *n,
                                    double *progress)
 {
     struct render *render = render_of(host);
     if (host_cancelled(host))
         return PS_CANCELLED;
-    ps_result result = source_stream_next(&render->sources, sources, n, &render->error);
-    *progress = source_stream_progress(&render->sources);
+    ps_result result = photon_stream_next(&render->photons, photons, n, &render->error);
+    *progress = photon_stream_progress(&render->photons);
     return result;
 }
 
@@ -155,7 +155,7 @@ void host_create(struct render *render)
         .for_each_tile = host_for_each_tile,
         .samples = host_samples,
         .scene_bounds = host_scene_bounds,
-        .next_sources = host_next_sources,
+        .next_photons = host_next_photons,
         .tile = host_tile,
         .pixel = host_pixel,
         .log = host_log,

@@ -25,7 +25,7 @@ static ps_rgb emit_from(const struct scene *scene, size_t light, const float num
     ps_vec3 normal;
     ps_rgb flux = light_emit(&scene->lights[light], numbers, ray, &normal);
     if (light_is_delta(&scene->lights[light]))
-        ray->tnear = scene->surface_offset; /* a lamp may lie on a surface */
+        ray->tnear = scene->surface_offset; /* a light may lie on a surface */
     ray->origin = ps_add_scaled(ray->origin, scene->surface_offset, normal);
     return flux;
 }

@@ -2,8 +2,8 @@
 
 #include "base/clock.h"
 #include "base/parallel.h"
-#include "splat/reach.h"
-#include "splat/wall.h"
+#include "splat/boundary.h"
+#include "splat/extent.h"
 #include <math.h>
 #include <psplat/math.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 #define ASK_EVERY 16
 #define ENOUGH_UNSEEN 0.125
 
-/* What lies past the first hit counts, since part of a beam may pass beside it. */
+/* What lies past the first hit counts, since part of a bundle may pass beside it. */
 static void drop_unseen(struct render *render, ps_splat *splats, size_t n)
 {
     uint64_t unseen = 0;
@@ -49,15 +49,15 @@ static void end_batch(struct render *render, size_t n)
         unseen->many = (double)atomic_load(&unseen->in_batch) > ENOUGH_UNSEEN * (double)n;
 }
 
-struct box_scene host_box_scene(const struct render *render)
+struct footprint_scene host_footprint_scene(const struct render *render)
 {
-    float radius = render->scene->radius, spread = render->sources.spread;
-    uint64_t paths = render->sources.path_count;
-    return (struct box_scene){
+    float radius = render->scene->radius, spread = render->photons.spread;
+    uint64_t paths = render->photons.path_count;
+    return (struct footprint_scene){
         .radius = radius,
         .surface_offset = render->scene->surface_offset,
-        .automatic_size = box_automatic_size(radius, spread, paths, render->pass.number),
-        .automatic_near = box_automatic_near(radius, spread, paths),
+        .automatic_size = footprint_automatic_size(radius, spread, paths, render->pass.number),
+        .automatic_near = footprint_automatic_near(radius, spread, paths),
         .seed = render->settings->seed,
         .camera = &render->scene->camera,
         .interleave = render->has_splatter ? render->splatter.settings.interleave : 1,
@@ -68,9 +68,9 @@ struct box_scene host_box_scene(const struct render *render)
 /* What places up to PS_PATH_CHUNK boxes. */
 struct placing {
     struct render *render;
-    struct box_scene scene;
-    const ps_box_settings *settings;
-    const ps_source *sources;
+    struct footprint_scene scene;
+    const ps_footprint_settings *settings;
+    const ps_photon *photons;
     size_t n;
     ps_hit *hits;
     float *half_widths; /* 0: no box */
@@ -78,59 +78,59 @@ struct placing {
 
 static void place(const struct placing *placing, ps_splat *splats)
 {
-    box_place(&placing->scene, placing->settings, placing->sources, placing->hits,
-              placing->half_widths, placing->n, splats);
+    footprint_place(&placing->scene, placing->settings, placing->photons, placing->hits,
+                    placing->half_widths, placing->n, splats);
 }
 
-/* The widest that beams may be shows whether they are seen at all. */
+/* The widest that bundles may be shows whether they are seen at all. */
 static void drop_unseen_full(const struct placing *placing, ps_splat *splats)
 {
     ps_hit stand_ins[PS_PATH_CHUNK];
     memcpy(stand_ins, placing->hits, placing->n * sizeof *stand_ins);
     for (size_t i = 0; i < placing->n; i++)
         if (!(placing->hits[i].distance < INFINITY))
-            box_stand_in(&placing->sources[i], placing->half_widths[i], &stand_ins[i]);
-    box_place(&placing->scene, placing->settings, placing->sources, stand_ins, placing->half_widths,
-              placing->n, splats);
+            footprint_stand_in(&placing->photons[i], placing->half_widths[i], &stand_ins[i]);
+    footprint_place(&placing->scene, placing->settings, placing->photons, stand_ins,
+                    placing->half_widths, placing->n, splats);
     drop_unseen(placing->render, splats, placing->n);
     for (size_t i = 0; i < placing->n; i++)
         placing->half_widths[i] = splats[i].half_width;
 }
 
-/* Beams that start at their sources. */
+/* Bundles that start at their photons. */
 static void place_full(const struct placing *placing, ps_splat *splats)
 {
     const ps_host *host = &placing->render->host;
     for (size_t i = 0; i < placing->n; i++)
         placing->half_widths[i] =
-            box_widest(&placing->scene, placing->settings, &placing->sources[i]);
+            footprint_widest(&placing->scene, placing->settings, &placing->photons[i]);
     if (placing->render->unseen.asked)
         drop_unseen_full(placing, splats);
-    reach_find(host, &placing->scene, placing->settings, placing->sources, placing->n,
-               placing->hits, placing->half_widths);
+    extent_find(host, &placing->scene, placing->settings, placing->photons, placing->n,
+                placing->hits, placing->half_widths);
     place(placing, splats);
     if (placing->settings->boundary_correction)
-        wall_find(host, placing->scene.surface_offset, placing->sources, placing->n, splats);
+        boundary_find(host, placing->scene.surface_offset, placing->photons, placing->n, splats);
 }
 
 static void place_others(const struct placing *placing, ps_splat *splats)
 {
     for (size_t i = 0; i < placing->n; i++)
-        placing->half_widths[i] = box_half_width(&placing->scene, placing->settings,
-                                                 &placing->sources[i], placing->hits[i].distance);
+        placing->half_widths[i] = footprint_half_width(
+            &placing->scene, placing->settings, &placing->photons[i], placing->hits[i].distance);
     place(placing, splats);
     if (placing->render->unseen.asked)
         drop_unseen(placing->render, splats, placing->n);
 }
 
 /* At most PS_PATH_CHUNK. */
-static void place_some(struct render *render, const ps_box_settings *settings,
-                       const ps_source *sources, const ps_hit *hits, size_t n, ps_splat *splats)
+static void place_some(struct render *render, const ps_footprint_settings *settings,
+                       const ps_photon *photons, const ps_hit *hits, size_t n, ps_splat *splats)
 {
     ps_hit met[PS_PATH_CHUNK];
     float half_widths[PS_PATH_CHUNK];
     const struct placing placing = {
-        render, host_box_scene(render), settings, sources, n, met, half_widths,
+        render, host_footprint_scene(render), settings, photons, n, met, half_widths,
     };
     memcpy(met, hits, n * sizeof *hits);
     if (settings->step_back_rule == 1)
@@ -139,19 +139,19 @@ static void place_some(struct render *render, const ps_box_settings *settings,
         place_others(&placing, splats);
 }
 
-static void host_place_boxes(const ps_host *host, const ps_box_settings *settings,
-                             const ps_source *sources, const ps_hit *hits, size_t n,
-                             ps_splat *splats)
+static void host_place_footprints(const ps_host *host, const ps_footprint_settings *settings,
+                                  const ps_photon *photons, const ps_hit *hits, size_t n,
+                                  ps_splat *splats)
 {
     for (size_t first = 0; first < n; first += PS_PATH_CHUNK) {
         size_t some = n - first < PS_PATH_CHUNK ? n - first : PS_PATH_CHUNK;
-        place_some(render_of(host), settings, sources + first, hits + first, some, splats + first);
+        place_some(render_of(host), settings, photons + first, hits + first, some, splats + first);
     }
 }
 
 struct placement {
     struct render *render;
-    const ps_source *sources;
+    const ps_photon *photons;
     size_t n;
     ps_splat *splats;
 };
@@ -165,21 +165,21 @@ static void place_chunk(void *user, uint64_t index, uint32_t worker)
     ps_hit hits[PS_PATH_CHUNK];
     size_t first = index * PS_PATH_CHUNK, left = placement->n - first;
     size_t n = left < PS_PATH_CHUNK ? left : PS_PATH_CHUNK;
-    const ps_source *sources = placement->sources + first;
+    const ps_photon *photons = placement->photons + first;
     for (size_t i = 0; i < n; i++)
-        rays[i] = ps_leave_surface(sources[i].position, sources[i].normal, sources[i].direction,
+        rays[i] = ps_leave_surface(photons[i].position, photons[i].normal, photons[i].direction,
                                    render->scene->surface_offset);
     trace_intersect(render->trace, RAYS_INCOHERENT, rays, n, hits);
     const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
     const ps_visibility_vtable *vtable = visibility->descriptor->vtable;
-    vtable->place(visibility->state, &render->host, sources, hits, n, placement->splats + first);
+    vtable->place(visibility->state, &render->host, photons, hits, n, placement->splats + first);
 }
 
-static ps_result host_place_splats(const ps_host *host, const ps_source *sources, size_t n,
+static ps_result host_place_splats(const ps_host *host, const ps_photon *photons, size_t n,
                                    ps_splat *splats)
 {
     struct render *render = render_of(host);
-    struct placement placement = {render, sources, n, splats};
+    struct placement placement = {render, photons, n, splats};
     double start = clock_seconds();
     uint64_t chunks = (n + PS_PATH_CHUNK - 1) / PS_PATH_CHUNK;
     begin_batch(render);
@@ -191,6 +191,6 @@ static ps_result host_place_splats(const ps_host *host, const ps_source *sources
 
 void host_add_placing(ps_host *host)
 {
-    host->place_boxes = host_place_boxes;
+    host->place_footprints = host_place_footprints;
     host->place_splats = host_place_splats;
 }

@@ -46,7 +46,7 @@ static ps_result create_splatter(struct render *render, uint32_t interleave)
 }
 
 /* Interleaving pays where n pixels are little beside a splat; in small pictures, or small parts of them, it
- * blurs edges and adds noise, and splats shrink as paths become more. (Under the lamp, 1600x900, 6.4 million
+ * blurs edges and adds noise, and splats shrink as paths become more. (Under the light, 1600x900, 6.4 million
  * paths have 2.1 % of error with 8, and 1.7 % with 4, in the same time; 400,000 take a third less time
  * with 8.) Subsets by powers of two share out paths most evenly. */
 #define SIDE_PER_STEP 150.0 /* pixels of the picture's side for each step of n */
@@ -72,7 +72,7 @@ static uint32_t interleave_of(const struct render *render, uint32_t n, uint32_t 
 /* Short-range light stays as noisy when splats become small, and is averaged as widely. */
 static ps_result begin_interleaved(struct render *render, uint32_t n)
 {
-    bool many = render->sources.path_count > MANY_PATHS;
+    bool many = render->photons.path_count > MANY_PATHS;
     uint32_t most = many ? MOST_FOR_MANY : PS_MOST_INTERLEAVE;
     render->gather_interleave = interleave_of(render, n, PS_MOST_INTERLEAVE);
     return create_splatter(render, interleave_of(render, n, most));
@@ -81,12 +81,12 @@ static ps_result begin_interleaved(struct render *render, uint32_t n)
 static ps_result host_begin_splats(const ps_host *host, uint32_t n)
 {
     struct render *render = render_of(host);
-    ps_result result = source_stream_prepare(&render->sources, &render->error);
+    ps_result result = photon_stream_prepare(&render->photons, &render->error);
     if (result == PS_OK && !render->has_splatter)
         result = begin_interleaved(render, n);
     if (result != PS_OK)
         return result;
-    struct splatter_pass pass = {render->pass.number, render->sources.path_count};
+    struct splatter_pass pass = {render->pass.number, render->photons.path_count};
     splatter_begin_pass(&render->splatter, &render->gbuffer, pass);
     render->gathered_light.distance = 0.0f;
     host_begin_placing(render);
@@ -112,9 +112,9 @@ static float gather_distance(const struct render *render)
     const ps_visibility_vtable *vtable = visibility->descriptor->vtable;
     if (!vtable->boxes)
         return 0.0f;
-    ps_box_settings settings = vtable->boxes(visibility->state);
-    struct box_scene scene = host_box_scene(render);
-    return box_gather_distance(&scene, &settings, render->sources.path_count);
+    ps_footprint_settings settings = vtable->boxes(visibility->state);
+    struct footprint_scene scene = host_footprint_scene(render);
+    return footprint_gather_distance(&scene, &settings, render->photons.path_count);
 }
 
 static ps_result host_gather_short_range(const ps_host *host, double rays)
@@ -133,7 +133,7 @@ static ps_result host_gather_short_range(const ps_host *host, double rays)
     if (result == PS_OK)
         result =
             short_range_gather(host, &render->pass, near,
-                               rays > 0.0 ? rays : gathered_light_rays(render->sources.path_count));
+                               rays > 0.0 ? rays : gathered_light_rays(render->photons.path_count));
     statistics_add_seconds(render->statistics, "gather", clock_seconds() - start);
     return result;
 }
@@ -155,7 +155,8 @@ void host_report_splatter(struct render *render)
     statistics_add_seconds(statistics, "bin", splatter->bin_seconds);
     statistics_add_seconds(statistics, "splat", splatter->kernel_seconds);
     statistics_add_seconds(statistics, "join", splatter->join_seconds);
-    statistics_set_bytes(statistics, "splatted pixels", (double)field_bytes(&splatter->field));
+    statistics_set_bytes(statistics, "splatted pixels",
+                         (double)interleaved_bytes(&splatter->field));
     statistics_count(statistics, "splats", (double)splatter->splats);
     statistics_count(statistics, "map rays", (double)splatter->map_rays);
     statistics_count(statistics, "visibility rays", (double)splatter->exact_tests);

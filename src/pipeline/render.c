@@ -72,7 +72,7 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
     uint32_t tile = (uint32_t)index, pass = render->pass.number;
     uint32_t samples = render->scene->light_samples;
     struct light_runs runs;
-    if (render->gbuffer.met)
+    if (render->gbuffer.occlusion)
         discontinuity_buffer_runs(&render->gbuffer, tile, pass, samples, &runs);
     else
         runs_of_tile(tile, pass, samples, &runs);
@@ -122,7 +122,7 @@ ps_result render_estimate(struct render *render, struct error *error)
 {
     const struct strategy *estimator = &render->settings->strategies[PS_ESTIMATOR];
     const ps_estimator_vtable *vtable = estimator->descriptor->vtable;
-    source_stream_rewind(&render->sources);
+    photon_stream_rewind(&render->photons);
     render->error.text[0] = '\0';
     double start = clock_seconds();
     ps_result result = vtable->accumulate(estimator->state, &render->host, &render->pass);
@@ -141,14 +141,14 @@ static void light_pixels(struct tile_work *work)
 {
     struct render *render = work->render;
     over_tiles(work, "direct", light_tile);
-    if (!render->gbuffer.met)
+    if (!render->gbuffer.occlusion)
         return;
     double start = clock_seconds();
     discontinuity_buffer(&render->gbuffer, render->settings->threads);
     statistics_add_seconds(render->statistics, "direct", clock_seconds() - start);
 }
 
-/* What merges sources would take those in one place for one. */
+/* What merges photons would take those in one place for one. */
 static uint32_t shares_places(const struct render_settings *settings)
 {
     const ps_estimator_vtable *estimator = settings->strategies[PS_ESTIMATOR].descriptor->vtable;

@@ -67,14 +67,14 @@ ps_result render_create(struct render *render, struct error *error)
     if (result == PS_OK)
         result = film_create(scene->width, scene->height, wants_surfaces(render->settings),
                              &render->film, error);
-    if (result == PS_OK && render->settings->discontinuity_buffer && scene->has_sized_lights)
+    if (result == PS_OK && render->settings->discontinuity_buffer && scene->has_area_lights)
         result = gbuffer_prepare_join(&render->gbuffer, error);
     if (result == PS_OK && render->settings->aa_samples > 1)
         result = create_edges(render, error);
     if (result == PS_OK)
         result = start_strategies(render, error);
     if (result == PS_OK)
-        result = source_stream_create(&render->sources, render->settings, &render->host,
+        result = photon_stream_create(&render->photons, render->settings, &render->host,
                                       &render->pass, render->statistics, error);
     if (result != PS_OK)
         return result;
@@ -89,7 +89,7 @@ void render_destroy(struct render *render)
     if (render->has_splatter)
         splatter_release(&render->splatter);
     gathered_light_release(&render->gathered_light);
-    source_stream_release(&render->sources);
+    photon_stream_release(&render->photons);
     for (int kind = 0; kind < PS_KINDS; kind++)
         strategy_stop(&render->settings->strategies[kind]);
     free(render->edges);

@@ -6,8 +6,8 @@
 #include "direct/shadow_maps.h"
 #include "film/film.h"
 #include "gather/gathered_light.h"
+#include "pipeline/photons.h"
 #include "pipeline/render.h"
-#include "pipeline/sources.h"
 #include "splat/splatter.h"
 #include <stdatomic.h>
 
@@ -29,7 +29,7 @@ struct render {
     struct gbuffer gbuffer;
     struct film film;
     bool *edges; /* pixels that take several samples (edges.h), owned; NULL: none does */
-    struct source_stream sources;
+    struct photon_stream photons;
     struct kernel_variant kernel;
     struct splatter splatter; /* made when an estimator first splats */
     bool has_splatter;

@@ -4,10 +4,10 @@
 
 const struct kind kinds[PS_KINDS] = {
     [PS_INJECTION] = {"injection", "makes the indirect light sources", "photon"},
-    [PS_STRATIFICATION] = {"stratification", "combines neighbouring sources into fewer", "none"},
+    [PS_STRATIFICATION] = {"stratification", "combines neighbouring photons into fewer", "none"},
     [PS_VISIBILITY] = {"visibility", "decides what a bundled light ray lights", "shadowmap"},
     [PS_FILTER] = {"filter", "radial weight of a splat", "gaussian"},
-    [PS_ESTIMATOR] = {"estimator", "turns sources into light on the picture", "splat"},
+    [PS_ESTIMATOR] = {"estimator", "turns photons into light on the picture", "splat"},
     [PS_NORMALIZATION] = {"normalization", "turns accumulated light into radiance", "density"},
     [PS_DENOISER] = {"denoiser", "smooths the indirect light", "none"},
 };

@@ -176,7 +176,7 @@ enum object_kind {
     OBJECT_TRIANGLES,
     OBJECT_SPHERE,
     OBJECT_CYLINDER,     /* points[0] to [1], radius */
-    OBJECT_CONE,         /* points[0] with radius to points[1] with cap_radius */
+    OBJECT_CONE,         /* points[0] with radius to points[1] with to_radius */
     OBJECT_DISC,         /* center, normal, radius, hole_radius */
     OBJECT_PLANE,        /* normal . p = distance; a square of half-width extent, 0: auto */
     OBJECT_TORUS,        /* center at the origin, about y: radius, minor_radius */
@@ -196,7 +196,7 @@ struct object_description {
     ps_vec3 center; /* sphere, disc */
     ps_vec3 points[2];
     ps_vec3 normal; /* disc, plane */
-    double radius, cap_radius, minor_radius, hole_radius;
+    double radius, to_radius, minor_radius, hole_radius;
     double distance, extent;
     bool open;        /* cylinder, cone: without their ends */
     bool smooth;      /* height field: with normals between those of its faces */
@@ -245,7 +245,7 @@ struct render_description {
     int64_t passes;
     ps_number_or_choice bounces; /* a whole number, or all */
     int64_t seed;
-    int64_t light_samples; /* shadow rays for each light that has a size, pixel and pass */
+    int64_t light_samples; /* shadow rays for each area light, pixel and pass */
     int32_t
         discontinuity_buffer; /* 1: pixels take in what shadow rays of those around them found */
     int64_t aa_samples; /* camera samples of a pixel at an edge, in each pass; 1: as everywhere */

@@ -47,7 +47,7 @@ static ps_result create_kind(const struct light_description *description,
     case LIGHT_SPHERE:
         break;
     }
-    return error_set(error, PS_ERROR_INVALID, "a lamp with a surface is geometry that shines");
+    return error_set(error, PS_ERROR_INVALID, "a light with a surface is geometry that shines");
 }
 
 ps_result light_create(const struct light_description *description,

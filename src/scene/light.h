@@ -1,7 +1,7 @@
 /* light.h: light sources: what they send out, and what they give to a point.
  *
  * Two ways of sampling, which agree: light_emit starts a light path at the light, light_sample
- * looks from a point towards it. Lamps with a surface (rectangles, discs, emissive objects) are
+ * looks from a point towards it. Lights with a surface (rectangles, discs, emissive objects) are
  * geometry that shines; here they are triangles or a sphere, and only rays that meet them tell what
  * is seen of them. Each kind has its file, light_*.c, which states the method.
  *
@@ -125,7 +125,7 @@ struct light light_create_sphere(ps_vec3 center, float radius, ps_rgb radiance, 
 /* Frees what the light owns, and zeroes it; a zeroed light may be released again. */
 void light_release(struct light *light);
 
-/* --- lamps that are surfaces, as geometry --- */
+/* --- lights that are surfaces, as geometry --- */
 
 /* Radiance of a rectangle, disc or sphere of this area from its power or radiance: power is
  * pi * area * radiance, twice that from both sides. Black where there is no area. */

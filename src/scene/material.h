@@ -63,7 +63,7 @@ ps_result material_create(const struct scene_description *description, size_t in
                           const struct texture *textures, struct material *material,
                           struct error *error);
 
-/* The black surface of a lamp. */
+/* The black surface of a light. */
 void material_create_lamp(ps_rgb radiance, bool both_sides, struct material *material);
 
 /* Whether there is a surface where textures are looked up by this point and these u and v. */

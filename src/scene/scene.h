@@ -51,7 +51,7 @@ struct scene {
     void **owned; /* arrays that lights borrow: owned_count entries */
     size_t owned_count;
     uint32_t *object_lights; /* the light that an object is, or NO_LIGHT */
-    bool has_sized_lights;   /* some light's sampling needs random numbers */
+    bool has_area_lights;    /* some light's sampling needs random numbers */
     bool has_sky;            /* something shines from infinity */
     bool sky_is_hidden;      /* from the camera itself */
     struct camera camera;

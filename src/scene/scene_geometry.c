@@ -1,4 +1,4 @@
-/* scene_geometry.c: the shapes of a scene: the world's, the lamps', the groups'; and instances.
+/* scene_geometry.c: the shapes of a scene: the world's, the lights', the groups'; and instances.
  *
  * Planes without an extent are as large as the rest of the scene asks for, so they are made last.
  */
@@ -160,7 +160,7 @@ static ps_result add_lamp(struct assembly *assembly, const struct light_descript
     struct object_description object;
     assembly->where = light->origin;
     if (!lamp_describe(light, &object))
-        return error_memory(assembly->error, 1 << 12, "a lamp");
+        return error_memory(assembly->error, 1 << 12, "a light");
     object.material = material;
     ps_result result = add_shape(assembly, &object, &surroundings, slot);
     object_description_release(&object);
@@ -172,13 +172,13 @@ static ps_result add_lamp(struct assembly *assembly, const struct light_descript
     return PS_OK;
 }
 
-/* Lamps come after the objects, as their materials come after the others. */
+/* Lights come after the objects, as their materials come after the others. */
 static ps_result add_lamps(struct assembly *assembly)
 {
     const struct scene_description *description = assembly->description;
     size_t material = description->material_count;
-    size_t lamps = assembly->scene->material_count - material;
-    size_t slot = assembly->scene->world_shape_count - lamps;
+    size_t lights = assembly->scene->material_count - material;
+    size_t slot = assembly->scene->world_shape_count - lights;
     for (size_t i = 0; i < description->light_count; i++) {
         if (!light_is_lamp(&description->lights[i]))
             continue;

@@ -249,7 +249,7 @@ static void share_paths(struct scene *scene)
         ps_rgb power = light_power(&scene->lights[i]);
         total += power.r + power.g + power.b;
         scene->light_cdf[i] = total;
-        scene->has_sized_lights = scene->has_sized_lights || !light_is_delta(&scene->lights[i]);
+        scene->has_area_lights = scene->has_area_lights || !light_is_delta(&scene->lights[i]);
     }
     for (size_t i = 0; i < scene->light_count; i++)
         scene->light_cdf[i] =

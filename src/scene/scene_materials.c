@@ -22,7 +22,7 @@ static ps_result load_textures(struct assembly *assembly)
     return PS_OK;
 }
 
-/* Lamps shine by materials of their own, whose radiance is known when they have a shape. */
+/* Lights shine by materials of their own, whose radiance is known when they have a shape. */
 static size_t count_lamps(const struct scene_description *description)
 {
     size_t count = 0;

@@ -16,10 +16,10 @@ struct assembly {
 /* Zeroed room, at least for one element; NULL, reported, when out of memory. */
 void *assembly_allocate(struct assembly *assembly, size_t count, size_t size);
 
-/* Textures, materials (those of lamps last), and what gloss needs. */
+/* Textures, materials (those of lights last), and what gloss needs. */
 ps_result assembly_add_materials(struct assembly *assembly);
 
-/* Shapes of the world, lamps, groups; instances. Needs materials. */
+/* Shapes of the world, lights, groups; instances. Needs materials. */
 ps_result assembly_add_geometry(struct assembly *assembly);
 
 /* Lights, those of emissive objects last, and their shares. Needs all others and the bounds. */
@@ -28,7 +28,7 @@ ps_result assembly_add_lights(struct assembly *assembly);
 /* Whether a light is a surface, which is a shape with a material of its own. */
 bool light_is_lamp(const struct light_description *light);
 
-/* A lamp as an object, whose arrays are the caller's to release (object_description_release). False
+/* A light as an object, whose arrays are the caller's to release (object_description_release). False
  * when out of memory. */
 bool lamp_describe(const struct light_description *light, struct object_description *object);
 

@@ -2,7 +2,7 @@
  * sphere.
  *
  * The front of a closed shape is its outside, also where its placement mirrors it. The front of an
- * open one is the placement's image of its front: a mirrored lamp shines as its mirror image would.
+ * open one is the placement's image of its front: a mirrored light shines as its mirror image would.
  * The front of a quad or a triangle is the side that sees its corners counter-clockwise before it is
  * placed; of a disc and a plane the one that the normal points to; of a height field +y.
  *

@@ -71,10 +71,10 @@ static const char *check_cylinder(const struct object_description *object)
 
 static const char *check_cone(const struct object_description *object)
 {
-    double largest = fmax(object->radius, object->cap_radius);
-    if (!is_length_or_zero(object->radius) || !is_length_or_zero(object->cap_radius))
-        return "radius and cap_radius must be 0 or above";
-    return largest > 0.0 ? check_points(object) : "one of radius and cap_radius must be above 0";
+    double largest = fmax(object->radius, object->to_radius);
+    if (!is_length_or_zero(object->radius) || !is_length_or_zero(object->to_radius))
+        return "radius and to_radius must be 0 or above";
+    return largest > 0.0 ? check_points(object) : "one of radius and to_radius must be above 0";
 }
 
 static const char *check_disc(const struct object_description *object)

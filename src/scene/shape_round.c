@@ -8,16 +8,16 @@
 #define PI 3.14159265358979323846
 
 /* A cylinder is a cone whose ends are alike. */
-static ps_result build_cone(const struct object_description *object, float radius, float cap_radius,
+static ps_result build_cone(const struct object_description *object, float radius, float to_radius,
                             struct shape *shape, struct error *error)
 {
     size_t n = shape_segments(object);
-    bool ends[2] = {!object->open && radius > 0.0f, !object->open && cap_radius > 0.0f};
+    bool ends[2] = {!object->open && radius > 0.0f, !object->open && to_radius > 0.0f};
     size_t end_count = (size_t)ends[0] + (size_t)ends[1];
-    size_t vertices = lathe_ring_vertices(n, radius) + lathe_ring_vertices(n, cap_radius) +
+    size_t vertices = lathe_ring_vertices(n, radius) + lathe_ring_vertices(n, to_radius) +
                       end_count * lathe_disc_vertices(n, 0.0f);
     size_t triangles =
-        lathe_strip_triangles(n, radius, cap_radius) + end_count * lathe_disc_triangles(n, 0.0f);
+        lathe_strip_triangles(n, radius, to_radius) + end_count * lathe_disc_triangles(n, 0.0f);
     ps_result result = shape_allocate(shape, vertices, triangles, MESH_NORMALS | MESH_UV, error);
     if (result != PS_OK)
         return result;
@@ -25,14 +25,14 @@ static ps_result build_cone(const struct object_description *object, float radiu
     ps_vec3 way = ps_subtract(object->points[1], object->points[0]);
     ps_vec3 axis = unit_or_zero(way);
     float height = ps_dot(way, axis);
-    ps_vec3 normal = unit_or_zero((ps_vec3){height, radius - cap_radius, 0.0f});
+    ps_vec3 normal = unit_or_zero((ps_vec3){height, radius - to_radius, 0.0f});
     struct lathe lathe = lathe_begin(shape, object->points[0], axis, n);
     lathe_ring(&lathe, &(struct profile_point){radius, 0.0f, normal.x, normal.y, 0.0f});
-    lathe_join(&lathe, &(struct profile_point){cap_radius, height, normal.x, normal.y, 1.0f});
+    lathe_join(&lathe, &(struct profile_point){to_radius, height, normal.x, normal.y, 1.0f});
     if (ends[0])
         lathe_disc(&lathe, 0.0f, radius, 0.0f, false);
     if (ends[1])
-        lathe_disc(&lathe, height, cap_radius, 0.0f, true);
+        lathe_disc(&lathe, height, to_radius, 0.0f, true);
     return PS_OK;
 }
 
@@ -49,7 +49,7 @@ ps_result shape_cone(const struct object_description *object,
                      struct error *error)
 {
     (void)surroundings;
-    return build_cone(object, (float)object->radius, (float)object->cap_radius, shape, error);
+    return build_cone(object, (float)object->radius, (float)object->to_radius, shape, error);
 }
 
 ps_result shape_disc(const struct object_description *object,

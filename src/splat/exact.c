@@ -3,7 +3,7 @@
 #include <psplat/math.h>
 
 /* Where a splat's pixels are, off their surfaces. */
-static void collect_points(const struct field_tile *tile, const uint32_t *lanes, uint32_t n,
+static void collect_points(const struct interleaved_tile *tile, const uint32_t *lanes, uint32_t n,
                            float surface_offset, ps_vec3 *points)
 {
     for (uint32_t i = 0; i < n; i++) {
@@ -14,7 +14,8 @@ static void collect_points(const struct field_tile *tile, const uint32_t *lanes,
     }
 }
 
-static void add(struct field_tile *tile, uint32_t lane, ps_rgb power, float weight, float projected)
+static void add(struct interleaved_tile *tile, uint32_t lane, ps_rgb power, float weight,
+                float projected)
 {
     tile->irradiance_r[lane] += projected * power.r;
     tile->irradiance_g[lane] += projected * power.g;
@@ -22,7 +23,7 @@ static void add(struct field_tile *tile, uint32_t lane, ps_rgb power, float weig
     tile->weight[lane] += weight;
 }
 
-struct kernel_count exact_accumulate(struct field_tile *tile, const struct exact_test *test,
+struct kernel_count exact_accumulate(struct interleaved_tile *tile, const struct exact_test *test,
                                      const ps_splat *splats, const struct kernel_splat *prepared,
                                      const uint32_t *indices, size_t n,
                                      const struct kernel_profile *profile)

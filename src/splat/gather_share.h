@@ -1,7 +1,7 @@
 /* gather_share.h: how much of the light from nearby splats give, and how much is left to gather rays.
  *
  * Splats blur light; rays that are shot from pixels find it as it is, with more noise, and only so far
- * (gather/gather.h). At distance t from the source's plane splats give the share
+ * (gather/gather.h). At distance t from the photon's plane splats give the share
  *
  *     s^2 (3 - 2 s),   s = min(t / blend_distance, 1)
  *
@@ -15,6 +15,7 @@
 #define SPLAT_GATHER_SHARE_H
 
 #include <psplat/math.h>
+#include <stdbool.h>
 
 /* s at distance 0, and what each unit of distance adds to it. */
 struct gather_share {

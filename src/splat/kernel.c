@@ -6,11 +6,11 @@
 
 #define KERNEL_DECLARE(name)                                                                       \
     struct kernel_count kernel_accumulate_##name(                                                  \
-        struct field_tile *tile, const struct kernel_splat *splats, const uint32_t *indices,       \
+        struct interleaved_tile *tile, const struct kernel_splat *splats, const uint32_t *indices, \
         size_t n, uint32_t resolution, const struct kernel_profile *profile);                      \
-    uint32_t kernel_weigh_##name(const struct field_tile *tile, const struct kernel_splat *splat,  \
-                                 const struct kernel_profile *profile,                             \
-                                 struct kernel_weighed *weighed);                                  \
+    uint32_t kernel_weigh_##name(                                                                  \
+        const struct interleaved_tile *tile, const struct kernel_splat *splat,                     \
+        const struct kernel_profile *profile, struct kernel_weighed *weighed);                     \
     uint32_t kernel_touch_##name(const struct bounds *bounds, const struct kernel_splat *splat);   \
     static const struct kernel_variant name = {#name, kernel_accumulate_##name,                    \
                                                kernel_weigh_##name, kernel_touch_##name};
@@ -93,10 +93,10 @@ void kernel_profile_count(struct kernel_profile *profile)
     profile->counting = true;
 }
 
-static float walls_likeness(const ps_splat *splat)
+static float boundaries_likeness(const ps_splat *splat)
 {
-    const ps_wall *walls = splat->walls;
-    if (ps_wall_count(splat) < 2)
+    const ps_boundary *walls = splat->boundaries;
+    if (ps_boundary_count(splat) < 2)
         return 0.0f;
     float cosine = walls[0].normal_u * walls[1].normal_u + walls[0].normal_v * walls[1].normal_v;
     return 2.0f / PS_PI * asinf(ps_max(ps_min(cosine, 1.0f), -1.0f));
@@ -105,15 +105,15 @@ static float walls_likeness(const ps_splat *splat)
 /* A plugin's own splats may claim anything; 1 / 0 would make NaN of what is not lit. */
 #define LEAST_WIDTH 1e-3f
 
-/* One width for all pixels, but for full beams that follow the distance. Pixels that would take more than
+/* One width for all pixels, but for full bundles that follow the distance. Pixels that would take more than
  * the box holds all take part, with the weight of a wider disc. */
-static struct width prepare_width(const ps_splat *splat)
+static struct bandwidth prepare_width(const ps_splat *splat)
 {
     float inverse = 1.0f / splat->half_width;
     float narrowest = ps_max(splat->narrowest * inverse, LEAST_WIDTH);
     if (!(splat->follow > 0.0f))
-        return (struct width){.narrowest = 1.0f, .widest = 1.0f};
-    return (struct width){
+        return (struct bandwidth){.narrowest = 1.0f, .widest = 1.0f};
+    return (struct bandwidth){
         .by_distance = splat->follow * inverse,
         .spread = splat->follow * splat->half_width,
         .tilt_u = splat->follow * splat->start_slope_u,
@@ -137,9 +137,9 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
         .far_depth = splat->far_depth,
         .start_u = splat->start_slope_u * splat->half_width,
         .start_v = splat->start_slope_v * splat->half_width,
-        .source_depth = splat->follow > 0.0f ? splat->source_depth : splat->start_depth,
+        .photon_depth = splat->follow > 0.0f ? splat->photon_depth : splat->start_depth,
         .clearance =
-            splat->follow > 0.0f ? ps_max(splat->start_depth - splat->source_depth, 0.0f) : 0.0f,
+            splat->follow > 0.0f ? ps_max(splat->start_depth - splat->photon_depth, 0.0f) : 0.0f,
         .near = gather_share_until(splat->follow > 0.0f ? splat->blend_distance : 0.0f),
         .width = prepare_width(splat),
         .bias_constant = splat->bias_constant,
@@ -148,8 +148,8 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
         .kernel_scale = profile->counting ? 1.0f : merged * profile->scale * inverse * inverse,
         .power = ps_rgb_scale(splat->power, 1.0f / merged),
         .depths = depths,
-        .wall_count = profile->counting ? 0 : ps_wall_count(splat),
-        .walls = {splat->walls[0], splat->walls[1]},
-        .walls_likeness = walls_likeness(splat),
+        .boundary_count = profile->counting ? 0 : ps_boundary_count(splat),
+        .boundaries = {splat->boundaries[0], splat->boundaries[1]},
+        .boundaries_likeness = boundaries_likeness(splat),
     };
 }

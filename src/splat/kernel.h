@@ -3,22 +3,22 @@
  * For every splat and every pixel p of the tile, with d = p - centre:
  *
  *     u = d.U / R, v = d.V / R, t = d.W         position in the box
- *     h                                         the part of the disc that the pixel takes (width.h), of R
+ *     h                                         the part of the disc that the pixel takes (bandwidth.h), of R
  *     r^2 = (u^2 + v^2) / h^2
  *     k = profile(r^2) * scale / (h R)^2        the kernel K, 1/m^2, integrates to 1 over its disc
  *     lit where u^2 + v^2 < 1, r^2 < 1, near <= t <= far, n.W < 0, t lies past the plane that the
  *     bundle starts on, and not past the map by more than the bias
  *     irradiance += power * k * max(0, -n.W), weight += merged * k
  *
- * A bundle starts a little above its source's surface (box_clearance); for a pixel that takes less of the
+ * A bundle starts a little above its photon's surface (footprint_clearance); for a pixel that takes less of the
  * disc, by as much less, so that where two walls meet light reaches the crease.
  *
- * Near to the source's plane pixels get a part of the light only (gather_share.h): the rest is the estimator's.
+ * Near to the photon's plane pixels get a part of the light only (gather_share.h): the rest is the estimator's.
  *
- * A splat that stands for several sources weighs as much as they would (Hoet 2014, section 3.2.1); the
+ * A splat that stands for several photons weighs as much as they would (Hoet 2014, section 3.2.1); the
  * loop has that as a larger k of a lesser power.
  *
- * Where the source has walls beside it (wall.h), k is divided by the part of the kernel that they leave.
+ * Where the photon has walls beside it (boundary.h), k is divided by the part of the kernel that they leave.
  *
  * The cosine is there because K lies in the plane across the beam. Blocks of 16 pixels whose bounds
  * the box does not touch are left out, and a block is left as soon as no pixel of it can be lit: after
@@ -31,9 +31,9 @@
 #ifndef SPLAT_KERNEL_H
 #define SPLAT_KERNEL_H
 
-#include "splat/field.h"
+#include "splat/bandwidth.h"
 #include "splat/gather_share.h"
-#include "splat/width.h"
+#include "splat/interleaved.h"
 #include <psplat/types.h>
 #include <stdbool.h>
 
@@ -56,11 +56,11 @@ struct kernel_splat {
     ps_vec3 u, v; /* axes divided by the half-width */
     ps_vec3 w;
     float near_depth, far_depth;
-    float source_depth, start_u,
-        start_v;     /* depth of the source's plane: source_depth + start_u * u + start_v * v */
+    float photon_depth, start_u,
+        start_v;     /* depth of the photon's plane: photon_depth + start_u * u + start_v * v */
     float clearance; /* from there to the start plane */
     struct gather_share near; /* which part of the light pixels get, by their distance from there */
-    struct width width;
+    struct bandwidth width;
     float bias_constant, bias_slope;
     float by_width;     /* 1: k goes by 1 / h^2; 0: it is the same for all pixels (counting) */
     float kernel_scale; /* with `merged` in it, by which the power is divided, and the number of
@@ -69,22 +69,22 @@ struct kernel_splat {
     ps_rgb power;
     uint32_t subset;     /* of the field, whose pixels it lights */
     const float *depths; /* resolution^2 */
-    uint32_t wall_count;
-    ps_wall walls[PS_MOST_WALLS];
-    float walls_likeness; /* of two walls: 2 / pi * asin of their normals' cosine */
+    uint32_t boundary_count;
+    ps_boundary boundaries[PS_MOST_BOUNDARIES];
+    float boundaries_likeness; /* of two walls: 2 / pi * asin of their normals' cosine */
 };
 
-/* How far past the source's plane a point lies, along the beam. */
+/* How far past the photon's plane a point lies, along the bundle. */
 static inline float kernel_above(const struct kernel_splat *splat, float u, float v, float t)
 {
-    return t - (splat->source_depth + u * splat->start_u + v * splat->start_v);
+    return t - (splat->photon_depth + u * splat->start_u + v * splat->start_v);
 }
 
 /* Where a start lies behind a wall; before it, no more than half of the kernel lies beyond. */
 #define KERNEL_BEHIND 1.0f
 
 /* The part of a kernel that two straight borders leave, of which `one` and `other` lie beyond each;
- * `likeness` as kernel_splat.walls_likeness. Beyond both lies nothing where the borders face each other
+ * `likeness` as kernel_splat.boundaries_likeness. Beyond both lies nothing where the borders face each other
  * (-1), the product where they stand at right angles (0; exact for a Gaussian), the lesser part where they
  * are parallel (1); in between, what lies in between, exact for any round kernel whose middle lies on
  * both. */
@@ -110,12 +110,13 @@ struct kernel_weighed {
 struct kernel_variant {
     const char *name; /* instruction set */
     /* Adds n splats, in order, to the tile. */
-    struct kernel_count (*accumulate)(struct field_tile *tile, const struct kernel_splat *splats,
-                                      const uint32_t *indices, size_t n, uint32_t resolution,
+    struct kernel_count (*accumulate)(struct interleaved_tile *tile,
+                                      const struct kernel_splat *splats, const uint32_t *indices,
+                                      size_t n, uint32_t resolution,
                                       const struct kernel_profile *profile);
     /* What a splat would give to a tile with nothing in the way (its map has one texel, at INFINITY); returns
      * to how many pixels. */
-    uint32_t (*weigh)(const struct field_tile *tile, const struct kernel_splat *splat,
+    uint32_t (*weigh)(const struct interleaved_tile *tile, const struct kernel_splat *splat,
                       const struct kernel_profile *profile, struct kernel_weighed *weighed);
     /* Which of sixteen boxes the splat's box may touch, as bits. */
     uint32_t (*touch)(const struct bounds *bounds, const struct kernel_splat *splat);

@@ -7,7 +7,7 @@
  * Splats are taken a few at a time: first each is tried on the sixteen blocks' bounds, which gives
  * every block a list; then block after block runs through its list, so that its pixels stay at hand.
  */
-#include "splat/box.h"
+#include "splat/footprint.h"
 #include "splat/kernel.h"
 #include "splat/lanes.h"
 
@@ -19,14 +19,15 @@
 #define KERNEL_WEIGH NAME_OF(kernel_weigh_, KERNEL_VARIANT)
 #define KERNEL_TOUCH NAME_OF(kernel_touch_, KERNEL_VARIANT)
 
-struct kernel_count KERNEL_ACCUMULATE(struct field_tile *tile, const struct kernel_splat *splats,
-                                      const uint32_t *indices, size_t n, uint32_t resolution,
+struct kernel_count KERNEL_ACCUMULATE(struct interleaved_tile *tile,
+                                      const struct kernel_splat *splats, const uint32_t *indices,
+                                      size_t n, uint32_t resolution,
                                       const struct kernel_profile *profile);
-uint32_t KERNEL_WEIGH(const struct field_tile *tile, const struct kernel_splat *splat,
+uint32_t KERNEL_WEIGH(const struct interleaved_tile *tile, const struct kernel_splat *splat,
                       const struct kernel_profile *profile, struct kernel_weighed *weighed);
 uint32_t KERNEL_TOUCH(const struct bounds *bounds, const struct kernel_splat *splat);
 
-_Static_assert(LANES == FIELD_BLOCK, "pixels of a block");
+_Static_assert(LANES == INTERLEAVED_BLOCK, "pixels of a block");
 _Static_assert(LANES == BOUNDS_WIDTH, "blocks of a tile");
 #define AT_A_TIME 64 /* splats */
 
@@ -88,7 +89,7 @@ static inline void list_by_block(const struct bounds *blocks, const struct kerne
 /* Where the pixels of a block lie in a splat's box. */
 struct placed_block {
     float u[LANES], v[LANES];     /* across it, in half-widths */
-    float t[LANES], above[LANES]; /* along it, from the centre and from the source's plane */
+    float t[LANES], above[LANES]; /* along it, from the centre and from the photon's plane */
     float facing[LANES]; /* cosine under which the light meets the surface; negative from behind */
     float width[LANES], inverse_width[LANES]; /* h and 1 / h; set by choose_widths */
 };
@@ -100,7 +101,7 @@ struct block_light {
 
 /* Whether some pixel of the block lies inside of the box and faces the light: half of the blocks
  * whose bounds a box touches have none. */
-static inline int place_block(const struct field_tile *tile, int first,
+static inline int place_block(const struct interleaved_tile *tile, int first,
                               const struct kernel_splat *splat, struct placed_block *placed)
 {
     _Alignas(64) int32_t inside[LANES];
@@ -128,7 +129,7 @@ static inline int place_block(const struct field_tile *tile, int first,
 }
 
 /* The parts of the disc that pixels take; whether some pixel lies in its own. */
-static inline int choose_widths(const struct field_tile *tile, int first,
+static inline int choose_widths(const struct interleaved_tile *tile, int first,
                                 const struct kernel_splat *splat, struct placed_block *placed)
 {
     _Alignas(64) int32_t inside[LANES];
@@ -136,9 +137,9 @@ static inline int choose_widths(const struct field_tile *tile, int first,
     for (int i = 0; i < LANES; i++) {
         float x = tile->normal_x[first + i], y = tile->normal_y[first + i],
               z = tile->normal_z[first + i];
-        float width = width_at(&splat->width, placed->above[i], placed->facing[i],
-                               x * splat->u.x + y * splat->u.y + z * splat->u.z,
-                               x * splat->v.x + y * splat->v.y + z * splat->v.z);
+        float width = bandwidth_at(&splat->width, placed->above[i], placed->facing[i],
+                                   x * splat->u.x + y * splat->u.y + z * splat->u.z,
+                                   x * splat->v.x + y * splat->v.y + z * splat->v.z);
         placed->width[i] = width;
         placed->inverse_width[i] = 1.0f / width;
         inside[i] = -(placed->u[i] * placed->u[i] + placed->v[i] * placed->v[i] < width * width);
@@ -174,7 +175,7 @@ static inline void look_into_profile(const struct placed_block *placed, const fl
     }
 }
 
-#define LEAST_COSINE (1.0f / sqrtf(1.0f + BOX_STEEPEST * BOX_STEEPEST))
+#define LEAST_COSINE (1.0f / sqrtf(1.0f + FOOTPRINT_STEEPEST * FOOTPRINT_STEEPEST))
 
 /* Returns how many pixels have weight. A pixel may lie past the map by the bias, c + s * tangent of the angle
  * under which the light meets it; both sides times the cosine need no root. */
@@ -212,7 +213,7 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
 
 /* The part of the kernel around each pixel's start that lies beyond a wall, or KERNEL_BEHIND. (Here the entry is
  * chosen, at both ends: the table's length is no power of two.) */
-static inline void look_beyond(const struct placed_block *placed, const ps_wall *wall,
+static inline void look_beyond(const struct placed_block *placed, const ps_boundary *wall,
                                const float *beyond, float *restrict parts)
 {
 #pragma omp simd
@@ -225,25 +226,25 @@ static inline void look_beyond(const struct placed_block *placed, const ps_wall 
     }
 }
 
-/* Divides by the part of the kernel that the walls beside the source leave; behind them there is no such
- * source. */
+/* Divides by the part of the kernel that the walls beside the photon leave; behind them there is no such
+ * photon. */
 static inline void make_up(const struct placed_block *placed, const struct kernel_splat *splat,
                            const float *beyond, struct block_light *light)
 {
     _Alignas(64) float one[LANES], other[LANES] = {0};
-    look_beyond(placed, &splat->walls[0], beyond, one);
-    if (splat->wall_count > 1)
-        look_beyond(placed, &splat->walls[1], beyond, other);
+    look_beyond(placed, &splat->boundaries[0], beyond, one);
+    if (splat->boundary_count > 1)
+        look_beyond(placed, &splat->boundaries[1], beyond, other);
 #pragma omp simd
     for (int i = 0; i < LANES; i++) {
         float in_front = (float)((one[i] < KERNEL_BEHIND) & (other[i] < KERNEL_BEHIND));
-        float share = in_front / kernel_left(one[i], other[i], splat->walls_likeness);
+        float share = in_front / kernel_left(one[i], other[i], splat->boundaries_likeness);
         light->weight[i] *= share;
         light->projected[i] *= share;
     }
 }
 
-static inline void add(struct field_tile *tile, int first, ps_rgb power,
+static inline void add(struct interleaved_tile *tile, int first, ps_rgb power,
                        const struct block_light *light)
 {
 #pragma omp simd
@@ -256,7 +257,7 @@ static inline void add(struct field_tile *tile, int first, ps_rgb power,
 }
 
 /* What a splat gives to a block; returns how many pixels get something. */
-static inline int weigh_block(const struct field_tile *tile, int first,
+static inline int weigh_block(const struct interleaved_tile *tile, int first,
                               const struct kernel_splat *splat, int resolution,
                               const struct kernel_profile *profile, struct block_light *light)
 {
@@ -264,14 +265,15 @@ static inline int weigh_block(const struct field_tile *tile, int first,
     if (!place_block(tile, first, splat, &placed) || !choose_widths(tile, first, splat, &placed))
         return 0;
     int lit = weigh(&placed, splat, resolution, profile->weights, light);
-    if (lit > 0 && splat->wall_count > 0)
+    if (lit > 0 && splat->boundary_count > 0)
         make_up(&placed, splat, profile->beyond, light);
     return lit;
 }
 
 /* Adds a splat to a block; returns how many pixels got something. */
-static inline int light_block(struct field_tile *tile, int first, const struct kernel_splat *splat,
-                              int resolution, const struct kernel_profile *profile)
+static inline int light_block(struct interleaved_tile *tile, int first,
+                              const struct kernel_splat *splat, int resolution,
+                              const struct kernel_profile *profile)
 {
     _Alignas(64) struct block_light light;
     int lit = weigh_block(tile, first, splat, resolution, profile, &light);
@@ -280,7 +282,7 @@ static inline int light_block(struct field_tile *tile, int first, const struct k
     return lit;
 }
 
-uint32_t KERNEL_WEIGH(const struct field_tile *tile, const struct kernel_splat *splat,
+uint32_t KERNEL_WEIGH(const struct interleaved_tile *tile, const struct kernel_splat *splat,
                       const struct kernel_profile *profile, struct kernel_weighed *weighed)
 {
     _Alignas(64) struct block_light light;
@@ -300,8 +302,9 @@ uint32_t KERNEL_WEIGH(const struct field_tile *tile, const struct kernel_splat *
     return count;
 }
 
-struct kernel_count KERNEL_ACCUMULATE(struct field_tile *tile, const struct kernel_splat *splats,
-                                      const uint32_t *indices, size_t n, uint32_t resolution,
+struct kernel_count KERNEL_ACCUMULATE(struct interleaved_tile *tile,
+                                      const struct kernel_splat *splats, const uint32_t *indices,
+                                      size_t n, uint32_t resolution,
                                       const struct kernel_profile *profile) {
     struct kernel_count count = {0, 0};
     struct block_lists lists;

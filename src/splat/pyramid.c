@@ -11,7 +11,8 @@ size_t pyramid_bytes(const struct pyramid *pyramid)
     return pyramid->each * pyramid->subsets * sizeof *pyramid->nodes;
 }
 
-ps_result pyramid_create(const struct field *field, struct pyramid *pyramid, struct error *error)
+ps_result pyramid_create(const struct interleaved *field, struct pyramid *pyramid,
+                         struct error *error)
 {
     *pyramid = (struct pyramid){
         .subsets = field->subsets,
@@ -41,7 +42,7 @@ void pyramid_release(struct pyramid *pyramid)
 
 struct build {
     struct pyramid *pyramid;
-    const struct field *field;
+    const struct interleaved *field;
 };
 
 static void grow(const struct bounds *bounds, uint32_t i, struct bound *bound)
@@ -108,7 +109,7 @@ static void build_subset(void *user, uint64_t subset, uint32_t worker)
                 build_node(build, (uint32_t)subset, level, column, row);
 }
 
-void pyramid_build(struct pyramid *pyramid, const struct field *field, uint32_t threads)
+void pyramid_build(struct pyramid *pyramid, const struct interleaved *field, uint32_t threads)
 {
     struct build build = {pyramid, field};
     parallel_for(threads, field->subsets, build_subset, &build);

@@ -6,7 +6,7 @@
 #ifndef SPLAT_PYRAMID_H
 #define SPLAT_PYRAMID_H
 
-#include "splat/field.h"
+#include "splat/interleaved.h"
 #include "splat/kernel.h"
 
 #define PYRAMID_LEVELS 8
@@ -24,13 +24,14 @@ struct pyramid {
 
 /* Room for the pyramid of a field, which has to be built before it is visited. PS_ERROR_MEMORY: nothing
  * is left to release. Main thread. */
-ps_result pyramid_create(const struct field *field, struct pyramid *pyramid, struct error *error);
+ps_result pyramid_create(const struct interleaved *field, struct pyramid *pyramid,
+                         struct error *error);
 void pyramid_release(struct pyramid *pyramid);
 size_t pyramid_bytes(const struct pyramid *pyramid);
 
 /* Bounds of what the tiles of `field`, the one that it was created for, see now. Main thread; works on
  * `threads`. */
-void pyramid_build(struct pyramid *pyramid, const struct field *field, uint32_t threads);
+void pyramid_build(struct pyramid *pyramid, const struct interleaved *field, uint32_t threads);
 
 /* Called with each tile that a splat may touch; returns whether to go on. */
 typedef bool (*pyramid_visitor)(void *user, uint32_t tile);

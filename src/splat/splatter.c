@@ -2,8 +2,8 @@
 
 #include "base/clock.h"
 #include "base/parallel.h"
-#include "splat/box.h"
 #include "splat/exact.h"
+#include "splat/footprint.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -41,9 +41,10 @@ ps_result splatter_create(struct splatter *splatter, const struct gbuffer *gbuff
     size_t map_bytes = splatter->settings.batch * map_texels(splatter) * sizeof(float);
     splatter->depths = malloc(map_bytes > 0 ? map_bytes : 1);
     splatter->prepared = malloc(splatter->settings.batch * sizeof *splatter->prepared);
-    ps_result result = splatter->depths && splatter->prepared
-                           ? field_create(gbuffer, settings->interleave, &splatter->field, error)
-                           : error_memory(error, map_bytes, "depth maps");
+    ps_result result =
+        splatter->depths && splatter->prepared
+            ? interleaved_create(gbuffer, settings->interleave, &splatter->field, error)
+            : error_memory(error, map_bytes, "depth maps");
     if (result == PS_OK)
         result = pyramid_create(&splatter->field, &splatter->pyramid, error);
     if (result == PS_OK)
@@ -55,7 +56,7 @@ ps_result splatter_create(struct splatter *splatter, const struct gbuffer *gbuff
 
 void splatter_release(struct splatter *splatter)
 {
-    field_release(&splatter->field);
+    interleaved_release(&splatter->field);
     pyramid_release(&splatter->pyramid);
     bins_release(&splatter->bins);
     free(splatter->depths);
@@ -74,14 +75,14 @@ void splatter_begin_pass(struct splatter *splatter, const struct gbuffer *gbuffe
                          struct splatter_pass pass)
 {
     splatter->pass = pass;
-    field_fill(&splatter->field, gbuffer, splatter->settings.threads);
+    interleaved_fill(&splatter->field, gbuffer, splatter->settings.threads);
     pyramid_build(&splatter->pyramid, &splatter->field, splatter->settings.threads);
 }
 
 void splatter_end_pass(struct splatter *splatter, struct gbuffer *gbuffer)
 {
     double start = clock_seconds();
-    field_join(&splatter->field, gbuffer, splatter->settings.threads);
+    interleaved_join(&splatter->field, gbuffer, splatter->settings.threads);
     splatter->join_seconds += clock_seconds() - start;
 }
 
@@ -159,12 +160,12 @@ static void map_chunk(void *user, uint64_t index, uint32_t worker)
         ps_splat *splat = &batch->splats[first + i];
         const float *map = texels ? depths + i * texels : open_map;
         if (texels && splat->half_width > 0.0f)
-            box_cut(splat, map, splatter->resolution);
+            footprint_cut(splat, map, splatter->resolution);
         splatter->prepared[first + i] = prepare(splatter, splat, map);
     }
 }
 
-static struct kernel_count splat_exactly(const struct batch *batch, struct field_tile *tile,
+static struct kernel_count splat_exactly(const struct batch *batch, struct interleaved_tile *tile,
                                          const uint32_t *indices, size_t n)
 {
     const struct splatter *splatter = batch->splatter;
@@ -184,7 +185,7 @@ static void splat_tile(void *user, uint64_t index, uint32_t worker)
     size_t number = bins->first_tile + index;
     const uint32_t *indices = bins->indices + bins->offsets[number];
     size_t n = bins->offsets[number + 1] - bins->offsets[number];
-    struct field_tile *tile = &splatter->field.tiles[number];
+    struct interleaved_tile *tile = &splatter->field.tiles[number];
     if (n == 0)
         return;
     struct kernel_count count =

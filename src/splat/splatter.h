@@ -19,7 +19,7 @@ struct splatter_settings {
     float surface_offset; /* see ps_pass */
     struct kernel_profile profile;
     struct kernel_variant kernel;
-    uint32_t interleave; /* see field.h */
+    uint32_t interleave; /* see interleaved.h */
     uint32_t threads;
     size_t
         batch; /* at most so many splats at a time; the budget for depth maps may ask for fewer */
@@ -35,7 +35,7 @@ struct splatter {
     struct splatter_settings settings;
     uint32_t resolution; /* of depth maps; 0: none */
     struct splatter_pass pass;
-    struct field field;
+    struct interleaved field;
     struct pyramid pyramid;
     struct bins bins;
     float *depths;                 /* batch * resolution^2 */

@@ -10,7 +10,7 @@
 #define LENS_SET 0x10000u
 
 /* Paths of a tile that are still under way. */
-struct sight {
+struct camera_paths {
     size_t count;
     uint32_t lanes[PS_TILE_PIXELS];
     ps_ray rays[PS_TILE_PIXELS];
@@ -30,17 +30,17 @@ static ps_ray look(const struct view_pass *pass, const struct view_points *point
 }
 
 static void start(const struct view_pass *pass, const struct view_points *points, uint32_t tile,
-                  struct sight *sight)
+                  struct camera_paths *paths)
 {
     bool *by_chance = &pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
-    sight->count = points->count;
-    sight->indices = points->indices;
+    paths->count = points->count;
+    paths->indices = points->indices;
     for (size_t i = 0; i < points->count; i++) {
-        sight->lanes[i] = points->lanes[i];
-        sight->rays[i] = look(pass, points, points->lanes[i]);
-        sight->throughput[i] = (ps_rgb){1, 1, 1};
-        sight->travelled[i] = 0.0f;
-        sight->pdfs[i] = 0.0f;
+        paths->lanes[i] = points->lanes[i];
+        paths->rays[i] = look(pass, points, points->lanes[i]);
+        paths->throughput[i] = (ps_rgb){1, 1, 1};
+        paths->travelled[i] = 0.0f;
+        paths->pdfs[i] = 0.0f;
         by_chance[points->lanes[i]] = pass->scene->camera.aperture > 0.0f;
     }
 }
@@ -52,94 +52,94 @@ static void add_to_lane(const struct view_pass *pass, uint32_t tile, uint32_t la
 }
 
 static void collect_emission(const struct view_pass *pass, uint32_t tile, uint32_t depth,
-                             const struct sight *sight, const ps_hit *hits)
+                             const struct camera_paths *paths, const ps_hit *hits)
 {
     ps_rgb radiance[PS_TILE_PIXELS];
-    emitted_radiance(pass->scene, sight->rays, hits, sight->pdfs, sight->count, radiance);
-    for (size_t i = 0; i < sight->count; i++) {
+    emitted_radiance(pass->scene, paths->rays, hits, paths->pdfs, paths->count, radiance);
+    for (size_t i = 0; i < paths->count; i++) {
         bool hidden = depth == 0 && pass->scene->sky_is_hidden && !(hits[i].distance < INFINITY);
         if (!hidden)
-            add_to_lane(pass, tile, sight->lanes[i],
-                        ps_rgb_multiply(sight->throughput[i], radiance[i]));
+            add_to_lane(pass, tile, paths->lanes[i],
+                        ps_rgb_multiply(paths->throughput[i], radiance[i]));
     }
 }
 
 /* Ends paths at purely diffuse surfaces and where nothing was met; returns how many are left, and
  * their hits moved to the front. */
-static void end_at_diffuse(const struct view_pass *pass, uint32_t tile, struct sight *sight,
+static void end_at_diffuse(const struct view_pass *pass, uint32_t tile, struct camera_paths *paths,
                            ps_hit *hits)
 {
     ps_tile *pixels = &pass->gbuffer->tiles[tile];
     size_t left = 0;
-    for (size_t i = 0; i < sight->count; i++) {
-        float travelled = sight->travelled[i] + hits[i].distance;
+    for (size_t i = 0; i < paths->count; i++) {
+        float travelled = paths->travelled[i] + hits[i].distance;
         if (!(hits[i].distance < INFINITY))
             continue;
         if (!(hits[i].flags & PS_HIT_SPECULAR)) {
-            gbuffer_store(pixels, sight->lanes[i], &hits[i], sight->throughput[i], travelled);
+            gbuffer_store(pixels, paths->lanes[i], &hits[i], paths->throughput[i], travelled);
             continue;
         }
         hits[left] = hits[i];
-        sight->lanes[left] = sight->lanes[i];
-        sight->rays[left] = sight->rays[i];
-        sight->throughput[left] = sight->throughput[i];
-        sight->travelled[left++] = travelled;
+        paths->lanes[left] = paths->lanes[i];
+        paths->rays[left] = paths->rays[i];
+        paths->throughput[left] = paths->throughput[i];
+        paths->travelled[left++] = travelled;
     }
-    sight->count = left;
+    paths->count = left;
 }
 
 /* What gloss reflects of the lights; the diffuse part of these surfaces is left to where paths end. */
 static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t depth,
-                          const struct sight *sight, const ps_hit *hits)
+                          const struct camera_paths *paths, const ps_hit *hits)
 {
     ps_hit glossy[PS_TILE_PIXELS];
     ps_rgb radiance[PS_TILE_PIXELS];
     uint64_t indices[PS_TILE_PIXELS];
-    for (size_t i = 0; i < sight->count; i++) {
+    for (size_t i = 0; i < paths->count; i++) {
         glossy[i] = hits[i];
         glossy[i].albedo = (ps_rgb){0, 0, 0};
-        indices[i] = sight->indices[sight->lanes[i]];
+        indices[i] = paths->indices[paths->lanes[i]];
     }
     struct light_numbers numbers = {pass->seed, PS_STREAM_LIGHT, depth + 1, indices};
     struct lighting lighting = {pass->scene, pass->trace, pass->maps};
-    direct_radiance(&lighting, sight->rays, glossy, sight->count, &numbers, radiance);
-    for (size_t i = 0; i < sight->count; i++)
-        add_to_lane(pass, tile, sight->lanes[i],
-                    ps_rgb_multiply(sight->throughput[i], radiance[i]));
+    direct_radiance(&lighting, paths->rays, glossy, paths->count, &numbers, radiance);
+    for (size_t i = 0; i < paths->count; i++)
+        add_to_lane(pass, tile, paths->lanes[i],
+                    ps_rgb_multiply(paths->throughput[i], radiance[i]));
 }
 
 /* Sends the paths on, or ends them at the diffuse lobe of a surface that has others too. */
 static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
-                    struct sight *sight, const ps_hit *hits)
+                    struct camera_paths *paths, const ps_hit *hits)
 {
     const struct scene *scene = pass->scene;
     ps_tile *pixels = &pass->gbuffer->tiles[tile];
     bool *by_chance = &pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
     uint32_t key = sample_key(pass->seed, PS_STREAM_VIEW, depth);
     size_t left = 0;
-    for (size_t i = 0; i < sight->count; i++) {
+    for (size_t i = 0; i < paths->count; i++) {
         float numbers[4];
-        sample_point(key, sight->indices[sight->lanes[i]], numbers);
+        sample_point(key, paths->indices[paths->lanes[i]], numbers);
         ps_bsdf_sample on =
             material_scatter(&scene->materials[hits[i].material], scene->microfacets,
-                             PS_FROM_CAMERA, &sight->rays[i], &hits[i], numbers);
-        by_chance[sight->lanes[i]] |= on.probability < 1.0f || on.lobe == PS_GLOSSY;
+                             PS_FROM_CAMERA, &paths->rays[i], &hits[i], numbers);
+        by_chance[paths->lanes[i]] |= on.probability < 1.0f || on.lobe == PS_GLOSSY;
         if (on.lobe == PS_DIFFUSE) {
-            ps_rgb throughput = ps_rgb_scale(sight->throughput[i], 1.0f / on.probability);
+            ps_rgb throughput = ps_rgb_scale(paths->throughput[i], 1.0f / on.probability);
             if (ps_rgb_maximum(hits[i].albedo) > 0.0f)
-                gbuffer_store(pixels, sight->lanes[i], &hits[i], throughput, sight->travelled[i]);
+                gbuffer_store(pixels, paths->lanes[i], &hits[i], throughput, paths->travelled[i]);
             continue;
         }
         if (!(ps_rgb_maximum(on.weight) > 0.0f))
             continue;
-        sight->lanes[left] = sight->lanes[i];
-        sight->throughput[left] = ps_rgb_multiply(sight->throughput[i], on.weight);
-        sight->travelled[left] = sight->travelled[i];
-        sight->pdfs[left] = on.pdf;
-        sight->rays[left++] =
+        paths->lanes[left] = paths->lanes[i];
+        paths->throughput[left] = ps_rgb_multiply(paths->throughput[i], on.weight);
+        paths->travelled[left] = paths->travelled[i];
+        paths->pdfs[left] = on.pdf;
+        paths->rays[left++] =
             ps_leave_surface(hits[i].position, on.normal, on.direction, scene->surface_offset);
     }
-    sight->count = left;
+    paths->count = left;
 }
 
 /* Lanes in 4x4 blocks, so that each packet of 16 rays is compact. */
@@ -160,18 +160,18 @@ void view_pixels(const struct gbuffer *gbuffer, uint32_t tile, uint32_t number, 
 
 void view_trace(const struct view_pass *pass, const struct view_points *points, uint32_t index)
 {
-    struct sight sight;
+    struct camera_paths paths;
     ps_hit hits[PS_TILE_PIXELS];
     gbuffer_clear_tile(pass->gbuffer, index);
-    start(pass, points, index, &sight);
-    for (uint32_t depth = 0; sight.count > 0 && depth <= PS_LONGEST_CHAIN; depth++) {
-        trace_intersect(pass->trace, depth == 0 ? RAYS_CAMERA : RAYS_INCOHERENT, sight.rays,
-                        sight.count, hits);
-        collect_emission(pass, index, depth, &sight, hits);
-        end_at_diffuse(pass, index, &sight, hits);
-        if (sight.count > 0) {
-            collect_gloss(pass, index, depth, &sight, hits);
-            scatter(pass, index, depth, &sight, hits);
+    start(pass, points, index, &paths);
+    for (uint32_t depth = 0; paths.count > 0 && depth <= PS_LONGEST_CHAIN; depth++) {
+        trace_intersect(pass->trace, depth == 0 ? RAYS_CAMERA : RAYS_INCOHERENT, paths.rays,
+                        paths.count, hits);
+        collect_emission(pass, index, depth, &paths, hits);
+        end_at_diffuse(pass, index, &paths, hits);
+        if (paths.count > 0) {
+            collect_gloss(pass, index, depth, &paths, hits);
+            scatter(pass, index, depth, &paths, hits);
         }
     }
 }

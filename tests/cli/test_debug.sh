@@ -20,7 +20,7 @@ while read -r view size; do
     expect_empty out
     expect_text err "psplat: wrote $name"
 done <<END
-sources 60x77
+photons 60x77
 voxels 60x40
 gbuffer 180x153
 gbuffer:albedo 60x40
@@ -37,13 +37,13 @@ overlap 60x77
 END
 rm out err
 cd .. || exit 1
-expect_files cornell-sources.png cornell-voxels.png cornell-gbuffer.png cornell-gbuffer-albedo.png \
+expect_files cornell-photons.png cornell-voxels.png cornell-gbuffer.png cornell-gbuffer-albedo.png \
     cornell-gbuffer-normal.png cornell-gbuffer-position.png cornell-gbuffer-depth.png \
     cornell-gbuffer-object.png cornell-gbuffer-material.png cornell-gbuffer-throughput.png \
     cornell-gbuffer-direct.png cornell-gbuffer-emitted.png cornell-maps.png cornell-overlap.png
 
 # The same, to the last byte, for any number of threads and any batches.
-for view in sources voxels gbuffer maps overlap; do
+for view in photons voxels gbuffer maps overlap; do
     run 0 debug $view $small -t 1 -o one.png
     run 0 debug $view $small -t 3 --batch 17 -o three.png -q
     expect_empty err
@@ -58,10 +58,10 @@ differs() {
     run 0 debug $view $small -q -o other.png "$@"
     expect_different other.png new/cornell-$view.png
 }
-differs sources --count 50
-differs sources --color bounce
-differs sources --top 1000
-differs sources --seed 5
+differs photons --count 50
+differs photons --color bounce
+differs photons --top 1000
+differs photons --seed 5
 differs voxels --resolution 5
 differs voxels --set camera.location.2=-700
 differs maps --count 3
@@ -98,8 +98,8 @@ cells crowded octree:capacity=20
 expect_different crowded.pixels octree.pixels
 cells own octree:capacity=2 --resolution 16
 expect_same own.pixels usual.pixels
-run 0 debug sources $small --count 20000 --color power -o usual.png
-expect_same usual.png new/cornell-sources.png
+run 0 debug photons $small --count 20000 --color power -o usual.png
+expect_same usual.png new/cornell-photons.png
 
 # A larger sheet where there are more maps; a scene from standard input; more maps than splats.
 run 0 debug maps $small --count 13 -o more.png
@@ -121,7 +121,7 @@ lights: [{point: {location: [0, 0, 5], intensity: 0}}]
 objects: [{sphere: {center: [0, 0, 0], radius: 1, material: m}}]
 render: {injection: {photon: {count: 100}}}
 END
-for view in sources voxels gbuffer; do
+for view in photons voxels gbuffer; do
     run 0 debug $view dark.psd -o dark.png
     expect_picture dark.png
 done
@@ -142,21 +142,21 @@ usage() {
     expect_text err "$text"
 }
 usage "expected a view and a scene" debug
-usage "expected a view and a scene" debug sources
-usage "expected a view and a scene" debug sources a.psd b.psd
-usage "there is no view 'sorces'; did you mean 'sources'?" debug sorces "$cornell"
-usage "there are: sources, voxels, gbuffer, maps, overlap" debug picture "$cornell"
+usage "expected a view and a scene" debug photons
+usage "expected a view and a scene" debug photons a.psd b.psd
+usage "there is no view 'fotons'; did you mean 'photons'?" debug fotons "$cornell"
+usage "there are: photons, voxels, gbuffer, maps, overlap" debug picture "$cornell"
 usage "the view gbuffer has no part 'red'; it has: albedo, normal" debug gbuffer:red "$cornell"
 usage "the view overlap has no parts" debug overlap:1 "$cornell"
 usage "overlap: the estimator vpl made no splats" debug overlap $small -p estimator=vpl
 usage "maps: the visibility none has no depth maps" debug maps $small -p visibility=none
 usage "--plugin: expected KIND=NAME" debug maps -p nothing "$cornell"
 usage "--size: expected WxH" debug maps --size 5 "$cornell"
-usage "--color: expected power or bounce, got 'red'" debug sources --color red "$cornell"
-usage "unknown option '--passes'" debug sources --passes 2 "$cornell"
+usage "--color: expected power or bounce, got 'red'" debug photons --color red "$cornell"
+usage "unknown option '--passes'" debug photons --passes 2 "$cornell"
 for value in 0 -1 1.5 x ""; do
     usage "--count: expected a whole number 1..10000000, got '$value'" \
-        debug sources --count "$value" "$cornell"
+        debug photons --count "$value" "$cornell"
     usage "--resolution: expected a whole number 1..100000, got '$value'" \
         debug voxels --resolution "$value" "$cornell"
 done

@@ -67,7 +67,7 @@ run 0 $scene --direct shadowmap --direct-resolution 99 --threads 3 -o maps3.exr
 expect_same maps1.exr maps3.exr
 expect_different maps1.exr one.exr
 
-# Every strategy that works on many pixels or sources at once.
+# Every strategy that works on many pixels or photons at once.
 other="--size 80x45 --plugin injection=photon:count=2000 --bounces all --plugin denoiser=gaussian:size=9x9
     --plugin visibility=none --plugin normalization=weight $cornell"
 run 0 $other --threads 1 -o other1.exr

@@ -6,7 +6,7 @@
 [ "$(wc -l <strategies)" -ge 27 ] || fail "not all strategies are listed"
 
 while read -r strategy; do
-    # Sources that are few, and yet fill more than one batch; several bounces where there can be.
+    # Photons that are few, and yet fill more than one batch; several bounces where there can be.
     case $strategy in
     injection=photon) choice=$strategy:count=5000 ;;
     injection=rsm) choice=$strategy:count=5000,resolution=32 ;;

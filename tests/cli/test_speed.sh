@@ -145,7 +145,7 @@ true_of "preview.json" "$(number results/preview.json "d['scenes'][0]['picture']
 
 measure 0 scaling --quick
 [ "$(wc -l <results/scaling.csv)" -eq 17 ] || fail "scaling.csv has not 16 points"
-expect_match results/scaling.csv '^series,x,threads,sources,'
+expect_match results/scaling.csv '^series,x,threads,photons,'
 expect_match results/scaling.csv '^pixels,32400,2,'
 expect_text results/scaling.md "| indirect seconds with paths | 3162 to 10000 |"
 if command -v gnuplot >/dev/null; then

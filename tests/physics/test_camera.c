@@ -55,7 +55,7 @@ static void expect_mean(const char *camera, const char *filter, double width)
 #define PARALLEL                                                                                   \
     "camera: {location: [0, 0, %d], look_at: [0, 0, 0], projection: orthographic, width: 2}"
 
-static double width_at(double distance)
+static double bandwidth_at(double distance)
 {
     return 2 * distance * tan(15 * PI / 180);
 }
@@ -63,11 +63,11 @@ static double width_at(double distance)
 static void test_size_in_perspective(void **state)
 {
     (void)state;
-    expect_mean(PINHOLE, "box", width_at(4));
+    expect_mean(PINHOLE, "box", bandwidth_at(4));
     expect_mean("camera: {location: [0, 0, 2.5], look_at: [0, 0, 0], angle: 30}", "box",
-                width_at(2.5));
+                bandwidth_at(2.5));
     expect_mean("camera: {location: [0, 0, 4], look_at: [0, 0, 0], vertical_angle: 30}", "box",
-                width_at(4) * WIDTH / HEIGHT);
+                bandwidth_at(4) * WIDTH / HEIGHT);
 }
 
 static void test_size_in_parallel(void **state)
@@ -88,16 +88,16 @@ static void test_first_camera_counts(void **state)
     snprintf(text, sizeof text,
              "cameras: {one: {location: [0, 0, 4], look_at: [0, 0, 0], angle: 30}, two: %s}",
              other);
-    expect_mean(text, "box", width_at(4));
+    expect_mean(text, "box", bandwidth_at(4));
     snprintf(text, sizeof text, "cameras: {one: %s}\n" PINHOLE, other);
-    expect_mean(text, "box", width_at(4));
+    expect_mean(text, "box", bandwidth_at(4));
 }
 
 static void test_lens_keeps_the_mean(void **state)
 {
     (void)state;
-    expect_mean(FOCUSED, "box", width_at(4));
-    expect_mean(BLURRED, "box", width_at(4));
+    expect_mean(FOCUSED, "box", bandwidth_at(4));
+    expect_mean(BLURRED, "box", bandwidth_at(4));
 }
 
 static void test_focus_is_sharp(void **state)
@@ -117,7 +117,7 @@ static void test_focus_is_sharp(void **state)
 /* Of a pixel from the middle of the picture, in the plane of the disc. */
 static double distance_of(size_t x, size_t y)
 {
-    double pixel = width_at(4) / WIDTH;
+    double pixel = bandwidth_at(4) / WIDTH;
     return hypot((double)x + 0.5 - WIDTH / 2.0, (double)y + 0.5 - HEIGHT / 2.0) * pixel;
 }
 
@@ -125,7 +125,7 @@ static void test_blur(void **state)
 {
     (void)state;
     struct rendering rendering = look(BLURRED, "box");
-    double blur = 0.3 / 3, pixel = width_at(4) / WIDTH, between = 0;
+    double blur = 0.3 / 3, pixel = bandwidth_at(4) / WIDTH, between = 0;
     size_t count = 0;
     for (size_t y = 0; y < HEIGHT; y++)
         for (size_t x = 0; x < WIDTH; x++) {
@@ -161,8 +161,8 @@ static size_t soft_pixels(const char *filter)
 static void test_pixel_filters(void **state)
 {
     (void)state;
-    expect_mean(PINHOLE, "tent", width_at(4));
-    expect_mean(PINHOLE, "gaussian", width_at(4));
+    expect_mean(PINHOLE, "tent", bandwidth_at(4));
+    expect_mean(PINHOLE, "gaussian", bandwidth_at(4));
     size_t box = soft_pixels("box"), tent = soft_pixels("tent");
     size_t gaussian = soft_pixels("gaussian");
     print_message("soft pixels: box %zu, tent %zu, gaussian %zu\n", box, tent, gaussian);

@@ -107,12 +107,12 @@ static void test_full_beams_keep_the_energy(void **state)
     char *text = cornell_text(WIDTH, HEIGHT);
     double ratio = splat_all(text, "visibility=shadowmap:step_back=full,radius=10,resolution=8") /
                    gather_all(text);
-    print_message("full beams: splatted / gathered %.4f\n", ratio);
+    print_message("full bundles: splatted / gathered %.4f\n", ratio);
     assert_true(fabs(ratio - 1.0) < 0.03);
     free(text);
 }
 
-/* What walls beside the sources keep back is most of what large beams lose. */
+/* What walls beside the photons keep back is most of what large bundles lose. */
 static void test_walls_give_back_what_creases_lose(void **state)
 {
     (void)state;
@@ -122,7 +122,7 @@ static void test_walls_give_back_what_creases_lose(void **state)
         splat_all(text, "visibility=shadowmap:radius=50,boundary_correction=no") / truth - 1;
     double left =
         splat_all(text, "visibility=shadowmap:radius=50,boundary_correction=yes") / truth - 1;
-    print_message("beams of 50 mm against 8: %+.4f, making up for walls %+.4f\n", lost, left);
+    print_message("bundles of 50 mm against 8: %+.4f, making up for walls %+.4f\n", lost, left);
     assert_true(lost < -0.02);
     assert_true(fabs(left) < 0.5 * fabs(lost));
     free(text);

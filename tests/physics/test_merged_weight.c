@@ -1,6 +1,6 @@
-/* test_merged_weight.c: in the weight a merged source counts as often as those that it stands for (Hoet
+/* test_merged_weight.c: in the weight a merged photon counts as often as those that it stands for (Hoet
  * 2014, section 3.2.1). Two beams as thin as a ray meet a mirror and are spots on a wall that overlap.
- * The sources of a beam coincide, so merging them must change nothing, whatever the normalization.
+ * The photons of a beam coincide, so merging them must change nothing, whatever the normalization.
  */
 #include "support/render_scene.h"
 #include <math.h>
@@ -56,17 +56,17 @@ static void expect_no_change(const char *normalization)
     static const char *const channels[] = {"indirect.R", "indirect.G", "indirect.B", "weight"};
     struct rendering plain = render("stratification=none", normalization);
     struct rendering merged = render(MERGED, normalization);
-    double left = statistics_counter(&merged.statistics, "sources");
-    print_message("%s: %.0f sources of %.0f\n", normalization, left,
-                  statistics_counter(&plain.statistics, "sources"));
-    assert_true(left < 0.5 * statistics_counter(&plain.statistics, "sources"));
+    double left = statistics_counter(&merged.statistics, "photons");
+    print_message("%s: %.0f photons of %.0f\n", normalization, left,
+                  statistics_counter(&plain.statistics, "photons"));
+    assert_true(left < 0.5 * statistics_counter(&plain.statistics, "photons"));
     for (size_t i = 0; i < sizeof channels / sizeof channels[0]; i++)
         expect_same(&merged.image, &plain.image, channels[i]);
     rendering_release(&plain);
     rendering_release(&merged);
 }
 
-static void test_sources_that_coincide(void **state)
+static void test_photons_that_coincide(void **state)
 {
     (void)state;
     expect_no_change("normalization=weight:exposure=1");
@@ -78,7 +78,7 @@ static void test_sources_that_coincide(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sources_that_coincide),
+        cmocka_unit_test(test_photons_that_coincide),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -67,7 +67,7 @@ static const double *plain_light(const char *injection)
 
 struct drift {
     double mean, standard_error; /* of light with stratification over light without, less 1 */
-    double sources;              /* left, as a share of those injected */
+    double photons;              /* left, as a share of those injected */
 };
 
 /* Seed by seed, so that the noise that both have in common cancels. */
@@ -77,20 +77,20 @@ static struct drift drift_of(const char *injection, const char *stratification,
     const char *const choices[] = {injection, bounces_with(injection), stratification, visibility,
                                    NULL};
     const double *plain = plain_light(injection);
-    double sum = 0, squares = 0, sources = 0;
+    double sum = 0, squares = 0, photons = 0;
     for (int i = 0; i < SEEDS; i++) {
         struct rendering rendering = render_seed(i + 1, choices);
         double drift = light(&rendering.image) / plain[i] - 1;
         sum += drift;
         squares += drift * drift;
-        sources += statistics_counter(&rendering.statistics, "sources") /
-                   statistics_counter(&rendering.statistics, "sources injected") / SEEDS;
+        photons += statistics_counter(&rendering.statistics, "photons") /
+                   statistics_counter(&rendering.statistics, "photons injected") / SEEDS;
         rendering_release(&rendering);
     }
     double mean = sum / SEEDS, variance = fmax(0, squares / SEEDS - mean * mean);
-    struct drift drift = {mean, sqrt(variance / (SEEDS - 1)), sources};
+    struct drift drift = {mean, sqrt(variance / (SEEDS - 1)), photons};
     print_message("%-51s %-31s %5.1f %% left, light %+.2f %%, noise %.2f %%\n", stratification,
-                  visibility ? visibility : "", 100 * drift.sources, 100 * drift.mean,
+                  visibility ? visibility : "", 100 * drift.photons, 100 * drift.mean,
                   100 * drift.standard_error);
     return drift;
 }
@@ -99,7 +99,7 @@ static void expect_no_drift(const char *injection, const char *stratification,
                             const char *visibility)
 {
     struct drift drift = drift_of(injection, stratification, visibility);
-    assert_true(drift.sources < 0.7);
+    assert_true(drift.photons < 0.7);
     assert_true(drift.standard_error < 0.012);
     assert_true(fabs(drift.mean) < 0.02);
 }
@@ -117,7 +117,7 @@ static void test_random_has_no_drift(void **state)
     expect_no_drift(SEVERAL, "stratification=grid", FIXED);
 }
 
-/* As they come: merged sources make larger splats, which are a little more biased. */
+/* As they come: merged photons make larger splats, which are a little more biased. */
 static void test_defaults_have_no_drift(void **state)
 {
     (void)state;
@@ -159,7 +159,7 @@ static void test_threads_and_batches_change_nothing(void **state)
                                        stratifications[i], NULL};
         struct rendering one = render_text(text, 1, choices);
         struct rendering three = render_text_in_batches(text, 3, 17, choices);
-        assert_true(statistics_counter(&one.statistics, "sources merged") > 1000);
+        assert_true(statistics_counter(&one.statistics, "photons merged") > 1000);
         expect_same_pictures(&one.image, &three.image);
         rendering_release(&one);
         rendering_release(&three);
@@ -180,8 +180,8 @@ static void test_fine_cells_change_nothing(void **state)
     for (int i = 0; i < 4; i++) {
         const char *const choices[] = {SINGLE, fine[i], NULL};
         struct rendering merged = render_text(text, 2, choices);
-        assert_true(statistics_counter(&merged.statistics, "sources") ==
-                    statistics_counter(&merged.statistics, "sources injected"));
+        assert_true(statistics_counter(&merged.statistics, "photons") ==
+                    statistics_counter(&merged.statistics, "photons injected"));
         expect_same_pictures(&plain.image, &merged.image);
         rendering_release(&merged);
     }
@@ -189,7 +189,7 @@ static void test_fine_cells_change_nothing(void **state)
     free(text);
 }
 
-/* All that a pass keeps for 25,000 sources at 256^3 cells, against an array's 576 MB. */
+/* All that a pass keeps for 25,000 photons at 256^3 cells, against an array's 576 MB. */
 static void test_memory(void **state)
 {
     (void)state;
@@ -197,14 +197,14 @@ static void test_memory(void **state)
     const char *const choices[] = {"injection=photon:count=30000",
                                    "stratification=grid:resolution=256", NULL};
     struct rendering rendering = render_text(text, 2, choices);
-    double injected = statistics_counter(&rendering.statistics, "sources injected");
+    double injected = statistics_counter(&rendering.statistics, "photons injected");
     double strata = statistics_bytes(&rendering.statistics, "strata");
-    double sources = statistics_bytes(&rendering.statistics, "sources");
-    print_message("%.0f sources: strata %.2f MB, sources %.2f MB\n", injected, strata / 1e6,
-                  sources / 1e6);
+    double photons = statistics_bytes(&rendering.statistics, "photons");
+    print_message("%.0f photons: strata %.2f MB, photons %.2f MB\n", injected, strata / 1e6,
+                  photons / 1e6);
     assert_true(injected > 24000 && injected < 26000);
-    assert_true(strata > 40 * injected && sources > 64 * injected);
-    assert_true(strata + sources < 5.76e6);
+    assert_true(strata > 40 * injected && photons > 64 * injected);
+    assert_true(strata + photons < 5.76e6);
     rendering_release(&rendering);
     free(text);
 }

@@ -130,7 +130,7 @@ static void test_small_things(void **state)
     assert_true(behind < 0.05 * expected);
 }
 
-/* Boxes that begin before the first hit cannot tell how near their source is. */
+/* Boxes that begin before the first hit cannot tell how near their photon is. */
 static void test_boxes_leave_nothing(void **state)
 {
     (void)state;

@@ -88,7 +88,7 @@ static void discard(struct statistics *statistics)
 static void expect_no_memory(const struct statistics *statistics)
 {
     for (size_t i = 0; i < statistics->memory.count; i++)
-        if (strcmp(statistics->memory.rows[i].name, "sources") != 0)
+        if (strcmp(statistics->memory.rows[i].name, "photons") != 0)
             assert_true(statistics->memory.rows[i].value == 0);
 }
 
@@ -103,39 +103,39 @@ static void bench_release(struct bench *bench)
     free(bench);
 }
 
-static void keep(struct injected *injected, const ps_source *sources, size_t n)
+static void keep(struct injected *injected, const ps_photon *photons, size_t n)
 {
     size_t count = injected->count + n;
-    injected->sources = realloc(injected->sources, (count + 1) * sizeof *sources);
-    assert_non_null(injected->sources);
+    injected->photons = realloc(injected->photons, (count + 1) * sizeof *photons);
+    assert_non_null(injected->photons);
     if (n)
-        memcpy(injected->sources + injected->count, sources, n * sizeof *sources);
+        memcpy(injected->photons + injected->count, photons, n * sizeof *photons);
     injected->count = count;
 }
 
 static void collect(struct bench *bench, struct injected *injected)
 {
     struct error error;
-    const ps_source *sources;
-    struct source_stream stream;
+    const ps_photon *photons;
+    struct photon_stream stream;
     size_t n;
-    assert_int_equal(source_stream_create(&stream, &bench->settings, &bench->render.host,
+    assert_int_equal(photon_stream_create(&stream, &bench->settings, &bench->render.host,
                                           &bench->render.pass, bench->statistics, &error),
                      PS_OK);
     do {
-        if (source_stream_next(&stream, &sources, &n, &error) != PS_OK)
+        if (photon_stream_next(&stream, &photons, &n, &error) != PS_OK)
             fail_msg("%s", error.text);
-        keep(injected, sources, n);
+        keep(injected, photons, n);
     } while (n > 0);
-    assert_true(source_stream_progress(&stream) == 1);
+    assert_true(photon_stream_progress(&stream) == 1);
     injected->spread = stream.spread;
-    source_stream_release(&stream);
+    photon_stream_release(&stream);
 }
 
 struct injected inject_text(const char *text, const char *choice, uint32_t pass, uint32_t threads)
 {
     struct bench *bench = bench_create(text, choice, threads);
-    struct injected injected = {.sources = NULL};
+    struct injected injected = {.photons = NULL};
     struct error error;
     bench->render.pass = (ps_pass){
         .size = sizeof(ps_pass),
@@ -160,7 +160,7 @@ struct injected inject_text(const char *text, const char *choice, uint32_t pass,
 
 void injected_release(struct injected *injected)
 {
-    free(injected->sources);
+    free(injected->photons);
     discard(injected->statistics);
 }
 
@@ -188,9 +188,9 @@ struct total_power power_of(const struct injected *injected)
 {
     struct total_power total = {0, 0, 0};
     for (size_t i = 0; i < injected->count; i++) {
-        total.r += (double)injected->sources[i].power.r;
-        total.g += (double)injected->sources[i].power.g;
-        total.b += (double)injected->sources[i].power.b;
+        total.r += (double)injected->photons[i].power.r;
+        total.g += (double)injected->photons[i].power.g;
+        total.b += (double)injected->photons[i].power.b;
     }
     return total;
 }

@@ -1,4 +1,4 @@
-/* inject.h: the sources that an injection makes of a scene text, without a picture. */
+/* inject.h: the photons that an injection makes of a scene text, without a picture. */
 #ifndef TESTS_SUPPORT_INJECT_H
 #define TESTS_SUPPORT_INJECT_H
 
@@ -6,13 +6,13 @@
 #include <psplat/host.h>
 
 struct injected {
-    ps_source *sources;
+    ps_photon *photons;
     size_t count;
-    float spread; /* see sources.h */
+    float spread; /* see photons.h */
     struct statistics *statistics;
 };
 
-/* The sources of one pass; `choice` is such as "photon:count=1000", for one bounce, or "photon bounces=all". A failure fails the test. Release
+/* The photons of one pass; `choice` is such as "photon:count=1000", for one bounce, or "photon bounces=all". A failure fails the test. Release
  * it with injected_release. */
 struct injected inject_text(const char *text, const char *choice, uint32_t pass, uint32_t threads);
 void injected_release(struct injected *injected);
@@ -24,7 +24,7 @@ void with_host_of(const char *text, void (*body)(const ps_host *host));
  * The caller frees it. */
 char *injection_refusal(const char *text, const char *choice);
 
-/* Sum of the sources' power, all bounces and lobes: red, green, blue. */
+/* Sum of the photons' power, all bounces and lobes: red, green, blue. */
 struct total_power {
     double r, g, b;
 };

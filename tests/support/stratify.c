@@ -66,9 +66,9 @@ void stage_release(struct stage *stage)
     statistics_destroy(&stage->statistics);
 }
 
-ps_source stratify_source(ps_vec3 position, float power, uint64_t path)
+ps_photon stratify_photon(ps_vec3 position, float power, uint64_t path)
 {
-    return (ps_source){.position = position,
+    return (ps_photon){.position = position,
                        .normal = {0, 1, 0},
                        .direction = {0, 1, 0},
                        .power = {power, power, power},
@@ -139,17 +139,17 @@ static void stop(struct stage *stage, struct running *running)
     loader_destroy(running->loader);
 }
 
-size_t stratify(struct stage *stage, const char *choice, ps_source *sources, size_t n)
+size_t stratify(struct stage *stage, const char *choice, ps_photon *photons, size_t n)
 {
     struct running running;
     const ps_stratification_vtable *vtable = start(stage, choice, &running);
     stage->result =
-        vtable->combine(running.strategy.state, &running.host, &running.pass, sources, &n);
+        vtable->combine(running.strategy.state, &running.host, &running.pass, photons, &n);
     stop(stage, &running);
     return n;
 }
 
-bool stratify_cells(struct stage *stage, const char *choice, const ps_source *sources, size_t n,
+bool stratify_cells(struct stage *stage, const char *choice, const ps_photon *photons, size_t n,
                     uint64_t *numbers)
 {
     struct running running;
@@ -158,9 +158,9 @@ bool stratify_cells(struct stage *stage, const char *choice, const ps_source *so
     ps_vec3 *points = calloc(n + 1, sizeof *points);
     assert_non_null(points);
     for (size_t i = 0; i < n; i++)
-        points[i] = sources[i].position;
+        points[i] = photons[i].position;
     if (has_cells)
-        stage->result = vtable->cells(running.strategy.state, &running.host, &running.pass, sources,
+        stage->result = vtable->cells(running.strategy.state, &running.host, &running.pass, photons,
                                       n, points, n, numbers);
     free(points);
     stop(stage, &running);

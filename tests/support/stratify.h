@@ -1,4 +1,4 @@
-/* stratify.h: runs a stratification on sources that a test made, with a host of the test's own. */
+/* stratify.h: runs a stratification on photons that a test made, with a host of the test's own. */
 #ifndef TESTS_SUPPORT_STRATIFY_H
 #define TESTS_SUPPORT_STRATIFY_H
 
@@ -22,16 +22,16 @@ struct stage {
 struct stage stage_of(float radius);
 void stage_release(struct stage *stage);
 
-/* A white source that shines up from a floor. */
-ps_source stratify_source(ps_vec3 position, float power, uint64_t path);
+/* A white photon that shines up from a floor. */
+ps_photon stratify_photon(ps_vec3 position, float power, uint64_t path);
 
-/* Combines n sources in place by a choice such as "grid:cell=1"; how many are left. A plugin that
+/* Combines n photons in place by a choice such as "grid:cell=1"; how many are left. A plugin that
  * refuses its parameters fails the test. Everything it allocated must be released. */
-size_t stratify(struct stage *stage, const char *choice, ps_source *sources, size_t n);
+size_t stratify(struct stage *stage, const char *choice, ps_photon *photons, size_t n);
 
-/* The numbers of the cells that the sources themselves lie in, by that choice; false where it has no
+/* The numbers of the cells that the photons themselves lie in, by that choice; false where it has no
  * cells. */
-bool stratify_cells(struct stage *stage, const char *choice, const ps_source *sources, size_t n,
+bool stratify_cells(struct stage *stage, const char *choice, const ps_photon *photons, size_t n,
                     uint64_t *numbers);
 
 /* Whether the plugin refuses its parameters in init. */

@@ -20,7 +20,7 @@
 
 struct bench {
     struct gbuffer gbuffer;
-    struct field field;
+    struct interleaved field;
     struct pyramid pyramid;
     struct kernel_variant kernel;
     ps_splat splats[SPLATS];
@@ -94,9 +94,9 @@ static int open_bench(void **state)
     for (int i = 0; i < SPLATS; i++)
         bench->prepared[i] = prepare(&bench->splats[i], (uint32_t)i % (INTERLEAVE * INTERLEAVE));
     assert_true(kernel_choose(NULL, &bench->kernel));
-    assert_int_equal(field_create(&bench->gbuffer, INTERLEAVE, &bench->field, &error), PS_OK);
+    assert_int_equal(interleaved_create(&bench->gbuffer, INTERLEAVE, &bench->field, &error), PS_OK);
     assert_int_equal(bench->field.tile_count, 4 * 10 * 7);
-    field_fill(&bench->field, &bench->gbuffer, 2);
+    interleaved_fill(&bench->field, &bench->gbuffer, 2);
     assert_int_equal(pyramid_create(&bench->field, &bench->pyramid, &error), PS_OK);
     pyramid_build(&bench->pyramid, &bench->field, 2);
     *state = bench;
@@ -107,7 +107,7 @@ static int close_bench(void **state)
 {
     struct bench *bench = *state;
     pyramid_release(&bench->pyramid);
-    field_release(&bench->field);
+    interleaved_release(&bench->field);
     gbuffer_release(&bench->gbuffer);
     free(bench);
     return 0;
@@ -115,7 +115,7 @@ static int close_bench(void **state)
 
 /* Whether some pixel of the tile is inside of the splat's disc and box, and faces it; `slack`
  * widens all limits. */
-static bool lights(const struct field_tile *tile, const ps_splat *splat, float slack)
+static bool lights(const struct interleaved_tile *tile, const ps_splat *splat, float slack)
 {
     if (!(splat->half_width > 0))
         return false;
@@ -332,11 +332,11 @@ static void test_smallest_picture(void **state)
     assert_int_equal(gbuffer_create(1, 1, &gbuffer, &error), PS_OK);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         fill_lane(&gbuffer.tiles[0], lane, lane ? WIDTH : 1, 0);
-    struct field field;
+    struct interleaved field;
     struct kernel_variant kernel;
     assert_true(kernel_choose("baseline", &kernel));
-    assert_int_equal(field_create(&gbuffer, 1, &field, &error), PS_OK);
-    field_fill(&field, &gbuffer, 1);
+    assert_int_equal(interleaved_create(&gbuffer, 1, &field, &error), PS_OK);
+    interleaved_fill(&field, &gbuffer, 1);
     assert_int_equal(pyramid_create(&field, &pyramid, &error), PS_OK);
     pyramid_build(&pyramid, &field, 1);
     assert_int_equal(bins_create(1, &bins, &error), PS_OK);
@@ -353,7 +353,7 @@ static void test_smallest_picture(void **state)
     assert_int_equal(bins.indices[0], 1);
     bins_release(&bins);
     pyramid_release(&pyramid);
-    field_release(&field);
+    interleaved_release(&field);
     gbuffer_release(&gbuffer);
 }
 

@@ -3,7 +3,7 @@
 #include "debug/debug.h"
 #include "debug/id_colour.h"
 #include "debug/legend.h"
-#include "debug/sight.h"
+#include "debug/project.h"
 #include "support/render_scene.h"
 
 #include <psplat/math.h>
@@ -127,14 +127,14 @@ static ps_result count_by_hand(void *user, struct render *render, struct error *
     (void)error;
     struct tally *tally = user;
     tally->render = render;
-    const ps_source *sources;
+    const ps_photon *photons;
     size_t n;
     double progress;
     do {
-        assert_int_equal(render->host.next_sources(&render->host, &sources, &n, &progress), PS_OK);
+        assert_int_equal(render->host.next_photons(&render->host, &photons, &n, &progress), PS_OK);
         ps_splat *splats = malloc((n + 1) * sizeof *splats);
         assert_non_null(splats);
-        assert_int_equal(render->host.place_splats(&render->host, sources, n, splats), PS_OK);
+        assert_int_equal(render->host.place_splats(&render->host, photons, n, splats), PS_OK);
         for (size_t i = 0; i < n; i++)
             for (size_t pixel = 0; pixel < PIXELS && splats[i].half_width > 0; pixel++)
                 if (render->film.planes[FILM_COVERAGE][pixel] > 0)
@@ -144,7 +144,7 @@ static ps_result count_by_hand(void *user, struct render *render, struct error *
     return PS_OK;
 }
 
-/* Sizes differ, sources are merged, and the filter does not count. */
+/* Sizes differ, photons are merged, and the filter does not count. */
 static void test_overlap_is_the_count_by_hand(void **state)
 {
     (void)state;
@@ -206,18 +206,20 @@ static ps_result check_sight(void *user, struct render *render, struct error *er
         ps_vec3 n = {film->planes[FILM_NORMAL_X][i], film->planes[FILM_NORMAL_Y][i],
                      film->planes[FILM_NORMAL_Z][i]};
         float x, y;
-        assert_true(sight_of(render, p, n, &x, &y));
+        assert_true(project_visible(render, p, n, &x, &y));
         assert_true(fabsf(x - (float)(i % WIDTH) - 0.5f) < 0.02f);
         assert_true(fabsf(y - (float)(i / WIDTH) - 0.5f) < 0.02f);
-        assert_false(sight_of(render, p, ps_scale(n, -1.0f), &x, &y)); /* its other side */
+        assert_false(project_visible(render, p, ps_scale(n, -1.0f), &x, &y)); /* its other side */
         ps_vec3 beyond = ps_add_scaled(p, 20.0f, ps_subtract(p, render->scene->camera.location));
-        assert_false(sight_of(render, beyond, n, &x, &y));
+        assert_false(project_visible(render, beyond, n, &x, &y));
         (*seen)++;
     }
     float x, y;
     ps_vec3 n = {0, 1, 0};
-    assert_false(sight_of(render, (ps_vec3){278, 273, -900}, n, &x, &y)); /* behind the camera */
-    assert_false(sight_of(render, (ps_vec3){278, 5000, 100}, n, &x, &y)); /* above the picture */
+    assert_false(
+        project_visible(render, (ps_vec3){278, 273, -900}, n, &x, &y)); /* behind the camera */
+    assert_false(
+        project_visible(render, (ps_vec3){278, 5000, 100}, n, &x, &y)); /* above the picture */
     return PS_OK;
 }
 
@@ -281,7 +283,7 @@ static size_t count_colours(const struct canvas *canvas)
     return colours;
 }
 
-/* How many cells the wall has by a stratification; as many sources as fill them all. */
+/* How many cells the wall has by a stratification; as many photons as fill them all. */
 static size_t cells_of_wall(const char *stratification)
 {
     const char *const choices[] = {"injection=photon:count=40000", stratification, NULL};
@@ -363,14 +365,14 @@ static void test_names_of_views(void **state)
     (void)state;
     struct debug_request request;
     struct error error;
-    assert_int_equal(debug_find("sources", &request, &error), PS_OK);
-    assert_ptr_equal(request.view, &debug_sources);
+    assert_int_equal(debug_find("photons", &request, &error), PS_OK);
+    assert_ptr_equal(request.view, &debug_photons);
     assert_int_equal(request.part, -1);
     assert_int_equal(debug_find("gbuffer:normal", &request, &error), PS_OK);
     assert_ptr_equal(request.view, &debug_gbuffer);
     assert_int_equal(request.part, 1);
-    expect_unknown("source", "did you mean 'sources'?");
-    expect_unknown("everything", "there are: sources, voxels, gbuffer, maps, overlap");
+    expect_unknown("photon", "did you mean 'photons'?");
+    expect_unknown("everything", "there are: photons, voxels, gbuffer, maps, overlap");
     expect_unknown("gbuffer:", "it has: albedo, normal");
     expect_unknown("gbuffer:colour", "no part 'colour'; it has: albedo, normal");
     expect_unknown("maps:1", "the view maps has no parts");

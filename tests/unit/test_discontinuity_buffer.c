@@ -29,7 +29,7 @@ static int close_gbuffer(void **state)
 }
 
 /* What a pixel shows. */
-struct sight {
+struct view {
     ps_vec3 normal;
     float height; /* above the plane z = 0 */
     float direct;
@@ -42,13 +42,13 @@ static size_t index_of(uint32_t x, uint32_t y)
     return (size_t)tile * PS_TILE_PIXELS + lane;
 }
 
-static void join(struct sight (*at)(uint32_t x, uint32_t y))
+static void join(struct view (*at)(uint32_t x, uint32_t y))
 {
     for (uint32_t tile = 0; tile < gbuffer.tile_count; tile++)
         gbuffer_clear_tile(&gbuffer, tile);
     for (uint32_t y = 0; y < HEIGHT; y++)
         for (uint32_t x = 0; x < WIDTH; x++) {
-            struct sight sight = at(x, y);
+            struct view sight = at(x, y);
             ps_hit hit = {
                 .position = {(float)x, (float)y, sight.height},
                 .normal = sight.normal,
@@ -57,7 +57,7 @@ static void join(struct sight (*at)(uint32_t x, uint32_t y))
             gbuffer_store(&gbuffer.tiles[i / PS_TILE_PIXELS], (uint32_t)(i % PS_TILE_PIXELS), &hit,
                           (ps_rgb){1, 1, 1}, 1);
             gbuffer.direct[i] = (ps_rgb){sight.direct, 2 * sight.direct, 0};
-            gbuffer.met[i] = sight.met;
+            gbuffer.occlusion[i] = sight.met;
         }
     discontinuity_buffer(&gbuffer, 3);
 }
@@ -76,27 +76,28 @@ static const ps_vec3 up = {0, 0, 1};
 static void test_lights_are_seen_alike(void **state)
 {
     (void)state;
-    uint64_t whole = gbuffer_met(3, 1.0f), none = gbuffer_met(3, 0.0f), part = whole | none;
-    assert_true(gbuffer_met_alike(0, 0));
-    assert_true(gbuffer_met_alike(whole, whole) && gbuffer_met_alike(none, none));
-    assert_true(gbuffer_met_alike(part, whole) && gbuffer_met_alike(none, part));
-    assert_int_equal(gbuffer_met(3, 0.5f), part);
-    assert_false(gbuffer_met_alike(whole, none));
-    assert_false(gbuffer_met_alike(whole, 0)); /* out of its reach */
+    uint64_t whole = gbuffer_occlusion(3, 1.0f), none = gbuffer_occlusion(3, 0.0f),
+             part = whole | none;
+    assert_true(gbuffer_occlusion_alike(0, 0));
+    assert_true(gbuffer_occlusion_alike(whole, whole) && gbuffer_occlusion_alike(none, none));
+    assert_true(gbuffer_occlusion_alike(part, whole) && gbuffer_occlusion_alike(none, part));
+    assert_int_equal(gbuffer_occlusion(3, 0.5f), part);
+    assert_false(gbuffer_occlusion_alike(whole, none));
+    assert_false(gbuffer_occlusion_alike(whole, 0)); /* out of its reach */
     /* One light that differs is enough; light 35 has the bits of light 3. */
-    uint64_t other = gbuffer_met(31, 1.0f);
-    assert_true(gbuffer_met_alike(other | part, other | whole));
-    assert_false(gbuffer_met_alike(other | whole, other | none));
-    assert_int_equal(gbuffer_met(35, 1.0f), whole);
+    uint64_t other = gbuffer_occlusion(31, 1.0f);
+    assert_true(gbuffer_occlusion_alike(other | part, other | whole));
+    assert_false(gbuffer_occlusion_alike(other | whole, other | none));
+    assert_int_equal(gbuffer_occlusion(35, 1.0f), whole);
 }
 
 /* --- a flat surface ------------------------------------------------------------------------------- */
 
-#define HALF_LIT (gbuffer_met(0, 1.0f) | gbuffer_met(0, 0.0f))
+#define HALF_LIT (gbuffer_occlusion(0, 1.0f) | gbuffer_occlusion(0, 0.0f))
 
-static struct sight one_bright_pixel(uint32_t x, uint32_t y)
+static struct view one_bright_pixel(uint32_t x, uint32_t y)
 {
-    return (struct sight){up, 0, x == 8 && y == 9 ? 25.0f : 0.0f, HALF_LIT};
+    return (struct view){up, 0, x == 8 && y == 9 ? 25.0f : 0.0f, HALF_LIT};
 }
 
 static void test_a_window_of_5_by_5(void **state)
@@ -110,9 +111,9 @@ static void test_a_window_of_5_by_5(void **state)
         }
 }
 
-static struct sight ramp(uint32_t x, uint32_t y)
+static struct view ramp(uint32_t x, uint32_t y)
 {
-    return (struct sight){up, 0, 3.0f * (float)x + (float)y, HALF_LIT};
+    return (struct view){up, 0, 3.0f * (float)x + (float)y, HALF_LIT};
 }
 
 /* Up to the picture's borders, where half of the window is missing. */
@@ -127,35 +128,35 @@ static void test_what_falls_off_evenly_stays(void **state)
 
 /* --- what nothing crosses ----------------------------------------------------------------------- */
 
-static struct sight hard_shadow(uint32_t x, uint32_t y)
+static struct view hard_shadow(uint32_t x, uint32_t y)
 {
     (void)y;
-    return (struct sight){up, 0, x < 9 ? 1.0f : 0.0f, gbuffer_met(0, x < 9 ? 1.0f : 0.0f)};
+    return (struct view){up, 0, x < 9 ? 1.0f : 0.0f, gbuffer_occlusion(0, x < 9 ? 1.0f : 0.0f)};
 }
 
-static struct sight cone(uint32_t x, uint32_t y)
+static struct view cone(uint32_t x, uint32_t y)
 {
     (void)y;
-    return (struct sight){up, 0, x < 9 ? 1.0f : 0.0f, x < 9 ? gbuffer_met(0, 1.0f) : 0};
+    return (struct view){up, 0, x < 9 ? 1.0f : 0.0f, x < 9 ? gbuffer_occlusion(0, 1.0f) : 0};
 }
 
-static struct sight step(uint32_t x, uint32_t y)
+static struct view step(uint32_t x, uint32_t y)
 {
     (void)y;
-    return (struct sight){up, x < 9 ? 4.0f : 0.0f, x < 9 ? 1.0f : 0.0f, HALF_LIT};
+    return (struct view){up, x < 9 ? 4.0f : 0.0f, x < 9 ? 1.0f : 0.0f, HALF_LIT};
 }
 
-static struct sight roof(uint32_t x, uint32_t y)
+static struct view roof(uint32_t x, uint32_t y)
 {
     (void)y;
     ps_vec3 left = {-0.1f, 0, 0.995f}, right = {0.1f, 0, 0.995f};
-    return (struct sight){x < 9 ? left : right, 0, x < 9 ? 1.0f : 0.0f, HALF_LIT};
+    return (struct view){x < 9 ? left : right, 0, x < 9 ? 1.0f : 0.0f, HALF_LIT};
 }
 
 static void test_edges_stay_sharp(void **state)
 {
     (void)state;
-    struct sight (*const sights[])(uint32_t x, uint32_t y) = {hard_shadow, cone, step, roof};
+    struct view (*const sights[])(uint32_t x, uint32_t y) = {hard_shadow, cone, step, roof};
     for (size_t i = 0; i < sizeof sights / sizeof sights[0]; i++) {
         join(sights[i]);
         for (uint32_t x = 0; x < WIDTH; x++)

@@ -15,7 +15,7 @@
 #define SPLATS 16
 
 struct bench {
-    _Alignas(64) struct field_tile tile;
+    _Alignas(64) struct interleaved_tile tile;
     ps_splat splats[SPLATS];
     struct kernel_splat prepared[SPLATS];
     uint32_t indices[SPLATS];
@@ -30,7 +30,7 @@ static void prepare(struct bench *bench)
         bench->prepared[s] = kernel_prepare(&bench->splats[s], &bench->profile, open_map);
 }
 
-static void fill_tile(struct field_tile *tile, struct random *random)
+static void fill_tile(struct interleaved_tile *tile, struct random *random)
 {
     memset(tile, 0, sizeof *tile);
     struct bound bound = bound_empty();
@@ -68,15 +68,15 @@ static struct bench *make_bench(void)
             .near_depth = -0.7f,
             .far_depth = 0.7f,
             .start_depth = -0.6f,
-            .source_depth = -0.7f,
+            .photon_depth = -0.7f,
             .follow = s % 2 ? 0.6f : 0.0f,
             .narrowest = 0.1f,
             .widest = 0.5f,
             .blend_distance = s % 4 == 1 ? 0.8f : 0.0f,
             .power = {1, 2, 3},
-            .wall_count = s % 3,
-            .walls = {{cosf(angle), sinf(angle), random_unit(&random)},
-                      {cosf(other), sinf(other), random_unit(&random)}},
+            .boundary_count = s % 3,
+            .boundaries = {{cosf(angle), sinf(angle), random_unit(&random)},
+                           {cosf(other), sinf(other), random_unit(&random)}},
         };
         ps_frame(bench.splats[s].axis_w, &bench.splats[s].axis_u, &bench.splats[s].axis_v);
     }
@@ -108,7 +108,7 @@ typedef void visible_test(const void *state, const ps_host *host, const ps_splat
                           const ps_vec3 *points, size_t n, uint8_t *lit);
 
 static struct kernel_count run(const struct bench *bench, visible_test *visible,
-                               struct field_tile *tile)
+                               struct interleaved_tile *tile)
 {
     const ps_visibility_vtable vtable = {.size = sizeof vtable, .visible = visible};
     struct kernel_variant kernel;
@@ -124,7 +124,7 @@ static bool close_to(float value, float expected)
     return fabsf(value - expected) <= 1e-5f * fabsf(expected) + 1e-7f;
 }
 
-static uint32_t differing(const struct field_tile *a, const struct field_tile *b)
+static uint32_t differing(const struct interleaved_tile *a, const struct interleaved_tile *b)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++)
@@ -135,7 +135,7 @@ static uint32_t differing(const struct field_tile *a, const struct field_tile *b
     return count;
 }
 
-static uint64_t run_kernel(const struct bench *bench, struct field_tile *tile)
+static uint64_t run_kernel(const struct bench *bench, struct interleaved_tile *tile)
 {
     struct kernel_variant variant;
     assert_true(kernel_choose("baseline", &variant));
@@ -147,7 +147,7 @@ static uint64_t run_kernel(const struct bench *bench, struct field_tile *tile)
 static void test_agrees_with_the_kernel_where_all_is_seen(void **state)
 {
     (void)state;
-    static _Alignas(64) struct field_tile exact, kernel;
+    static _Alignas(64) struct interleaved_tile exact, kernel;
     const struct bench *bench = make_bench();
     struct kernel_count count = run(bench, see_all, &exact);
     uint64_t lit = run_kernel(bench, &kernel);
@@ -160,14 +160,14 @@ static void test_agrees_with_the_kernel_where_all_is_seen(void **state)
 static void take_walls_away(struct bench *bench)
 {
     for (uint32_t s = 0; s < SPLATS; s++)
-        bench->splats[s].wall_count = 0;
+        bench->splats[s].boundary_count = 0;
     prepare(bench);
 }
 
 static void test_asks_for_the_pixels_that_the_kernel_lights(void **state)
 {
     (void)state;
-    static _Alignas(64) struct field_tile exact, kernel;
+    static _Alignas(64) struct interleaved_tile exact, kernel;
     struct bench *bench = make_bench();
     take_walls_away(bench);
     struct kernel_count count = run(bench, see_all, &exact);
@@ -179,7 +179,7 @@ static void test_asks_for_the_pixels_that_the_kernel_lights(void **state)
 static void test_walls_move_weight_before_them(void **state)
 {
     (void)state;
-    static _Alignas(64) struct field_tile with, without;
+    static _Alignas(64) struct interleaved_tile with, without;
     struct bench *bench = make_bench();
     run(bench, see_all, &with);
     take_walls_away(bench);
@@ -196,7 +196,7 @@ static void test_walls_move_weight_before_them(void **state)
 static void test_points_that_are_not_seen_get_nothing(void **state)
 {
     (void)state;
-    static _Alignas(64) struct field_tile all, half;
+    static _Alignas(64) struct interleaved_tile all, half;
     const struct bench *bench = make_bench();
     struct kernel_count whole = run(bench, see_all, &all),
                         right = run(bench, see_right_half, &half);

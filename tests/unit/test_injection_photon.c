@@ -1,4 +1,4 @@
-/* test_injection_photon.c: light paths that share a walk (`split`): where their sources lie, where they shine, and
+/* test_injection_photon.c: light paths that share a walk (`split`): where their photons lie, where they shine, and
  * that all the light is there. */
 #include "support/inject.h"
 #include "support/lit_room.h"
@@ -35,8 +35,8 @@ static void test_all_paths_leave_their_share(void **state)
             struct injected injected = inject_text(floor_text, choices[i], pass, 2);
             assert_int_equal(injected.count, 1001);
             for (size_t k = 0; k < injected.count; k++) {
-                assert_true(fabs(injected.sources[k].power.g - all / 1001) < 1e-5 * all / 1001);
-                assert_true(injected.sources[k].path == pass * 1001 + k);
+                assert_true(fabs(injected.photons[k].power.g - all / 1001) < 1e-5 * all / 1001);
+                assert_true(injected.photons[k].path == pass * 1001 + k);
             }
             injected_release(&injected);
         }
@@ -47,18 +47,18 @@ static void test_paths_of_a_walk_share_its_place(void **state)
 {
     (void)state;
     struct injected injected = inject_text(floor_text, "photon:count=4000,split=4", 0, 1);
-    const ps_source *sources = injected.sources;
+    const ps_photon *photons = injected.photons;
     for (size_t first = 0; first < injected.count; first += 4) {
         int quarters[4] = {0};
         for (size_t k = first; k < first + 4; k++) {
             float height2 =
-                sources[k].direction.y * sources[k].direction.y; /* even, by the cosine */
-            assert_true(ps_same(sources[k].position, sources[first].position));
+                photons[k].direction.y * photons[k].direction.y; /* even, by the cosine */
+            assert_true(ps_same(photons[k].position, photons[first].position));
             quarters[(int)fminf(4 * height2, 3)]++;
         }
         for (int i = 0; i < 4; i++)
             assert_int_equal(quarters[i], 1);
-        assert_true(first == 0 || !ps_same(sources[first].position, sources[first - 1].position));
+        assert_true(first == 0 || !ps_same(photons[first].position, photons[first - 1].position));
     }
     injected_release(&injected);
 }
@@ -69,7 +69,7 @@ static void test_walks_that_runs_cut(void **state)
     (void)state;
     struct injected injected = inject_text(floor_text, "photon:count=600,split=3", 0, 2);
     for (size_t k = 0; k < injected.count; k++)
-        assert_true(ps_same(injected.sources[k].position, injected.sources[k / 3 * 3].position));
+        assert_true(ps_same(injected.photons[k].position, injected.photons[k / 3 * 3].position));
     injected_release(&injected);
 }
 
@@ -81,16 +81,16 @@ static const char mirror_text[] = SCENE_HEAD
     "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: mirror}\n"
     "  - quad: {corners: [[-9, 3, 9], [9, 3, 9], [9, 3, -9], [-9, 3, -9]], material: white}\n";
 
-static void test_a_mirror_leaves_one_source(void **state)
+static void test_a_mirror_leaves_one_photon(void **state)
 {
     (void)state;
     struct injected one = inject_text(mirror_text, "photon:count=1000,split=1 bounces=1", 0, 2);
     struct injected four = inject_text(mirror_text, "photon:count=1000,split=4 bounces=1", 0, 2);
     size_t mirrored[2] = {0, 0};
     for (size_t k = 0; k < one.count; k++)
-        mirrored[0] += one.sources[k].lobe == PS_SPECULAR;
+        mirrored[0] += one.photons[k].lobe == PS_SPECULAR;
     for (size_t k = 0; k < four.count; k++)
-        mirrored[1] += four.sources[k].lobe == PS_SPECULAR && four.sources[k].bounce == 0;
+        mirrored[1] += four.photons[k].lobe == PS_SPECULAR && four.photons[k].bounce == 0;
     assert_true(mirrored[0] > 990);
     assert_true(mirrored[1] == 250);
     expect_power("behind a mirror", power_of(&four), power_of(&one), 0.02);
@@ -136,7 +136,7 @@ int main(void)
         cmocka_unit_test(test_all_paths_leave_their_share),
         cmocka_unit_test(test_paths_of_a_walk_share_its_place),
         cmocka_unit_test(test_walks_that_runs_cut),
-        cmocka_unit_test(test_a_mirror_leaves_one_source),
+        cmocka_unit_test(test_a_mirror_leaves_one_photon),
         SLOW_TEST(test_power_does_not_depend_on_it),
         cmocka_unit_test(test_bumps),
         cmocka_unit_test(test_refusals),

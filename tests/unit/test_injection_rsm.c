@@ -28,19 +28,19 @@ static const char mirrors_and_glass[] = SCENE_HEAD LIGHTS SPOT ROOM_OBJECTS
     "  - sphere: {center: [0, 1.8, 0.5], radius: 0.3, material: glass}\n"
     "  - sphere: {center: [-0.7, 1.5, 1], radius: 0.5, material: gloss}\n";
 
-/* Sources of one bounce and lobe. */
+/* Photons of one bounce and lobe. */
 static struct total_power part_of(const struct injected *injected, int bounce, int lobe)
 {
     struct injected part = {.count = 0};
-    part.sources = malloc((injected->count + 1) * sizeof *part.sources);
-    assert_non_null(part.sources);
+    part.photons = malloc((injected->count + 1) * sizeof *part.photons);
+    assert_non_null(part.photons);
     for (size_t i = 0; i < injected->count; i++)
-        if (injected->sources[i].bounce == bounce && injected->sources[i].lobe == lobe)
-            part.sources[part.count++] = injected->sources[i];
+        if (injected->photons[i].bounce == bounce && injected->photons[i].lobe == lobe)
+            part.photons[part.count++] = injected->photons[i];
     struct total_power power = power_of(&part);
-    print_message("%zu sources: ", part.count);
+    print_message("%zu photons: ", part.count);
     assert_true(part.count > 4000);
-    free(part.sources);
+    free(part.photons);
     return power;
 }
 
@@ -100,7 +100,7 @@ static const char two_halves[] = SCENE_HEAD
 #define SIDE 16
 
 /* Pixels of the map are equal areas of the floor, which get cos^3 theta and reflect 0.8 or 0.2. How often
- * each was chosen shows in the places of the sources. */
+ * each was chosen shows in the places of the photons. */
 static void test_choice_goes_by_flux(void **state)
 {
     (void)state;
@@ -110,15 +110,15 @@ static void test_choice_goes_by_flux(void **state)
     double width = 2 * 2 * tan(50 * 3.14159265358979 / 180) / SIDE;
     size_t cells = 0;
     for (size_t i = 0; i < injected.count; i++) {
-        const ps_source *source = &injected.sources[i];
+        const ps_photon *photon = &injected.photons[i];
         size_t k = 0;
-        while (k < cells && (fabs(places[k][0] - source->position.x) > 0.01 * width ||
-                             fabs(places[k][1] - source->position.z) > 0.01 * width))
+        while (k < cells && (fabs(places[k][0] - photon->position.x) > 0.01 * width ||
+                             fabs(places[k][1] - photon->position.z) > 0.01 * width))
             k++;
         assert_true(k < SIDE * SIDE);
         cells = k == cells ? cells + 1 : cells;
-        places[k][0] = source->position.x;
-        places[k][1] = source->position.z;
+        places[k][0] = photon->position.x;
+        places[k][1] = photon->position.z;
         observed[k]++;
     }
     for (size_t k = 0; k < cells; k++) {
@@ -137,8 +137,8 @@ static void test_choice_goes_by_flux(void **state)
     injected_release(&injected);
 }
 
-/* So the sources all carry the same power, but for its colour. */
-static void test_sources_are_even(void **state)
+/* So the photons all carry the same power, but for its colour. */
+static void test_photons_are_even(void **state)
 {
     (void)state;
     struct injected injected = inject_text(lit_rooms[LIT_ROOMS - 1].text, "rsm:count=5000", 0, 1);
@@ -146,11 +146,11 @@ static void test_sources_are_even(void **state)
     double mean = (power.r + power.g + power.b) / 5000;
     assert_int_equal(injected.count, 5000);
     for (size_t i = 0; i < injected.count; i++) {
-        const ps_source *source = &injected.sources[i];
-        double sum = (double)source->power.r + source->power.g + source->power.b;
+        const ps_photon *photon = &injected.photons[i];
+        double sum = (double)photon->power.r + photon->power.g + photon->power.b;
         assert_true(fabs(sum / mean - 1) < 1e-4);
-        assert_true(ps_dot(source->normal, source->direction) >= 0);
-        assert_true(source->bounce == 1 && source->merged == 1 && source->path == i);
+        assert_true(ps_dot(photon->normal, photon->direction) >= 0);
+        assert_true(photon->bounce == 1 && photon->merged == 1 && photon->path == i);
     }
     injected_release(&injected);
 }
@@ -162,7 +162,7 @@ static void test_directions(void **state)
     struct injected injected = inject_text(lit_rooms[0].text, "rsm:count=20000", 1, 1);
     double sum = 0;
     for (size_t i = 0; i < injected.count; i++)
-        sum += (double)ps_dot(injected.sources[i].normal, injected.sources[i].direction);
+        sum += (double)ps_dot(injected.photons[i].normal, injected.photons[i].direction);
     assert_true(fabs(sum / (double)injected.count - 2.0 / 3.0) < 0.003);
     injected_release(&injected);
 }
@@ -177,12 +177,12 @@ static void test_threads_change_nothing(void **state)
         struct injected next = inject_text(lit_rooms[i].text, choice, 3, 1);
         assert_int_equal(one.count, 5000);
         assert_int_equal(three.count, 5000);
-        assert_memory_equal(one.sources, three.sources, 5000 * sizeof *one.sources);
+        assert_memory_equal(one.photons, three.photons, 5000 * sizeof *one.photons);
         size_t moved = 0;
         for (size_t k = 0; k < 5000; k++)
-            moved += one.sources[k].position.x != next.sources[k].position.x;
+            moved += one.photons[k].position.x != next.photons[k].position.x;
         assert_true(moved > 4000);
-        assert_int_equal(next.sources[0].path, 15000);
+        assert_int_equal(next.photons[0].path, 15000);
         injected_release(&one);
         injected_release(&three);
         injected_release(&next);
@@ -280,7 +280,7 @@ int main(void)
         cmocka_unit_test(test_mirrors_and_glass_are_as_for_photons),
         SLOW_TEST(test_convergence),
         cmocka_unit_test(test_choice_goes_by_flux),
-        cmocka_unit_test(test_sources_are_even),
+        cmocka_unit_test(test_photons_are_even),
         cmocka_unit_test(test_directions),
         cmocka_unit_test(test_threads_change_nothing),
         cmocka_unit_test(test_no_light),

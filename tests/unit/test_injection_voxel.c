@@ -78,25 +78,25 @@ static void test_places_are_on_surfaces(void **state)
     double cosines = 0;
     assert_true(injected.count > 200);
     for (size_t i = 0; i < injected.count; i++) {
-        const ps_source *source = &injected.sources[i];
-        ps_vec3 out = ps_subtract(source->position, (ps_vec3){1, 2, 3});
+        const ps_photon *photon = &injected.photons[i];
+        ps_vec3 out = ps_subtract(photon->position, (ps_vec3){1, 2, 3});
         assert_true(fabsf(ps_length(out) - 1.5f) < 1e-4f);
-        assert_true(ps_dot(out, source->normal) > 1.5f * 0.9999f);
-        assert_true(source->normal.y > 0); /* where the sun shines */
-        assert_true(ps_dot(source->normal, source->direction) >= 0);
-        assert_true(fabsf(ps_length(source->direction) - 1) < 1e-5f);
-        cosines += (double)ps_dot(source->normal, source->direction);
-        assert_true(source->bounce == 1 && source->lobe == PS_DIFFUSE && source->merged == 1);
+        assert_true(ps_dot(out, photon->normal) > 1.5f * 0.9999f);
+        assert_true(photon->normal.y > 0); /* where the sun shines */
+        assert_true(ps_dot(photon->normal, photon->direction) >= 0);
+        assert_true(fabsf(ps_length(photon->direction) - 1) < 1e-5f);
+        cosines += (double)ps_dot(photon->normal, photon->direction);
+        assert_true(photon->bounce == 1 && photon->lobe == PS_DIFFUSE && photon->merged == 1);
         for (size_t k = 0; k < i; k++)
-            assert_true(injected.sources[k].path != source->path);
+            assert_true(injected.photons[k].path != photon->path);
     }
     assert_true(fabs(cosines / (double)injected.count - 2.0 / 3.0) < 0.02);
     injected_release(&injected);
 }
 
-/* A floor of 10 by 10 cells in a scene of 16 across: one source for each cell that the floor covers,
+/* A floor of 10 by 10 cells in a scene of 16 across: one photon for each cell that the floor covers,
  * and none more where rays are many. The ball makes the scene 16 wide, and shadows nothing. */
-static void test_one_source_a_voxel(void **state)
+static void test_one_photon_a_voxel(void **state)
 {
     (void)state;
     static const char text[] = SCENE_HEAD LIGHTS SUN_DOWN
@@ -106,7 +106,7 @@ static void test_one_source_a_voxel(void **state)
         "  - sphere: {center: [0, 0.3, 0], radius: 0.01, material: black}\n";
     struct injected few = inject_text(text, "voxel:resolution=16,rays=2", 0, 2);
     struct injected many = inject_text(text, "voxel:resolution=16,rays=16", 0, 2);
-    print_message("%zu and %zu sources\n", few.count, many.count);
+    print_message("%zu and %zu photons\n", few.count, many.count);
     /* Cells are 2 * 7.07 / 16 wide, 11.3 along a side of the floor: 12 are touched. */
     assert_true(few.count >= 11 * 11 && few.count <= 13 * 13);
     assert_true(many.count >= few.count && many.count <= 13 * 13);
@@ -114,7 +114,7 @@ static void test_one_source_a_voxel(void **state)
     injected_release(&many);
 }
 
-/* A wall is thin: the lit side alone leaves sources; and a roof's shadow leaves none. */
+/* A wall is thin: the lit side alone leaves photons; and a roof's shadow leaves none. */
 static void test_dark_sides_and_shadows(void **state)
 {
     (void)state;
@@ -125,10 +125,10 @@ static void test_dark_sides_and_shadows(void **state)
         "voxel:resolution=40", 0, 2);
     size_t above = 0, below = 0;
     for (size_t i = 0; i < injected.count; i++) {
-        const ps_source *source = &injected.sources[i];
-        assert_true(source->normal.y > 0.999f);
-        bool under = fabsf(source->position.x) < 0.999f && fabsf(source->position.z) < 0.999f;
-        bool roof = source->position.y > 0.5f;
+        const ps_photon *photon = &injected.photons[i];
+        assert_true(photon->normal.y > 0.999f);
+        bool under = fabsf(photon->position.x) < 0.999f && fabsf(photon->position.z) < 0.999f;
+        bool roof = photon->position.y > 0.5f;
         assert_true(roof || !under);
         above += roof;
         below += !roof;
@@ -167,8 +167,8 @@ static void test_threads_change_nothing(void **state)
         struct injected next = inject_text(lit_rooms[i].text, "voxel:resolution=30", 3, 1);
         assert_true(one.count > 100);
         assert_int_equal(one.count, three.count);
-        assert_memory_equal(one.sources, three.sources, one.count * sizeof *one.sources);
-        assert_true(next.sources[0].position.y != one.sources[0].position.y);
+        assert_memory_equal(one.photons, three.photons, one.count * sizeof *one.photons);
+        assert_true(next.photons[0].position.y != one.photons[0].position.y);
         injected_release(&one);
         injected_release(&three);
         injected_release(&next);
@@ -225,7 +225,7 @@ int main(void)
         cmocka_unit_test(test_areas),
         cmocka_unit_test(test_gloss),
         cmocka_unit_test(test_places_are_on_surfaces),
-        cmocka_unit_test(test_one_source_a_voxel),
+        cmocka_unit_test(test_one_photon_a_voxel),
         cmocka_unit_test(test_dark_sides_and_shadows),
         SLOW_TEST(test_finer_is_steadier),
         cmocka_unit_test(test_threads_change_nothing),

@@ -104,7 +104,7 @@ static void test_two_passes_keep_the_brightness(void **state)
     expect_as_bright("two passes", indirect(cornell_in_passes, PHOTONS, 4), all, 0.03);
 }
 
-/* Their sources are ordered like pixels and voxels are, so that a subset's might lie all in one
+/* Their photons are ordered like pixels and voxels are, so that a subset's might lie all in one
  * place. */
 static void test_other_injections_keep_the_brightness(void **state)
 {

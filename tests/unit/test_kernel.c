@@ -22,7 +22,7 @@
 #define STEEPEST 10.0 /* slope to which the bias grows, see box.h */
 
 struct bench {
-    _Alignas(64) struct field_tile tile;
+    _Alignas(64) struct interleaved_tile tile;
     ps_splat splats[SPLATS];
     float depths[SPLATS][MOST_TEXELS];
     uint32_t indices[SPLATS];
@@ -42,15 +42,15 @@ static void gaussian_profile(struct kernel_profile *profile)
     assert_true(kernel_profile_normalize(profile));
 }
 
-static bool sees_surface(const struct field_tile *tile, uint32_t lane)
+static bool sees_surface(const struct interleaved_tile *tile, uint32_t lane)
 {
     return tile->position_x[lane] < BOUNDS_NOWHERE;
 }
 
-static void bound_block(struct field_tile *tile, uint32_t block)
+static void bound_block(struct interleaved_tile *tile, uint32_t block)
 {
     struct bound bound = bound_empty();
-    for (uint32_t i = FIELD_BLOCK * block; i < FIELD_BLOCK * (block + 1); i++)
+    for (uint32_t i = INTERLEAVED_BLOCK * block; i < INTERLEAVED_BLOCK * (block + 1); i++)
         if (sees_surface(tile, i))
             bound_add_point(
                 &bound, (ps_vec3){tile->position_x[i], tile->position_y[i], tile->position_z[i]},
@@ -59,7 +59,7 @@ static void bound_block(struct field_tile *tile, uint32_t block)
 }
 
 /* A bumpy surface around the origin, some of whose pixels see nothing. */
-static void fill_tile(struct field_tile *tile, struct random *random)
+static void fill_tile(struct interleaved_tile *tile, struct random *random)
 {
     memset(tile, 0, sizeof *tile);
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
@@ -80,12 +80,12 @@ static void fill_tile(struct field_tile *tile, struct random *random)
 /* No wall, one or two; some beside the disc's middle, some past its rim. */
 static void add_walls(ps_splat *splat, struct random *random)
 {
-    splat->wall_count = (uint32_t)random_between(random, 0, 2.999f);
-    for (uint32_t i = 0; i < splat->wall_count; i++) {
+    splat->boundary_count = (uint32_t)random_between(random, 0, 2.999f);
+    for (uint32_t i = 0; i < splat->boundary_count; i++) {
         ps_vec3 direction = random_direction(random);
         float length = sqrtf(direction.x * direction.x + direction.y * direction.y);
-        splat->walls[i] = (ps_wall){direction.x / length, direction.y / length,
-                                    random_between(random, 0.0f, 1.2f)};
+        splat->boundaries[i] = (ps_boundary){direction.x / length, direction.y / length,
+                                             random_between(random, 0.0f, 1.2f)};
     }
 }
 
@@ -94,7 +94,7 @@ static void add_width(ps_splat *splat, struct random *random)
 {
     if (random_unit(random) < 0.5f)
         return;
-    splat->source_depth = splat->start_depth - random_between(random, 0.01f, 0.3f);
+    splat->photon_depth = splat->start_depth - random_between(random, 0.01f, 0.3f);
     splat->follow = random_between(random, 0.2f, 2.0f);
     splat->narrowest = random_between(random, 0.1f, 0.5f) * splat->half_width;
     splat->widest = random_between(random, 0.5f, 1.5f) * splat->half_width;
@@ -159,8 +159,8 @@ static size_t texel(double across, uint32_t resolution, bool *borderline)
     return (size_t)fmin(fmax(place, 0), resolution - 1);
 }
 
-/* The half-width of the disc that a pixel takes, in those of the splat; see width.h. n: its normal;
- * `above`: its distance from the source's plane. */
+/* The half-width of the disc that a pixel takes, in those of the splat; see bandwidth.h. n: its normal;
+ * `above`: its distance from the photon's plane. */
 static double width_of(const ps_splat *splat, const double n[3], double cosine, double above)
 {
     if (!(splat->follow > 0))
@@ -176,8 +176,8 @@ static double made_up(const struct bench *bench, const ps_splat *splat, double u
                       double width, bool *borderline)
 {
     double beyond[2] = {0, 0};
-    for (uint32_t i = 0; i < splat->wall_count; i++) {
-        const ps_wall *wall = &splat->walls[i];
+    for (uint32_t i = 0; i < splat->boundary_count; i++) {
+        const ps_boundary *wall = &splat->boundaries[i];
         double distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
         if (!(distance > 0))
             return 0;
@@ -185,7 +185,7 @@ static double made_up(const struct bench *bench, const ps_splat *splat, double u
         *borderline |= fabs(place - floor(place + 0.5)) < 1e-3;
         beyond[i] = bench->profile.beyond[(size_t)fmin(fmax(place, 0), KERNEL_BOUNDARY_SIZE - 1)];
     }
-    const ps_wall *walls = splat->walls;
+    const ps_boundary *walls = splat->boundaries;
     double cosine = walls[0].normal_u * walls[1].normal_u + walls[0].normal_v * walls[1].normal_v;
     double likeness = 2 / 3.14159265358979 * asin(fmax(-1, fmin(cosine, 1)));
     double product = beyond[0] * beyond[1];
@@ -204,7 +204,7 @@ static double smooth_step(double x)
 static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel, struct sums *sums)
 {
     const ps_splat *splat = &bench->splats[s];
-    const struct field_tile *tile = &bench->tile;
+    const struct interleaved_tile *tile = &bench->tile;
     const double d[3] = {(double)tile->position_x[pixel] - splat->centre.x,
                          (double)tile->position_y[pixel] - splat->centre.y,
                          (double)tile->position_z[pixel] - splat->centre.z};
@@ -220,7 +220,7 @@ static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel,
     inside = below(0, cosine, 1e-6, &borderline) && inside;
     inside = below(splat->near_depth, t, 1e-5, &borderline) && inside;
     inside = below(t, splat->far_depth, 1e-5, &borderline) && inside;
-    double before = splat->follow > 0 ? splat->source_depth : splat->start_depth;
+    double before = splat->follow > 0 ? splat->photon_depth : splat->start_depth;
     double above =
         t - before - splat->half_width * (u * splat->start_slope_u + v * splat->start_slope_v);
     double width = width_of(splat, n, cosine, above);
@@ -259,7 +259,7 @@ static void expect_close(double value, double expected)
         fail_msg("%.9g, expected %.9g", value, expected);
 }
 
-static void expect_pixel(const struct field_tile *tile, uint32_t i, const struct sums *sums)
+static void expect_pixel(const struct interleaved_tile *tile, uint32_t i, const struct sums *sums)
 {
     expect_close(tile->irradiance_r[i], sums->r);
     expect_close(tile->irradiance_g[i], sums->g);
@@ -268,7 +268,7 @@ static void expect_pixel(const struct field_tile *tile, uint32_t i, const struct
 }
 
 static struct kernel_count run(const struct kernel_variant *variant, struct bench *bench,
-                               struct field_tile *tile)
+                               struct interleaved_tile *tile)
 {
     struct kernel_splat prepared[SPLATS];
     for (uint32_t s = 0; s < SPLATS; s++)
@@ -281,7 +281,7 @@ static struct kernel_count run(const struct kernel_variant *variant, struct benc
 /* Compares all pixels; returns how many were too close to a limit to tell. */
 static uint32_t compare(const struct kernel_variant *variant, struct bench *bench, double *lit)
 {
-    static _Alignas(64) struct field_tile tile;
+    static _Alignas(64) struct interleaved_tile tile;
     struct kernel_count count = run(variant, bench, &tile);
     uint32_t borderline = 0;
     double expected_useful = 0;
@@ -297,7 +297,7 @@ static uint32_t compare(const struct kernel_variant *variant, struct bench *benc
     assert_true(fabs((double)count.lit - expected_useful) <= 2.0 * borderline);
     /* Bounds leave something out, and keep whole blocks. */
     assert_true(count.tests >= count.lit && count.tests < SPLATS * PS_TILE_PIXELS * 9 / 10);
-    assert_int_equal(count.tests % FIELD_BLOCK, 0);
+    assert_int_equal(count.tests % INTERLEAVED_BLOCK, 0);
     *lit += expected_useful;
     return borderline;
 }
@@ -327,7 +327,7 @@ static void test_variants_agree_with_the_formulas(void **state)
 static void test_pixels_without_surface_get_nothing(void **state)
 {
     (void)state;
-    static _Alignas(64) struct field_tile tile;
+    static _Alignas(64) struct interleaved_tile tile;
     struct kernel_variant variants[4];
     size_t count = kernel_variants(variants);
     for (size_t v = 0; v < count; v++) {
@@ -351,7 +351,7 @@ static void test_pixels_without_surface_get_nothing(void **state)
 static void test_adds_to_what_is_there(void **state)
 {
     (void)state;
-    static _Alignas(64) struct field_tile whole, halves;
+    static _Alignas(64) struct interleaved_tile whole, halves;
     struct kernel_variant variants[4];
     size_t count = kernel_variants(variants);
     struct bench *bench = make_bench(3, 6);
@@ -405,7 +405,7 @@ static struct bench *bench_from_above(float depth)
 
 static void expect_from_above(float depth, bool lit)
 {
-    static _Alignas(64) struct field_tile tile;
+    static _Alignas(64) struct interleaved_tile tile;
     struct kernel_variant variants[4];
     size_t count = kernel_variants(variants);
     struct bench *bench = bench_from_above(depth);

@@ -1,7 +1,7 @@
 /* test_light_spread.c: how far apart light lands that comes straight from the lights, and that splats of
  * automatic size follow it. */
 #include "pipeline/render_state.h"
-#include "splat/box.h"
+#include "splat/footprint.h"
 #include "support/inject.h"
 #include "support/lit_room.h"
 #include "support/render_scene.h"
@@ -64,19 +64,19 @@ static void test_darkness(void **state)
 
 static ps_result check_size(void *user, struct render *render, struct error *error)
 {
-    const ps_box_settings automatic = {.radius = 0};
+    const ps_footprint_settings automatic = {.radius = 0};
     const ps_hit hit = {.distance = 1, .normal = {0, -1, 0}, .position = {0, 1, 0}};
-    const ps_source *sources;
+    const ps_photon *photons;
     size_t n;
     double progress;
     ps_splat splat;
     (void)user, (void)error;
-    assert_int_equal(render->host.next_sources(&render->host, &sources, &n, &progress), PS_OK);
+    assert_int_equal(render->host.next_photons(&render->host, &photons, &n, &progress), PS_OK);
     assert_true(n > 0);
-    render->host.place_boxes(&render->host, &automatic, sources, &hit, 1, &splat);
+    render->host.place_footprints(&render->host, &automatic, photons, &hit, 1, &splat);
     float radius = render->scene->radius;
-    float expected = box_automatic_size(radius, (float)spread_of_pool(), 4096, 0);
-    assert_true(expected < 0.8f * box_automatic_size(radius, 0, 4096, 0));
+    float expected = footprint_automatic_size(radius, (float)spread_of_pool(), 4096, 0);
+    assert_true(expected < 0.8f * footprint_automatic_size(radius, 0, 4096, 0));
     assert_true(fabsf(splat.half_width - expected) < 0.01f * expected);
     return PS_OK;
 }

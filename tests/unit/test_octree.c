@@ -21,9 +21,9 @@ static bool inside(const struct node *node, ps_vec3 p)
            p.y < node->low.y + node->side && p.z >= node->low.z && p.z < node->low.z + node->side;
 }
 
-/* By the definition: how many leaves there are; each has one source left, which stands for all. */
-static size_t check_leaves(struct node node, const ps_source *given, size_t n,
-                           const ps_source *left, size_t left_count)
+/* By the definition: how many leaves there are; each has one photon left, which stands for all. */
+static size_t check_leaves(struct node node, const ps_photon *given, size_t n,
+                           const ps_photon *left, size_t left_count)
 {
     size_t count = 0, leaves = 0, kept = 0;
     for (size_t i = 0; i < n; i++)
@@ -54,20 +54,20 @@ static void test_octree_by_definition(void **state)
     enum { N = 400 };
     struct random random = {77};
     struct stage stage = stage_of(16);
-    static ps_source given[N], sources[N];
+    static ps_photon given[N], photons[N];
     for (size_t i = 0; i < N; i++) { /* denser towards a corner */
         float x = random_unit(&random), y = random_unit(&random), z = random_unit(&random);
-        given[i] = stratify_source((ps_vec3){16 * x * x, 16 * y * y - 8, 32 * z - 16}, 1, i);
+        given[i] = stratify_photon((ps_vec3){16 * x * x, 16 * y * y - 8, 32 * z - 16}, 1, i);
     }
     for (int64_t capacity = 1; capacity < 200; capacity *= 3)
         for (int64_t depth = 0; depth < 8; depth++) {
             char choice[64];
             snprintf(choice, sizeof choice, "octree:capacity=%d,depth=%d", (int)capacity,
                      (int)depth);
-            memcpy(sources, given, sizeof given);
-            size_t left = stratify(&stage, choice, sources, N);
+            memcpy(photons, given, sizeof given);
+            size_t left = stratify(&stage, choice, photons, N);
             struct node root = {{-16, -16, -16}, 32, capacity, depth};
-            assert_int_equal(check_leaves(root, given, N, sources, left), left);
+            assert_int_equal(check_leaves(root, given, N, photons, left), left);
         }
     stage_release(&stage);
 }

@@ -156,7 +156,7 @@ static void test_choices(void **state)
     refuse("size", "automatic", "auto | full | number > 0");
 }
 
-/* With a choice, the number is 0: strategy.h's PS_BOX_SETTINGS relies on it. */
+/* With a choice, the number is 0: strategy.h's PS_FOOTPRINT_SETTINGS relies on it. */
 static void test_choice_clears_the_number(void **state)
 {
     (void)state;

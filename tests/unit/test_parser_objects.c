@@ -32,7 +32,7 @@ static void test_shapes(void **state)
     assert_int_equal(o[0].kind, OBJECT_CYLINDER);
     assert_true(o[0].points[1].y == 1 && o[0].radius == 2 && o[0].open && o[0].segments == 64);
     assert_int_equal(o[1].kind, OBJECT_CONE);
-    assert_true(o[1].radius == 1 && o[1].cap_radius == 0 && o[1].points[1].y == 3 && !o[1].open);
+    assert_true(o[1].radius == 1 && o[1].to_radius == 0 && o[1].points[1].y == 3 && !o[1].open);
     assert_true(o[1].segments == 9 && o[1].hidden && !o[0].hidden);
     assert_int_equal(o[2].kind, OBJECT_DISC);
     assert_near(o[2].normal, 0, 1, 0);

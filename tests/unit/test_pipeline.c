@@ -1,4 +1,4 @@
-/* test_pipeline.c: the driver: sources pass through, dark pixels are filled and counted, layers
+/* test_pipeline.c: the driver: photons pass through, dark pixels are filled and counted, layers
  * join, and the picture depends on neither threads nor batches. */
 #include "gather/gathered_light.h"
 #include "support/render_scene.h"
@@ -48,27 +48,27 @@ static struct rendering render(const char *text, const char *a, const char *b)
     return render_text(text, 2, choices);
 }
 
-static void test_no_stratification_passes_sources_through(void **state)
+static void test_no_stratification_passes_photons_through(void **state)
 {
     (void)state;
     struct rendering rendering =
         render(cornell, "injection=photon:count=5000", "stratification=none");
-    double injected = statistics_counter(&rendering.statistics, "sources injected");
+    double injected = statistics_counter(&rendering.statistics, "photons injected");
     assert_true(injected > 3500 && injected < 4500); /* some photons leave through the front */
-    assert_true(statistics_counter(&rendering.statistics, "sources") == injected);
+    assert_true(statistics_counter(&rendering.statistics, "photons") == injected);
     assert_true(statistics_counter(&rendering.statistics, "splats") == injected);
     rendering_release(&rendering);
 }
 
-/* More bounces make more sources and more light. */
-static void test_bounces_add_sources(void **state)
+/* More bounces make more photons and more light. */
+static void test_bounces_add_photons(void **state)
 {
     (void)state;
     struct rendering one = render(cornell, "injection=photon:count=5000", "bounces=1");
     struct rendering three =
         render(cornell, "injection=photon:count=5000,roulette=1000", "bounces=3");
-    assert_true(statistics_counter(&three.statistics, "sources") >
-                2 * statistics_counter(&one.statistics, "sources"));
+    assert_true(statistics_counter(&three.statistics, "photons") >
+                2 * statistics_counter(&one.statistics, "photons"));
     assert_true(mean_of_all(&three.image, "indirect.R") > mean_of_all(&one.image, "indirect.R"));
     rendering_release(&one);
     rendering_release(&three);
@@ -133,8 +133,8 @@ static void test_passes_keep_the_brightness(void **state)
     assert_true(fabs(direct - 1) < 0.02);
     assert_true(statistics_counter(&eight.statistics, "passes") == 8);
     /* The same paths in all: passes take up the numbers where the last one stopped. */
-    assert_true(statistics_counter(&eight.statistics, "sources") ==
-                statistics_counter(&four.statistics, "sources"));
+    assert_true(statistics_counter(&eight.statistics, "photons") ==
+                statistics_counter(&four.statistics, "photons"));
     rendering_release(&four);
     rendering_release(&eight);
     free(four_text);
@@ -206,8 +206,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rays_of_the_short_range_gather),
-        cmocka_unit_test(test_no_stratification_passes_sources_through),
-        cmocka_unit_test(test_bounces_add_sources),
+        cmocka_unit_test(test_no_stratification_passes_photons_through),
+        cmocka_unit_test(test_bounces_add_photons),
         cmocka_unit_test(test_ambient_fills_dark_pixels),
         cmocka_unit_test(test_layers_join),
         cmocka_unit_test(test_passes_keep_the_brightness),

@@ -18,7 +18,7 @@ static const struct affine sheared_mirror = {{-2, 0.5f, 0}, {1, 3, 0}, {0.5f, 0,
 static const struct object_description cylinder = {
     .kind = OBJECT_CYLINDER, .points = {{1, 2, 3}, {2, 4, 5}}, .radius = 0.5};
 static const struct object_description cone = {
-    .kind = OBJECT_CONE, .points = {{1, 2, 3}, {2, 4, 5}}, .radius = 2, .cap_radius = 0.5};
+    .kind = OBJECT_CONE, .points = {{1, 2, 3}, {2, 4, 5}}, .radius = 2, .to_radius = 0.5};
 static const struct object_description disc = {
     .kind = OBJECT_DISC, .center = {1, 2, 3}, .normal = {0, 7, 0}, .radius = 2};
 static const struct object_description torus = {
@@ -70,9 +70,9 @@ static void test_solids_have_their_volume_and_area(void **state)
     object = cone;
     double slant = hypot(3, 1.5);
     expect_solid(object, PI * 3 / 3 * (4 + 1 + 0.25), PI * 2.5 * slant + PI * 4.25, 0.002);
-    object.cap_radius = 0;
+    object.to_radius = 0;
     expect_solid(object, PI * 4, PI * 2 * hypot(3, 2) + PI * 4, 0.002);
-    object.cap_radius = 2;
+    object.to_radius = 2;
     object.radius = 0;
     expect_solid(object, PI * 4, PI * 2 * hypot(3, 2) + PI * 4, 0.002);
     object = torus;
@@ -115,8 +115,8 @@ static void test_open_ends(void **state)
         object.open = true;
         struct shape closed = shape_of(*objects[i], NULL), open = shape_of(object, NULL);
         double ends =
-            PI * (object.radius * object.radius + (i ? object.cap_radius : object.radius) *
-                                                      (i ? object.cap_radius : object.radius));
+            PI * (object.radius * object.radius +
+                  (i ? object.to_radius : object.radius) * (i ? object.to_radius : object.radius));
         assert_false(mesh_is_closed(&open));
         expect_near(mesh_area(&closed) - mesh_area(&open), ends, 0.002);
         expect_good_normals(&open);
@@ -301,7 +301,7 @@ static void test_no_round_shape(void **state)
         expect_no_shape(object, NULL, "torus: radius");
         object = cone;
         object.radius = bad[i];
-        object.cap_radius = 0;
+        object.to_radius = 0;
         expect_no_shape(object, NULL, "radius");
     }
     object = cylinder;

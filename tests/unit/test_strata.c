@@ -1,7 +1,7 @@
-/* test_strata.c: which sources grid, cascade and octree merge, on sources made for it. The octree
+/* test_strata.c: which photons grid, cascade and octree merge, on photons made for it. The octree
  * in space is for test_octree.c.
  *
- * Sources have power 1, so what is left tells by `merged` how many became one. Strata are sorted by
+ * Photons have power 1, so what is left tells by `merged` how many became one. Strata are sorted by
  * their least x here, for reading.
  */
 #include "support/random.h"
@@ -16,25 +16,25 @@
 
 static int by_x(const void *a, const void *b)
 {
-    float x = ((const ps_source *)a)->position.x, y = ((const ps_source *)b)->position.x;
+    float x = ((const ps_photon *)a)->position.x, y = ((const ps_photon *)b)->position.x;
     return (x > y) - (x < y);
 }
 
-/* Expects that of sources at these x (y = z = 0.5), as many groups are left, with these sizes. */
+/* Expects that of photons at these x (y = z = 0.5), as many groups are left, with these sizes. */
 static void expect_groups(struct stage *stage, const char *choice, const float *x, size_t n,
                           const char *sizes)
 {
-    ps_source sources[64];
+    ps_photon photons[64];
     char found[256] = "";
     assert_true(n <= 64);
     for (size_t i = 0; i < n; i++)
-        sources[i] = stratify_source((ps_vec3){x[i], 0.5f, 0.5f}, 1, i);
-    size_t left = stratify(stage, choice, sources, n);
-    qsort(sources, left, sizeof *sources, by_x);
+        photons[i] = stratify_photon((ps_vec3){x[i], 0.5f, 0.5f}, 1, i);
+    size_t left = stratify(stage, choice, photons, n);
+    qsort(photons, left, sizeof *photons, by_x);
     for (size_t i = 0; i < left; i++) {
-        assert_true(sources[i].power.r == sources[i].merged);
+        assert_true(photons[i].power.r == photons[i].merged);
         snprintf(found + strlen(found), sizeof found - strlen(found), "%s%g", i ? " " : "",
-                 sources[i].merged);
+                 photons[i].merged);
     }
     if (strcmp(found, sizes) != 0)
         fail_msg("%s left groups of %s, expected %s", choice, found, sizes);
@@ -55,7 +55,7 @@ static void test_cells(void **state)
     GROUPS(&stage, "grid:cell=1,threshold=1", "2 3 1", -0.1f, 0.1f, 0.2f, 0.9f, -0.9f, 3);
     GROUPS(&stage, "grid:cell=2,threshold=1", "2 3 1", -0.1f, 0.1f, 0.2f, 1.9f, -1.9f, 2);
     assert_true(statistics_counter(&stage.statistics, "strata") == 3);
-    assert_true(statistics_counter(&stage.statistics, "sources merged") == 3);
+    assert_true(statistics_counter(&stage.statistics, "photons merged") == 3);
     /* 8 cells over the diameter of 32: 4 a cell. */
     GROUPS(&stage, "grid:resolution=8,threshold=1", "2 2 1", -3, -1, 0.5f, 3.9f, 4.1f);
     /* 3 cells: borders at -16/3 and 16/3. */
@@ -94,7 +94,7 @@ static void test_levels(void **state)
 {
     (void)state;
     struct stage stage = stage_of(16);
-    /* One source a cell. Level by level, blocks grow until each holds 3. */
+    /* One photon a cell. Level by level, blocks grow until each holds 3. */
     GROUPS(&stage, "grid:resolution=32,threshold=3,levels=1", "2 2 2 2", 0.5f, 1.5f, 2.5f, 3.5f,
            4.5f, 5.5f, 6.5f, 7.5f);
     GROUPS(&stage, "grid:resolution=32,threshold=3,levels=2", "4 4", 0.5f, 1.5f, 2.5f, 3.5f, 4.5f,
@@ -148,17 +148,17 @@ static void test_normals(void **state)
     };
     struct stage stage = stage_of(16);
     for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
-        ps_source sources[4];
+        ps_photon photons[4];
         static const double angles[4] = {0, 50, 180, 20};
         for (size_t i = 0; i < 4; i++) {
-            sources[i] = stratify_source((ps_vec3){0.5f, 0.5f, 0.5f}, 1, i);
-            sources[i].normal = tilted(angles[i]);
+            photons[i] = stratify_photon((ps_vec3){0.5f, 0.5f, 0.5f}, 1, i);
+            photons[i].normal = tilted(angles[i]);
         }
-        assert_int_equal(stratify(&stage, cases[c].choice, sources, 4), cases[c].left);
-        float merged = 0; /* of the group that the source of normal 0 went to */
+        assert_int_equal(stratify(&stage, cases[c].choice, photons, 4), cases[c].left);
+        float merged = 0; /* of the group that the photon of normal 0 went to */
         for (size_t i = 0; i < cases[c].left; i++)
-            if (sources[i].path != 2 || cases[c].left == 1)
-                merged = fmaxf(merged, sources[i].merged);
+            if (photons[i].path != 2 || cases[c].left == 1)
+                merged = fmaxf(merged, photons[i].merged);
         assert_true(merged == cases[c].first);
         assert_true(statistics_counter(&stage.statistics, "strata") == (double)cases[c].left);
     }
@@ -190,13 +190,13 @@ static void test_cascades(void **state)
     stage.camera = (ps_vec3){10, 0, 0};
     GROUPS(&stage, NESTED, "2 1 2", 10.1f, 10.9f, 11.1f, 12.1f, 13.9f);
     GROUPS(&stage, NESTED, "1 1 2", 6.1f, 8.1f, 9.1f, 9.9f);
-    assert_true(statistics_counter(&stage.statistics, "sources beyond") == 0);
+    assert_true(statistics_counter(&stage.statistics, "photons beyond") == 0);
     GROUPS(&stage, NESTED ",beyond=keep", "1 1 1 1", 10.1f, 14.1f, 14.2f, -9);
-    assert_true(statistics_counter(&stage.statistics, "sources beyond") == 3);
+    assert_true(statistics_counter(&stage.statistics, "photons beyond") == 3);
     GROUPS(&stage, NESTED ",beyond=merge", "2 1 2 1", 10.1f, 14.1f, 15.9f, 16.1f, -9, -9.9f);
     GROUPS(&stage, NESTED ",beyond=drop", "1", 10.1f, 14.1f, 14.2f, -9);
-    assert_true(statistics_counter(&stage.statistics, "sources beyond") == 3);
-    assert_true(statistics_counter(&stage.statistics, "sources merged") == 0);
+    assert_true(statistics_counter(&stage.statistics, "photons beyond") == 3);
+    assert_true(statistics_counter(&stage.statistics, "photons merged") == 0);
     stage_release(&stage);
 }
 
@@ -206,14 +206,14 @@ static void test_automatic_cascades(void **state)
     (void)state;
     enum { N = 500 };
     struct random random = {5};
-    ps_source sources[N];
+    ps_photon photons[N];
     for (int place = 0; place < 4; place++) {
         struct stage stage = stage_of(7);
         stage.camera = ps_scale(random_direction(&random), 9 * (float)place);
         for (size_t i = 0; i < N; i++)
-            sources[i] = stratify_source(ps_scale(random_direction(&random), 7), 1, i);
-        stratify(&stage, "cascade:levels=3,beyond=drop", sources, N);
-        assert_true(statistics_counter(&stage.statistics, "sources beyond") == 0);
+            photons[i] = stratify_photon(ps_scale(random_direction(&random), 7), 1, i);
+        stratify(&stage, "cascade:levels=3,beyond=drop", photons, N);
+        assert_true(statistics_counter(&stage.statistics, "photons beyond") == 0);
         stage_release(&stage);
     }
 }

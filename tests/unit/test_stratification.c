@@ -1,5 +1,5 @@
-/* test_stratification.c: what every stratification keeps: power, order, the sources themselves; and
- * memory. For which sources merge see test_strata.c, for which stay test_representative.c. */
+/* test_stratification.c: what every stratification keeps: power, order, the photons themselves; and
+ * memory. For which photons merge see test_strata.c, for which stay test_representative.c. */
 #include "support/random.h"
 #include "support/stratify.h"
 #include <setjmp.h>
@@ -32,14 +32,14 @@ static const char *const choices[] = {
 };
 #define CHOICES (sizeof choices / sizeof choices[0])
 
-/* Sources anywhere in the ball, in any colour; path i has power of its own. */
-static ps_source *random_sources(size_t n)
+/* Photons anywhere in the ball, in any colour; path i has power of its own. */
+static ps_photon *random_photons(size_t n)
 {
     struct random random = {42};
-    ps_source *sources = calloc(n + 1, sizeof *sources);
-    assert_non_null(sources);
+    ps_photon *photons = calloc(n + 1, sizeof *photons);
+    assert_non_null(photons);
     for (size_t i = 0; i < n; i++)
-        sources[i] = (ps_source){
+        photons[i] = (ps_photon){
             .position = ps_scale(random_direction(&random), RADIUS * random_unit(&random)),
             .normal = random_direction(&random),
             .direction = random_direction(&random),
@@ -48,21 +48,21 @@ static ps_source *random_sources(size_t n)
             .merged = 1,
             .path = i,
         };
-    return sources;
+    return photons;
 }
 
 struct total {
     double r, g, b, merged;
 };
 
-static struct total total_of(const ps_source *sources, size_t n)
+static struct total total_of(const ps_photon *photons, size_t n)
 {
     struct total total = {0};
     for (size_t i = 0; i < n; i++) {
-        total.r += sources[i].power.r;
-        total.g += sources[i].power.g;
-        total.b += sources[i].power.b;
-        total.merged += sources[i].merged;
+        total.r += photons[i].power.r;
+        total.g += photons[i].power.g;
+        total.b += photons[i].power.b;
+        total.merged += photons[i].merged;
     }
     return total;
 }
@@ -77,11 +77,11 @@ static void expect_same_total(const char *choice, struct total a, struct total b
                  a.merged, b.r, b.g, b.b, b.merged);
 }
 
-/* Every source left is one of those given but for power and merged, and they are in path order. */
-static void expect_members(const ps_source *given, const ps_source *left, size_t n)
+/* Every photon left is one of those given but for power and merged, and they are in path order. */
+static void expect_members(const ps_photon *given, const ps_photon *left, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
-        ps_source expected = given[left[i].path];
+        ps_photon expected = given[left[i].path];
         expected.power = left[i].power;
         expected.merged = left[i].merged;
         assert_memory_equal(&expected, &left[i], sizeof expected);
@@ -95,20 +95,20 @@ static void test_power_and_order_stay(void **state)
     enum { N = 3000 };
     struct stage stage = stage_of(RADIUS);
     stage.camera = (ps_vec3){3, 1, -8};
-    ps_source *given = random_sources(N), *sources = random_sources(N);
+    ps_photon *given = random_photons(N), *photons = random_photons(N);
     for (size_t c = 0; c < CHOICES; c++) {
-        memcpy(sources, given, N * sizeof *given);
-        size_t left = stratify(&stage, choices[c], sources, N);
+        memcpy(photons, given, N * sizeof *given);
+        size_t left = stratify(&stage, choices[c], photons, N);
         assert_int_equal(stage.result, PS_OK);
         assert_true(left > 0 && left <= N && (left < N || c == 0 || strstr(choices[c], "=1,")));
-        expect_same_total(choices[c], total_of(given, N), total_of(sources, left));
-        expect_members(given, sources, left);
+        expect_same_total(choices[c], total_of(given, N), total_of(photons, left));
+        expect_members(given, photons, left);
         if (c > 0)
-            assert_true(statistics_counter(&stage.statistics, "sources merged") ==
+            assert_true(statistics_counter(&stage.statistics, "photons merged") ==
                         (double)(N - left));
     }
     free(given);
-    free(sources);
+    free(photons);
     stage_release(&stage);
 }
 
@@ -116,20 +116,20 @@ static void test_none_and_one(void **state)
 {
     (void)state;
     struct stage stage = stage_of(RADIUS);
-    ps_source *given = random_sources(1);
+    ps_photon *given = random_photons(1);
     for (size_t c = 0; c < CHOICES; c++) {
-        ps_source source = given[0];
-        assert_int_equal(stratify(&stage, choices[c], &source, 0), 0);
+        ps_photon photon = given[0];
+        assert_int_equal(stratify(&stage, choices[c], &photon, 0), 0);
         assert_int_equal(stage.result, PS_OK);
-        assert_int_equal(stratify(&stage, choices[c], &source, 1), 1);
+        assert_int_equal(stratify(&stage, choices[c], &photon, 1), 1);
         assert_int_equal(stage.result, PS_OK);
-        assert_memory_equal(&source, given, sizeof source);
+        assert_memory_equal(&photon, given, sizeof photon);
     }
     free(given);
     stage_release(&stage);
 }
 
-/* Cells smaller than the distance between sources change nothing, to the last bit. */
+/* Cells smaller than the distance between photons change nothing, to the last bit. */
 static void test_converges_to_none(void **state)
 {
     (void)state;
@@ -138,13 +138,13 @@ static void test_converges_to_none(void **state)
                                        "cascade:cell=1e-4,resolution=1000000,levels=2",
                                        "octree:capacity=1,depth=20"};
     struct stage stage = stage_of(RADIUS);
-    ps_source *given = random_sources(N), *sources = random_sources(N);
+    ps_photon *given = random_photons(N), *photons = random_photons(N);
     for (size_t c = 0; c < sizeof fine / sizeof fine[0]; c++) {
-        assert_int_equal(stratify(&stage, fine[c], sources, N), N);
-        assert_memory_equal(sources, given, N * sizeof *given);
+        assert_int_equal(stratify(&stage, fine[c], photons, N), N);
+        assert_memory_equal(photons, given, N * sizeof *given);
     }
     free(given);
-    free(sources);
+    free(photons);
     stage_release(&stage);
 }
 
@@ -156,15 +156,15 @@ static void test_hostile_input(void **state)
     for (int flat = 0; flat < 2; flat++) {
         struct stage stage = stage_of(flat ? 0 : RADIUS);
         for (size_t c = 0; c < CHOICES; c++) {
-            ps_source *sources = random_sources(N);
-            sources[1].position.x = NAN;
-            sources[2].position.y = INFINITY;
-            sources[3].position = (ps_vec3){-INFINITY, 1e38f, -1e38f};
-            sources[4].power = (ps_rgb){0, 0, 0};
-            struct total before = total_of(sources, N);
-            size_t left = stratify(&stage, choices[c], sources, N);
-            expect_same_total(choices[c], before, total_of(sources, left));
-            free(sources);
+            ps_photon *photons = random_photons(N);
+            photons[1].position.x = NAN;
+            photons[2].position.y = INFINITY;
+            photons[3].position = (ps_vec3){-INFINITY, 1e38f, -1e38f};
+            photons[4].power = (ps_rgb){0, 0, 0};
+            struct total before = total_of(photons, N);
+            size_t left = stratify(&stage, choices[c], photons, N);
+            expect_same_total(choices[c], before, total_of(photons, left));
+            free(photons);
         }
         stage_release(&stage);
     }
@@ -175,20 +175,20 @@ static void test_out_of_memory(void **state)
     (void)state;
     struct stage stage = stage_of(RADIUS);
     stage.out_of_memory = true;
-    ps_source *given = random_sources(10), *sources = random_sources(10);
+    ps_photon *given = random_photons(10), *photons = random_photons(10);
     static const char *const names[] = {"grid", "cascade", "octree"};
     for (int i = 0; i < 3; i++) {
-        assert_int_equal(stratify(&stage, names[i], sources, 10), 10);
+        assert_int_equal(stratify(&stage, names[i], photons, 10), 10);
         assert_int_equal(stage.result, PS_ERROR_MEMORY);
-        assert_memory_equal(sources, given, 10 * sizeof *given);
+        assert_memory_equal(photons, given, 10 * sizeof *given);
     }
     free(given);
-    free(sources);
+    free(photons);
     stage_release(&stage);
 }
 
-/* A hundredth of the 576 MB of an array of 256^3 cells is for 25,000 sources and their strata. */
-static void test_memory_goes_by_sources(void **state)
+/* A hundredth of the 576 MB of an array of 256^3 cells is for 25,000 photons and their strata. */
+static void test_memory_goes_by_photons(void **state)
 {
     (void)state;
     enum { N = 25000 };
@@ -196,13 +196,13 @@ static void test_memory_goes_by_sources(void **state)
                                        "grid:resolution=1000000", "cascade", "octree:depth=20"};
     struct stage stage = stage_of(RADIUS);
     for (int i = 0; i < 5; i++) {
-        ps_source *sources = random_sources(N);
-        stratify(&stage, many[i], sources, N);
+        ps_photon *photons = random_photons(N);
+        stratify(&stage, many[i], photons, N);
         double bytes = statistics_bytes(&stage.statistics, "strata");
         print_message("%s: %.0f bytes\n", many[i], bytes);
         assert_true(bytes > 0 && bytes <= 40.0 * N + 64);
-        assert_true(bytes + (double)(N * sizeof *sources) < 5.76e6);
-        free(sources);
+        assert_true(bytes + (double)(N * sizeof *photons) < 5.76e6);
+        free(photons);
     }
     stage_release(&stage);
 }
@@ -213,10 +213,10 @@ static void test_choices_repeat(void **state)
     (void)state;
     enum { N = 2000 };
     struct stage stage = stage_of(RADIUS);
-    ps_source *first = random_sources(N);
+    ps_photon *first = random_photons(N);
     size_t left = stratify(&stage, "grid:resolution=8", first, N);
     for (int i = 0; i < 3; i++) {
-        ps_source *again = random_sources(N);
+        ps_photon *again = random_photons(N);
         stage.pass = i == 1;
         stage.seed = i == 2 ? 2 : 1;
         assert_int_equal(stratify(&stage, "grid:resolution=8", again, N), left);
@@ -227,10 +227,10 @@ static void test_choices_repeat(void **state)
     stage_release(&stage);
 }
 
-/* Sources of one number became one, and those of none stayed. */
+/* Photons of one number became one, and those of none stayed. */
 static void expect_cells(struct stage *stage, const char *choice, size_t n)
 {
-    ps_source *given = random_sources(n), *left = random_sources(n);
+    ps_photon *given = random_photons(n), *left = random_photons(n);
     uint64_t *numbers = calloc(n, sizeof *numbers);
     assert_non_null(numbers);
     assert_true(stratify_cells(stage, choice, given, n, numbers));
@@ -269,7 +269,7 @@ static void test_cells_hold_what_merges(void **state)
     };
     struct stage stage = stage_of(RADIUS);
     uint64_t number;
-    ps_source *one = random_sources(1);
+    ps_photon *one = random_photons(1);
     for (size_t i = 0; i < sizeof cells / sizeof cells[0]; i++)
         expect_cells(&stage, cells[i], 2000);
     assert_false(stratify_cells(&stage, "none", one, 1, &number));
@@ -285,7 +285,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_power_and_order_stay), cmocka_unit_test(test_none_and_one),
         cmocka_unit_test(test_converges_to_none),    cmocka_unit_test(test_hostile_input),
-        cmocka_unit_test(test_out_of_memory),        cmocka_unit_test(test_memory_goes_by_sources),
+        cmocka_unit_test(test_out_of_memory),        cmocka_unit_test(test_memory_goes_by_photons),
         cmocka_unit_test(test_choices_repeat),       cmocka_unit_test(test_cells_hold_what_merges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

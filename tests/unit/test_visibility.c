@@ -180,7 +180,7 @@ static void test_sheets_have_two_sides(void **state)
 }
 
 /* A patch at (0, 2, 0), and beside it a closed box from x = 0.05 on, from the ceiling down to half
- * the height: full beams of half-width 0.3 start inside of it to a part, and that light must not
+ * the height: full bundles of half-width 0.3 start inside of it to a part, and that light must not
  * get out. Rays that start beside the box and pass below it end before x = 0.17. */
 static const char inside_text[] =
     "psd: 1\n"
@@ -275,7 +275,7 @@ static void test_slopes_keep_their_weight_up_to_the_rim(void **state)
         }
 }
 
-/* Edges seen against something farther away, and corners where the beam sticks through the walls:
+/* Edges seen against something farther away, and corners where the bundle sticks through the walls:
  * there a texel's ray misses the surface of some of its pixels. */
 static void test_edges_and_corners_keep_their_light(void **state)
 {

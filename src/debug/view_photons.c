@@ -1,4 +1,4 @@
-/* view_sources.c: where indirect light comes from: the sources of a pass as dots (Hoet 2014, figure
+/* view_photons.c: where indirect light comes from: the photons of a pass as dots (Hoet 2014, figure
  * 2). After stratification, so that merged ones are seen as what they became. Those that something
  * hides are left out: drawn through walls, all that is behind a picture would lie on it.
  */
@@ -6,8 +6,8 @@
 #include "debug/debug.h"
 #include "debug/id_colour.h"
 #include "debug/legend.h"
+#include "debug/project.h"
 #include "debug/selection.h"
-#include "debug/sight.h"
 #include <psplat/math.h>
 #include <stdio.h>
 
@@ -20,24 +20,24 @@ struct dot {
     unsigned bounce;
 };
 
-static ps_result collect(struct render *render, struct selection *dots, uint64_t *sources,
+static ps_result collect(struct render *render, struct selection *dots, uint64_t *photons,
                          struct error *error)
 {
-    const ps_source *batch;
+    const ps_photon *batch;
     size_t n;
     double progress;
-    *sources = 0;
+    *photons = 0;
     do {
         render->error.text[0] = '\0';
-        ps_result result = render->host.next_sources(&render->host, &batch, &n, &progress);
+        ps_result result = render->host.next_photons(&render->host, &batch, &n, &progress);
         if (result != PS_OK)
             return error_set(error, result, "%s", render->error.text);
         for (size_t i = 0; i < n; i++) {
             struct dot dot = {.power = ps_luminance(batch[i].power), .bounce = batch[i].bounce};
-            if (sight_of(render, batch[i].position, batch[i].normal, &dot.x, &dot.y))
+            if (project_visible(render, batch[i].position, batch[i].normal, &dot.x, &dot.y))
                 selection_offer(dots, &dot);
         }
-        *sources += n;
+        *photons += n;
         render->host.progress(&render->host, progress);
     } while (n > 0);
     selection_finish(dots);
@@ -87,7 +87,7 @@ static void draw_dots(const struct selection *dots, bool by_bounce,
 }
 
 static void draw_picture(const struct render *render, const struct debug_options *options,
-                         const struct selection *dots, uint64_t sources, struct canvas *canvas)
+                         const struct selection *dots, uint64_t photons, struct canvas *canvas)
 {
     struct extent largest = largest_of(dots);
     struct legend_scale scale = {
@@ -96,9 +96,9 @@ static void draw_picture(const struct render *render, const struct debug_options
     };
     size_t bottom = render->film.height;
     char title[128];
-    snprintf(title, sizeof title, "%s  %zu dots: %llu of %llu sources seen",
+    snprintf(title, sizeof title, "%s  %zu dots: %llu of %llu photons seen",
              options->by_bounce ? "bounce" : "power (W)", dots->count,
-             (unsigned long long)dots->offered, (unsigned long long)sources);
+             (unsigned long long)dots->offered, (unsigned long long)photons);
     backdrop_draw(render, options->exposure, canvas);
     draw_dots(dots, options->by_bounce, &scale, canvas);
     if (options->by_bounce)
@@ -113,18 +113,18 @@ static ps_result draw(struct render *render, const struct debug_options *options
     (void)part;
     size_t width = render->film.width, height = render->film.height;
     struct selection dots;
-    uint64_t sources;
+    uint64_t photons;
     ps_result result = selection_create(&dots, options->count ? options->count : MOST_DOTS,
                                         sizeof(struct dot), error);
     if (result != PS_OK)
         return result;
-    result = collect(render, &dots, &sources, error);
+    result = collect(render, &dots, &photons, error);
     if (result == PS_OK)
         result = canvas_create(canvas, width, height + legend_height(width), error);
     if (result == PS_OK)
-        draw_picture(render, options, &dots, sources, canvas);
+        draw_picture(render, options, &dots, photons, canvas);
     selection_release(&dots);
     return result;
 }
 
-const struct debug_view debug_sources = {.name = "sources", .draw = draw};
+const struct debug_view debug_photons = {.name = "photons", .draw = draw};

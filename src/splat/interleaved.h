@@ -1,23 +1,23 @@
-/* field.h: what splats light: the G-buffer's surfaces and sums, arranged for the inner loop.
+/* interleaved.h: what splats light: the G-buffer's surfaces and sums, arranged for the inner loop.
  *
  * Interleaved sampling (Segovia et al. 2006, "Non-interleaved deferred shading of interleaved sample
  * patterns", after Keller and Heidrich 2001): the pixels fall into n x n subsets, every n-th across
  * and down, and a splat lights those of one subset only, n^2 times as strongly. That costs n^2 times
  * fewer tests; as splats are far larger than n pixels, what neighbours learned from different splats
- * makes up for it when field_join averages them.
+ * makes up for it when interleaved_join averages them.
  *
  * A tile holds 16x16 pixels of one subset, in blocks of 4x4 that lie one after the other and are
  * bounded by a box each: a block is what the inner loop takes at a time.
  */
-#ifndef SPLAT_FIELD_H
-#define SPLAT_FIELD_H
+#ifndef SPLAT_INTERLEAVED_H
+#define SPLAT_INTERLEAVED_H
 
 #include "film/gbuffer.h"
 #include "splat/bounds.h"
 
-#define FIELD_BLOCK 16 /* pixels of a block, lanes 16 b to 16 b + 15 of a tile */
+#define INTERLEAVED_BLOCK 16 /* pixels of a block, lanes 16 b to 16 b + 15 of a tile */
 
-struct field_tile {
+struct interleaved_tile {
     _Alignas(64) float position_x[PS_TILE_PIXELS];
     float position_y[PS_TILE_PIXELS], position_z[PS_TILE_PIXELS];
     float normal_x[PS_TILE_PIXELS], normal_y[PS_TILE_PIXELS], normal_z[PS_TILE_PIXELS];
@@ -26,33 +26,34 @@ struct field_tile {
     struct bounds blocks;
 };
 
-struct field {
+struct interleaved {
     uint32_t interleave;               /* n */
     uint32_t subsets;                  /* n^2 */
     uint32_t tiles_across, tiles_down; /* of each subset */
     uint32_t tile_count;               /* of all subsets, one subset after the other */
     size_t width, height;              /* of the picture */
-    struct field_tile *tiles;          /* owned */
+    struct interleaved_tile *tiles;    /* owned */
 };
 
 /* A field for a G-buffer of this size, and no memory for it. */
-struct field field_layout(const struct gbuffer *gbuffer, uint32_t interleave);
+struct interleaved interleaved_layout(const struct gbuffer *gbuffer, uint32_t interleave);
 
 /* A field for a G-buffer of this size; `interleave` 1..PS_MOST_INTERLEAVE. */
-ps_result field_create(const struct gbuffer *gbuffer, uint32_t interleave, struct field *field,
-                       struct error *error);
-void field_release(struct field *field);
-size_t field_bytes(const struct field *field);
+ps_result interleaved_create(const struct gbuffer *gbuffer, uint32_t interleave,
+                             struct interleaved *field, struct error *error);
+void interleaved_release(struct interleaved *field);
+size_t interleaved_bytes(const struct interleaved *field);
 
 /* Column and row of a lane; false if it lies outside of the picture. */
-bool field_pixel(const struct field *field, uint32_t tile, uint32_t lane, uint32_t *x, uint32_t *y);
+bool interleaved_pixel(const struct interleaved *field, uint32_t tile, uint32_t lane, uint32_t *x,
+                       uint32_t *y);
 
 /* Takes the surfaces from the G-buffer and zeroes the sums. */
-void field_fill(struct field *field, const struct gbuffer *gbuffer, uint32_t threads);
+void interleaved_fill(struct interleaved *field, const struct gbuffer *gbuffer, uint32_t threads);
 
 /* Gives each pixel of the G-buffer the mean of what the subsets learned around it: over a window of
  * n pixels across and down, or n + 1 whose border weighs half where n is even, so that each subset
  * weighs the same inside of a surface; pixels off the same plane do not count. */
-void field_join(const struct field *field, struct gbuffer *gbuffer, uint32_t threads);
+void interleaved_join(const struct interleaved *field, struct gbuffer *gbuffer, uint32_t threads);
 
 #endif

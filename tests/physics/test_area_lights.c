@@ -1,4 +1,4 @@
-/* test_sized_lights.c: the direct light of lights that have a size, against closed forms.
+/* test_area_lights.c: the direct light of area lights, against closed forms.
  *
  * E of a floor point under radiance L (form factors: Siegel and Howell; Modest, appendix D):
  *

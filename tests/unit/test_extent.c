@@ -1,6 +1,6 @@
-/* test_reach.c: how wide the boxes of full beams must be. The ray tracer is one of a single upright board,
+/* test_reach.c: how wide the boxes of full bundles must be. The ray tracer is one of a single upright board,
  * written here. */
-#include "splat/reach.h"
+#include "splat/extent.h"
 
 #include <psplat/math.h>
 #include <setjmp.h>
@@ -31,21 +31,21 @@ static void trace(const ps_host *host, ps_packet *packets, size_t n, int coheren
 }
 
 static const struct camera camera = {.orthographic = true};
-static const struct box_scene scene = {.radius = 100, .camera = &camera, .interleave = 1};
+static const struct footprint_scene scene = {.radius = 100, .camera = &camera, .interleave = 1};
 
-/* A beam from the origin of a floor, a slope of 1 upwards to the right. */
-struct beam {
+/* A bundle from the origin of a floor, a slope of 1 upwards to the right. */
+struct bundle {
     ps_hit hit;
     float half_width;
 };
 
-static struct beam find(struct board *board, ps_box_settings settings, ps_hit hit)
+static struct bundle find(struct board *board, ps_footprint_settings settings, ps_hit hit)
 {
-    const ps_source source = {.normal = {0, 1, 0}, .direction = {0.70710678f, 0.70710678f, 0}};
+    const ps_photon photon = {.normal = {0, 1, 0}, .direction = {0.70710678f, 0.70710678f, 0}};
     ps_host host = {.core = board, .intersect_packets = trace};
-    struct beam beam = {hit, box_widest(&scene, &settings, &source)};
-    reach_find(&host, &scene, &settings, &source, 1, &beam.hit, &beam.half_width);
-    return beam;
+    struct bundle bundle = {hit, footprint_widest(&scene, &settings, &photon)};
+    extent_find(&host, &scene, &settings, &photon, 1, &bundle.hit, &bundle.half_width);
+    return bundle;
 }
 
 static const ps_hit nothing = {.distance = INFINITY};
@@ -55,12 +55,12 @@ static void test_a_board_beside_the_axis(void **state)
 {
     (void)state;
     struct board board = {.distance = 10, .top = 9};
-    struct beam beam = find(&board, (ps_box_settings){.radius = 2}, nothing);
-    assert_true(beam.half_width == 2);
-    assert_true(beam.hit.distance > 12 && beam.hit.distance < 14.2f);
-    assert_true(fabsf(beam.hit.position.x - beam.hit.distance * 0.70710678f) < 1e-4f);
-    assert_true(fabsf(beam.hit.position.y - beam.hit.distance * 0.70710678f) < 1e-4f);
-    assert_true(ps_length(beam.hit.normal) == 0);
+    struct bundle bundle = find(&board, (ps_footprint_settings){.radius = 2}, nothing);
+    assert_true(bundle.half_width == 2);
+    assert_true(bundle.hit.distance > 12 && bundle.hit.distance < 14.2f);
+    assert_true(fabsf(bundle.hit.position.x - bundle.hit.distance * 0.70710678f) < 1e-4f);
+    assert_true(fabsf(bundle.hit.position.y - bundle.hit.distance * 0.70710678f) < 1e-4f);
+    assert_true(ps_length(bundle.hit.normal) == 0);
 }
 
 /* Rays beside the axis miss it as well, but it might be a thin one. */
@@ -68,8 +68,8 @@ static void test_a_board_too_far_from_the_axis(void **state)
 {
     (void)state;
     struct board board = {.distance = 10, .top = 6};
-    struct beam beam = find(&board, (ps_box_settings){.radius = 2}, nothing);
-    assert_true(beam.half_width == 2 && beam.hit.distance == 2);
+    struct bundle bundle = find(&board, (ps_footprint_settings){.radius = 2}, nothing);
+    assert_true(bundle.half_width == 2 && bundle.hit.distance == 2);
     assert_true(board.packets == 1);
 }
 
@@ -80,13 +80,13 @@ static void test_something_near_before_something_far(void **state)
     (void)state;
     struct board board = {.distance = 10, .top = 1e9f};
     const ps_hit near = {.distance = 3, .position = {1, 2, 3}, .normal = {0, 0, 1}};
-    const ps_box_settings wide = {.radius = 2, .bandwidth_scale = 0.2},
-                          narrow = {.radius = 2, .bandwidth_scale = 0.05};
-    struct beam beam = find(&board, wide, near);
-    assert_true(beam.half_width == 2);
-    assert_true(beam.hit.distance == 3 && ps_same(beam.hit.position, near.position));
-    beam = find(&board, narrow, near);
-    assert_true(beam.half_width >= 0.4f && beam.half_width < 1.0f);
+    const ps_footprint_settings wide = {.radius = 2, .bandwidth_scale = 0.2},
+                                narrow = {.radius = 2, .bandwidth_scale = 0.05};
+    struct bundle bundle = find(&board, wide, near);
+    assert_true(bundle.half_width == 2);
+    assert_true(bundle.hit.distance == 3 && ps_same(bundle.hit.position, near.position));
+    bundle = find(&board, narrow, near);
+    assert_true(bundle.half_width >= 0.4f && bundle.half_width < 1.0f);
 }
 
 /* One that meets something far away needs no rays, nor one that was left out. */
@@ -95,15 +95,16 @@ static void test_leaves_wide_beams_and_none(void **state)
     (void)state;
     struct board board = {.distance = 10, .top = 9};
     const ps_hit far = {.distance = 30};
-    const ps_box_settings settings = {.radius = 2, .bandwidth_scale = 0.2};
+    const ps_footprint_settings settings = {.radius = 2, .bandwidth_scale = 0.2};
     assert_true(find(&board, settings, far).half_width == 2);
     assert_true(
-        find(&board, (ps_box_settings){.radius = 2}, (ps_hit){.distance = 0.1f}).half_width == 2);
+        find(&board, (ps_footprint_settings){.radius = 2}, (ps_hit){.distance = 0.1f}).half_width ==
+        2);
     ps_host host = {.core = &board, .intersect_packets = trace};
-    const ps_source source = {.normal = {0, 1, 0}, .direction = {0, 1, 0}};
+    const ps_photon photon = {.normal = {0, 1, 0}, .direction = {0, 1, 0}};
     ps_hit hit = nothing;
     float none = 0;
-    reach_find(&host, &scene, &settings, &source, 1, &hit, &none);
+    extent_find(&host, &scene, &settings, &photon, 1, &hit, &none);
     assert_true(none == 0 && board.packets == 0);
 }
 

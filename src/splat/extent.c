@@ -1,4 +1,4 @@
-#include "splat/reach.h"
+#include "splat/extent.h"
 
 #include <psplat/math.h>
 
@@ -15,19 +15,19 @@ static const float place_v[RAYS] = {0.0000f,  0.2068f,  -0.3938f, 0.3712f, -0.09
                                     0.6155f,  -0.6076f, 0.2500f,  0.2940f, -0.7337f, 0.8089f,
                                     -0.4432f, -0.1972f, 0.7788f,  -0.9761f};
 
-/* Rays beside the axis, which start where the beam's do on even ground. */
-static void trace_disc(const ps_host *host, const struct box_scene *scene, const ps_source *source,
-                       float half_width, ps_packet *packet)
+/* Rays beside the axis, which start where the bundle's do on even ground. */
+static void trace_disc(const ps_host *host, const struct footprint_scene *scene,
+                       const ps_photon *photon, float half_width, ps_packet *packet)
 {
-    ps_vec3 u, v, w = source->direction;
+    ps_vec3 u, v, w = photon->direction;
     ps_frame(w, &u, &v);
-    float clearance = box_clearance(scene->surface_offset, half_width, false);
-    ps_vec3 start = ps_add_scaled(source->position, clearance, source->normal);
-    float cosine = box_cosine(source);
+    float clearance = footprint_clearance(scene->surface_offset, half_width, false);
+    ps_vec3 start = ps_add_scaled(photon->position, clearance, photon->normal);
+    float cosine = footprint_cosine(photon);
     for (int i = 0; i < RAYS; i++) {
         ps_vec3 offset =
             ps_add(ps_scale(u, half_width * place_u[i]), ps_scale(v, half_width * place_v[i]));
-        float ahead = -ps_dot(source->normal, offset) / cosine;
+        float ahead = -ps_dot(photon->normal, offset) / cosine;
         ps_vec3 origin = ps_add(start, ps_add_scaled(offset, ahead, w));
         ps_packet_set(packet, (size_t)i, (ps_ray){origin, 0.0f, w, INFINITY});
     }
@@ -36,8 +36,8 @@ static void trace_disc(const ps_host *host, const struct box_scene *scene, const
 
 /* How wide the box must be for what the rays met: as far out as the outermost of them whose pixels would
  * take in the axis, and no narrower than `least`. */
-static float width_for(const struct box_scene *scene, const ps_box_settings *settings,
-                       const ps_source *source, const ps_packet *packet, float widest, float least)
+static float width_for(const struct footprint_scene *scene, const ps_footprint_settings *settings,
+                       const ps_photon *photon, const ps_packet *packet, float widest, float least)
 {
     for (int i = RAYS - 1; i >= 0; i--) { /* inwards */
         float aside = widest * sqrtf(place_u[i] * place_u[i] + place_v[i] * place_v[i]);
@@ -45,47 +45,49 @@ static float width_for(const struct box_scene *scene, const ps_box_settings *set
         if (width <= least)
             break;
         if (packet->tfar[i] < INFINITY &&
-            box_half_width(scene, settings, source, packet->tfar[i]) > aside)
+            footprint_half_width(scene, settings, photon, packet->tfar[i]) > aside)
             return width;
     }
     return least;
 }
 
 /* How far away along the axis the nearest thing lies that the rays met; INFINITY: they met nothing. */
-static float nearest_of(const ps_packet *packet, const ps_source *source)
+static float nearest_of(const ps_packet *packet, const ps_photon *photon)
 {
     float nearest = INFINITY;
     for (size_t i = 0; i < RAYS; i++) {
         ps_vec3 origin = {packet->origin_x[i], packet->origin_y[i], packet->origin_z[i]};
-        ps_vec3 ahead = ps_subtract(origin, source->position);
-        nearest = ps_min(nearest, ps_dot(ahead, source->direction) + packet->tfar[i]);
+        ps_vec3 ahead = ps_subtract(origin, photon->position);
+        nearest = ps_min(nearest, ps_dot(ahead, photon->direction) + packet->tfar[i]);
     }
     return ps_max(nearest, 0.0f);
 }
 
-static void find_one(const ps_host *host, const struct box_scene *scene,
-                     const ps_box_settings *settings, const ps_source *source, ps_hit *hit,
+static void find_one(const ps_host *host, const struct footprint_scene *scene,
+                     const ps_footprint_settings *settings, const ps_photon *photon, ps_hit *hit,
                      float *half_width)
 {
     _Alignas(64) ps_packet packet;
-    float widest = *half_width, least = box_half_width(scene, settings, source, hit->distance);
+    float widest = *half_width,
+          least = footprint_half_width(scene, settings, photon, hit->distance);
     bool met = hit->distance < INFINITY;
     if (met && !(least < widest))
         return;
-    trace_disc(host, scene, source, widest, &packet);
+    trace_disc(host, scene, photon, widest, &packet);
     if (!met) {
-        float nearest = nearest_of(&packet, source);
-        least = box_half_width(scene, settings, source, nearest);
-        /* Beams start before half of that. */
-        box_stand_in(source, nearest < INFINITY ? ps_max(nearest, widest) : widest, hit);
+        float nearest = nearest_of(&packet, photon);
+        least = footprint_half_width(scene, settings, photon, nearest);
+        /* Bundles start before half of that. */
+        footprint_stand_in(photon, nearest < INFINITY ? ps_max(nearest, widest) : widest, hit);
     }
-    *half_width = width_for(scene, settings, source, &packet, widest, least);
+    *half_width = width_for(scene, settings, photon, &packet, widest, least);
 }
 
-void reach_find(const ps_host *host, const struct box_scene *scene, const ps_box_settings *settings,
-                const ps_source *sources, size_t n, ps_hit *hits, float *half_widths)
+void extent_find(const ps_host *host, const struct footprint_scene *scene,
+                 const ps_footprint_settings *settings, const ps_photon *photons, size_t n,
+                 ps_hit *hits, float *half_widths)
 {
     for (size_t i = 0; i < n; i++)
         if (half_widths[i] > 0.0f)
-            find_one(host, scene, settings, &sources[i], &hits[i], &half_widths[i]);
+            find_one(host, scene, settings, &photons[i], &hits[i], &half_widths[i]);
 }

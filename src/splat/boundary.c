@@ -1,6 +1,6 @@
-#include "splat/wall.h"
+#include "splat/boundary.h"
 
-#include "splat/box.h"
+#include "splat/footprint.h"
 #include <psplat/math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -30,7 +30,7 @@ static const float cosine[AZIMUTHS] = {C1,  C3,  C5,  C7,  -C7, -C5, -C3, -C1,
 static const float sine[AZIMUTHS] = {C7,  C5,  C3,  C1,  C1,  C3,  C5,  C7,
                                      -C7, -C5, -C3, -C1, -C1, -C3, -C5, -C7};
 
-/* How far rays get along the tangent plane of a source. */
+/* How far rays get along the tangent plane of a photon. */
 struct star {
     float x[AZIMUTHS], y[AZIMUTHS], z[AZIMUTHS]; /* directions */
     float distances[AZIMUTHS];                   /* INFINITY: nothing is met */
@@ -48,19 +48,19 @@ struct wall {
 };
 
 /* How far to look for the walls of a splat: across a bundle that leaves at a slope the way is shorter. */
-static float length_for(const ps_source *source, const ps_splat *splat)
+static float length_for(const ps_photon *photon, const ps_splat *splat)
 {
-    return REACH * splat->half_width * ps_min(1.0f / box_cosine(source), MOST_SLOPE);
+    return REACH * splat->half_width * ps_min(1.0f / footprint_cosine(photon), MOST_SLOPE);
 }
 
 /* `height` above the surface, so far as `length`. */
-static struct star look_around(const ps_host *host, const ps_source *source, float height,
+static struct star look_around(const ps_host *host, const ps_photon *photon, float height,
                                float length)
 {
     _Alignas(64) ps_packet packet;
     struct star star;
-    ps_vec3 u, v, origin = ps_add_scaled(source->position, height, source->normal);
-    ps_frame(source->normal, &u, &v);
+    ps_vec3 u, v, origin = ps_add_scaled(photon->position, height, photon->normal);
+    ps_frame(photon->normal, &u, &v);
 #pragma omp simd
     for (int i = 0; i < AZIMUTHS; i++) {
         ps_vec3 direction = ps_add(ps_scale(u, cosine[i]), ps_scale(v, sine[i]));
@@ -162,15 +162,15 @@ static int first_stopped(const float left[AZIMUTHS])
 static void add_wall(const struct wall *wall, ps_splat *splat)
 {
     float inverse = sqrtf(wall->a * wall->a + wall->b * wall->b);
-    ps_wall *added = &splat->walls[splat->wall_count++];
-    *added = (ps_wall){wall->a / inverse, wall->b / inverse, REACH / inverse};
+    ps_boundary *added = &splat->boundaries[splat->boundary_count++];
+    *added = (ps_boundary){wall->a / inverse, wall->b / inverse, REACH / inverse};
 }
 
 static void find(const struct free_way *way, ps_splat *splat)
 {
     float left[AZIMUTHS];
     memcpy(left, way->reach, sizeof left);
-    for (uint32_t n = 0; n < PS_MOST_WALLS; n++) {
+    for (uint32_t n = 0; n < PS_MOST_BOUNDARIES; n++) {
         int nearest = first_stopped(left);
         if (nearest < 0)
             return;
@@ -182,52 +182,52 @@ static void find(const struct free_way *way, ps_splat *splat)
     }
 }
 
-/* The way around a source, and where its beam starts. A hollow surface rises all around: its own walls
- * are no others, and its beam starts higher. */
-static struct free_way look(const ps_host *host, float surface_offset, const ps_source *source,
+/* The way around a photon, and where its bundle starts. A hollow surface rises all around: its own walls
+ * are no others, and its bundle starts higher. */
+static struct free_way look(const ps_host *host, float surface_offset, const ps_photon *photon,
                             const struct star *star, ps_splat *splat)
 {
     struct free_way low = way_across(star, splat);
     if (count_stopped(&low, &low, 1.0f) >= MOST_AZIMUTHS) {
-        float clearance = box_clearance(surface_offset, splat->half_width, true);
-        struct star above = look_around(host, source, clearance, length_for(source, splat));
+        float clearance = footprint_clearance(surface_offset, splat->half_width, true);
+        struct star above = look_around(host, photon, clearance, length_for(photon, splat));
         struct free_way high = way_across(&above, splat);
         if (count_stopped(&low, &high, 1.0f / HIGHER_REACH) >= MOST_AZIMUTHS)
             return high;
     }
-    box_start(source, box_clearance(surface_offset, splat->half_width, false), splat);
+    footprint_start(photon, footprint_clearance(surface_offset, splat->half_width, false), splat);
     return low;
 }
 
-static bool same_place(const ps_source *a, const ps_source *b)
+static bool same_place(const ps_photon *a, const ps_photon *b)
 {
     return ps_same(a->position, b->position) && ps_same(a->normal, b->normal);
 }
 
-/* Of sources in one place, which share their star. */
-static void find_around(const ps_host *host, float surface_offset, const ps_source *sources,
+/* Of photons in one place, which share their star. */
+static void find_around(const ps_host *host, float surface_offset, const ps_photon *photons,
                         size_t n, ps_splat *splats)
 {
     float length = 0.0f;
     for (size_t i = 0; i < n; i++)
-        length = ps_max(length, length_for(&sources[i], &splats[i]));
+        length = ps_max(length, length_for(&photons[i], &splats[i]));
     if (!(length > 0.0f))
         return;
-    struct star star = look_around(host, &sources[0], surface_offset, length);
+    struct star star = look_around(host, &photons[0], surface_offset, length);
     for (size_t i = 0; i < n; i++) {
         if (!(splats[i].half_width > 0.0f))
             continue;
-        struct free_way way = look(host, surface_offset, &sources[i], &star, &splats[i]);
+        struct free_way way = look(host, surface_offset, &photons[i], &star, &splats[i]);
         find(&way, &splats[i]);
     }
 }
 
-void wall_find(const ps_host *host, float surface_offset, const ps_source *sources, size_t n,
-               ps_splat *splats)
+void boundary_find(const ps_host *host, float surface_offset, const ps_photon *photons, size_t n,
+                   ps_splat *splats)
 {
     for (size_t first = 0, end; first < n; first = end) {
-        for (end = first + 1; end < n && same_place(&sources[first], &sources[end]);)
+        for (end = first + 1; end < n && same_place(&photons[first], &photons[end]);)
             end++;
-        find_around(host, surface_offset, sources + first, end - first, splats + first);
+        find_around(host, surface_offset, photons + first, end - first, splats + first);
     }
 }

@@ -1,6 +1,6 @@
-/* test_wall.c: walls that short rays find beside a source. The ray tracer is one of planes, written
+/* test_wall.c: walls that short rays find beside a photon. The ray tracer is one of planes, written
  * here. */
-#include "splat/wall.h"
+#include "splat/boundary.h"
 
 #include <psplat/math.h>
 #include <setjmp.h>
@@ -46,22 +46,22 @@ static void trace(const ps_host *host, ps_packet *packets, size_t n, int coheren
         }
 }
 
-/* Light from the origin of a floor (y = 0), as much to the side as up, in beams of half-width 2. */
+/* Light from the origin of a floor (y = 0), as much to the side as up, in bundles of half-width 2. */
 static ps_splat beam_in(struct room *room)
 {
     static const float half = 0.70710678f;
-    const ps_source source = {.normal = {0, 1, 0}, .direction = {half, half, 0}};
+    const ps_photon photon = {.normal = {0, 1, 0}, .direction = {half, half, 0}};
     ps_splat splat = {
         .half_width = 2,
         .axis_u = {half, -half, 0},
         .axis_v = {0, 0, 1},
-        .axis_w = source.direction,
+        .axis_w = photon.direction,
         .start_slope_u = 1, /* points of the floor have y = 0 */
-        .source_depth = -10,
+        .photon_depth = -10,
         .start_depth = 2.0f / 8 / half - 10,
     };
     ps_host host = {.core = room, .intersect_packets = trace};
-    wall_find(&host, 0.001f, &source, 1, &splat);
+    boundary_find(&host, 0.001f, &photon, 1, &splat);
     return splat;
 }
 
@@ -75,23 +75,23 @@ static void test_no_wall(void **state)
 {
     (void)state;
     struct room empty = {.count = 0};
-    assert_int_equal(beam_in(&empty).wall_count, 0);
+    assert_int_equal(beam_in(&empty).boundary_count, 0);
     /* Past twice the way to the rim, which lies at z = 2. */
     struct room far = {{{{0, 0, 1}, 4.1f, 1e9f}}, 1};
-    assert_int_equal(beam_in(&far).wall_count, 0);
+    assert_int_equal(beam_in(&far).boundary_count, 0);
 }
 
-/* Pixels that take in the source may start as far out as the rim, and look as far again. */
+/* Pixels that take in the photon may start as far out as the rim, and look as far again. */
 static void test_wall_past_the_rim(void **state)
 {
     (void)state;
     struct room room = {{{{0, 0, 1}, 3.5f, 1e9f}}, 1};
     ps_splat splat = beam_in(&room);
-    assert_int_equal(splat.wall_count, 1);
-    expect_near(splat.walls[0].distance, 1.75);
+    assert_int_equal(splat.boundary_count, 1);
+    expect_near(splat.boundaries[0].distance, 1.75);
 }
 
-/* A well whose walls lean outwards, as a hollow surface does: the beam starts an eighth of its half-width
+/* A well whose walls lean outwards, as a hollow surface does: the bundle starts an eighth of its half-width
  * above the ground, on flat ground a thirty-second. */
 static void test_hollows_raise_the_start(void **state)
 {
@@ -106,28 +106,28 @@ static void test_hollows_raise_the_start(void **state)
     expect_near(beam_in(&hollow).start_depth, 2.0 / 8 / (double)half - 10);
 }
 
-/* Across the beam a distance is what it is on the floor. */
+/* Across the bundle a distance is what it is on the floor. */
 static void test_wall_beside_the_beam(void **state)
 {
     (void)state;
     struct room room = {{{{0, 0, 1}, 0.5f, 1e9f}}, 1};
     ps_splat splat = beam_in(&room);
-    assert_int_equal(splat.wall_count, 1);
-    expect_near(splat.walls[0].normal_u, 0);
-    expect_near(splat.walls[0].normal_v, 1);
-    expect_near(splat.walls[0].distance, 0.25);
+    assert_int_equal(splat.boundary_count, 1);
+    expect_near(splat.boundaries[0].normal_u, 0);
+    expect_near(splat.boundaries[0].normal_v, 1);
+    expect_near(splat.boundaries[0].distance, 0.25);
 }
 
-/* Along the beam's slope the disc covers sqrt(2) times as much floor. */
+/* Along the bundle's slope the disc covers sqrt(2) times as much floor. */
 static void test_wall_behind_the_beam(void **state)
 {
     (void)state;
     struct room room = {{{{-1, 0, 0}, 1, 1e9f}}, 1};
     ps_splat splat = beam_in(&room);
-    assert_int_equal(splat.wall_count, 1);
-    expect_near(splat.walls[0].normal_u, -1);
-    expect_near(splat.walls[0].normal_v, 0);
-    expect_near(splat.walls[0].distance, 0.5 / sqrt(2));
+    assert_int_equal(splat.boundary_count, 1);
+    expect_near(splat.boundaries[0].normal_u, -1);
+    expect_near(splat.boundaries[0].normal_v, 0);
+    expect_near(splat.boundaries[0].distance, 0.5 / sqrt(2));
 }
 
 static void test_corner(void **state)
@@ -135,10 +135,10 @@ static void test_corner(void **state)
     (void)state;
     struct room room = {{{{0, 0, 1}, 0.5f, 1e9f}, {{-1, 0, 0}, 1, 1e9f}}, 2};
     ps_splat splat = beam_in(&room);
-    assert_int_equal(splat.wall_count, 2);
-    expect_near(splat.walls[0].distance, 0.25);
-    expect_near(splat.walls[1].normal_u, -1);
-    expect_near(splat.walls[1].distance, 0.5 / sqrt(2));
+    assert_int_equal(splat.boundary_count, 2);
+    expect_near(splat.boundaries[0].distance, 0.25);
+    expect_near(splat.boundaries[1].normal_u, -1);
+    expect_near(splat.boundaries[1].distance, 0.5 / sqrt(2));
 }
 
 /* Three walls leave a niche: two of them are taken. */
@@ -148,17 +148,17 @@ static void test_niche(void **state)
     struct room room = {{{{0, 0, 1}, 0.5f, 1e9f}, {{0, 0, -1}, 0.6f, 1e9f}, {{-1, 0, 0}, 1, 1e9f}},
                         3};
     ps_splat splat = beam_in(&room);
-    assert_int_equal(splat.wall_count, PS_MOST_WALLS);
-    expect_near(splat.walls[0].normal_v, 1);
-    expect_near(splat.walls[1].normal_v, -1);
-    expect_near(splat.walls[1].distance, 0.3);
+    assert_int_equal(splat.boundary_count, PS_MOST_BOUNDARIES);
+    expect_near(splat.boundaries[0].normal_v, 1);
+    expect_near(splat.boundaries[1].normal_v, -1);
+    expect_near(splat.boundaries[1].distance, 0.3);
 }
 
 static void test_a_pole_is_no_wall(void **state)
 {
     (void)state;
     struct room room = {{{{0, 0, 1}, 0.5f, 0.3f}}, 1};
-    assert_int_equal(beam_in(&room).wall_count, 0);
+    assert_int_equal(beam_in(&room).boundary_count, 0);
 }
 
 static void test_leaves_out_splats_that_light_nothing(void **state)
@@ -166,10 +166,10 @@ static void test_leaves_out_splats_that_light_nothing(void **state)
     (void)state;
     struct room room = {{{{0, 0, 1}, 0.5f, 1e9f}}, 1};
     ps_host host = {.core = &room, .intersect_packets = trace};
-    const ps_source source = {.normal = {0, 1, 0}, .direction = {0, 1, 0}};
+    const ps_photon photon = {.normal = {0, 1, 0}, .direction = {0, 1, 0}};
     ps_splat nothing = {.half_width = 0};
-    wall_find(&host, 0.001f, &source, 1, &nothing);
-    assert_int_equal(nothing.wall_count, 0);
+    boundary_find(&host, 0.001f, &photon, 1, &nothing);
+    assert_int_equal(nothing.boundary_count, 0);
 }
 
 int main(void)

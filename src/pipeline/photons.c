@@ -1,4 +1,4 @@
-#include "pipeline/sources.h"
+#include "pipeline/photons.h"
 
 #include "base/clock.h"
 #include "base/parallel.h"
@@ -9,12 +9,12 @@
 
 #define BATCH_CHUNKS 16 /* chunks of PS_PATH_CHUNK paths that are injected at a time */
 
-static ps_result reserve(struct source_list *list, size_t count)
+static ps_result reserve(struct photon_list *list, size_t count)
 {
     if (count <= list->capacity)
         return PS_OK;
     size_t capacity = count + list->capacity / 2;
-    ps_source *items = realloc(list->items, capacity * sizeof *items);
+    ps_photon *items = realloc(list->items, capacity * sizeof *items);
     if (!items)
         return PS_ERROR_MEMORY;
     list->items = items;
@@ -22,23 +22,23 @@ static ps_result reserve(struct source_list *list, size_t count)
     return PS_OK;
 }
 
-static ps_result append(void *core, const ps_source *sources, size_t n)
+static ps_result append(void *core, const ps_photon *photons, size_t n)
 {
-    struct source_list *list = core;
+    struct photon_list *list = core;
     if (n == 0)
         return PS_OK;
     if (reserve(list, list->count + n) != PS_OK)
         return PS_ERROR_MEMORY;
-    memcpy(list->items + list->count, sources, n * sizeof *sources);
+    memcpy(list->items + list->count, photons, n * sizeof *photons);
     list->count += n;
     return PS_OK;
 }
 
-ps_result source_stream_create(struct source_stream *stream, const struct render_settings *settings,
+ps_result photon_stream_create(struct photon_stream *stream, const struct render_settings *settings,
                                const ps_host *host, const ps_pass *pass,
                                struct statistics *statistics, struct error *error)
 {
-    *stream = (struct source_stream){
+    *stream = (struct photon_stream){
         .settings = settings,
         .host = host,
         .pass = pass,
@@ -46,21 +46,21 @@ ps_result source_stream_create(struct source_stream *stream, const struct render
         .chunks = calloc(BATCH_CHUNKS, sizeof *stream->chunks),
     };
     if (!stream->chunks)
-        return error_memory(error, BATCH_CHUNKS * sizeof *stream->chunks, "sources");
-    source_stream_rewind(stream);
+        return error_memory(error, BATCH_CHUNKS * sizeof *stream->chunks, "photons");
+    photon_stream_rewind(stream);
     return PS_OK;
 }
 
-void source_stream_release(struct source_stream *stream)
+void photon_stream_release(struct photon_stream *stream)
 {
     for (int i = 0; i < BATCH_CHUNKS && stream->chunks; i++)
         free(stream->chunks[i].items);
     free(stream->chunks);
     free(stream->batch.items);
-    *stream = (struct source_stream){.chunks = NULL};
+    *stream = (struct photon_stream){.chunks = NULL};
 }
 
-void source_stream_rewind(struct source_stream *stream)
+void photon_stream_rewind(struct photon_stream *stream)
 {
     stream->path_count = 0;
     stream->next_path = 0;
@@ -69,7 +69,7 @@ void source_stream_rewind(struct source_stream *stream)
 }
 
 struct injection {
-    struct source_stream *stream;
+    struct photon_stream *stream;
     ps_result *results; /* of each chunk */
 };
 
@@ -77,8 +77,8 @@ static void inject_chunk(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct injection *injection = user;
-    struct source_stream *stream = injection->stream;
-    struct source_list *list = &stream->chunks[index];
+    struct photon_stream *stream = injection->stream;
+    struct photon_list *list = &stream->chunks[index];
     list->count = 0;
     injection->results[index] = PS_OK;
     uint64_t first = stream->next_path + index * PS_PATH_CHUNK;
@@ -88,13 +88,13 @@ static void inject_chunk(void *user, uint64_t index, uint32_t worker)
     size_t n = left < PS_PATH_CHUNK ? (size_t)left : PS_PATH_CHUNK;
     const struct strategy *strategy = &stream->settings->strategies[PS_INJECTION];
     const ps_injection_vtable *vtable = strategy->descriptor->vtable;
-    ps_source_sink sink = {list, append};
+    ps_photon_sink sink = {list, append};
     injection->results[index] =
         vtable->emit(strategy->state, stream->host, stream->pass, first, n, &sink);
 }
 
-/* Fills the chunks with the sources of the next paths, if they don't hold them yet. */
-static ps_result fill_chunks(struct source_stream *stream, struct error *error)
+/* Fills the chunks with the photons of the next paths, if they don't hold them yet. */
+static ps_result fill_chunks(struct photon_stream *stream, struct error *error)
 {
     ps_result results[BATCH_CHUNKS];
     struct injection injection = {stream, results};
@@ -115,10 +115,10 @@ struct landing {
     double flux, x, y, z, distance2;
 };
 
-static void add_landing(const ps_source *source, struct landing *sum)
+static void add_landing(const ps_photon *photon, struct landing *sum)
 {
-    double flux = (double)ps_luminance(source->power);
-    double x = source->position.x, y = source->position.y, z = source->position.z;
+    double flux = (double)ps_luminance(photon->power);
+    double x = photon->position.x, y = photon->position.y, z = photon->position.z;
     sum->flux += flux;
     sum->x += flux * x;
     sum->y += flux * y;
@@ -134,7 +134,7 @@ static float spread_of(const struct landing *sum)
     return (float)sqrt(fmax(sum->distance2 / sum->flux - x * x - y * y - z * z, 0.0));
 }
 
-static float find_spread(const struct source_stream *stream)
+static float find_spread(const struct photon_stream *stream)
 {
     struct landing sum = {.flux = 0.0};
     for (int i = 0; i < BATCH_CHUNKS; i++)
@@ -144,7 +144,7 @@ static float find_spread(const struct source_stream *stream)
     return spread_of(&sum);
 }
 
-static ps_result prepare_injection(struct source_stream *stream, struct error *error)
+static ps_result prepare_injection(struct photon_stream *stream, struct error *error)
 {
     const struct strategy *injection = &stream->settings->strategies[PS_INJECTION];
     const ps_injection_vtable *vtable = injection->descriptor->vtable;
@@ -162,8 +162,8 @@ static ps_result prepare_injection(struct source_stream *stream, struct error *e
     return PS_OK;
 }
 
-/* Not before sources are asked for: not all estimators do. */
-ps_result source_stream_prepare(struct source_stream *stream, struct error *error)
+/* Not before photons are asked for: not all estimators do. */
+ps_result photon_stream_prepare(struct photon_stream *stream, struct error *error)
 {
     if (stream->prepared)
         return PS_OK;
@@ -177,8 +177,8 @@ ps_result source_stream_prepare(struct source_stream *stream, struct error *erro
     return PS_OK;
 }
 
-/* Appends the sources of the next paths to the stream's batch. */
-static ps_result inject(struct source_stream *stream, struct error *error)
+/* Appends the photons of the next paths to the stream's batch. */
+static ps_result inject(struct photon_stream *stream, struct error *error)
 {
     ps_result result = fill_chunks(stream, error);
     if (result != PS_OK)
@@ -186,61 +186,61 @@ static ps_result inject(struct source_stream *stream, struct error *error)
     stream->filled = false;
     stream->next_path += (uint64_t)BATCH_CHUNKS * PS_PATH_CHUNK;
     for (int i = 0; i < BATCH_CHUNKS; i++) {
-        const struct source_list *chunk = &stream->chunks[i];
+        const struct photon_list *chunk = &stream->chunks[i];
         if (append(&stream->batch, chunk->items, chunk->count) != PS_OK)
-            return error_memory(error, chunk->count * sizeof *chunk->items, "sources");
+            return error_memory(error, chunk->count * sizeof *chunk->items, "photons");
     }
     return PS_OK;
 }
 
-static ps_result stratify(struct source_stream *stream, struct error *error)
+static ps_result stratify(struct photon_stream *stream, struct error *error)
 {
     const struct strategy *strategy = &stream->settings->strategies[PS_STRATIFICATION];
     const ps_stratification_vtable *vtable = strategy->descriptor->vtable;
     double start = clock_seconds();
-    statistics_count(stream->statistics, "sources injected", (double)stream->batch.count);
+    statistics_count(stream->statistics, "photons injected", (double)stream->batch.count);
     size_t before = stream->batch.count;
     ps_result result = vtable->combine(strategy->state, stream->host, stream->pass,
                                        stream->batch.items, &stream->batch.count);
     statistics_add_seconds(stream->statistics, "stratify", clock_seconds() - start);
-    statistics_count(stream->statistics, "sources", (double)stream->batch.count);
+    statistics_count(stream->statistics, "photons", (double)stream->batch.count);
     if (result == PS_OK && stream->batch.count > before)
-        return error_set(error, PS_ERROR_INVALID, "stratification made more sources than it got");
+        return error_set(error, PS_ERROR_INVALID, "stratification made more photons than it got");
     return result == PS_OK ? PS_OK : error_set(error, result, "stratification failed");
 }
 
-static void measure(const struct source_stream *stream)
+static void measure(const struct photon_stream *stream)
 {
     size_t capacity = stream->batch.capacity;
     for (int i = 0; i < BATCH_CHUNKS; i++)
         capacity += stream->chunks[i].capacity;
-    statistics_set_bytes(stream->statistics, "sources", (double)(capacity * sizeof(ps_source)));
+    statistics_set_bytes(stream->statistics, "photons", (double)(capacity * sizeof(ps_photon)));
 }
 
-/* Adds the next paths' sources to the batch. */
-static ps_result inject_more(struct source_stream *stream, struct error *error)
+/* Adds the next paths' photons to the batch. */
+static ps_result inject_more(struct photon_stream *stream, struct error *error)
 {
     return stream->host->cancelled(stream->host) ? PS_CANCELLED : inject(stream, error);
 }
 
-ps_result source_stream_injected(struct source_stream *stream, const ps_source **sources, size_t *n,
+ps_result photon_stream_injected(struct photon_stream *stream, const ps_photon **photons, size_t *n,
                                  struct error *error)
 {
-    ps_result result = source_stream_prepare(stream, error);
+    ps_result result = photon_stream_prepare(stream, error);
     stream->batch.count = 0;
     while (stream->next_path < stream->path_count && result == PS_OK)
         result = inject_more(stream, error);
-    *sources = stream->batch.items;
+    *photons = stream->batch.items;
     *n = stream->batch.count;
     return result;
 }
 
-ps_result source_stream_next(struct source_stream *stream, const ps_source **sources, size_t *n,
+ps_result photon_stream_next(struct photon_stream *stream, const ps_photon **photons, size_t *n,
                              struct error *error)
 {
     const ps_stratification_vtable *stratification =
         stream->settings->strategies[PS_STRATIFICATION].descriptor->vtable;
-    ps_result result = source_stream_prepare(stream, error);
+    ps_result result = photon_stream_prepare(stream, error);
     stream->batch.count = 0;
     while (stream->next_path < stream->path_count && stream->batch.count == 0 && result == PS_OK) {
         do
@@ -251,12 +251,12 @@ ps_result source_stream_next(struct source_stream *stream, const ps_source **sou
             result = stratify(stream, error);
     }
     measure(stream);
-    *sources = stream->batch.items;
+    *photons = stream->batch.items;
     *n = stream->batch.count;
     return result;
 }
 
-double source_stream_progress(const struct source_stream *stream)
+double photon_stream_progress(const struct photon_stream *stream)
 {
     if (stream->path_count == 0 || stream->next_path >= stream->path_count)
         return 1.0;

@@ -1,4 +1,4 @@
-#include "splat/field.h"
+#include "splat/interleaved.h"
 
 #include "base/parallel.h"
 #include "film/apron.h"
@@ -8,10 +8,10 @@
 #define BLOCK_SIDE 4
 #define BLOCKS_ACROSS (PS_TILE_SIZE / BLOCK_SIDE)
 
-struct field field_layout(const struct gbuffer *gbuffer, uint32_t interleave)
+struct interleaved interleaved_layout(const struct gbuffer *gbuffer, uint32_t interleave)
 {
     uint32_t side = interleave * PS_TILE_SIZE;
-    struct field field = {
+    struct interleaved field = {
         .interleave = interleave,
         .subsets = interleave * interleave,
         .tiles_across = (uint32_t)((gbuffer->width + side - 1) / side),
@@ -23,31 +23,32 @@ struct field field_layout(const struct gbuffer *gbuffer, uint32_t interleave)
     return field;
 }
 
-ps_result field_create(const struct gbuffer *gbuffer, uint32_t interleave, struct field *field,
-                       struct error *error)
+ps_result interleaved_create(const struct gbuffer *gbuffer, uint32_t interleave,
+                             struct interleaved *field, struct error *error)
 {
-    *field = field_layout(gbuffer, interleave);
-    field->tiles = aligned_alloc(64, field_bytes(field));
-    return field->tiles ? PS_OK
-                        : error_memory(error, field_bytes(field), "the pixels that splats light");
+    *field = interleaved_layout(gbuffer, interleave);
+    field->tiles = aligned_alloc(64, interleaved_bytes(field));
+    return field->tiles
+               ? PS_OK
+               : error_memory(error, interleaved_bytes(field), "the pixels that splats light");
 }
 
-void field_release(struct field *field)
+void interleaved_release(struct interleaved *field)
 {
     free(field->tiles);
-    *field = (struct field){.tiles = NULL};
+    *field = (struct interleaved){.tiles = NULL};
 }
 
-size_t field_bytes(const struct field *field)
+size_t interleaved_bytes(const struct interleaved *field)
 {
-    return field->tile_count * sizeof(struct field_tile);
+    return field->tile_count * sizeof(struct interleaved_tile);
 }
 
 /* Lane of a tile's pixel (x, y), and back. */
 static uint32_t lane_of(uint32_t x, uint32_t y)
 {
     uint32_t block = y / BLOCK_SIDE * BLOCKS_ACROSS + x / BLOCK_SIDE;
-    return block * FIELD_BLOCK + y % BLOCK_SIDE * BLOCK_SIDE + x % BLOCK_SIDE;
+    return block * INTERLEAVED_BLOCK + y % BLOCK_SIDE * BLOCK_SIDE + x % BLOCK_SIDE;
 }
 
 static void lane_place(uint32_t lane, uint32_t *x, uint32_t *y)
@@ -62,7 +63,7 @@ struct corner {
     uint32_t x, y;
 };
 
-static struct corner corner_of(const struct field *field, uint32_t tile)
+static struct corner corner_of(const struct interleaved *field, uint32_t tile)
 {
     uint32_t each = field->tiles_across * field->tiles_down;
     uint32_t subset = tile / each, place = tile % each, side = PS_TILE_SIZE * field->interleave;
@@ -72,8 +73,8 @@ static struct corner corner_of(const struct field *field, uint32_t tile)
     };
 }
 
-static bool pixel_from(const struct field *field, struct corner corner, uint32_t lane, uint32_t *x,
-                       uint32_t *y)
+static bool pixel_from(const struct interleaved *field, struct corner corner, uint32_t lane,
+                       uint32_t *x, uint32_t *y)
 {
     uint32_t column, row;
     lane_place(lane, &column, &row);
@@ -82,37 +83,39 @@ static bool pixel_from(const struct field *field, struct corner corner, uint32_t
     return *x < field->width && *y < field->height;
 }
 
-bool field_pixel(const struct field *field, uint32_t tile, uint32_t lane, uint32_t *x, uint32_t *y)
+bool interleaved_pixel(const struct interleaved *field, uint32_t tile, uint32_t lane, uint32_t *x,
+                       uint32_t *y)
 {
     return pixel_from(field, corner_of(field, tile), lane, x, y);
 }
 
 struct work {
-    const struct field *field;
+    const struct interleaved *field;
     const struct gbuffer *gbuffer;
 };
 
-static void fill_lane(struct field_tile *tile, uint32_t lane, const ps_tile *from, uint32_t source)
+static void fill_lane(struct interleaved_tile *tile, uint32_t lane, const ps_tile *from,
+                      uint32_t photon)
 {
-    tile->position_x[lane] = from->position_x[source];
-    tile->position_y[lane] = from->position_y[source];
-    tile->position_z[lane] = from->position_z[source];
-    tile->normal_x[lane] = from->normal_x[source];
-    tile->normal_y[lane] = from->normal_y[source];
-    tile->normal_z[lane] = from->normal_z[source];
+    tile->position_x[lane] = from->position_x[photon];
+    tile->position_y[lane] = from->position_y[photon];
+    tile->position_z[lane] = from->position_z[photon];
+    tile->normal_x[lane] = from->normal_x[photon];
+    tile->normal_y[lane] = from->normal_y[photon];
+    tile->normal_z[lane] = from->normal_z[photon];
 }
 
-static void clear_lane(struct field_tile *tile, uint32_t lane)
+static void clear_lane(struct interleaved_tile *tile, uint32_t lane)
 {
     tile->position_x[lane] = tile->position_y[lane] = tile->position_z[lane] = BOUNDS_NOWHERE;
     tile->normal_x[lane] = tile->normal_y[lane] = tile->normal_z[lane] = 0.0f;
 }
 
-static void bound_block(struct field_tile *tile, uint32_t block)
+static void bound_block(struct interleaved_tile *tile, uint32_t block)
 {
     struct bound bound = bound_empty();
-    for (uint32_t i = 0; i < FIELD_BLOCK; i++) {
-        uint32_t lane = block * FIELD_BLOCK + i;
+    for (uint32_t i = 0; i < INTERLEAVED_BLOCK; i++) {
+        uint32_t lane = block * INTERLEAVED_BLOCK + i;
         ps_vec3 position = {tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
         ps_vec3 normal = {tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
         if (position.x < BOUNDS_NOWHERE)
@@ -126,13 +129,13 @@ static void fill_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct work *work = user;
     const struct gbuffer *gbuffer = work->gbuffer;
-    struct field_tile *tile = &work->field->tiles[index];
+    struct interleaved_tile *tile = &work->field->tiles[index];
     struct corner corner = corner_of(work->field, (uint32_t)index);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-        uint32_t x, y, source;
+        uint32_t x, y, photon;
         if (pixel_from(work->field, corner, lane, &x, &y)) {
-            uint32_t from = gbuffer_tile_of(gbuffer, x, y, &source);
-            fill_lane(tile, lane, &gbuffer->tiles[from], source);
+            uint32_t from = gbuffer_tile_of(gbuffer, x, y, &photon);
+            fill_lane(tile, lane, &gbuffer->tiles[from], photon);
         } else {
             clear_lane(tile, lane);
         }
@@ -145,7 +148,7 @@ static void fill_tile(void *user, uint64_t index, uint32_t worker)
         bound_block(tile, block);
 }
 
-void field_fill(struct field *field, const struct gbuffer *gbuffer, uint32_t threads)
+void interleaved_fill(struct interleaved *field, const struct gbuffer *gbuffer, uint32_t threads)
 {
     struct work work = {field, gbuffer};
     parallel_for(threads, field->tile_count, fill_tile, &work);
@@ -175,11 +178,11 @@ static struct line_place place_line(int64_t line, size_t end, uint32_t n)
     return (struct line_place){(uint32_t)line % n, own / PS_TILE_SIZE, own % PS_TILE_SIZE, true};
 }
 
-static void load_pixel(const struct field *field, const struct line_place *x,
+static void load_pixel(const struct interleaved *field, const struct line_place *x,
                        const struct line_place *y, struct apron *apron, int column, int row)
 {
-    static const struct field_tile nothing = {.position_x = {BOUNDS_NOWHERE}};
-    const struct field_tile *tile = &nothing;
+    static const struct interleaved_tile nothing = {.position_x = {BOUNDS_NOWHERE}};
+    const struct interleaved_tile *tile = &nothing;
     uint32_t lane = 0;
     if (x->there && y->there) {
         uint32_t subset = y->subset * field->interleave + x->subset;
@@ -200,7 +203,7 @@ static void load_pixel(const struct field *field, const struct line_place *x,
 }
 
 /* The tile whose first pixel is (left, top), and `reach` pixels around it. */
-static void load_apron(const struct field *field, int64_t left, int64_t top, int reach,
+static void load_apron(const struct interleaved *field, int64_t left, int64_t top, int reach,
                        struct apron *apron)
 {
     struct line_place columns[APRON_SIDE], rows[APRON_SIDE];
@@ -282,7 +285,7 @@ static void join_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
-    const struct field *field = work->field;
+    const struct interleaved *field = work->field;
     const struct gbuffer *gbuffer = work->gbuffer;
     int64_t left = (int64_t)(index % gbuffer->tiles_across) * PS_TILE_SIZE;
     int64_t top = (int64_t)(index / gbuffer->tiles_across) * PS_TILE_SIZE;
@@ -299,7 +302,7 @@ static void join_tile(void *user, uint64_t index, uint32_t worker)
         join_row(&apron, field->interleave, row, &gbuffer->tiles[index]);
 }
 
-void field_join(const struct field *field, struct gbuffer *gbuffer, uint32_t threads)
+void interleaved_join(const struct interleaved *field, struct gbuffer *gbuffer, uint32_t threads)
 {
     struct work work = {field, gbuffer};
     parallel_for(threads, gbuffer->tile_count, join_tile, &work);

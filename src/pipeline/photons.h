@@ -1,8 +1,8 @@
-/* sources.h: the stream of a pass's indirect light sources: injected, stratified, in the
+/* photons.h: the stream of a pass's indirect light sources: injected, stratified, in the
  * order of emission.
  *
  * Paths go through in batches, so memory does not grow with their number, unless the stratification
- * wants to see all sources of a pass at once.
+ * wants to see all photons of a pass at once.
  */
 #ifndef PIPELINE_SOURCES_H
 #define PIPELINE_SOURCES_H
@@ -10,48 +10,48 @@
 #include "base/statistics.h"
 #include "pipeline/settings.h"
 
-struct source_list {
-    ps_source *items; /* owned */
+struct photon_list {
+    ps_photon *items; /* owned */
     size_t count, capacity;
 };
 
-struct source_stream {
+struct photon_stream {
     const struct render_settings *settings;
     const ps_host *host;
     const ps_pass *pass;
     struct statistics *statistics;
-    struct source_list *chunks; /* one for each chunk of a batch of paths; owned */
-    struct source_list batch;   /* what was handed out last */
+    struct photon_list *chunks; /* one for each chunk of a batch of paths; owned */
+    struct photon_list batch;   /* what was handed out last */
     uint64_t next_path, path_count;
     /* How far apart light lands that comes straight from the lights, by the pass's first paths: the root mean
      * square distance from its middle, weighed by flux, in scene units; 0 where none lands. */
     float spread;
     bool prepared; /* the injection, for this pass */
-    bool filled;   /* the chunks, with the next paths' sources */
+    bool filled;   /* the chunks, with the next paths' photons */
 };
 
-ps_result source_stream_create(struct source_stream *stream, const struct render_settings *settings,
+ps_result photon_stream_create(struct photon_stream *stream, const struct render_settings *settings,
                                const ps_host *host, const ps_pass *pass,
                                struct statistics *statistics, struct error *error);
-void source_stream_release(struct source_stream *stream);
+void photon_stream_release(struct photon_stream *stream);
 
 /* Starts over with the pass that `pass` now describes. */
-void source_stream_rewind(struct source_stream *stream);
+void photon_stream_rewind(struct photon_stream *stream);
 
 /* Makes the injection ready for the pass and injects its first paths, which tells path_count and spread; does
  * so once a pass. */
-ps_result source_stream_prepare(struct source_stream *stream, struct error *error);
+ps_result photon_stream_prepare(struct photon_stream *stream, struct error *error);
 
-/* The next sources; 0 of them after the last. Valid until the next call. */
-ps_result source_stream_next(struct source_stream *stream, const ps_source **sources, size_t *n,
+/* The next photons; 0 of them after the last. Valid until the next call. */
+ps_result photon_stream_next(struct photon_stream *stream, const ps_photon **photons, size_t *n,
                              struct error *error);
 
-/* All sources of the pass as they are injected, before stratification; uses up the stream. Valid until
+/* All photons of the pass as they are injected, before stratification; uses up the stream. Valid until
  * it is rewound. */
-ps_result source_stream_injected(struct source_stream *stream, const ps_source **sources, size_t *n,
+ps_result photon_stream_injected(struct photon_stream *stream, const ps_photon **photons, size_t *n,
                                  struct error *error);
 
 /* Share of the pass's paths that were injected, 0..1. */
-double source_stream_progress(const struct source_stream *stream);
+double photon_stream_progress(const struct photon_stream *stream);
 
 #endif

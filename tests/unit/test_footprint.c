@@ -1,5 +1,5 @@
 /* test_box.c: the boxes around first hits, against values worked out by hand. */
-#include "splat/box.h"
+#include "splat/footprint.h"
 
 #include "support/random.h"
 #include <psplat/math.h>
@@ -14,13 +14,13 @@
 /* Pixels of no size, unless a test says otherwise. */
 static struct camera camera = {.orthographic = true, .location = {0, 0, -99}, .forward = {0, 0, 1}};
 
-static const struct box_scene scene = {.radius = RADIUS,
-                                       .surface_offset = 0.001f,
-                                       .automatic_size = 2,
-                                       .automatic_near = 2,
-                                       .seed = 7,
-                                       .camera = &camera,
-                                       .interleave = 4};
+static const struct footprint_scene scene = {.radius = RADIUS,
+                                             .surface_offset = 0.001f,
+                                             .automatic_size = 2,
+                                             .automatic_near = 2,
+                                             .seed = 7,
+                                             .camera = &camera,
+                                             .interleave = 4};
 
 static void expect_near(double value, double expected)
 {
@@ -28,38 +28,38 @@ static void expect_near(double value, double expected)
         fail_msg("%.7g, expected %.7g", value, expected);
 }
 
-static ps_splat place_one(const struct box_scene *own, const ps_box_settings *settings,
-                          const ps_source *source, const ps_hit *hit)
+static ps_splat place_one(const struct footprint_scene *own, const ps_footprint_settings *settings,
+                          const ps_photon *photon, const ps_hit *hit)
 {
     ps_splat splat;
-    float half_width = box_half_width(own, settings, source, hit->distance);
-    box_place(own, settings, source, hit, &half_width, 1, &splat);
+    float half_width = footprint_half_width(own, settings, photon, hit->distance);
+    footprint_place(own, settings, photon, hit, &half_width, 1, &splat);
     return splat;
 }
 
-/* A source at the origin on a surface that faces up, whose light goes along w and arrives after
+/* A photon at the origin on a surface that faces up, whose light goes along w and arrives after
  * `distance` where the cosine is `cosine`. */
-static ps_splat place_along(ps_vec3 w, ps_box_settings settings, float distance, float cosine)
+static ps_splat place_along(ps_vec3 w, ps_footprint_settings settings, float distance, float cosine)
 {
     ps_vec3 u, v;
     ps_frame(w, &u, &v);
     ps_vec3 normal = ps_scale(w, -cosine);
     normal = ps_add_scaled(normal, sqrtf(1 - cosine * cosine), u);
-    ps_source source = {
+    ps_photon photon = {
         .normal = {0, 1, 0}, .direction = w, .power = {1, 2, 3}, .bounce = 1, .path = 55};
     ps_hit hit = {.position = ps_scale(w, distance), .distance = distance, .normal = normal};
-    return place_one(&scene, &settings, &source, &hit);
+    return place_one(&scene, &settings, &photon, &hit);
 }
 
-static ps_splat place(ps_box_settings settings, float distance, float cosine)
+static ps_splat place(ps_footprint_settings settings, float distance, float cosine)
 {
     return place_along((ps_vec3){0, 1, 0}, settings, distance, cosine);
 }
 
-static void test_carries_the_source(void **state)
+static void test_carries_the_photon(void **state)
 {
     (void)state;
-    ps_splat splat = place((ps_box_settings){.radius = 2}, 10, 1);
+    ps_splat splat = place((ps_footprint_settings){.radius = 2}, 10, 1);
     expect_near(splat.centre.y, 10);
     assert_true(splat.power.r == 1 && splat.power.g == 2 && splat.power.b == 3);
     assert_true(splat.path == 55);
@@ -69,8 +69,8 @@ static void test_carries_the_source(void **state)
 static void test_size(void **state)
 {
     (void)state;
-    expect_near(place((ps_box_settings){.radius = 3}, 10, 1).half_width, 3);
-    expect_near(place((ps_box_settings){.radius = 0}, 10, 1).half_width, 2);
+    expect_near(place((ps_footprint_settings){.radius = 3}, 10, 1).half_width, 3);
+    expect_near(place((ps_footprint_settings){.radius = 0}, 10, 1).half_width, 2);
 }
 
 /* By the fourth root of few paths, the fifth root of many, the sixth root of the passes; never a large part of
@@ -78,14 +78,15 @@ static void test_size(void **state)
 static void test_automatic_size(void **state)
 {
     (void)state;
-    float size = box_automatic_size(RADIUS, 0, 100000, 0);
+    float size = footprint_automatic_size(RADIUS, 0, 100000, 0);
     assert_true(size > 0.13f * RADIUS && size < 0.15f * RADIUS);
-    expect_near(box_automatic_size(2 * RADIUS, 0, 100000, 0), 2 * (double)size);
-    expect_near(box_automatic_size(RADIUS, 0, 6250, 0), fmin(2 * (double)size, 0.25 * RADIUS));
-    expect_near(box_automatic_size(RADIUS, 0, 3200000, 0), (double)size / 2);
-    expect_near(box_automatic_size(RADIUS, 0, 100000, 63), (double)size / 2);
-    expect_near(box_automatic_size(RADIUS, 0, 1, 0), 0.25 * RADIUS);
-    expect_near(box_automatic_size(RADIUS, 0, 0, 0), 0.25 * RADIUS);
+    expect_near(footprint_automatic_size(2 * RADIUS, 0, 100000, 0), 2 * (double)size);
+    expect_near(footprint_automatic_size(RADIUS, 0, 6250, 0),
+                fmin(2 * (double)size, 0.25 * RADIUS));
+    expect_near(footprint_automatic_size(RADIUS, 0, 3200000, 0), (double)size / 2);
+    expect_near(footprint_automatic_size(RADIUS, 0, 100000, 63), (double)size / 2);
+    expect_near(footprint_automatic_size(RADIUS, 0, 1, 0), 0.25 * RADIUS);
+    expect_near(footprint_automatic_size(RADIUS, 0, 0, 0), 0.25 * RADIUS);
 }
 
 /* Light that lands close together makes smaller splats, in proportion; but not without end, and wide light
@@ -93,30 +94,30 @@ static void test_automatic_size(void **state)
 static void test_size_by_the_spread_of_light(void **state)
 {
     (void)state;
-    float size = box_automatic_size(RADIUS, 0, 100000, 0);
-    float narrow = box_automatic_size(RADIUS, 0.2f * RADIUS, 100000, 0);
+    float size = footprint_automatic_size(RADIUS, 0, 100000, 0);
+    float narrow = footprint_automatic_size(RADIUS, 0.2f * RADIUS, 100000, 0);
     assert_true(narrow < 0.9f * size);
-    expect_near(box_automatic_size(RADIUS, 0.16f * RADIUS, 100000, 0), 0.8 * (double)narrow);
-    expect_near(box_automatic_size(RADIUS, 0.2f * RADIUS, 3200000, 0), (double)narrow / 2);
-    expect_near(box_automatic_size(RADIUS, RADIUS, 100000, 0), size);
-    expect_near(box_automatic_size(RADIUS, 1e-6f, 100000, 0), 0.4 * (double)size);
+    expect_near(footprint_automatic_size(RADIUS, 0.16f * RADIUS, 100000, 0), 0.8 * (double)narrow);
+    expect_near(footprint_automatic_size(RADIUS, 0.2f * RADIUS, 3200000, 0), (double)narrow / 2);
+    expect_near(footprint_automatic_size(RADIUS, RADIUS, 100000, 0), size);
+    expect_near(footprint_automatic_size(RADIUS, 1e-6f, 100000, 0), 0.4 * (double)size);
 }
 
 /* R = min(size, follow * d), but no less than three tenths of size. */
 static void test_size_follows_distance(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.radius = 3, .bandwidth_scale = 0.25};
+    const ps_footprint_settings settings = {.radius = 3, .bandwidth_scale = 0.25};
     expect_near(place(settings, 100, 1).half_width, 3);
     expect_near(place(settings, 12.1f, 1).half_width, 3);
     expect_near(place(settings, 8, 1).half_width, 2);
     expect_near(place(settings, 4, 1).half_width, 1);
     expect_near(place(settings, 2, 1).half_width, 0.9);
     expect_near(place(settings, 0.001f, 1).half_width, 0.9);
-    const ps_box_settings automatic = {.bandwidth_scale = 0.25};
+    const ps_footprint_settings automatic = {.bandwidth_scale = 0.25};
     expect_near(place(automatic, 4, 1).half_width, 1);
     expect_near(place(automatic, 0.1f, 1).half_width, 0.6);
-    const ps_box_settings unlimited = {.radius = 3};
+    const ps_footprint_settings unlimited = {.radius = 3};
     expect_near(place(unlimited, 0.001f, 1).half_width, 3);
 }
 
@@ -124,54 +125,55 @@ static void test_size_follows_distance(void **state)
 static void test_size_follows_less_far_after_the_first_bounce(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.radius = 3, .bandwidth_scale = 0.25};
-    ps_source source = {.normal = {0, 1, 0}, .direction = {0, 1, 0}, .power = {1, 1, 1}};
+    const ps_footprint_settings settings = {.radius = 3, .bandwidth_scale = 0.25};
+    ps_photon photon = {.normal = {0, 1, 0}, .direction = {0, 1, 0}, .power = {1, 1, 1}};
     ps_hit hit = {.position = {0, 2, 0}, .distance = 2, .normal = {0, -1, 0}};
     const double half_widths[3] = {0.9, 1.8, 1.8}; /* of bounce 1, 2, 3 */
     for (uint16_t i = 0; i < 3; i++) {
-        source.bounce = (uint16_t)(i + 1);
-        expect_near(place_one(&scene, &settings, &source, &hit).half_width, half_widths[i]);
+        photon.bounce = (uint16_t)(i + 1);
+        expect_near(place_one(&scene, &settings, &photon, &hit).half_width, half_widths[i]);
     }
 }
 
-static ps_splat place_near(ps_box_settings settings, uint16_t bounce, uint8_t specular)
+static ps_splat place_near(ps_footprint_settings settings, uint16_t bounce, uint8_t specular)
 {
-    struct box_scene own = scene;
-    own.gather_distance = box_gather_distance(&own, &settings, 100000);
-    ps_source source = {
+    struct footprint_scene own = scene;
+    own.gather_distance = footprint_gather_distance(&own, &settings, 100000);
+    ps_photon photon = {
         .normal = {0, 1, 0}, .direction = {0, 1, 0}, .bounce = bounce, .specular = specular};
     ps_hit hit = {.position = {0, 0.01f, 0}, .distance = 0.01f, .normal = {0, -1, 0}};
-    return place_one(&own, &settings, &source, &hit);
+    return place_one(&own, &settings, &photon, &hit);
 }
 
 /* Many paths make smaller splats, and leave short-range light as near as it was. */
 static void test_short_range_light_stays_as_near(void **state)
 {
     (void)state;
-    const ps_box_settings by_hand = {.radius = 3, .bandwidth_scale = 0.25, .step_back_rule = 1};
-    expect_near(box_gather_distance(&scene, &by_hand, 6250), 2.5 * 3);
-    expect_near(box_gather_distance(&scene, &by_hand, 3200000), 2.5 * 6);
-    double size = box_automatic_size(RADIUS, 0, 100000, 0);
-    expect_near(box_automatic_near(RADIUS, 0, 100000), 2.5 * size);
-    expect_near(box_automatic_near(RADIUS, 0, 3200000), 2.5 * size);
-    double large = box_automatic_size(RADIUS, 0, 50000, 0);
-    expect_near(box_automatic_near(RADIUS, 0, 50000), 2.5 * large);
+    const ps_footprint_settings by_hand = {
+        .radius = 3, .bandwidth_scale = 0.25, .step_back_rule = 1};
+    expect_near(footprint_gather_distance(&scene, &by_hand, 6250), 2.5 * 3);
+    expect_near(footprint_gather_distance(&scene, &by_hand, 3200000), 2.5 * 6);
+    double size = footprint_automatic_size(RADIUS, 0, 100000, 0);
+    expect_near(footprint_automatic_near(RADIUS, 0, 100000), 2.5 * size);
+    expect_near(footprint_automatic_near(RADIUS, 0, 3200000), 2.5 * size);
+    double large = footprint_automatic_size(RADIUS, 0, 50000, 0);
+    expect_near(footprint_automatic_near(RADIUS, 0, 50000), 2.5 * large);
 }
 
 /* As far as splats are wide, and more, where the light was reflected once, and diffusely; splats may be wide then. */
 static void test_short_range_light_is_left(void **state)
 {
     (void)state;
-    const ps_box_settings full = {.radius = 3, .bandwidth_scale = 0.25, .step_back_rule = 1};
+    const ps_footprint_settings full = {.radius = 3, .bandwidth_scale = 0.25, .step_back_rule = 1};
     expect_near(place_near(full, 1, 0).blend_distance, 2.5 * 3);
     expect_near(place_near(full, 1, 0).half_width, 0.6 * 3);
     expect_near(place_near(full, 1, 1).blend_distance, 0);
     expect_near(place_near(full, 1, 1).half_width, 0.3 * 3);
     expect_near(place_near(full, 2, 0).blend_distance, 0);
-    const ps_box_settings automatic = {.bandwidth_scale = 0.25, .step_back_rule = 1};
+    const ps_footprint_settings automatic = {.bandwidth_scale = 0.25, .step_back_rule = 1};
     expect_near(place_near(automatic, 1, 0).blend_distance, 2);
-    const ps_box_settings sloped = {.radius = 3, .bandwidth_scale = 0.25},
-                          still = {.radius = 3, .step_back_rule = 1};
+    const ps_footprint_settings sloped = {.radius = 3, .bandwidth_scale = 0.25},
+                                still = {.radius = 3, .step_back_rule = 1};
     expect_near(place_near(sloped, 1, 0).blend_distance, 0);
     expect_near(place_near(still, 1, 0).blend_distance, 0);
 }
@@ -180,7 +182,7 @@ static void test_short_range_light_is_left(void **state)
 static void test_size_follows_no_further_than_pixels(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.radius = 3, .bandwidth_scale = 0.25};
+    const ps_footprint_settings settings = {.radius = 3, .bandwidth_scale = 0.25};
     camera.across = (ps_vec3){0.3f, 0, 0};
     expect_near(place(settings, 8, 1).half_width, 2);
     expect_near(place(settings, 0.001f, 1).half_width, 1.2);
@@ -193,32 +195,33 @@ static void test_size_follows_no_further_than_pixels(void **state)
     camera.across = (ps_vec3){0, 0, 0};
 }
 
-static double half_width_of(float merged, ps_box_settings settings, float distance)
+static double half_width_of(float merged, ps_footprint_settings settings, float distance)
 {
-    ps_source source = {
+    ps_photon photon = {
         .normal = {0, 1, 0}, .direction = {0, 1, 0}, .merged = merged, .power = {1, 1, 1}};
     ps_hit hit = {.position = {0, distance, 0}, .distance = distance, .normal = {0, -1, 0}};
-    return place_one(&scene, &settings, &source, &hit).half_width;
+    return place_one(&scene, &settings, &photon, &hit).half_width;
 }
 
 /* By the square root of what was merged, up to a limit; then the distance limits as ever. */
 static void test_size_grows_with_what_was_merged(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.radius = 2, .max_merge_scale = 3};
+    const ps_footprint_settings settings = {.radius = 2, .max_merge_scale = 3};
     expect_near(half_width_of(4, settings, 100), 4);
     expect_near(half_width_of(2, settings, 100), 2 * sqrt(2));
     expect_near(half_width_of(9, settings, 100), 6);
     expect_near(half_width_of(1000, settings, 100), 6);
     assert_true(half_width_of(1, settings, 100) == 2);
     assert_true(half_width_of(0.5f, settings, 100) == 2);
-    const ps_box_settings none = {.radius = 2, .max_merge_scale = 1};
+    const ps_footprint_settings none = {.radius = 2, .max_merge_scale = 1};
     assert_true(half_width_of(9, none, 100) == 2);
-    const ps_box_settings follows = {.radius = 2, .max_merge_scale = 3, .bandwidth_scale = 0.25};
+    const ps_footprint_settings follows = {
+        .radius = 2, .max_merge_scale = 3, .bandwidth_scale = 0.25};
     expect_near(half_width_of(9, follows, 100), 6);
     expect_near(half_width_of(9, follows, 16), 4);
     expect_near(half_width_of(9, follows, 0.1f), 1.8);
-    const ps_box_settings vast = {.radius = 2, .max_merge_scale = INFINITY};
+    const ps_footprint_settings vast = {.radius = 2, .max_merge_scale = INFINITY};
     expect_near(half_width_of(1e12f, vast, 100), 4 * RADIUS);
 }
 
@@ -226,7 +229,7 @@ static void test_size_grows_with_what_was_merged(void **state)
 static void test_automatic_step_back(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.radius = 2};
+    const ps_footprint_settings settings = {.radius = 2};
     ps_splat flat = place(settings, 10, 1);
     expect_near(flat.near_depth, -1);
     expect_near(flat.far_depth, 2);
@@ -235,7 +238,7 @@ static void test_automatic_step_back(void **state)
     ps_splat sloped = place(settings, 10, 0.6f); /* tan = 4/3 */
     expect_near(sloped.near_depth, -(2 * 4.0 / 3 + 1));
     expect_near(sloped.far_depth, 2 * 4.0 / 3 + 2);
-    ps_splat close = place(settings, 0.5f, 0.6f); /* not behind the source */
+    ps_splat close = place(settings, 0.5f, 0.6f); /* not behind the photon */
     expect_near(close.near_depth, -0.5);
     expect_near(close.far_depth, 2 * 4.0 / 3 + 2);
 }
@@ -243,7 +246,7 @@ static void test_automatic_step_back(void **state)
 static void test_steep_slopes_are_limited(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.radius = 1};
+    const ps_footprint_settings settings = {.radius = 1};
     ps_splat grazing = place(settings, 1000, 1e-3f);
     expect_near(grazing.near_depth, -(10 + 0.5));
     expect_near(grazing.far_depth, 11);
@@ -254,38 +257,38 @@ static void test_steep_slopes_are_limited(void **state)
 static void test_numbers(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {
+    const ps_footprint_settings settings = {
         .radius = 2, .depth = 7, .step_back = 3, .step_back_rule = -1};
     ps_splat splat = place(settings, 10, 0.6f);
     expect_near(splat.near_depth, -3);
     expect_near(splat.start_depth, -3);
     expect_near(splat.far_depth, 7);
-    expect_near(place(settings, 2, 0.6f).near_depth, -2); /* the source is nearer */
-    const ps_box_settings none = {.radius = 2, .step_back = 0, .step_back_rule = -1};
+    expect_near(place(settings, 2, 0.6f).near_depth, -2); /* the photon is nearer */
+    const ps_footprint_settings none = {.radius = 2, .step_back = 0, .step_back_rule = -1};
     expect_near(place(none, 10, 1).near_depth, 0);
 }
 
-/* A beam straight up from its source: the start plane lies across it, an eighth of R above. */
+/* A bundle straight up from its photon: the start plane lies across it, an eighth of R above. */
 static void test_full_beam_straight_up(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.radius = 2, .step_back_rule = 1};
+    const ps_footprint_settings settings = {.radius = 2, .step_back_rule = 1};
     ps_splat splat = place(settings, 10, 1);
     expect_near(splat.start_depth, 0.25 - 10);
     expect_near(splat.start_slope_u, 0);
     expect_near(splat.start_slope_v, 0);
     expect_near(splat.near_depth, -10);
-    expect_near(splat.source_depth, -10);
+    expect_near(splat.photon_depth, -10);
     expect_near(splat.far_depth, 2);
     /* Never past half of the way. */
     expect_near(place(settings, 0.2f, 1).start_depth, -0.1);
 }
 
-/* Every ray of a slanted beam starts on one plane parallel to the source's surface. */
+/* Every ray of a slanted bundle starts on one plane parallel to the photon's surface. */
 static void test_full_beam_starts_along_the_surface(void **state)
 {
     (void)state;
-    const ps_box_settings settings = {.radius = 2, .step_back_rule = 1};
+    const ps_footprint_settings settings = {.radius = 2, .step_back_rule = 1};
     ps_splat splat = place_along((ps_vec3){0.8f, 0.6f, 0}, settings, 10, 1);
     float earliest = 0;
     for (int i = 0; i < 32; i++) { /* around the edge of the disc */
@@ -305,21 +308,22 @@ static void test_a_miss_lights_nothing(void **state)
 {
     (void)state;
     for (int rule = -1; rule <= 1; rule++) {
-        const ps_box_settings settings = {.radius = 2, .step_back = 1, .step_back_rule = rule};
-        ps_source source = {.normal = {0, 1, 0}, .direction = {0, 1, 0}, .power = {1, 1, 1}};
+        const ps_footprint_settings settings = {
+            .radius = 2, .step_back = 1, .step_back_rule = rule};
+        ps_photon photon = {.normal = {0, 1, 0}, .direction = {0, 1, 0}, .power = {1, 1, 1}};
         ps_hit hit = {.distance = INFINITY, .object = PS_NO_OBJECT};
-        assert_true(place_one(&scene, &settings, &source, &hit).half_width == 0);
+        assert_true(place_one(&scene, &settings, &photon, &hit).half_width == 0);
     }
 }
 
 static ps_splat frame_of(uint64_t seed, uint64_t path, uint32_t bounce, ps_vec3 w)
 {
-    const struct box_scene own = {
+    const struct footprint_scene own = {
         .radius = RADIUS, .surface_offset = 0.001f, .seed = seed, .camera = &camera};
-    const ps_box_settings settings = {.radius = 2};
-    ps_source source = {.normal = w, .direction = w, .bounce = bounce, .path = path};
+    const ps_footprint_settings settings = {.radius = 2};
+    ps_photon photon = {.normal = w, .direction = w, .bounce = bounce, .path = path};
     ps_hit hit = {.position = w, .distance = 1, .normal = ps_scale(w, -1)};
-    return place_one(&own, &settings, &source, &hit);
+    return place_one(&own, &settings, &photon, &hit);
 }
 
 static void test_frames_are_orthonormal(void **state)
@@ -377,12 +381,12 @@ static void test_cut(void **state)
     (void)state;
     const float depths[4] = {-1, 0.5f, 2, 0};
     ps_splat splat = uncut();
-    box_cut(&splat, depths, 2);
+    footprint_cut(&splat, depths, 2);
     expect_near(splat.near_depth, -5);
     expect_near(splat.far_depth, 2.3);
     splat = uncut(); /* never grows */
     splat.far_depth = 1;
-    box_cut(&splat, depths, 2);
+    footprint_cut(&splat, depths, 2);
     expect_near(splat.far_depth, 1);
 }
 
@@ -392,17 +396,17 @@ static void test_cut_with_misses(void **state)
     (void)state;
     const float some[4] = {-1, INFINITY, 2, 0}, none[1] = {INFINITY};
     ps_splat splat = uncut();
-    box_cut(&splat, some, 2);
+    footprint_cut(&splat, some, 2);
     expect_near(splat.far_depth, 5);
     splat = uncut();
-    box_cut(&splat, none, 1);
+    footprint_cut(&splat, none, 1);
     expect_near(splat.far_depth, 5);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_carries_the_source),
+        cmocka_unit_test(test_carries_the_photon),
         cmocka_unit_test(test_size),
         cmocka_unit_test(test_automatic_size),
         cmocka_unit_test(test_size_by_the_spread_of_light),

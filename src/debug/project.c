@@ -1,8 +1,9 @@
-#include "debug/sight.h"
+#include "debug/project.h"
 
 #include <psplat/math.h>
 
-bool sight_of(const struct render *render, ps_vec3 position, ps_vec3 away, float *x, float *y)
+bool project_visible(const struct render *render, ps_vec3 position, ps_vec3 away, float *x,
+                     float *y)
 {
     static const float pinhole[2] = {0, 0};
     const struct scene *scene = render->scene;

@@ -1,7 +1,7 @@
 /* test_field.c: the pixels that splats light: where they lie, what they take over, how they join.
  *
  * The G-buffer is made by hand: a floor, beside it a wall, a step up, and nothing. */
-#include "splat/field.h"
+#include "splat/interleaved.h"
 
 #include <math.h>
 #include <psplat/host.h>
@@ -20,7 +20,7 @@
 
 struct bench {
     struct gbuffer gbuffer;
-    struct field field;
+    struct interleaved field;
 };
 
 static void see(ps_tile *tile, uint32_t lane, uint32_t x, uint32_t y)
@@ -47,14 +47,14 @@ static struct bench open_bench(uint32_t interleave)
                 see(&bench.gbuffer.tiles[tile], lane, x, y);
         }
     }
-    assert_int_equal(field_create(&bench.gbuffer, interleave, &bench.field, &error), PS_OK);
-    field_fill(&bench.field, &bench.gbuffer, 2);
+    assert_int_equal(interleaved_create(&bench.gbuffer, interleave, &bench.field, &error), PS_OK);
+    interleaved_fill(&bench.field, &bench.gbuffer, 2);
     return bench;
 }
 
 static void close_bench(struct bench *bench)
 {
-    field_release(&bench->field);
+    interleaved_release(&bench->field);
     gbuffer_release(&bench->gbuffer);
 }
 
@@ -78,7 +78,7 @@ static void test_every_pixel_has_a_lane(void **state)
             for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
                 uint32_t x, y, there;
                 float position = bench.field.tiles[tile].position_x[lane];
-                if (!field_pixel(&bench.field, tile, lane, &x, &y)) {
+                if (!interleaved_pixel(&bench.field, tile, lane, &x, &y)) {
                     assert_true(position >= BOUNDS_NOWHERE);
                     continue;
                 }
@@ -93,7 +93,7 @@ static void test_every_pixel_has_a_lane(void **state)
 }
 
 /* Sums that tell the subset: s + 1; half of that as weight. */
-static void light_subsets(struct field *field)
+static void light_subsets(struct interleaved *field)
 {
     uint32_t each = field->tiles_across * field->tiles_down;
     for (uint32_t tile = 0; tile < field->tile_count; tile++)
@@ -119,7 +119,7 @@ static void test_joins_all_subsets_alike(void **state)
     for (uint32_t n = 1; n <= PS_MOST_INTERLEAVE; n++) {
         struct bench bench = open_bench(n);
         light_subsets(&bench.field);
-        field_join(&bench.field, &bench.gbuffer, 2);
+        interleaved_join(&bench.field, &bench.gbuffer, 2);
         double mean = 0.5 * (n * n + 1);
         for (uint32_t y = n / 2; y < HEIGHT - n / 2; y++)
             for (uint32_t x = n / 2; n > 1 && x < WALL - n / 2; x++) {
@@ -143,10 +143,10 @@ static void test_surfaces_do_not_mix(void **state)
     for (uint32_t tile = 0; tile < bench.field.tile_count; tile++)
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
             uint32_t x, y;
-            field_pixel(&bench.field, tile, lane, &x, &y);
+            interleaved_pixel(&bench.field, tile, lane, &x, &y);
             bench.field.tiles[tile].irradiance_r[lane] = x < WALL ? 1 : x < STEP ? 2 : 4;
         }
-    field_join(&bench.field, &bench.gbuffer, 2);
+    interleaved_join(&bench.field, &bench.gbuffer, 2);
     for (uint32_t y = 0; y < HEIGHT; y++)
         for (uint32_t x = 0; x < WIDTH; x++) {
             uint32_t lane;
@@ -167,13 +167,13 @@ static void test_one_subset_is_a_copy(void **state)
     for (uint32_t tile = 0; tile < bench.field.tile_count; tile++)
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
             bench.field.tiles[tile].irradiance_g[lane] = 0.1f * (float)(tile * 7 + lane);
-    field_join(&bench.field, &bench.gbuffer, 1);
-    field_join(&bench.field, &bench.gbuffer, 1);
+    interleaved_join(&bench.field, &bench.gbuffer, 1);
+    interleaved_join(&bench.field, &bench.gbuffer, 1);
     for (uint32_t tile = 0; tile < bench.field.tile_count; tile++)
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
             uint32_t x, y, there;
             float value = bench.field.tiles[tile].irradiance_g[lane];
-            if (field_pixel(&bench.field, tile, lane, &x, &y) && x < VOID)
+            if (interleaved_pixel(&bench.field, tile, lane, &x, &y) && x < VOID)
                 assert_true(tile_at(&bench, x, y, &there)->irradiance_g[there] == value + value);
         }
     close_bench(&bench);
@@ -187,9 +187,9 @@ static void test_blocks_are_bounded(void **state)
     size_t empty = 0;
     for (uint32_t tile = 0; tile < bench.field.tile_count; tile++)
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-            const struct field_tile *pixels = &bench.field.tiles[tile];
+            const struct interleaved_tile *pixels = &bench.field.tiles[tile];
             const struct bounds *blocks = &pixels->blocks;
-            uint32_t block = lane / FIELD_BLOCK;
+            uint32_t block = lane / INTERLEAVED_BLOCK;
             float z = pixels->position_z[lane];
             empty += !(blocks->center_z[block] < BOUNDS_NOWHERE);
             if (!(z < BOUNDS_NOWHERE))

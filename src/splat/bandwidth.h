@@ -1,43 +1,43 @@
-/* width.h: how much of a full beam's disc a pixel takes.
+/* bandwidth.h: how much of a full bundle's disc a pixel takes.
  *
- * Light from close by changes over short ways, so the disc should be small near the source and may be
+ * Light from close by changes over short ways, so the disc should be small near the photon and may be
  * large far from it. If each splat had one size for all of its pixels, by how far its own axis runs, the
  * discs that meet at a pixel would differ in size, and their sum would not be 1: where sizes change
  * from place to place, even light came out up to 8 % too bright or too dark (a sample-point estimator:
  * Silverman 1986, "Density estimation", section 5.3). So the pixel chooses. Along direction w it lies at
- * distance t from the plane of the source, and the sources that it sees around that place count within
+ * distance t from the plane of the photon, and the photons that it sees around that place count within
  *
  *     h = follow * t / (1 + follow * s)        and  narrowest <= h <= widest
  *
- * with s the change of t across the beam, over the pixel's own surface. All sources of that plane then
+ * with s the change of t across the beam, over the pixel's own surface. All photons of that plane then
  * agree about h (but for the limits, which go by the splat), and even light comes out even. As `follow`
  * grows h tends to t / s: a disc that just touches the crease where both planes meet. A box of
  * half-width follow * d around a hit at distance d holds all pixels of a plane that take in the axis,
  * since from t = d + s |x| and |x| < h follows |x| < follow * d.
  */
-#ifndef SPLAT_WIDTH_H
-#define SPLAT_WIDTH_H
+#ifndef SPLAT_BANDWIDTH_H
+#define SPLAT_BANDWIDTH_H
 
 #include <math.h>
 #include <psplat/types.h>
 
 /* Steeper surfaces are taken to be no steeper; those that face away are not lit, whatever comes out. */
-#define WIDTH_LEAST_FACING 1e-3f
+#define BANDBANDWIDTH_LEAST_FACING 1e-3f
 
 /* h in half-widths of the box, with all that can be worked out once for all pixels. */
-struct width {
+struct bandwidth {
     float by_distance;    /* follow / R */
     float spread;         /* follow * R: u and v are axes divided by R */
-    float tilt_u, tilt_v; /* follow times the slope of the source's plane */
+    float tilt_u, tilt_v; /* follow times the slope of the photon's plane */
     float narrowest, widest;
 };
 
 /* Compilers make vectors of it: no calls, no branches. `facing`: the cosine at the pixel; normal_u,
  * normal_v: its normal along the axes divided by R; `distance`: t. */
-static inline float width_at(const struct width *width, float distance, float facing,
-                             float normal_u, float normal_v)
+static inline float bandwidth_at(const struct bandwidth *width, float distance, float facing,
+                                 float normal_u, float normal_v)
 {
-    facing = facing > WIDTH_LEAST_FACING ? facing : WIDTH_LEAST_FACING;
+    facing = facing > BANDBANDWIDTH_LEAST_FACING ? facing : BANDBANDWIDTH_LEAST_FACING;
     float a = normal_u * width->spread - width->tilt_u * facing;
     float b = normal_v * width->spread - width->tilt_v * facing;
     float h = width->by_distance * distance * facing / (facing + sqrtf(a * a + b * b));
