@@ -1,15 +1,15 @@
-/* alias.h: choosing one of many entries by weight, each time in constant time.
+/* alias.h: choosing one of many entries by weight, each time in constant time: an optional service.
  *
  * The alias method: n cells of equal chance, each shared by at most two entries (Walker 1977; built in
  * linear time after Vose 1991, "A linear algorithm for generating random numbers with a given
- * distribution"). Inversion of a cumulative sum would keep neighbouring numbers on neighbouring
- * entries, at a logarithmic search for each choice.
+ * distribution").
  */
 #ifndef PSPLAT_ALIAS_H
 #define PSPLAT_ALIAS_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include <psplat/types.h>
+
+#define PS_ALIAS_EXTENSION "psplat.alias/1"
 
 /* A cell: how much of it is its own entry's, 0..1, and whose the rest is. */
 typedef struct ps_alias {
@@ -17,53 +17,15 @@ typedef struct ps_alias {
     uint32_t other;
 } ps_alias;
 
-/* Fills the table for n weights, each finite and at least 0, and returns their sum; 0: there is nothing
- * to choose, and the table is not set. `order` is room for n numbers, free again afterwards. */
-static inline double ps_alias_build(const float *weights, uint32_t n, ps_alias *table,
-                                    uint32_t *order)
-{
-    double total = 0.0;
-    for (uint32_t i = 0; i < n; i++)
-        total += (double)weights[i];
-    if (!(total > 0.0))
-        return 0.0;
-    double scale = (double)n / total;
-    /* Entries of less than a cell are a stack at the front of `order`, the others one at its back. */
-    uint32_t small = 0, large = n;
-    for (uint32_t i = 0; i < n; i++) {
-        double share = (double)weights[i] * scale;
-        table[i] = (ps_alias){(float)share, i};
-        order[share < 1.0 ? small++ : --large] = i;
-    }
-    uint32_t donor = 0;
-    while (large < n) {
-        donor = order[large++];
-        /* What the donor still has; in double, as it may fill many cells. */
-        double left = (double)weights[donor] * scale;
-        while (left >= 1.0 && small > 0) {
-            ps_alias *cell = &table[order[--small]];
-            cell->other = donor;
-            left -= 1.0 - (double)cell->own;
-        }
-        table[donor].own = left < 1.0 ? (float)left : 1.0f;
-        if (left < 1.0)
-            order[small++] = donor;
-    }
-    /* What rounding left over fills its cell, but for entries of weight 0. */
-    while (small > 0) {
-        uint32_t i = order[--small];
-        table[i] = weights[i] > 0.0f ? (ps_alias){1.0f, i} : (ps_alias){0.0f, donor};
-    }
-    return total;
-}
-
-/* The entry for a place in [0, n), which chooses a cell, and a number in [0, 1) within it. */
-static inline uint32_t ps_alias_choose(const ps_alias *table, uint32_t n, double place,
-                                       float number)
-{
-    uint32_t i = (uint32_t)place;
-    i = i < n ? i : n - 1;
-    return number < table[i].own ? i : table[i].other;
-}
+/* What host->extension gives for the name; pure functions. [any thread] */
+typedef struct ps_alias_service {
+    uint32_t size;
+    uint32_t reserved;
+    /* Fills the table for n weights, each finite and at least 0, and returns their sum; 0: there is nothing
+     * to choose, and the table is not set. `order` is room for n numbers, free again afterwards. */
+    double (*build)(const float *weights, uint32_t n, ps_alias *table, uint32_t *order);
+    /* The entry for a place in [0, n), which chooses a cell, and a number in [0, 1) within it. */
+    uint32_t (*choose)(const ps_alias *table, uint32_t n, double place, float number);
+} ps_alias_service;
 
 #endif

@@ -123,7 +123,7 @@ static inline ps_ray ps_leave_surface(ps_vec3 position, ps_vec3 normal, ps_vec3 
 }
 
 /* The packet's lane becomes that ray. */
-static inline void ps_packet_set(ps_packet *packet, size_t lane, ps_ray ray)
+static inline void ps_packet_set(ps_ray_packet *packet, size_t lane, ps_ray ray)
 {
     packet->origin_x[lane] = ray.origin.x;
     packet->origin_y[lane] = ray.origin.y;

@@ -4,14 +4,14 @@
 
 #include <psplat/alias.h>
 #include <psplat/bundle.h>
-#include <psplat/cell.h>
+#include <psplat/cells.h>
 #include <psplat/host.h>
 #include <psplat/light_map.h>
 #include <psplat/math.h>
-#include <psplat/merge.h>
 #include <psplat/module.h>
 #include <psplat/param.h>
 #include <psplat/path.h>
+#include <psplat/strata.h>
 #include <psplat/strategy.h>
 #include <psplat/tile.h>
 #include <psplat/types.h>

@@ -7,13 +7,18 @@
  *
  * Callbacks work on batches. [worker]: called on several threads at once, so `state` is const and
  * results may depend only on the arguments; [main thread]: called once at a time. Arrays are
- * borrowed for the call.
+ * borrowed for the call. A function that can fail returns a ps_result, and tells why by host->fail.
+ *
+ * Each table begins with its own size, by which psplat knows which members a module was built with: a
+ * member that it does not have counts as 0. "Optional": may be NULL.
  */
 #ifndef PSPLAT_STRATEGY_H
 #define PSPLAT_STRATEGY_H
 
 #include <psplat/host.h>
 #include <psplat/param.h>
+
+/* --- injection ------------------------------------------------------------------------------- */
 
 /* Takes the photons that an injection makes; copies them. Returns PS_OK or PS_ERROR_MEMORY. */
 typedef struct ps_photon_sink {
@@ -31,59 +36,81 @@ typedef struct ps_injection_vtable {
      * out the pixels (host->begin_splats). [worker] */
     ps_result (*emit)(const void *state, const ps_host *host, const ps_pass *pass, uint64_t first,
                       size_t n, const ps_photon_sink *sink);
-    /* Makes what emit needs in this pass and keeps it in the state, which no other callback uses
-     * meanwhile. Before path_count and emit, in each pass whose photons are asked for; passes may
-     * not depend on each other. May be NULL. [main thread] */
+    /* Optional. Makes what emit needs in this pass and keeps it in the state, which no other callback
+     * uses meanwhile. Before path_count and emit, in each pass whose photons are asked for; passes may
+     * not depend on each other. [main thread] */
     ps_result (*prepare)(void *state, const ps_host *host, const ps_pass *pass);
 } ps_injection_vtable;
 
 #define PS_PATH_CHUNK 256
 
+/* --- stratification -------------------------------------------------------------------------- */
+
+/* A photon, by its index, under a key by which a stratification sorts. */
+typedef struct ps_key_entry {
+    uint64_t key;
+    uint64_t index;
+} ps_key_entry;
+
+/* The strata of a batch of photons: stratum i is entries[starts[i]] to entries[starts[i + 1] - 1].
+ * Photons without an entry stay as they are, and each has one entry at most. The memory is the
+ * host's; starts[0] is 0, as are all numbers, when the stratification begins to fill them. */
+typedef struct ps_strata {
+    uint32_t size;
+    uint32_t reserved;
+    ps_key_entry *entries; /* room for as many as there are photons */
+    ps_key_entry *spare;   /* as large, for sorting; it may change places with `entries` */
+    size_t entry_count;
+    size_t *starts; /* room for one more than there are photons */
+    size_t count;
+    /* How the photons of a stratum merge: into as many as `per_stratum` (0: as 1) where there are as many,
+     * and no more than `most` (0: any number) into one. */
+    uint64_t per_stratum, most;
+} ps_strata;
+
+#define PS_NO_STRATUM UINT64_MAX
+
 typedef struct ps_stratification_vtable {
     uint32_t size;
-    /* 1: combine sees all photons of a pass at once; 0: batch by batch, which bounds memory. */
+    /* 1: stratify sees all photons of a pass at once; 0: batch by batch, which bounds memory. */
     uint32_t whole_pass;
-    /* Combines neighbours in place: the first *n entries of `photons` become the result, *n
-     * shrinks. The sum of powers must stay. [main thread] */
-    ps_result (*combine)(const void *state, const ps_host *host, const ps_pass *pass,
-                         ps_photon *photons, size_t *n);
-    /* Numbers the cells that `count` points lie in, for pictures of them: photons of the same number
-     * are those that combine would make one, given these n of the pass, but for their normals and for
-     * limits on how many; PS_NO_CELL where it would merge none. May be NULL: there are no cells.
+    /* Optional; without, every photon stays. Sorts n photons into strata, which psplat merges: all
+     * of a stratum whose normals agree become one, with the power of all. A photon whose
+     * `merged` becomes 0 is dropped; nothing else may change. The parameters `representative` and
+     * `normal_angle` are psplat's. [main thread] */
+    ps_result (*stratify)(const void *state, const ps_host *host, const ps_pass *pass,
+                          ps_photon *photons, size_t n, ps_strata *strata);
+    /* Optional; without, there are no pictures of strata. The numbers of the strata that `count` points
+     * lie in, given the strata that stratify made of a pass; PS_NO_STRATUM where nothing would merge.
      * [main thread] */
-    ps_result (*cells)(const void *state, const ps_host *host, const ps_pass *pass,
-                       const ps_photon *photons, size_t n, const ps_vec3 *points, size_t count,
-                       uint64_t *numbers);
-    uint32_t keeps_all; /* 1: combine leaves all as it is; see ps_pass.shares_places */
-    uint32_t reserved;
+    ps_result (*find_strata)(const void *state, const ps_host *host, const ps_strata *strata,
+                             const ps_vec3 *points, size_t count, uint64_t *numbers);
 } ps_stratification_vtable;
 
-#define PS_NO_CELL UINT64_MAX
+/* --- visibility ------------------------------------------------------------------------------ */
 
+/* Which rays of a bundle pass. A table without functions lights everything inside of a splat's
+ * footprint. With depth maps, psplat adds the parameters `resolution` and `bias`; the parameters of the
+ * footprint are psplat's for all. */
 typedef struct ps_visibility_vtable {
     uint32_t size;
     uint32_t reserved;
-    /* Texels along the side of a depth map, 1..64; 0: no maps. [main thread] */
-    uint32_t (*resolution)(const void *state);
-    /* Boxes of photons whose first hits are known; usually host->place_footprints. [worker] */
-    void (*place)(const void *state, const ps_host *host, const ps_photon *photons,
-                  const ps_hit *hits, size_t n, ps_splat *splats);
-    /* Depth maps of n splats: texel (i, j), u along i, at depths[(s * resolution + j) * resolution
-     * + i]; the depth along axis_w relative to the centre, INFINITY where nothing was hit. NULL
-     * where resolution is 0. [worker] */
-    void (*depth_maps)(const void *state, const ps_host *host, const ps_splat *splats, size_t n,
-                       float *depths);
-    /* For a visibility of resolution 0: whether the bundle lights each of n points inside of the
-     * splat's box that face the light; lit[i] becomes 1 or 0. The points were moved off their
-     * surfaces like origins of rays that leave them, so nothing at the point itself is in the way.
-     * What lies before the start plane, but was not left out by the core, is lit.
-     * NULL where depth maps decide, or everything inside a box is lit. [worker] */
-    void (*visible)(const void *state, const ps_host *host, const ps_splat *splat,
+    /* Optional. Depth maps of n bundles: texel (i, j), u along i, at depths[(b * resolution + j) * resolution
+     * + i]: the depth t at which its ray ends, INFINITY where it meets nothing. The texel's centre is
+     * ps_texel_centre. 1 <= resolution <= PS_MOST_TEXELS. [worker] */
+    void (*depth_maps)(const void *state, const ps_host *host, const ps_bundle *bundles, size_t n,
+                       uint32_t resolution, float *depths);
+    /* Optional, instead of depth maps. Whether the bundle lights each of n points inside of the splat's
+     * footprint that face the light; lit[i] becomes 1 or 0. The points were moved off their surfaces like
+     * origins of rays that leave them, so nothing at the point itself is in the way. Points before the
+     * start plane are lit. [worker] */
+    void (*visible)(const void *state, const ps_host *host, const ps_bundle *bundle,
                     const ps_vec3 *points, size_t n, uint8_t *lit);
-    /* The settings by which all boxes are placed with host->place_footprints. NULL: they are placed otherwise;
-     * then splats leave out no short-range light. [main thread] */
-    ps_footprint_settings (*boxes)(const void *state);
 } ps_visibility_vtable;
+
+#define PS_MOST_TEXELS 64
+
+/* --- filter ---------------------------------------------------------------------------------- */
 
 typedef struct ps_filter_vtable {
     uint32_t size;
@@ -93,20 +120,35 @@ typedef struct ps_filter_vtable {
     void (*weigh)(const void *state, const float *r2, float *weights, size_t n);
 } ps_filter_vtable;
 
+/* --- estimator ------------------------------------------------------------------------------- */
+
+#define PS_ESTIMATOR_SHARES_PLACES 1u /* see ps_pass.shares_places */
+#define PS_ESTIMATOR_RADIANCE 2u      /* ps_tile.radiance_r, radiance_g and radiance_b are there */
+
 typedef struct ps_estimator_vtable {
     uint32_t size;
-    uint32_t shares_places; /* see ps_pass */
-    /* Adds the pass's indirect irradiance and weight to the tiles. [main thread] */
-    ps_result (*accumulate)(const void *state, const ps_host *host, const ps_pass *pass);
+    uint32_t flags; /* PS_ESTIMATOR_... */
+    /* Adds the pass's indirect light and its weight to the tiles. What is kept in the state lasts through
+     * the render. [main thread] */
+    ps_result (*accumulate)(void *state, const ps_host *host, const ps_pass *pass);
+    /* Optional. Once, before the first pass; `pass` describes it. [main thread] */
+    ps_result (*begin)(void *state, const ps_host *host, const ps_pass *pass);
+    /* Optional. After each pass that was accumulated; the tiles hold its light, short-range light and all.
+     * [main thread] */
+    ps_result (*end_pass)(void *state, const ps_host *host, const ps_pass *pass);
+    /* Optional. Once, after the last pass, if begin was called and succeeded. [main thread] */
+    void (*end)(void *state, const ps_host *host);
 } ps_estimator_vtable;
 
-/* The sums of a render's passes, a value for each pixel, row-major. */
+/* --- normalization --------------------------------------------------------------------------- */
+
+/* The sums of a render's passes, or of half of them, a value for each pixel, row-major. */
 typedef struct ps_film_view {
     uint32_t size;
     uint32_t passes;
     uint64_t pixel_count;
     const float *color_r, *color_g,
-        *color_b; /* reflected indirect radiance: albedo / pi * irradiance */
+        *color_b; /* indirect radiance: albedo / pi * irradiance, and what was added as radiance */
     const float *weight;
     const float *coverage; /* passes in which the pixel saw a surface */
 } ps_film_view;
@@ -119,67 +161,37 @@ typedef struct ps_normalization_vtable {
                          float *out_r, float *out_g, float *out_b);
 } ps_normalization_vtable;
 
+/* --- denoiser -------------------------------------------------------------------------------- */
+
 /* An image with the averaged G-buffer beside it, row-major. */
 typedef struct ps_image_view {
     uint32_t size;
     uint32_t width, height;
-    uint32_t reserved;
+    uint32_t passes;
     float *r, *g, *b; /* indirect radiance, to change in place */
+    /* Diffuse reflectance times the throughput of mirrors and glass before it: what radiance is of
+     * irradiance / pi. Not the colour of what mirrors. */
     const float *albedo_r, *albedo_g, *albedo_b;
     const float *normal_x, *normal_y, *normal_z;
     const float *position_x, *position_y, *position_z;
-    const float *depth; /* INFINITY where nothing is seen */
+    const float *depth;    /* INFINITY where nothing is seen */
+    const float *weight;   /* sum over the passes of what the estimator weighed the light with */
+    const float *coverage; /* passes in which a surface was seen */
+    /* Where the table asks for them, else NULL: object and material of the first pass, PS_NO_OBJECT where
+     * nothing is seen; and the indirect radiance of the even and of the odd passes alone, whose
+     * difference tells the noise: NULL, too, where there is one pass. */
+    const uint32_t *object, *material;
+    const float *even_r, *even_g, *even_b, *odd_r, *odd_g, *odd_b;
 } ps_image_view;
+
+#define PS_DENOISER_IDS 1u    /* ps_image_view.object and material are there */
+#define PS_DENOISER_HALVES 2u /* ps_image_view.even_r to odd_b are there */
 
 typedef struct ps_denoiser_vtable {
     uint32_t size;
-    uint32_t keeps_all; /* 1: filter leaves all as it is, and may miss planes of surfaces */
-    /* Filters in place. [main thread] */
+    uint32_t flags; /* PS_DENOISER_... */
+    /* Optional; without, the picture stays as it is. Filters in place. [main thread] */
     ps_result (*filter)(const void *state, const ps_host *host, const ps_image_view *image);
 } ps_denoiser_vtable;
-
-/* The rows that every visibility shares; the plugin's state holds PS_FOOTPRINT_MEMBERS. */
-#define PS_FOOTPRINT_MEMBERS                                                                       \
-    ps_number_or_choice radius;                                                                    \
-    double bandwidth_scale;                                                                        \
-    ps_number_or_choice depth;                                                                     \
-    ps_number_or_choice step_back;                                                                 \
-    double max_merge_scale;                                                                        \
-    int32_t boundary_correction;
-
-#define PS_FOOTPRINT_CHOICES                                                                       \
-    static const char *const box_auto[] = {"auto", NULL};                                          \
-    static const char *const box_step_back[] = {"auto", "full", NULL};
-
-#define PS_FOOTPRINT_PARAMS(state, step_back_default, boundary_correction_default)                 \
-    PS_NUMBER_OR(                                                                                  \
-        state, radius, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, box_auto, "scene units",            \
-        "radius of a splat; auto: by the scene, its light and the number of light paths"),         \
-        PS_NUMBER(state, bandwidth_scale, "0.6", 0, INFINITY, PS_PARAM_EXPERT, "",                 \
-                  "limit of the radius, down to a part of it or to the interleaved pixels, as a "  \
-                  "fraction of "                                                                   \
-                  "the distance travelled; 0: none"),                                              \
-        PS_NUMBER_OR(state, depth, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN | PS_PARAM_EXPERT,       \
-                     box_auto, "scene units",                                                      \
-                     "reach of the box past the first hit; auto: what the hit's slope needs"),     \
-        PS_NUMBER_OR(                                                                              \
-            state, step_back, step_back_default, 0, INFINITY, PS_PARAM_EXPERT, box_step_back,      \
-            "scene units",                                                                         \
-            "start of the box before the first hit; auto: by its slope, full: the photon"),        \
-        PS_NUMBER(state, max_merge_scale, "1.5", 1, INFINITY, PS_PARAM_EXPERT, "",                 \
-                  "limit of the growth of the radius, sqrt(photons merged into one); 1: none"),    \
-        PS_ROW(state, boundary_correction, PS_PARAM_BOOL, boundary_correction_default, 0, 1,       \
-               PS_PARAM_EXPERT, NULL, "",                                                          \
-               "full bundles make up for the part that walls beside their photon keep back")
-
-/* The parameters as host->place_footprints wants them. */
-#define PS_FOOTPRINT_SETTINGS(state)                                                               \
-    (ps_footprint_settings)                                                                        \
-    {                                                                                              \
-        .radius = (state)->radius.number, .bandwidth_scale = (state)->bandwidth_scale,             \
-        .depth = (state)->depth.number, .step_back = (state)->step_back.number,                    \
-        .step_back_rule = (state)->step_back.choice, .max_merge_scale = (state)->max_merge_scale,  \
-        .boundary_correction = (state)->boundary_correction                                        \
-    }
 
 #endif

@@ -225,14 +225,14 @@ static ps_result filter(const void *state, const ps_host *host, const ps_image_v
     return host->cancelled(host) ? PS_CANCELLED : PS_OK;
 }
 
-static int32_t init(void *opaque, const ps_host *host, char *message, size_t message_size)
+static ps_result init(void *opaque, const ps_host *host)
 {
-    (void)host;
     const struct state *state = opaque;
+    char why[60];
     if (state->size % 2 == 1)
-        return 0;
-    snprintf(message, message_size, "size must be odd, got %lld", (long long)state->size);
-    return 1;
+        return PS_OK;
+    snprintf(why, sizeof why, "size must be odd, got %lld", (long long)state->size);
+    return host->fail(host, PS_ERROR_INVALID, why);
 }
 
 static const ps_param params[] = {

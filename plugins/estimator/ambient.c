@@ -21,7 +21,7 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
             ps_add_irradiance(tile, lane, work->state->irradiance);
 }
 
-static ps_result accumulate(const void *state, const ps_host *host, const ps_pass *pass)
+static ps_result accumulate(void *state, const ps_host *host, const ps_pass *pass)
 {
     (void)pass;
     struct work work = {state, host};

@@ -157,8 +157,8 @@ static int goes_on(const struct work *work, const ps_bsdf_sample *scattered, flo
 static void scatter_paths(const struct work *work, struct paths *paths, struct segment *segment)
 {
     ps_bsdf_sample scattered[PS_TILE_PIXELS];
-    work->host->scatter(work->host, PS_FROM_CAMERA, paths->rays, segment->hits,
-                        (const float(*)[4])segment->numbers, paths->count, scattered);
+    work->host->sample_bsdf(work->host, PS_FROM_CAMERA, paths->rays, segment->hits,
+                            (const float(*)[4])segment->numbers, paths->count, scattered);
     size_t alive = 0;
     for (size_t i = 0; i < paths->count; i++) {
         if (!goes_on(work, &scattered[i], segment->numbers[i][2], paths, i))
@@ -228,7 +228,7 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
                           ps_rgb_scale(sums[i], 1.0f / (float)state->samples));
 }
 
-static ps_result accumulate(const void *state, const ps_host *host, const ps_pass *pass)
+static ps_result accumulate(void *state, const ps_host *host, const ps_pass *pass)
 {
     struct work work = {state, host, pass};
     return host->for_each_tile(host, trace_tile, &work);

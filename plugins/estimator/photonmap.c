@@ -355,8 +355,8 @@ static void look_up_or_go_on(const struct work *work, uint32_t worker, uint32_t 
     size_t targets[PS_TILE_PIXELS], ended = 0, left = 0;
     const ps_host *host = work->host;
     host->samples(host, PS_STREAM_PATH, chain + 1, g->samples, g->count, g->numbers);
-    host->scatter(host, PS_FROM_CAMERA, g->rays, g->hits, (const float(*)[4])g->numbers, g->count,
-                  scattered);
+    host->sample_bsdf(host, PS_FROM_CAMERA, g->rays, g->hits, (const float(*)[4])g->numbers,
+                      g->count, scattered);
     for (size_t i = 0; i < g->count; i++) {
         const ps_bsdf_sample *on = &scattered[i];
         if (!(ps_rgb_maximum(on->weight) > 0.0f))
@@ -433,7 +433,7 @@ static ps_result search(const struct state *state, const ps_host *host, const ps
     return result;
 }
 
-static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pass *pass)
+static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
 {
     const struct state *state = opaque;
     struct map map = {.count = 0};

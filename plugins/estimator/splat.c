@@ -14,29 +14,12 @@
  */
 #include <psplat/plugin.h>
 
-#define BATCH 4096 /* splats placed at a time */
-
 struct state {
     int64_t interleave;
     ps_number_or_choice gather_rays;
 };
 
-static ps_result splat_batches(const ps_host *host, const ps_photon *photons, size_t n,
-                               ps_splat *splats)
-{
-    ps_result result = PS_OK;
-    for (size_t first = 0; first < n && result == PS_OK; first += BATCH) {
-        size_t count = n - first < BATCH ? n - first : BATCH;
-        if (host->cancelled(host))
-            return PS_CANCELLED;
-        result = host->place_splats(host, photons + first, count, splats);
-        if (result == PS_OK)
-            result = host->splat(host, splats, count);
-    }
-    return result;
-}
-
-static ps_result splat_all(const ps_host *host, ps_splat *splats)
+static ps_result splat_all(const ps_host *host)
 {
     const ps_photon *photons;
     size_t n = 1;
@@ -45,27 +28,21 @@ static ps_result splat_all(const ps_host *host, ps_splat *splats)
     while (result == PS_OK && n > 0) {
         result = host->next_photons(host, &photons, &n, &progress);
         if (result == PS_OK)
-            result = splat_batches(host, photons, n, splats);
+            result = host->splat(host, photons, n);
         host->progress(host, progress);
     }
     return result;
 }
 
-static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pass *pass)
+static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
 {
     (void)pass;
     const struct state *state = opaque;
     int automatic = state->gather_rays.choice >= 0;
-    ps_splat *splats = host->allocate(host, BATCH * sizeof *splats, "splats placed");
-    if (!splats)
-        return PS_ERROR_MEMORY;
     ps_result result = host->begin_splats(host, (uint32_t)state->interleave);
     if (result == PS_OK && (automatic || state->gather_rays.number > 0))
         result = host->gather_short_range(host, automatic ? 0.0 : state->gather_rays.number);
-    if (result == PS_OK)
-        result = splat_all(host, splats);
-    host->release(host, splats);
-    return result;
+    return result == PS_OK ? splat_all(host) : result;
 }
 
 static const char *const gather_rays_choices[] = {"auto", NULL};
@@ -83,7 +60,7 @@ static const ps_param params[] = {
 
 static const ps_estimator_vtable vtable = {
     .size = sizeof vtable,
-    .shares_places = 1,
+    .flags = PS_ESTIMATOR_SHARES_PLACES,
     .accumulate = accumulate,
 };
 

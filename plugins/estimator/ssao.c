@@ -165,7 +165,7 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
         uint64_t sample = ps_sample_block(index, lane) + work->pass->number;
         if (tile->object[lane] == PS_NO_OBJECT || !host->pixel(host, (uint32_t)index, lane, &x, &y))
             continue;
-        host->samples(host, PS_STREAM_PLUGIN, 0, &sample, 1, numbers);
+        host->samples(host, PS_STREAM_ESTIMATOR, 0, &sample, 1, numbers);
         struct point point = point_of(tile, lane);
         float visible = visibility(work, &point, x, y, numbers[0]);
         ps_add_irradiance(tile, lane, ps_rgb_scale(work->state->irradiance, visible));
@@ -180,7 +180,7 @@ static float occlusion_radius(const struct state *state, const ps_host *host)
     return state->radius.choice >= 0 ? 0.2f * radius : (float)state->radius.number;
 }
 
-static ps_result accumulate(const void *state, const ps_host *host, const ps_pass *pass)
+static ps_result accumulate(void *state, const ps_host *host, const ps_pass *pass)
 {
     struct work work = {
         .state = state,

@@ -115,7 +115,7 @@ static size_t place_in_sample(const ps_host *host, const ps_pass *pass, uint64_t
     uint64_t index = (uint64_t)pass->number << 40 | seen;
     if (seen < room)
         return (size_t)seen;
-    host->samples(host, PS_STREAM_PLUGIN, 0, &index, 1, numbers);
+    host->samples(host, PS_STREAM_ESTIMATOR, 0, &index, 1, numbers);
     double place = ((double)numbers[0][0] + (double)numbers[0][1] * 0x1p-24) * (double)(seen + 1);
     return place < (double)room ? (size_t)place : room;
 }
@@ -157,7 +157,7 @@ static float nearest_distance(const struct state *state, const ps_host *host)
     return state->clamp.choice >= 0 ? 0.05f * radius : (float)state->clamp.number;
 }
 
-static ps_result accumulate(const void *opaque, const ps_host *host, const ps_pass *pass)
+static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
 {
     const struct state *state = opaque;
     ps_photon *lights =

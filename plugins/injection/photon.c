@@ -20,7 +20,6 @@
  */
 #include <math.h>
 #include <psplat/plugin.h>
-#include <stdio.h>
 #include <string.h>
 
 struct state {
@@ -214,8 +213,8 @@ static void fan_out(const ps_host *host, const struct walk *walks, const ps_ray 
         for (uint32_t path = 0; path < walk->count; path++)
             add_direction(fan, walk, &rays[i], &hits[i], walk->skipped + path);
     }
-    host->scatter(host, PS_FROM_LIGHT, fan->rays, fan->hits, (const float(*)[4])fan->numbers,
-                  fan->count, fan->scattered);
+    host->sample_bsdf(host, PS_FROM_LIGHT, fan->rays, fan->hits, (const float(*)[4])fan->numbers,
+                      fan->count, fan->scattered);
 }
 
 static ps_photon photon_of(const struct walk *walk, const ps_hit *hit,
@@ -310,15 +309,12 @@ static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pa
     return result;
 }
 
-static int32_t init(void *opaque, const ps_host *host, char *message, size_t size)
+static ps_result init(void *opaque, const ps_host *host)
 {
-    (void)host;
     const struct state *state = opaque;
-    if (state->split.choice < 0 && state->split.number != floor(state->split.number)) {
-        snprintf(message, size, "split: expected a whole number");
-        return 1;
-    }
-    return 0;
+    if (state->split.choice < 0 && state->split.number != floor(state->split.number))
+        return host->fail(host, PS_ERROR_INVALID, "split: expected a whole number");
+    return PS_OK;
 }
 
 static const char *const split_choices[] = {"auto", NULL};

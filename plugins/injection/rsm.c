@@ -46,6 +46,7 @@ struct state {
     uint32_t map_count, pixels; /* pixels of a map */
     uint32_t candidates;        /* of all maps */
     float *weights;             /* of each candidate: the flux that it reflects, W */
+    const ps_alias_service *alias;
     ps_alias *table;
     uint32_t *order;
     /* Of the pass that is prepared: */
@@ -86,7 +87,7 @@ static int32_t create_maps(struct state *state, const ps_host *host)
     if (!state->maps)
         return 1;
     for (uint32_t i = 0; i < lights; i++) {
-        ps_light light;
+        ps_light light = {.size = sizeof light};
         host->light(host, i, &light);
         for (uint32_t face = 0; face < maps_of_light(&light); face++)
             state->maps[state->map_count++] = map_of_light(i, &light, face);
@@ -218,7 +219,8 @@ static ps_result prepare(void *opaque, const ps_host *host, const ps_pass *pass)
                        &preparation);
     if (host->cancelled(host))
         return PS_CANCELLED;
-    state->total = ps_alias_build(state->weights, state->candidates, state->table, state->order);
+    state->total =
+        state->alias->build(state->weights, state->candidates, state->table, state->order);
     uint32_t lit = 0;
     for (uint32_t i = 0; i < state->candidates; i++)
         lit += state->weights[i] > 0.0f;
@@ -259,7 +261,8 @@ static void start_paths(const struct state *state, const ps_host *host, const ps
     host->samples(host, PS_STREAM_EMISSION, 1, indices, n, other);
     for (size_t i = 0; i < n; i++) {
         double place = ((double)shared[i][0] + (double)other[i][0] * 0x1p-24) * state->candidates;
-        uint32_t chosen = ps_alias_choose(state->table, state->candidates, place, shared[i][1]);
+        uint32_t chosen =
+            state->alias->choose(state->table, state->candidates, place, shared[i][1]);
         paths[i] = (struct path){
             .index = indices[i],
             .numbers = {shared[i][2], shared[i][3], other[i][1], other[i][2]},
@@ -292,7 +295,7 @@ static void scatter_paths(const ps_host *host, uint32_t segment, const struct pa
     }
     if (segment > 0)
         host->samples(host, PS_STREAM_BOUNCE, segment + 1, indices, n, numbers);
-    host->scatter(host, PS_FROM_LIGHT, rays, hits, (const float(*)[4])numbers, n, scattered);
+    host->sample_bsdf(host, PS_FROM_LIGHT, rays, hits, (const float(*)[4])numbers, n, scattered);
 }
 
 /* Leaves photons where the paths meet something, but on a second diffuse surface. Paths that may yet
@@ -359,36 +362,37 @@ static void destroy(void *opaque, const ps_host *host)
     host->release(host, state->order);
 }
 
-static int32_t create(struct state *state, const ps_host *host, char *message, size_t size)
+static ps_result create(struct state *state, const ps_host *host)
 {
-    if (create_maps(state, host) != 0) {
-        snprintf(message, size, "out of memory");
-        return 1;
-    }
+    char why[100];
+    if (create_maps(state, host) != 0)
+        return PS_ERROR_MEMORY;
     state->pixels = (uint32_t)(state->resolution * state->resolution);
     uint64_t candidates = (uint64_t)state->map_count * state->pixels;
     if (candidates > UINT32_MAX) {
-        snprintf(message, size, "%u maps of %u pixels are too many; lower the resolution",
+        snprintf(why, sizeof why, "%u maps of %u pixels are too many; lower the resolution",
                  (unsigned)state->map_count, (unsigned)state->pixels);
-        return 1;
+        return host->fail(host, PS_ERROR_INVALID, why);
     }
     state->candidates = (uint32_t)candidates;
     state->weights = host->allocate(host, candidates * sizeof *state->weights, MEMORY);
     state->table = host->allocate(host, candidates * sizeof *state->table, MEMORY);
     state->order = host->allocate(host, candidates * sizeof *state->order, MEMORY);
     if (state->weights && state->table && state->order)
-        return 0;
-    snprintf(message, size, "out of memory for %u maps of %u pixels", (unsigned)state->map_count,
+        return PS_OK;
+    snprintf(why, sizeof why, "out of memory for %u maps of %u pixels", (unsigned)state->map_count,
              (unsigned)state->pixels);
-    return 1;
+    return host->fail(host, PS_ERROR_MEMORY, why);
 }
 
-static int32_t init(void *opaque, const ps_host *host, char *message, size_t size)
+static ps_result init(void *opaque, const ps_host *host)
 {
-    int32_t failed = create(opaque, host, message, size);
-    if (failed)
-        destroy(opaque, host);
-    return failed;
+    struct state *state = opaque;
+    state->alias = host->extension(host, PS_ALIAS_EXTENSION);
+    ps_result result = create(state, host);
+    if (result != PS_OK)
+        destroy(state, host);
+    return result;
 }
 
 static const ps_param params[] = {

@@ -59,6 +59,7 @@ struct lines {
 
 struct state {
     int64_t resolution, rays;
+    const ps_cells *cells;
     /* Of the pass that is prepared: */
     struct lines lines;
     ps_lattice lattice;
@@ -151,7 +152,7 @@ static struct crossing crossing_of(const struct state *state, const ps_hit *hit,
     ps_vec3 n = hit->geometric_normal;
     float step = state->lines.step;
     return (struct crossing){
-        .key = ps_cell_key(&state->lattice, side_of(n), hit->position),
+        .key = state->cells->key(&state->lattice, side_of(n), hit->position),
         .line = line,
         .tnear = tnear,
         .area = step * step / (fabsf(n.x) + fabsf(n.y) + fabsf(n.z)),
@@ -257,7 +258,7 @@ static ps_result find_crossings(const struct state *state, const ps_host *host,
 /* --- voxels ----------------------------------------------------------------------------------------------- */
 
 /* One of the crossings of a voxel, by chance, with the area of them all. */
-static struct crossing simplify(const struct crossing *crossings, const ps_cell_entry *entries,
+static struct crossing simplify(const struct crossing *crossings, const ps_key_entry *entries,
                                 size_t n, float number)
 {
     double sum = 0.0, before = 0.0;
@@ -280,7 +281,7 @@ static uint64_t sample_index(const ps_pass *pass, size_t voxel)
     return (uint64_t)pass->number << 32 | voxel;
 }
 
-static size_t run_length(const ps_cell_entry *entries, size_t n)
+static size_t run_length(const ps_key_entry *entries, size_t n)
 {
     size_t length = 1;
     while (length < n && entries[length].key == entries[0].key)
@@ -290,7 +291,7 @@ static size_t run_length(const ps_cell_entry *entries, size_t n)
 
 /* Crossings, sorted, to voxels. */
 static ps_result gather(struct state *state, const ps_host *host, const ps_pass *pass,
-                        const struct crossing *crossings, const ps_cell_entry *sorted, size_t n)
+                        const struct crossing *crossings, const ps_key_entry *sorted, size_t n)
 {
     size_t count = 0;
     for (size_t i = 0; i < n; i += run_length(sorted + i, n - i))
@@ -312,12 +313,12 @@ static ps_result gather(struct state *state, const ps_host *host, const ps_pass 
 static ps_result sort_and_gather(struct state *state, const ps_host *host, const ps_pass *pass,
                                  const struct crossings *all)
 {
-    ps_cell_entry *entries = host->allocate(host, 2 * all->count * sizeof *entries, MEMORY);
+    ps_key_entry *entries = host->allocate(host, 2 * all->count * sizeof *entries, MEMORY);
     if (!entries)
         return PS_ERROR_MEMORY;
     for (size_t i = 0; i < all->count; i++)
-        entries[i] = (ps_cell_entry){all->items[i].key, i};
-    ps_cell_entry *sorted = ps_sort_cells(entries, entries + all->count, all->count);
+        entries[i] = (ps_key_entry){all->items[i].key, i};
+    ps_key_entry *sorted = state->cells->sort(entries, entries + all->count, all->count);
     ps_result result = gather(state, host, pass, all->items, sorted, all->count);
     host->release(host, entries);
     return result;
@@ -451,16 +452,17 @@ static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pa
 
 /* --- the plugin ------------------------------------------------------------------------------------------- */
 
-static int32_t init(void *opaque, const ps_host *host, char *message, size_t size)
+static ps_result init(void *opaque, const ps_host *host)
 {
-    (void)host;
-    const struct state *state = opaque;
+    struct state *state = opaque;
+    char why[100];
+    state->cells = host->extension(host, PS_CELLS_EXTENSION);
     int64_t across = state->resolution * state->rays;
     if (6 * across * across <= (int64_t)UINT32_MAX)
-        return 0;
-    snprintf(message, size, "resolution %lld with %lld rays makes too many lines",
+        return PS_OK;
+    snprintf(why, sizeof why, "resolution %lld with %lld rays makes too many lines",
              (long long)state->resolution, (long long)state->rays);
-    return 1;
+    return host->fail(host, PS_ERROR_INVALID, why);
 }
 
 static const ps_param params[] = {

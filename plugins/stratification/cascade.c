@@ -13,8 +13,6 @@
 #include <psplat/plugin.h>
 #include <stdio.h>
 
-PS_MERGE_CHOICES
-
 #define MOST_LEVELS (PS_CELL_LAYERS - 1) /* one layer is for what lies beyond */
 
 static const char *const cell_choices[] = {"auto", NULL};
@@ -23,12 +21,12 @@ static const char *const beyond_choices[] = {"keep", "merge", "drop", NULL};
 enum { BEYOND_KEEP = 0, BEYOND_MERGE = 1, BEYOND_DROP = 2 };
 
 struct state {
+    const ps_cells *cells;
     int64_t levels;
     int64_t resolution;
     ps_number_or_choice cell;
     double growth;
     int32_t beyond;
-    PS_MERGE_MEMBERS
 };
 
 struct cascades {
@@ -60,10 +58,9 @@ static double innermost_side(const struct state *state, const ps_host *host, ps_
 static struct cascades cascades_of(const struct state *state, const ps_host *host)
 {
     struct cascades cascades = {.count = (uint32_t)state->levels};
-    ps_vec3 direction, center;
-    float radius;
-    host->camera(host, &cascades.middle, &direction);
-    host->scene_bounds(host, &center, &radius);
+    ps_camera camera = {.size = sizeof camera};
+    host->camera(host, &camera);
+    cascades.middle = camera.position;
     double side = innermost_side(state, host, cascades.middle);
     for (uint32_t i = 0; i < cascades.count; i++, side *= state->growth) {
         double half_side = 0.5 * side * (double)state->resolution;
@@ -73,7 +70,7 @@ static struct cascades cascades_of(const struct state *state, const ps_host *hos
     }
     const ps_lattice *outermost = &cascades.lattices[cascades.count - 1];
     cascades.lattices[cascades.count] =
-        ps_lattice_over(outermost->origin, outermost->side, center, radius);
+        state->cells->lattice(host, outermost->origin, outermost->side);
     return cascades;
 }
 
@@ -88,78 +85,60 @@ static uint32_t cascade_around(const struct cascades *cascades, ps_vec3 position
     return layer;
 }
 
-/* PS_NO_CELL beyond, unless what is there merges too. */
+/* PS_NO_STRATUM beyond, unless what is there merges too. */
 static uint64_t key_in(const struct state *state, const struct cascades *cascades, uint32_t layer,
                        ps_vec3 position)
 {
     if (layer == cascades->count && state->beyond != BEYOND_MERGE)
-        return PS_NO_CELL;
-    return ps_cell_key(&cascades->lattices[layer], layer, position);
+        return PS_NO_STRATUM;
+    return state->cells->key(&cascades->lattices[layer], layer, position);
 }
 
-static void add_photons(const struct state *state, const ps_host *host, ps_photon *photons,
-                        size_t n, ps_strata *strata)
+static ps_result stratify(const void *opaque, const ps_host *host, const ps_pass *pass,
+                          ps_photon *photons, size_t n, ps_strata *strata)
 {
+    (void)pass;
+    const struct state *state = opaque;
     struct cascades cascades = cascades_of(state, host);
     size_t beyond = 0;
     for (size_t i = 0; i < n; i++) {
         uint32_t layer = cascade_around(&cascades, photons[i].position);
         uint64_t key = key_in(state, &cascades, layer, photons[i].position);
         beyond += layer == cascades.count;
-        if (key != PS_NO_CELL)
+        if (key != PS_NO_STRATUM)
             ps_strata_add(strata, i, key);
         else if (state->beyond == BEYOND_DROP)
-            ps_photon_remove(&photons[i]);
+            photons[i].merged = 0.0f;
     }
     host->count(host, "photons beyond", (double)beyond);
-}
-
-static ps_result combine(const void *opaque, const ps_host *host, const ps_pass *pass,
-                         ps_photon *photons, size_t *n)
-{
-    const struct state *state = opaque;
-    ps_strata strata;
-    ps_merge_settings settings = {
-        .representative = state->representative,
-        .normal_angle = state->normal_angle,
-        .per_cell = 1,
-    };
-    if (!ps_strata_create(&strata, host, pass, photons, *n))
-        return PS_ERROR_MEMORY;
-    add_photons(state, host, photons, *n, &strata);
-    ps_strata_from_cells(&strata);
-    ps_strata_merge(&strata, &settings, n);
-    ps_strata_release(&strata);
+    ps_strata_sort(state->cells, strata);
+    ps_strata_from_keys(strata);
     return PS_OK;
 }
 
-static ps_result cells(const void *opaque, const ps_host *host, const ps_pass *pass,
-                       const ps_photon *photons, size_t n, const ps_vec3 *points, size_t count,
-                       uint64_t *numbers)
+static ps_result find_strata(const void *opaque, const ps_host *host, const ps_strata *strata,
+                             const ps_vec3 *points, size_t count, uint64_t *numbers)
 {
-    (void)pass;
-    (void)photons;
-    (void)n;
+    (void)strata;
     struct cascades cascades = cascades_of(opaque, host);
     for (size_t i = 0; i < count; i++)
         numbers[i] = key_in(opaque, &cascades, cascade_around(&cascades, points[i]), points[i]);
     return PS_OK;
 }
 
-static int32_t init(void *opaque, const ps_host *host, char *message, size_t size)
+static ps_result init(void *opaque, const ps_host *host)
 {
-    const struct state *state = opaque;
-    ps_vec3 center;
-    float radius;
+    struct state *state = opaque;
+    char why[160];
+    state->cells = host->extension(host, PS_CELLS_EXTENSION);
     double outermost = state->cell.number * outermost_growth(state);
-    host->scene_bounds(host, &center, &radius);
     if (state->cell.choice >= 0 || state->beyond != BEYOND_MERGE ||
-        !ps_cells_too_small(outermost, radius))
-        return 0;
-    snprintf(message, size,
+        !state->cells->too_small(host, outermost))
+        return PS_OK;
+    snprintf(why, sizeof why,
              "cell=%g is too small: the scene would be more than %u of the outermost cells across",
              state->cell.number, PS_CELLS_ACROSS);
-    return 1;
+    return host->fail(host, PS_ERROR_INVALID, why);
 }
 
 static const ps_param params[] = {
@@ -175,14 +154,13 @@ static const ps_param params[] = {
     PS_ROW(struct state, beyond, PS_PARAM_CHOICE, "merge", 0, 0, PS_PARAM_EXPERT, beyond_choices,
            "",
            "photons outside of all grids; merge: by cells of the outermost size, drop: lose them"),
-    PS_MERGE_PARAMS(struct state),
 };
 
 static const ps_stratification_vtable vtable = {
     .size = sizeof vtable,
     .whole_pass = 1,
-    .combine = combine,
-    .cells = cells,
+    .stratify = stratify,
+    .find_strata = find_strata,
 };
 
 static const ps_descriptor descriptor = {

@@ -5,14 +5,12 @@
  * crowded cells end as few very bright photons beside dim ones, which shows as blotches (section
  * 5.3.2).
  *
- * The grid is a sorted list of photons (see cell.h), not an array of cells: 40 bytes a photon at any
+ * The grid is a sorted list of photons (see cells.h), not an array of cells: 40 bytes a photon at any
  * resolution, where the array took 40 bytes a cell, 256^3 of them (section 5.1). So it has no
  * outside either: cells go on wherever photons are, and `centre` only says where borders lie.
  */
 #include <psplat/plugin.h>
 #include <stdio.h>
-
-PS_MERGE_CHOICES
 
 static const char *const cell_choices[] = {"auto", NULL};
 static const char *const centre_choices[] = {"scene", "camera", NULL};
@@ -20,6 +18,7 @@ static const char *const centre_choices[] = {"scene", "camera", NULL};
 enum { CENTRE_SCENE = 0, CENTRE_CAMERA = 1 };
 
 struct state {
+    const ps_cells *cells;
     int64_t resolution;
     ps_number_or_choice cell;
     int32_t centre;
@@ -27,7 +26,6 @@ struct state {
     int64_t levels;
     int64_t bucket;
     int64_t per_cell;
-    PS_MERGE_MEMBERS
     double side; /* of a cell */
 };
 
@@ -35,23 +33,16 @@ struct state {
  * all others have a corner of cells at the centre. */
 static ps_lattice lattice_of(const struct state *state, const ps_host *host)
 {
-    ps_vec3 center, corner, direction;
+    ps_vec3 corner;
     float radius;
-    host->scene_bounds(host, &center, &radius);
-    corner = center;
+    ps_camera camera = {.size = sizeof camera};
+    host->scene_bounds(host, &corner, &radius);
+    host->camera(host, &camera);
     if (state->centre == CENTRE_CAMERA)
-        host->camera(host, &corner, &direction);
+        corner = camera.position;
     if (state->cell.choice >= 0)
         corner = ps_subtract(corner, (ps_vec3){radius, radius, radius});
-    return ps_lattice_over(corner, state->side, center, radius);
-}
-
-static void add_photons(const struct state *state, const ps_host *host, const ps_photon *photons,
-                        size_t n, ps_strata *strata)
-{
-    ps_lattice lattice = lattice_of(state, host);
-    for (size_t i = 0; i < n; i++)
-        ps_strata_add(strata, i, ps_cell_key(&lattice, 0, photons[i].position));
+    return state->cells->lattice(host, corner, state->side);
 }
 
 static uint64_t block_of(const ps_strata *strata, size_t stratum, unsigned level)
@@ -84,31 +75,20 @@ static void join_level(const struct state *state, ps_strata *strata, unsigned le
     }
 }
 
-static void make_strata(const struct state *state, const ps_host *host, const ps_photon *photons,
-                        size_t n, ps_strata *strata)
+static ps_result stratify(const void *opaque, const ps_host *host, const ps_pass *pass,
+                          ps_photon *photons, size_t n, ps_strata *strata)
 {
-    add_photons(state, host, photons, n, strata);
-    ps_strata_from_cells(strata);
+    (void)pass;
+    const struct state *state = opaque;
+    ps_lattice lattice = lattice_of(state, host);
+    for (size_t i = 0; i < n; i++)
+        ps_strata_add(strata, i, state->cells->key(&lattice, 0, photons[i].position));
+    ps_strata_sort(state->cells, strata);
+    ps_strata_from_keys(strata);
     for (unsigned level = 1; level <= (unsigned)state->levels && state->threshold > 1; level++)
         join_level(state, strata, level);
-}
-
-static ps_result combine(const void *opaque, const ps_host *host, const ps_pass *pass,
-                         ps_photon *photons, size_t *n)
-{
-    const struct state *state = opaque;
-    ps_strata strata;
-    ps_merge_settings settings = {
-        .representative = state->representative,
-        .normal_angle = state->normal_angle,
-        .per_cell = (uint64_t)state->per_cell,
-        .bucket = (uint64_t)state->bucket,
-    };
-    if (!ps_strata_create(&strata, host, pass, photons, *n))
-        return PS_ERROR_MEMORY;
-    make_strata(state, host, photons, *n, &strata);
-    ps_strata_merge(&strata, &settings, n);
-    ps_strata_release(&strata);
+    strata->per_stratum = (uint64_t)state->per_cell;
+    strata->most = (uint64_t)state->bucket;
     return PS_OK;
 }
 
@@ -121,35 +101,31 @@ static uint64_t number_of(const ps_strata *strata, uint64_t key)
     return strata->entries[strata->starts[ps_stratum_of(strata, entry)]].key;
 }
 
-static ps_result cells(const void *opaque, const ps_host *host, const ps_pass *pass,
-                       const ps_photon *photons, size_t n, const ps_vec3 *points, size_t count,
-                       uint64_t *numbers)
+static ps_result find_strata(const void *opaque, const ps_host *host, const ps_strata *strata,
+                             const ps_vec3 *points, size_t count, uint64_t *numbers)
 {
     const struct state *state = opaque;
     ps_lattice lattice = lattice_of(state, host);
-    ps_strata strata;
-    if (!ps_strata_create(&strata, host, pass, NULL, n))
-        return PS_ERROR_MEMORY;
-    make_strata(state, host, photons, n, &strata);
     for (size_t i = 0; i < count; i++)
-        numbers[i] = number_of(&strata, ps_cell_key(&lattice, 0, points[i]));
-    ps_strata_release(&strata);
+        numbers[i] = number_of(strata, state->cells->key(&lattice, 0, points[i]));
     return PS_OK;
 }
 
-static int32_t init(void *opaque, const ps_host *host, char *message, size_t size)
+static ps_result init(void *opaque, const ps_host *host)
 {
     struct state *state = opaque;
+    char why[160];
     ps_vec3 center;
     float radius;
+    state->cells = host->extension(host, PS_CELLS_EXTENSION);
     host->scene_bounds(host, &center, &radius);
     state->side = state->cell.choice >= 0 ? 2.0 * (double)radius / (double)state->resolution
                                           : state->cell.number;
-    if (state->cell.choice >= 0 || !ps_cells_too_small(state->side, radius))
-        return 0;
-    snprintf(message, size, "cell=%g is too small: the scene would be more than %u cells across",
+    if (state->cell.choice >= 0 || !state->cells->too_small(host, state->side))
+        return PS_OK;
+    snprintf(why, sizeof why, "cell=%g is too small: the scene would be more than %u cells across",
              state->side, PS_CELLS_ACROSS);
-    return 1;
+    return host->fail(host, PS_ERROR_INVALID, why);
 }
 
 static const ps_param params[] = {
@@ -167,14 +143,13 @@ static const ps_param params[] = {
            "how many photons may become one; 0: any number"),
     PS_ROW(struct state, per_cell, PS_PARAM_INT, "1", 1, 1000000000, PS_PARAM_EXPERT, NULL,
            "photons", "how many photons stay in a cell that holds as many"),
-    PS_MERGE_PARAMS(struct state),
 };
 
 static const ps_stratification_vtable vtable = {
     .size = sizeof vtable,
     .whole_pass = 1,
-    .combine = combine,
-    .cells = cells,
+    .stratify = stratify,
+    .find_strata = find_strata,
 };
 
 static const ps_descriptor descriptor = {

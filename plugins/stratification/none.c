@@ -1,22 +1,7 @@
 /* none.c: every photon stays what it is. */
 #include <psplat/plugin.h>
 
-static ps_result combine(const void *state, const ps_host *host, const ps_pass *pass,
-                         ps_photon *photons, size_t *n)
-{
-    (void)state;
-    (void)host;
-    (void)pass;
-    (void)photons;
-    (void)n;
-    return PS_OK;
-}
-
-static const ps_stratification_vtable vtable = {
-    .size = sizeof vtable,
-    .combine = combine,
-    .keeps_all = 1,
-};
+static const ps_stratification_vtable vtable = {.size = sizeof vtable};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

@@ -4,17 +4,15 @@
  * where light is dense and large where it is not, and the power of the photons that are left differs
  * little: Hoet 2014 (section 5.1) names the octree as what a grid of fixed cells lacks.
  *
- * No tree is built. Sorted by Morton code (see cell.h), a node is a run of photons that share the
+ * No tree is built. Sorted by Morton code (see cells.h), a node is a run of photons that share the
  * leading bits (Warren and Salmon 1993, "A parallel hashed oct-tree N-body algorithm").
  */
 #include <psplat/plugin.h>
 
-PS_MERGE_CHOICES
-
 struct state {
+    const ps_cells *cells;
     int64_t capacity;
     int64_t depth;
-    PS_MERGE_MEMBERS
 };
 
 /* Cells of the deepest level; the root is the cube around the scene's sphere. */
@@ -25,13 +23,6 @@ static ps_lattice lattice_of(const ps_host *host)
     host->scene_bounds(host, &center, &radius);
     return (ps_lattice){ps_subtract(center, (ps_vec3){radius, radius, radius}),
                         2.0 * (double)radius / PS_CELLS_ACROSS};
-}
-
-static void add_photons(const ps_host *host, const ps_photon *photons, size_t n, ps_strata *strata)
-{
-    ps_lattice lattice = lattice_of(host);
-    for (size_t i = 0; i < n; i++)
-        ps_strata_add(strata, i, ps_cell_key(&lattice, 0, photons[i].position));
 }
 
 /* Whether the two lie in the same node of that depth. */
@@ -64,23 +55,16 @@ static void split_into_leaves(const struct state *state, ps_strata *strata)
     }
 }
 
-static ps_result combine(const void *opaque, const ps_host *host, const ps_pass *pass,
-                         ps_photon *photons, size_t *n)
+static ps_result stratify(const void *opaque, const ps_host *host, const ps_pass *pass,
+                          ps_photon *photons, size_t n, ps_strata *strata)
 {
+    (void)pass;
     const struct state *state = opaque;
-    ps_strata strata;
-    ps_merge_settings settings = {
-        .representative = state->representative,
-        .normal_angle = state->normal_angle,
-        .per_cell = 1,
-    };
-    if (!ps_strata_create(&strata, host, pass, photons, *n))
-        return PS_ERROR_MEMORY;
-    add_photons(host, photons, *n, &strata);
-    ps_strata_sort(&strata);
-    split_into_leaves(state, &strata);
-    ps_strata_merge(&strata, &settings, n);
-    ps_strata_release(&strata);
+    ps_lattice lattice = lattice_of(host);
+    for (size_t i = 0; i < n; i++)
+        ps_strata_add(strata, i, state->cells->key(&lattice, 0, photons[i].position));
+    ps_strata_sort(state->cells, strata);
+    split_into_leaves(state, strata);
     return PS_OK;
 }
 
@@ -98,19 +82,20 @@ static uint64_t leaf_around(const struct state *state, const ps_strata *strata, 
     }
 }
 
-static ps_result cells(const void *opaque, const ps_host *host, const ps_pass *pass,
-                       const ps_photon *photons, size_t n, const ps_vec3 *points, size_t count,
-                       uint64_t *numbers)
+static ps_result find_strata(const void *opaque, const ps_host *host, const ps_strata *strata,
+                             const ps_vec3 *points, size_t count, uint64_t *numbers)
 {
+    const struct state *state = opaque;
     ps_lattice lattice = lattice_of(host);
-    ps_strata strata;
-    if (!ps_strata_create(&strata, host, pass, NULL, n))
-        return PS_ERROR_MEMORY;
-    add_photons(host, photons, n, &strata);
-    ps_strata_sort(&strata);
     for (size_t i = 0; i < count; i++)
-        numbers[i] = leaf_around(opaque, &strata, ps_cell_key(&lattice, 0, points[i]));
-    ps_strata_release(&strata);
+        numbers[i] = leaf_around(state, strata, state->cells->key(&lattice, 0, points[i]));
+    return PS_OK;
+}
+
+static ps_result init(void *opaque, const ps_host *host)
+{
+    struct state *state = opaque;
+    state->cells = host->extension(host, PS_CELLS_EXTENSION);
     return PS_OK;
 }
 
@@ -119,14 +104,13 @@ static const ps_param params[] = {
            "a node that holds more splits into eight"),
     PS_ROW(struct state, depth, PS_PARAM_INT, "10", 0, 20, PS_PARAM_EXPERT, NULL, "levels",
            "how often nodes split at most; the photons of a deepest node merge, however many"),
-    PS_MERGE_PARAMS(struct state),
 };
 
 static const ps_stratification_vtable vtable = {
     .size = sizeof vtable,
     .whole_pass = 1,
-    .combine = combine,
-    .cells = cells,
+    .stratify = stratify,
+    .find_strata = find_strata,
 };
 
 static const ps_descriptor descriptor = {
@@ -141,6 +125,7 @@ static const ps_descriptor descriptor = {
     .param_count = sizeof params / sizeof params[0],
     .param_size = sizeof params[0],
     .state_size = sizeof(struct state),
+    .init = init,
     .vtable = &vtable,
 };
 

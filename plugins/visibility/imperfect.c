@@ -24,8 +24,6 @@
 #include <stdio.h>
 #include <string.h>
 
-PS_FOOTPRINT_CHOICES
-
 /* Area of a disc, in areas that a point stands for: leaves exp(-3) of a surface open, 5 %. Larger
  * discs leave less to pull-push, but stand out farther over edges. */
 #define COVERAGE 3.0f
@@ -35,11 +33,8 @@ PS_FOOTPRINT_CHOICES
 #define LINES 256           /* at a time */
 #define LINES_PER_POINT 64  /* of a scene that is mostly empty, before giving up */
 #define CROSSING_STEP 1e-5f /* after a crossing, in radii of the scene */
-#define MOST_TEXELS 64      /* along a side */
 /* Neighbouring texels whose depths are more than so many texels apart see two surfaces. */
 #define SAME_SURFACE 4.0f
-
-static const char *const bias_choices[] = {"slope", NULL};
 
 struct point {
     ps_vec3 position, normal;
@@ -56,9 +51,6 @@ struct cloud {
 };
 
 struct state {
-    PS_FOOTPRINT_MEMBERS
-    int64_t resolution;
-    ps_number_or_choice bias;
     int64_t points;
     int64_t pull;
     struct cloud cloud;
@@ -213,7 +205,7 @@ static void destroy(void *opaque, const ps_host *host)
     host->release(host, state->cloud.cells);
 }
 
-static int32_t init(void *opaque, const ps_host *host, char *message, size_t message_size)
+static ps_result init(void *opaque, const ps_host *host)
 {
     struct state *state = opaque;
     size_t wanted = (size_t)state->points;
@@ -223,20 +215,21 @@ static int32_t init(void *opaque, const ps_host *host, char *message, size_t mes
     int made = points && (count == 0 || make_cloud(host, points, count, area, &state->cloud));
     host->release(host, points);
     if (!made) {
+        char why[80];
         destroy(state, host);
-        snprintf(message, message_size, "out of memory for %lld points", (long long)state->points);
-        return 1;
+        snprintf(why, sizeof why, "out of memory for %lld points", (long long)state->points);
+        return host->fail(host, PS_ERROR_MEMORY, why);
     }
     host->count(host, "visibility points", (double)count);
     if (count < wanted)
         host->log(host, PS_LOG_WARNING, "imperfect: the scene has hardly any surface for points");
-    return 0;
+    return PS_OK;
 }
 
 /* --- maps --- */
 
 struct map {
-    const ps_splat *splat;
+    const ps_bundle *bundle;
     const struct cloud *cloud;
     float *depths;
     uint32_t side;
@@ -247,7 +240,7 @@ struct map {
 /* First texel whose centre is not before x, at most `side`. */
 static uint32_t texel_from(const struct map *map, float x)
 {
-    float place = (x + map->splat->half_width) / map->texel - 0.5f;
+    float place = (x + map->bundle->radius) / map->texel - 0.5f;
     if (!(place > 0.0f))
         return 0;
     if (place >= (float)map->side)
@@ -259,15 +252,15 @@ static uint32_t texel_from(const struct map *map, float x)
 static void draw_texel(struct map *map, uint32_t column, uint32_t row, ps_vec3 place,
                        ps_vec3 normal)
 {
-    float u = ps_texel_centre(map->splat, map->side, column);
-    float v = ps_texel_centre(map->splat, map->side, row);
+    float u = ps_texel_centre(map->bundle->radius, map->side, column);
+    float v = ps_texel_centre(map->bundle->radius, map->side, row);
     float du = u - place.x, dv = v - place.y;
     float dt = -(du * normal.x + dv * normal.y) / normal.z;
     if (!(du * du + dv * dv + dt * dt <= map->cloud->disc * map->cloud->disc))
         return;
     float depth = place.z + dt;
     float *held = &map->depths[row * map->side + column];
-    if (depth < ps_bundle_start(map->splat, u, v) || depth > map->splat->far_depth ||
+    if (depth < ps_bundle_start(map->bundle, u, v) || depth > map->bundle->far_depth ||
         depth >= *held)
         return;
     map->open -= !(*held < INFINITY);
@@ -276,13 +269,13 @@ static void draw_texel(struct map *map, uint32_t column, uint32_t row, ps_vec3 p
 
 static void draw_point(struct map *map, const struct point *point)
 {
-    const ps_splat *splat = map->splat;
-    ps_vec3 place = ps_bundle_place(splat, point->position);
-    float reach = splat->half_width + map->cloud->disc;
+    const ps_bundle *bundle = map->bundle;
+    ps_vec3 place = ps_bundle_place(bundle, point->position);
+    float reach = bundle->radius + map->cloud->disc;
     if (fabsf(place.x) > reach || fabsf(place.y) > reach)
         return;
-    ps_vec3 normal = {ps_dot(point->normal, splat->axis_u), ps_dot(point->normal, splat->axis_v),
-                      ps_dot(point->normal, splat->axis_w)};
+    ps_vec3 normal = {ps_dot(point->normal, bundle->axis_u), ps_dot(point->normal, bundle->axis_v),
+                      ps_dot(point->normal, bundle->axis_w)};
     float half_u = map->cloud->disc * sqrtf(fmaxf(0.0f, 1.0f - normal.x * normal.x));
     float half_v = map->cloud->disc * sqrtf(fmaxf(0.0f, 1.0f - normal.y * normal.y));
     uint32_t right = texel_from(map, place.x + half_u), bottom = texel_from(map, place.y + half_v);
@@ -320,20 +313,20 @@ static void reorder(const int axis[3], ps_vec3 from, float to[3])
 
 static struct walk begin_walk(const struct map *map)
 {
-    const ps_splat *splat = map->splat;
+    const ps_bundle *bundle = map->bundle;
     float disc = map->cloud->disc, cell = map->cloud->cell;
-    float tilt = splat->half_width * (fabsf(splat->start_slope_u) + fabsf(splat->start_slope_v));
+    float tilt = bundle->radius * (fabsf(bundle->start_slope_u) + fabsf(bundle->start_slope_v));
     struct walk walk = {
-        .reach = (splat->half_width + disc) / cell,
-        .start = (splat->start_depth - tilt - disc) / cell,
-        .end = (splat->far_depth + disc) / cell,
+        .reach = (bundle->radius + disc) / cell,
+        .start = (bundle->start_depth - tilt - disc) / cell,
+        .end = (bundle->far_depth + disc) / cell,
     };
-    order_axes(splat->axis_w, walk.axis);
-    ps_vec3 centre = ps_subtract(splat->centre, map->cloud->low);
+    order_axes(bundle->axis_w, walk.axis);
+    ps_vec3 centre = ps_subtract(bundle->centre, map->cloud->low);
     reorder(walk.axis, ps_scale(centre, 1.0f / cell), walk.centre);
-    reorder(walk.axis, splat->axis_w, walk.w);
-    reorder(walk.axis, splat->axis_u, walk.across[0]);
-    reorder(walk.axis, splat->axis_v, walk.across[1]);
+    reorder(walk.axis, bundle->axis_w, walk.w);
+    reorder(walk.axis, bundle->axis_u, walk.across[0]);
+    reorder(walk.axis, bundle->axis_v, walk.across[1]);
     for (int i = 0; i < 3; i++)
         walk.extent[i] = walk.reach * (fabsf(walk.across[0][i]) + fabsf(walk.across[1][i]));
     return walk;
@@ -501,7 +494,7 @@ static float bridge(const float *depths, uint32_t side, uint32_t x, uint32_t y, 
 /* Fills open texels from what is beside them, or from the level above, which is filled first. */
 static void pull_push(float *depths, uint32_t side, int64_t levels, float apart)
 {
-    float above[MOST_TEXELS / 2 * MOST_TEXELS / 2];
+    float above[PS_MOST_TEXELS / 2 * PS_MOST_TEXELS / 2];
     uint32_t half = (side + 1) / 2;
     if (levels == 0 || side < 2)
         return;
@@ -520,8 +513,8 @@ static void pull_push(float *depths, uint32_t side, int64_t levels, float apart)
 /* A level of pull-push doubles the width of the holes that are found and filled. */
 static void fill_holes(float *depths, uint32_t side, int64_t levels, float texel)
 {
-    float filled[MOST_TEXELS * MOST_TEXELS];
-    uint8_t holes[MOST_TEXELS * MOST_TEXELS] = {0};
+    float filled[PS_MOST_TEXELS * PS_MOST_TEXELS];
+    uint8_t holes[PS_MOST_TEXELS * PS_MOST_TEXELS] = {0};
     if (levels == 0)
         return;
     open_holes(depths, (int)side, 1 << (levels - 1), SAME_SURFACE * texel, holes);
@@ -533,39 +526,18 @@ static void fill_holes(float *depths, uint32_t side, int64_t levels, float texel
 
 /* --- callbacks --- */
 
-static uint32_t resolution(const void *state)
-{
-    return (uint32_t)((const struct state *)state)->resolution;
-}
-
-static ps_footprint_settings boxes(const void *opaque)
+static void depth_maps(const void *opaque, const ps_host *host, const ps_bundle *bundles, size_t n,
+                       uint32_t side, float *depths)
 {
     const struct state *state = opaque;
-    return PS_FOOTPRINT_SETTINGS(state);
-}
-
-static void place(const void *opaque, const ps_host *host, const ps_photon *photons,
-                  const ps_hit *hits, size_t n, ps_splat *splats)
-{
-    const struct state *state = opaque;
-    ps_footprint_settings settings = boxes(state);
-    host->place_footprints(host, &settings, photons, hits, n, splats);
-    ps_open_full_bundles(&settings, splats, n);
-    ps_set_bias(state->bias, (uint32_t)state->resolution, splats, n);
-}
-
-static void depth_maps(const void *opaque, const ps_host *host, const ps_splat *splats, size_t n,
-                       float *depths)
-{
-    const struct state *state = opaque;
-    uint32_t side = (uint32_t)state->resolution, texels = side * side;
+    uint32_t texels = side * side;
     (void)host;
-    for (size_t s = 0; s < n; s++) {
-        float texel = 2.0f * splats[s].half_width / (float)side;
-        struct map map = {&splats[s], &state->cloud, depths + s * texels, side, texel, texels};
+    for (size_t b = 0; b < n; b++) {
+        float texel = 2.0f * bundles[b].radius / (float)side;
+        struct map map = {&bundles[b], &state->cloud, depths + b * texels, side, texel, texels};
         for (uint32_t i = 0; i < texels; i++)
             map.depths[i] = INFINITY;
-        if (!(splats[s].half_width > 0.0f) || state->cloud.count == 0)
+        if (state->cloud.count == 0)
             continue;
         draw_map(&map);
         fill_holes(map.depths, side, state->pull, texel);
@@ -573,10 +545,6 @@ static void depth_maps(const void *opaque, const ps_host *host, const ps_splat *
 }
 
 static const ps_param params[] = {
-    PS_FOOTPRINT_PARAMS(struct state, "full", "yes"),
-    PS_INT(struct state, resolution, "8", 1, MOST_TEXELS, "texels", "side of a depth map"),
-    PS_NUMBER_OR(struct state, bias, "slope", 0, INFINITY, PS_PARAM_EXPERT, bias_choices,
-                 "scene units", "depth tolerance; slope: 0.75 texels times the receiver's slope"),
     PS_INT(struct state, points, "100000", 1, 100000000, "points",
            "points that stand for the scene's surfaces"),
     PS_ROW(struct state, pull, PS_PARAM_INT, "2", 0, 6, PS_PARAM_EXPERT, NULL, "levels",
@@ -585,9 +553,6 @@ static const ps_param params[] = {
 
 static const ps_visibility_vtable vtable = {
     .size = sizeof vtable,
-    .resolution = resolution,
-    .boxes = boxes,
-    .place = place,
     .depth_maps = depth_maps,
 };
 

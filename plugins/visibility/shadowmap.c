@@ -4,65 +4,30 @@
  * Back faces count: a map that starts inside of something must see its far side, or light leaks
  * through.
  *
- * Pixels take light from before the walls beside a photon alone (ps_splat.boundaries), but a texel that such
+ * Pixels take light from before the walls beside a photon alone (ps_bundle.boundaries), but a texel that such
  * a wall cuts may have its centre behind it, from where a ray would start inside of a block, or in the next
  * room, and darken the texel's other part for nothing. With 4x4 texels that kept back 1 % of all light in
  * the Cornell box. So rays start before the walls, too.
- *
- * For the depth tolerance see ps_set_bias.
  */
 #include <psplat/plugin.h>
 #include <string.h>
 
-PS_FOOTPRINT_CHOICES
-
 #define BLOCK 4 /* texels along the side of a packet */
 #define RAYS (BLOCK * BLOCK)
-#define MOST_TEXELS 64 /* along the side of a map */
 
 /* How far before a wall rays start at least, in half-widths. */
 #define BEFORE_WALLS 0.05f
 
-static const char *const bias_choices[] = {"slope", NULL};
-
-struct state {
-    PS_FOOTPRINT_MEMBERS
-    int64_t resolution;
-    ps_number_or_choice bias;
-};
-
-static uint32_t resolution(const void *state)
-{
-    return (uint32_t)((const struct state *)state)->resolution;
-}
-
-static ps_footprint_settings boxes(const void *opaque)
-{
-    const struct state *state = opaque;
-    return PS_FOOTPRINT_SETTINGS(state);
-}
-
-static void place(const void *opaque, const ps_host *host, const ps_photon *photons,
-                  const ps_hit *hits, size_t n, ps_splat *splats)
-{
-    const struct state *state = opaque;
-    ps_footprint_settings settings = boxes(state);
-    host->place_footprints(host, &settings, photons, hits, n, splats);
-    ps_open_full_bundles(&settings, splats, n);
-    ps_set_bias(state->bias, (uint32_t)state->resolution, splats, n);
-}
-
 /* Where the centres of texels lie across a bundle of half-width 1; past the border the last repeats. */
 struct centres {
-    float at[MOST_TEXELS + BLOCK - 1];
+    float at[PS_MOST_TEXELS + BLOCK - 1];
 };
 
 static struct centres centres_of(int side)
 {
-    static const ps_splat unit = {.half_width = 1.0f};
     struct centres centres;
     for (int i = 0; i < side + BLOCK - 1; i++)
-        centres.at[i] = ps_texel_centre(&unit, (uint32_t)side, (uint32_t)(i < side ? i : side - 1));
+        centres.at[i] = ps_texel_centre(1.0f, (uint32_t)side, (uint32_t)(i < side ? i : side - 1));
     return centres;
 }
 
@@ -72,25 +37,25 @@ struct places {
 };
 
 /* Those of texels (left .. left + 3, top .. top + 3). */
-static struct places places_of(const ps_splat *splat, const struct centres *centres, int left,
+static struct places places_of(const ps_bundle *bundle, const struct centres *centres, int left,
                                int top)
 {
     struct places places;
     for (int row = 0; row < BLOCK; row++)
         for (int column = 0; column < BLOCK; column++) {
-            places.u[row * BLOCK + column] = splat->half_width * centres->at[left + column];
-            places.v[row * BLOCK + column] = splat->half_width * centres->at[top + row];
+            places.u[row * BLOCK + column] = bundle->radius * centres->at[left + column];
+            places.v[row * BLOCK + column] = bundle->radius * centres->at[top + row];
         }
     return places;
 }
 
 /* Twice, for corners: the way out of one wall may lead into the other. */
-static void move_before_walls(const ps_splat *splat, struct places *places)
+static void move_before_walls(const ps_bundle *bundle, struct places *places)
 {
     for (int turn = 0; turn < 2; turn++)
-        for (uint32_t k = 0; k < ps_boundary_count(splat); k++) {
-            const ps_boundary wall = splat->boundaries[k];
-            float most = (wall.distance - BEFORE_WALLS) * splat->half_width;
+        for (uint32_t k = 0; k < bundle->boundary_count; k++) {
+            const ps_boundary wall = bundle->boundaries[k];
+            float most = (wall.distance - BEFORE_WALLS) * bundle->radius;
 #pragma omp simd
             for (int i = 0; i < RAYS; i++) {
                 float across = places->u[i] * wall.normal_u + places->v[i] * wall.normal_v;
@@ -102,27 +67,27 @@ static void move_before_walls(const ps_splat *splat, struct places *places)
 }
 
 /* The rays of a block, and the depths at which they start. */
-static void load_rays(const ps_splat *restrict splat, const struct places *restrict places,
-                      ps_packet *restrict packet, float *restrict start)
+static void load_rays(const ps_bundle *restrict bundle, const struct places *restrict places,
+                      ps_ray_packet *restrict packet, float *restrict start)
 {
 #pragma omp simd
     for (int i = 0; i < RAYS; i++) {
         float u = places->u[i], v = places->v[i];
-        start[i] = ps_bundle_start(splat, u, v);
-        ps_vec3 origin = ps_bundle_point(splat, u, v, start[i]);
-        float length = ps_max(splat->far_depth - start[i], 0.0f);
-        ps_packet_set(packet, (size_t)i, (ps_ray){origin, 0.0f, splat->axis_w, length});
+        start[i] = ps_bundle_start(bundle, u, v);
+        ps_vec3 origin = ps_bundle_point(bundle, u, v, start[i]);
+        float length = ps_max(bundle->far_depth - start[i], 0.0f);
+        ps_packet_set(packet, (size_t)i, (ps_ray){origin, 0.0f, bundle->axis_w, length});
     }
 }
 
 /* The depths of a block. */
-static void trace_block(const ps_host *host, const ps_splat *splat, struct places places,
+static void trace_block(const ps_host *host, const ps_bundle *bundle, struct places places,
                         float found[RAYS])
 {
-    _Alignas(64) ps_packet packet;
+    _Alignas(64) ps_ray_packet packet;
     float start[RAYS], lengths[RAYS];
-    move_before_walls(splat, &places);
-    load_rays(splat, &places, &packet, start);
+    move_before_walls(bundle, &places);
+    load_rays(bundle, &places, &packet, start);
     memcpy(lengths, packet.tfar, sizeof lengths);
     host->intersect_packets(host, &packet, 1, 1);
 #pragma omp simd
@@ -130,44 +95,31 @@ static void trace_block(const ps_host *host, const ps_splat *splat, struct place
         found[i] = packet.tfar[i] < lengths[i] ? start[i] + packet.tfar[i] : INFINITY;
 }
 
-static void trace_map(const ps_host *host, const ps_splat *splat, const struct centres *centres,
+static void trace_map(const ps_host *host, const ps_bundle *bundle, const struct centres *centres,
                       int side, float *depths)
 {
     float found[RAYS];
     for (int top = 0; top < side; top += BLOCK)
         for (int left = 0; left < side; left += BLOCK) {
             int columns = side - left < BLOCK ? side - left : BLOCK;
-            trace_block(host, splat, places_of(splat, centres, left, top), found);
+            trace_block(host, bundle, places_of(bundle, centres, left, top), found);
             for (int row = 0; row < BLOCK && top + row < side; row++)
                 memcpy(&depths[(top + row) * side + left], &found[row * BLOCK],
                        (size_t)columns * sizeof *depths);
         }
 }
 
-static void depth_maps(const void *opaque, const ps_host *host, const ps_splat *splats, size_t n,
-                       float *depths)
+static void depth_maps(const void *state, const ps_host *host, const ps_bundle *bundles, size_t n,
+                       uint32_t resolution, float *depths)
 {
-    int side = (int)((const struct state *)opaque)->resolution;
+    (void)state;
+    int side = (int)resolution;
     struct centres centres = centres_of(side);
     for (size_t i = 0; i < n; i++)
-        if (splats[i].half_width > 0.0f)
-            trace_map(host, &splats[i], &centres, side, depths + i * (size_t)(side * side));
+        trace_map(host, &bundles[i], &centres, side, depths + i * (size_t)(side * side));
 }
 
-static const ps_param params[] = {
-    PS_FOOTPRINT_PARAMS(struct state, "full", "yes"),
-    PS_INT(struct state, resolution, "8", 1, MOST_TEXELS, "texels", "side of a depth map"),
-    PS_NUMBER_OR(struct state, bias, "slope", 0, INFINITY, PS_PARAM_EXPERT, bias_choices,
-                 "scene units", "depth tolerance; slope: 0.75 texels times the receiver's slope"),
-};
-
-static const ps_visibility_vtable vtable = {
-    .size = sizeof vtable,
-    .resolution = resolution,
-    .boxes = boxes,
-    .place = place,
-    .depth_maps = depth_maps,
-};
+static const ps_visibility_vtable vtable = {.size = sizeof vtable, .depth_maps = depth_maps};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,
@@ -176,10 +128,6 @@ static const ps_descriptor descriptor = {
     .version = "1.0",
     .summary = "lights what a small orthographic depth map of the bundle sees",
     .paper = "Hoet 2014, section 3.3; full bundles after Herzog et al. 2007",
-    .params = params,
-    .param_count = sizeof params / sizeof params[0],
-    .param_size = sizeof params[0],
-    .state_size = sizeof(struct state),
     .vtable = &vtable,
 };
 

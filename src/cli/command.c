@@ -16,6 +16,11 @@ void print_error(const char *message)
     fprintf(stderr, "psplat: error: %s\n", message);
 }
 
+void print_warning(const char *message)
+{
+    fprintf(stderr, "psplat: warning: %s\n", message);
+}
+
 static bool usage_error(const struct command *command, const char *what, const char *word)
 {
     bool is_long = strncmp(word, "--", 2) == 0;

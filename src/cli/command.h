@@ -57,6 +57,7 @@ void help_print(const struct command *command);
 
 /* "psplat: error: MESSAGE" on stderr. */
 void print_error(const char *message);
+void print_warning(const char *message);
 
 /* Whole decimal number in [minimum, maximum]; false, and an error that names the option, otherwise.
  */

@@ -1,6 +1,7 @@
 /* command_check.c: psplat check: is a scene file right? */
 #include "cli/command.h"
 #include "cli/scene_input.h"
+#include "pipeline/render.h"
 
 #include <stdio.h>
 
@@ -10,18 +11,27 @@ static const struct option options[] = {
     {0, "parameters", NULL, "list the parameters of the scenes instead"},
 };
 
-/* Pictures are read, and shapes and lights made: what is wrong with those shows only then. */
-static bool builds(struct scene_input *input)
+static void print_log(void *user, ps_log_level level, const char *message)
 {
+    (void)user;
+    if (level == PS_LOG_WARNING)
+        print_warning(message);
+}
+
+/* Pictures are read, shapes and lights made, and strategies started: what is wrong with those shows only then. */
+static bool builds(struct scene_input *input, struct render_settings *settings)
+{
+    static const struct render_callbacks callbacks = {.log = print_log};
     struct scene scene;
     struct error error;
-    if (scene_input_build(input, &scene, &error) == PS_OK) {
+    ps_result result = scene_input_build(input, &scene, &error);
+    if (result == PS_OK) {
+        result = render_try(&scene, settings, &callbacks, &error);
         scene_release(&scene);
-        return true;
     }
-    if (error.text[0])
+    if (result != PS_OK && error.text[0])
         print_error(error.text);
-    return false;
+    return result == PS_OK;
 }
 
 static bool check_scene(const struct argument *arguments, size_t count,
@@ -36,8 +46,8 @@ static bool check_scene(const struct argument *arguments, size_t count,
     if (good) {
         good = scene_input_resolve(&input, 1, 1, &settings);
         if (good) {
+            good = builds(&input, &settings);
             settings_release(&settings);
-            good = builds(&input);
         }
     }
     scene_input_release(&input);

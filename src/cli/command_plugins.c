@@ -15,14 +15,25 @@ static void print_kind(const struct kind *kind)
     printf("%-15s %s (default: %s)\n", kind->name, kind->summary, kind->default_strategy);
 }
 
-static void print_line(void *user, const char *name, const ps_descriptor *descriptor,
-                       const char *problem)
+/* Notes are lines; in a list they are set in. */
+static void print_notes(const char *notes)
+{
+    while (*notes) {
+        size_t length = strcspn(notes, "\n");
+        printf("                %.*s\n", (int)length, notes);
+        notes += length + (notes[length] == '\n');
+    }
+}
+
+static void print_line(void *user, const struct listed_strategy *listed)
 {
     (void)user;
-    if (descriptor)
-        printf("  %-13s %s\n", name, descriptor->summary);
-    else
-        printf("  %-13s can't be used%s\n", name, problem);
+    if (listed->type) {
+        printf("  %-13s %s\n", listed->name, listed->type->summary);
+        print_notes(listed->problem);
+    } else {
+        printf("  %-13s can't be used%s\n", listed->name, listed->problem);
+    }
 }
 
 static int list_kind(struct loader *loader, ps_kind kind)
@@ -80,17 +91,16 @@ static void name_experts(const struct param_table *table)
 
 static int describe(struct loader *loader, ps_kind kind, const char *name, bool experts)
 {
-    struct found_strategy found;
+    struct strategy_type *type;
     struct error error;
-    if (loader_find(loader, kind, name, &found, &error) != PS_OK) {
+    if (loader_find(loader, kind, name, &type, &error) != PS_OK) {
         print_error(error.text);
         return STATUS_USAGE;
     }
-    const ps_descriptor *descriptor = found.descriptor;
-    printf("%s=%s, version %s\n%s\nafter: %s\nfile: %s\n", kinds[kind].name, descriptor->name,
-           descriptor->version, descriptor->summary, descriptor->paper,
-           found.file[0] ? found.file : "none; linked into the program");
-    struct param_table table = strategy_params(descriptor);
+    printf("%s=%s, version %s\n%s\nafter: %s\nfile: %s\n", kinds[kind].name, type->name,
+           type->version, type->summary, type->paper,
+           type->file ? type->file : "none; linked into the program");
+    struct param_table table = strategy_type_params(type);
     if (table.count == 0)
         printf("no parameters\n");
     print_parameters(&table, false, "parameters:");
@@ -98,6 +108,7 @@ static int describe(struct loader *loader, ps_kind kind, const char *name, bool 
         print_parameters(&table, true, "parameters for experts:");
     else
         name_experts(&table);
+    strategy_type_destroy(type);
     return STATUS_OK;
 }
 

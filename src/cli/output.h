@@ -4,7 +4,7 @@
 
 #include "cli/scene_options.h"
 #include "image/image.h"
-#include "pipeline/settings.h"
+#include "render/settings.h"
 
 /* Whether a name ends in a format that psplat writes: .exr or .png. */
 bool output_is_writable_format(const char *path);

@@ -1,6 +1,7 @@
 #include "cli/progress.h"
 
 #include "base/clock.h"
+#include "cli/command.h"
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -80,7 +81,7 @@ static void show_message(void *user, ps_log_level level, const char *message)
 {
     const struct progress *progress = user;
     if (level == PS_LOG_WARNING)
-        fprintf(stderr, "psplat: warning: %s\n", message);
+        print_warning(message);
     else if (level == PS_LOG_INFO && !progress->quiet)
         fprintf(stderr, "psplat: %s\n", message);
 }

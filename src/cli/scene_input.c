@@ -6,6 +6,12 @@
 #include <stdio.h>
 #include <string.h>
 
+static void warn(void *user, const char *message)
+{
+    (void)user;
+    print_warning(message);
+}
+
 bool scene_input_read(struct scene_input *input, const char *path,
                       const struct scene_options *options)
 {
@@ -19,6 +25,7 @@ bool scene_input_read(struct scene_input *input, const char *path,
         print_error(error.text);
         return false;
     }
+    loader_set_warnings(input->loader, warn, NULL);
     ps_result result = psd_read_file_with(path, &options->psd, input->sink, &input->description);
     if (result != PS_OK)
         diagnostics_print(input->sink, stderr);

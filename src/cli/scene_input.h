@@ -4,7 +4,7 @@
 #define CLI_SCENE_INPUT_H
 
 #include "cli/scene_options.h"
-#include "pipeline/settings.h"
+#include "render/settings.h"
 #include "scene/scene.h"
 
 struct scene_input {

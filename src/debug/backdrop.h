@@ -3,7 +3,7 @@
 #define DEBUG_BACKDROP_H
 
 #include "debug/canvas.h"
-#include "pipeline/render_state.h"
+#include "render/state.h"
 
 /* Fills the canvas's upper left corner: albedo under a light at the camera, so that what has no direct
  * light is seen too, and a little direct light, brighter by `exposure` stops. */

@@ -1,6 +1,7 @@
 #include "debug/debug.h"
 
 #include "base/suggestion.h"
+#include "pipeline/render.h"
 #include <stdio.h>
 #include <string.h>
 

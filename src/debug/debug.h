@@ -7,7 +7,7 @@
 #define DEBUG_DEBUG_H
 
 #include "debug/canvas.h"
-#include "pipeline/render_state.h"
+#include "render/state.h"
 
 struct debug_options {
     double exposure;     /* of what shows light, in stops */

@@ -2,7 +2,7 @@
 #ifndef DEBUG_PROJECT_H
 #define DEBUG_PROJECT_H
 
-#include "pipeline/render_state.h"
+#include "render/state.h"
 
 /* Whether a point, moved off its surface along `away`, is in the picture with nothing before it;
  * where, in pixels. Mirrors and glass hide what is behind them. A lens counts as a pinhole. */

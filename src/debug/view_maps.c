@@ -11,6 +11,8 @@
 #include "debug/font.h"
 #include "debug/project.h"
 #include "debug/selection.h"
+#include "host/photons.h"
+#include "host/place.h"
 #include "image/magnify.h"
 #include "image/tonemap.h"
 #include <psplat/math.h>
@@ -23,23 +25,20 @@
 
 static const struct colour ink = {255, 220, 120};
 
-static ps_result offer_splats(struct render *render, const ps_photon *photons, size_t n,
-                              ps_splat *placed, struct selection *splats)
+static void offer_splats(struct render *render, const ps_photon *photons, size_t n,
+                         struct splat *placed, struct selection *splats)
 {
     for (size_t first = 0; first < n; first += BATCH) {
         size_t count = n - first < BATCH ? n - first : BATCH;
-        ps_result result = render->host.place_splats(&render->host, photons + first, count, placed);
-        if (result != PS_OK)
-            return result;
+        place_splats(render, photons + first, count, placed);
         for (size_t i = 0; i < count; i++) {
             float x, y;
-            ps_vec3 back = ps_scale(placed[i].axis_w, -1.0f);
-            if (placed[i].half_width > 0.0f &&
-                project_visible(render, placed[i].centre, back, &x, &y))
+            const ps_bundle *bundle = &placed[i].bundle;
+            ps_vec3 back = ps_scale(bundle->axis_w, -1.0f);
+            if (bundle->radius > 0.0f && project_visible(render, bundle->centre, back, &x, &y))
                 selection_offer(splats, &placed[i]);
         }
     }
-    return PS_OK;
 }
 
 /* Chooses among the splats whose middles are seen. */
@@ -47,25 +46,22 @@ static ps_result choose_splats(struct render *render, struct selection *splats, 
 {
     const ps_photon *photons;
     size_t n = 0;
-    double progress;
-    ps_splat *placed = malloc(BATCH * sizeof *placed);
+    const ps_host *host = own_host(render);
+    struct splat *placed = malloc(BATCH * sizeof *placed);
     if (!placed)
         return error_memory(error, BATCH * sizeof *placed, "splats");
     ps_result result;
     do {
-        render->error.text[0] = '\0';
-        result = render->host.next_photons(&render->host, &photons, &n, &progress);
+        result = photon_stream_next(&render->photons, &photons, &n, error);
         if (result == PS_OK)
-            result = offer_splats(render, photons, n, placed, splats);
-        render->host.progress(&render->host, progress);
+            offer_splats(render, photons, n, placed, splats);
+        host->progress(host, photon_stream_progress(&render->photons));
     } while (result == PS_OK && n > 0);
     free(placed);
     selection_finish(splats);
-    if (result != PS_OK)
-        return error_set(error, result, "%s", render->error.text);
-    if (splats->count == 0)
+    if (result == PS_OK && splats->count == 0)
         return error_set(error, PS_ERROR_INVALID, "maps: no splat is in the picture");
-    return PS_OK;
+    return result;
 }
 
 static struct colour dim(struct colour colour)
@@ -121,7 +117,7 @@ static struct layout layout_of(const struct render *render, uint32_t resolution)
     };
 }
 
-static ps_result draw_map(const struct layout *layout, size_t index, const ps_splat *splat,
+static ps_result draw_map(const struct layout *layout, size_t index, const struct splat *splat,
                           const float *depths, struct canvas *canvas)
 {
     uint32_t side = layout->resolution;
@@ -131,9 +127,9 @@ static ps_result draw_map(const struct layout *layout, size_t index, const ps_sp
     uint8_t *large = malloc(3 * (size_t)side * side * layout->zoom * layout->zoom);
     if (texels && large) {
         char text[64];
-        snprintf(text, sizeof text, "%zu R=%.3g", index + 1, (double)splat->half_width);
+        snprintf(text, sizeof text, "%zu R=%.3g", index + 1, (double)splat->bundle.radius);
         canvas_text(canvas, (long)left, (long)top, layout->scale, ink, text);
-        draw_texels(depths, side, splat->half_width, texels);
+        draw_texels(depths, side, splat->bundle.radius, texels);
         magnify(texels, side, (struct rectangle){0, 0, side, side}, layout->zoom, large);
         canvas_paste(canvas, left, top + (FONT_HEIGHT + 2) * layout->scale, large,
                      side * layout->zoom, side * layout->zoom);
@@ -145,19 +141,20 @@ static ps_result draw_map(const struct layout *layout, size_t index, const ps_sp
 }
 
 static ps_result draw_maps(const struct render *render, const struct layout *layout,
-                           const ps_splat *splats, size_t n, struct canvas *canvas,
+                           const struct splat *splats, size_t n, struct canvas *canvas,
                            struct error *error)
 {
-    const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
-    const ps_visibility_vtable *vtable = visibility->descriptor->vtable;
+    const struct strategy *visibility = strategy_in(render, PS_VISIBILITY);
     size_t texels = (size_t)layout->resolution * layout->resolution;
-    float *depths = malloc(n * texels * sizeof *depths);
+    float *depths = malloc(texels * sizeof *depths);
     if (!depths)
-        return error_memory(error, n * texels * sizeof *depths, "depth maps");
-    vtable->depth_maps(visibility->state, &render->host, splats, n, depths);
+        return error_memory(error, texels * sizeof *depths, "a depth map");
     ps_result result = PS_OK;
-    for (size_t i = 0; i < n && result == PS_OK; i++)
-        result = draw_map(layout, i, &splats[i], depths + i * texels, canvas);
+    for (size_t i = 0; i < n && result == PS_OK; i++) {
+        visibility->type->table.visibility.depth_maps(
+            visibility->state, visibility->host, &splats[i].bundle, 1, layout->resolution, depths);
+        result = draw_map(layout, i, &splats[i], depths, canvas);
+    }
     free(depths);
     return result == PS_OK ? PS_OK : error_memory(error, 3 * texels, "a map");
 }
@@ -165,7 +162,7 @@ static ps_result draw_maps(const struct render *render, const struct layout *lay
 /* Luminance of a splat of mean power, on a white surface that faces it. */
 #define SPLAT_BRIGHTNESS 0.5f
 
-static float scale_of(const ps_splat *splats, size_t n)
+static float scale_of(const struct splat *splats, size_t n)
 {
     float sum = 0.0f;
     for (size_t i = 0; i < n; i++)
@@ -194,14 +191,14 @@ static void draw_light(const struct render *render, float scale, double exposure
     }
 }
 
-static void number_splats(const struct render *render, const ps_splat *splats, size_t n,
+static void number_splats(const struct render *render, const struct splat *splats, size_t n,
                           struct canvas *canvas)
 {
     size_t scale = canvas_text_scale(render->film.width);
     for (size_t i = 0; i < n; i++) {
         float x, y;
         char text[32];
-        if (!camera_project(&render->scene->camera, splats[i].centre, &x, &y))
+        if (!camera_project(&render->scene->camera, splats[i].bundle.centre, &x, &y))
             continue;
         snprintf(text, sizeof text, "%zu", i + 1);
         canvas_text(canvas, lroundf(x) - (long)canvas_text_width(scale, text) / 2,
@@ -209,15 +206,15 @@ static void number_splats(const struct render *render, const ps_splat *splats, s
     }
 }
 
-static ps_result draw_picture(struct render *render, ps_splat *splats, size_t n, double exposure,
-                              struct canvas *canvas, struct error *error)
+static ps_result draw_picture(struct render *render, struct splat *splats, size_t n,
+                              double exposure, struct canvas *canvas, struct error *error)
 {
     render->counts_splats = true;
-    ps_result result = render->host.begin_splats(&render->host, 1);
+    ps_result result = photons_begin_splats(render, 1, error);
     if (result == PS_OK)
-        result = render->host.splat(&render->host, splats, n);
+        result = photons_add_splats(render, splats, n, error);
     if (result != PS_OK)
-        return error_set(error, result, "%s", render->error.text);
+        return result;
     splatter_end_pass(&render->splatter, &render->gbuffer);
     backdrop_draw(render, exposure, canvas);
     draw_light(render, scale_of(splats, n), exposure, canvas);
@@ -232,11 +229,11 @@ static ps_result draw_sheet(struct render *render, uint32_t resolution,
     struct layout layout = layout_of(render, resolution);
     size_t n = chosen->count, rows = (n + COLUMNS - 1) / COLUMNS;
     size_t width = COLUMNS * layout.cell_width;
-    ps_splat *splats = malloc(n * sizeof *splats);
+    struct splat *splats = malloc(n * sizeof *splats);
     if (!splats)
         return error_memory(error, n * sizeof *splats, "splats");
     for (size_t i = 0; i < n; i++)
-        splats[i] = *(const ps_splat *)selection_item(chosen, i);
+        splats[i] = *(const struct splat *)selection_item(chosen, i);
     ps_result result =
         canvas_create(canvas, width > render->film.width ? width : render->film.width,
                       layout.top + rows * layout.cell_height, error);
@@ -252,15 +249,15 @@ static ps_result draw(struct render *render, const struct debug_options *options
                       struct canvas *canvas, struct error *error)
 {
     (void)part;
-    const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
-    const ps_visibility_vtable *vtable = visibility->descriptor->vtable;
-    uint32_t resolution = vtable->resolution(visibility->state);
-    if (resolution == 0 || !vtable->depth_maps)
+    const struct strategy *visibility = strategy_in(render, PS_VISIBILITY);
+    const struct footprint_params *footprint = strategy_shared(visibility);
+    uint32_t resolution = (uint32_t)footprint->resolution;
+    if (!visibility->type->table.visibility.depth_maps)
         return error_set(error, PS_ERROR_INVALID, "maps: the visibility %s has no depth maps",
-                         visibility->descriptor->name);
+                         visibility->type->name);
     struct selection splats;
     ps_result result = selection_create(&splats, options->count ? options->count : USUAL_COUNT,
-                                        sizeof(ps_splat), error);
+                                        sizeof(struct splat), error);
     if (result != PS_OK)
         return result;
     result = choose_splats(render, &splats, error);

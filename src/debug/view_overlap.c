@@ -4,6 +4,7 @@
  */
 #include "debug/debug.h"
 #include "debug/legend.h"
+#include "pipeline/render.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -19,7 +20,7 @@ static ps_result count_splats(struct render *render, struct error *error)
     if (result == PS_OK && !render->has_splatter && render->pass.tile_count > 0)
         return error_set(error, PS_ERROR_INVALID,
                          "overlap: the estimator %s made no splats; try -p estimator=splat",
-                         render->settings->strategies[PS_ESTIMATOR].descriptor->name);
+                         strategy_in(render, PS_ESTIMATOR)->type->name);
     if (result == PS_CANCELLED)
         return error_set(error, result, "interrupted");
     return result;

@@ -25,20 +25,19 @@ static ps_result collect(struct render *render, struct selection *dots, uint64_t
 {
     const ps_photon *batch;
     size_t n;
-    double progress;
+    const ps_host *host = own_host(render);
     *photons = 0;
     do {
-        render->error.text[0] = '\0';
-        ps_result result = render->host.next_photons(&render->host, &batch, &n, &progress);
+        ps_result result = photon_stream_next(&render->photons, &batch, &n, error);
         if (result != PS_OK)
-            return error_set(error, result, "%s", render->error.text);
+            return result;
         for (size_t i = 0; i < n; i++) {
             struct dot dot = {.power = ps_luminance(batch[i].power), .bounce = batch[i].bounce};
             if (project_visible(render, batch[i].position, batch[i].normal, &dot.x, &dot.y))
                 selection_offer(dots, &dot);
         }
         *photons += n;
-        render->host.progress(&render->host, progress);
+        host->progress(host, photon_stream_progress(&render->photons));
     } while (n > 0);
     selection_finish(dots);
     return PS_OK;

@@ -5,7 +5,8 @@
  */
 #include "debug/debug.h"
 #include "debug/id_colour.h"
-#include <psplat/cell.h>
+#include "stratify/cells.h"
+#include "stratify/stratify.h"
 #include <psplat/math.h>
 #include <stdlib.h>
 
@@ -53,37 +54,36 @@ static ps_lattice lattice_of(const struct scene *scene, uint32_t resolution)
     ps_vec3 corner =
         ps_subtract(scene->center, (ps_vec3){scene->radius, scene->radius, scene->radius});
     double side = 2.0 * (double)scene->radius / (double)resolution;
-    return ps_lattice_over(corner, side, scene->center, scene->radius);
+    return cells_lattice(corner, side, scene->center, scene->radius);
 }
 
 static void find_in_lattice(const struct scene *scene, uint32_t resolution, struct places *places)
 {
     ps_lattice lattice = lattice_of(scene, resolution);
     for (size_t i = 0; i < places->count; i++)
-        places->cells[i] = ps_cell_key(&lattice, 0, places->points[i]);
+        places->cells[i] = cells_key(&lattice, 0, places->points[i]);
 }
 
 /* By the render's own stratification, which has cells. */
 static ps_result find_in_strata(struct render *render, struct places *places, struct error *error)
 {
-    const struct strategy *strategy = &render->settings->strategies[PS_STRATIFICATION];
-    const ps_stratification_vtable *vtable = strategy->descriptor->vtable;
-    const ps_photon *photons;
+    const struct strategy *strategy = strategy_in(render, PS_STRATIFICATION);
+    ps_photon *photons;
     size_t n;
     ps_result result = photon_stream_injected(&render->photons, &photons, &n, error);
     if (result != PS_OK)
         return result;
-    result = vtable->cells(strategy->state, &render->host, &render->pass, photons, n,
-                           places->points, places->count, places->cells);
-    return result == PS_OK ? PS_OK : error_set(error, result, "stratification failed");
+    result = stratify_numbers(strategy, strategy->host, &render->pass, photons, n, places->points,
+                              places->count, places->cells);
+    return render_judge(render, PS_STRATIFICATION, result, error);
 }
 
 static ps_result find_cells(struct render *render, uint32_t resolution, struct places *places,
                             struct error *error)
 {
-    const ps_stratification_vtable *vtable =
-        render->settings->strategies[PS_STRATIFICATION].descriptor->vtable;
-    if (vtable->cells && resolution == 0)
+    const ps_stratification_vtable *table =
+        &strategy_in(render, PS_STRATIFICATION)->type->table.stratification;
+    if (table->stratify && table->find_strata && resolution == 0)
         return find_in_strata(render, places, error);
     find_in_lattice(render->scene, resolution ? resolution : USUAL_RESOLUTION, places);
     return PS_OK;
@@ -101,7 +101,7 @@ static ps_result draw(struct render *render, const struct debug_options *options
     if (result == PS_OK)
         result = canvas_create(canvas, film->width, film->height, error);
     for (size_t i = 0; i < places.count && result == PS_OK; i++)
-        if (places.cells[i] != PS_NO_CELL)
+        if (places.cells[i] != PS_NO_STRATUM)
             canvas_set(canvas, (long)(places.pixels[i] % film->width),
                        (long)(places.pixels[i] / film->width), id_colour(places.cells[i]));
     places_release(&places);

@@ -72,7 +72,7 @@ static void trace_block(const struct tracing *tracing, size_t map, uint32_t left
 {
     const struct shadow_maps *maps = tracing->maps;
     float side = (float)maps->side, *depths = &maps->depths[map * pixels_of(maps)];
-    _Alignas(64) ps_packet packet;
+    _Alignas(64) ps_ray_packet packet;
     for (uint32_t lane = 0; lane < BLOCK * BLOCK; lane++) {
         uint32_t column = left + lane % BLOCK, row = top + lane / BLOCK;
         ps_ray ray = ps_light_view_ray(&maps->views[map], ((float)column + 0.5f) / side,

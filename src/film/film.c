@@ -36,8 +36,43 @@ ps_result film_create(size_t width, size_t height, bool surfaces, struct film *f
     return PS_OK;
 }
 
+ps_result film_add_ids(struct film *film, struct error *error)
+{
+    size_t count = film->width * film->height;
+    film->object = calloc(count, sizeof *film->object);
+    film->material = calloc(count, sizeof *film->material);
+    return film->object && film->material
+               ? PS_OK
+               : error_memory(error, 2 * count * sizeof *film->object, "ids of pixels");
+}
+
+static bool is_of_halves(int plane)
+{
+    return (plane >= FILM_COLOR_R && plane <= FILM_WEIGHT) || plane == FILM_COVERAGE;
+}
+
+ps_result film_add_halves(struct film *film, struct error *error)
+{
+    film->odd = calloc(1, sizeof *film->odd);
+    if (film->odd)
+        *film->odd = (struct film){.width = film->width, .height = film->height};
+    for (int plane = 0; plane < FILM_PLANES && film->odd; plane++) {
+        if (!is_of_halves(plane))
+            continue;
+        film->odd->planes[plane] = plane_create(film->width, film->height);
+        if (!film->odd->planes[plane])
+            return error_memory(error, film->width * film->height * sizeof(float), "half the film");
+    }
+    return film->odd ? PS_OK : error_memory(error, sizeof *film->odd, "half the film");
+}
+
 void film_release(struct film *film)
 {
+    if (film->odd)
+        film_release(film->odd);
+    free(film->odd);
+    free(film->object);
+    free(film->material);
     for (int plane = 0; plane < FILM_PLANES; plane++)
         free(film->planes[plane]);
     *film = (struct film){.passes = 0};
@@ -48,7 +83,9 @@ size_t film_bytes(const struct film *film)
     size_t planes = 0;
     for (int plane = 0; plane < FILM_PLANES; plane++)
         planes += film->planes[plane] != NULL;
-    return film->width * film->height * sizeof(float) * planes;
+    planes += (film->object != NULL) + (film->material != NULL);
+    return film->width * film->height * sizeof(float) * planes +
+           (film->odd ? film_bytes(film->odd) : 0);
 }
 
 size_t film_most_bytes(size_t width, size_t height)
@@ -79,6 +116,8 @@ static void add_seen(struct film *film, int plane, const struct tile_row *row, c
 
 static void add_emitted(struct film *film, const struct tile_row *row)
 {
+    if (!film->planes[FILM_DIRECT_R])
+        return;
     for (size_t i = 0; i < row->count; i++) {
         if (row->shares[i] <= 0.0f)
             continue;
@@ -91,6 +130,7 @@ static void add_emitted(struct film *film, const struct tile_row *row)
 /* One of red, green and blue, of a row. */
 struct row_channel {
     const float *albedo, *throughput, *irradiance; /* indirect */
+    const float *radiance;                         /* indirect; NULL: none */
     float direct[PS_TILE_SIZE];                    /* irradiance */
 };
 
@@ -106,6 +146,8 @@ static void add_reflected(struct film *film, const struct tile_row *row, int cha
         direct[i] = reflectance * from->direct[i];
         indirect[i] = reflectance * from->irradiance[i];
     }
+    for (size_t i = 0; from->radiance && i < row->count; i++)
+        indirect[i] += from->throughput[i] * from->radiance[i];
     add_seen(film, FILM_DIRECT_R + channel, row, direct);
     add_seen(film, FILM_COLOR_R + channel, row, indirect);
     add_seen(film, FILM_ALBEDO_R + channel, row, albedo);
@@ -118,13 +160,16 @@ static void add_light(struct film *film, const struct tile_row *row)
     struct row_channel channels[3] = {
         {.albedo = tile->albedo_r + lane,
          .throughput = tile->throughput_r + lane,
-         .irradiance = tile->irradiance_r + lane},
+         .irradiance = tile->irradiance_r + lane,
+         .radiance = tile->radiance_r ? tile->radiance_r + lane : NULL},
         {.albedo = tile->albedo_g + lane,
          .throughput = tile->throughput_g + lane,
-         .irradiance = tile->irradiance_g + lane},
+         .irradiance = tile->irradiance_g + lane,
+         .radiance = tile->radiance_g ? tile->radiance_g + lane : NULL},
         {.albedo = tile->albedo_b + lane,
          .throughput = tile->throughput_b + lane,
-         .irradiance = tile->irradiance_b + lane},
+         .irradiance = tile->irradiance_b + lane,
+         .radiance = tile->radiance_b ? tile->radiance_b + lane : NULL},
     };
     for (size_t i = 0; i < row->count; i++) {
         channels[0].direct[i] = row->direct[i].r;
@@ -152,6 +197,14 @@ static void add_geometry(struct film *film, const struct tile_row *row)
     add_seen(film, FILM_POSITION_Z, row, tile->position_z + lane);
     add_seen(film, FILM_DEPTH, row, tile->depth + lane);
     add_seen(film, FILM_COVERAGE, row, ones);
+}
+
+static void take_ids(struct film *film, const struct tile_row *row)
+{
+    memcpy(film->object + row->pixel, row->tile->object + row->lane,
+           row->count * sizeof *film->object);
+    memcpy(film->material + row->pixel, row->tile->material + row->lane,
+           row->count * sizeof *film->material);
 }
 
 static struct tile_row row_of(const struct gbuffer *gbuffer, uint32_t tile, size_t lane,
@@ -186,7 +239,11 @@ void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t in
             row.shares[k] = left_out && left_out[lane + k] ? 0.0f : 1.0f;
         add_light(film, &row);
         add_geometry(film, &row);
+        if (film->object && film->passes == 0)
+            take_ids(film, &row);
     }
+    if (film->odd && film->passes % 2 == 1)
+        film_add_tile(film->odd, gbuffer, index, left_out);
 }
 
 void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t first,
@@ -206,10 +263,14 @@ void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t
     for (int plane = 0; plane < FILM_PLANES; plane++)
         for (size_t i = 0; i < PS_TILE_SIZE && film->planes[plane]; i++)
             film->planes[plane][y * film->width + x] += sums[plane][i];
+    if (film->odd && film->passes % 2 == 1)
+        film_add_samples(film->odd, gbuffer, first, count, share, x, y);
 }
 
 void film_count_pass(struct film *film)
 {
+    if (film->odd && film->passes % 2 == 1)
+        film->odd->passes++;
     film->passes++;
 }
 

@@ -34,12 +34,22 @@ struct film {
     size_t width, height;
     uint32_t passes;
     float *planes[FILM_PLANES]; /* each width * height, owned */
+    uint32_t *object,
+        *material; /* what pixels see in the first pass; owned, NULL where nobody asks */
+    struct film *
+        odd; /* the indirect light, weight and coverage of odd passes alone; owned, or NULL likewise */
 };
 
 /* A film without passes. Without `surfaces` it keeps the light alone: planes from FILM_ALBEDO_R to FILM_DEPTH
  * stay NULL. */
 ps_result film_create(size_t width, size_t height, bool surfaces, struct film *film,
                       struct error *error);
+/* Makes room for objects and materials. */
+ps_result film_add_ids(struct film *film, struct error *error);
+
+/* Lets the film keep the light of its odd passes apart as well. */
+ps_result film_add_halves(struct film *film, struct error *error);
+
 void film_release(struct film *film);
 size_t film_bytes(const struct film *film);
 /* With all planes. */

@@ -42,10 +42,19 @@ ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error)
                         "direct light");
 }
 
+ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error)
+{
+    size_t count = 3 * (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
+    gbuffer->radiance = calloc(count, sizeof *gbuffer->radiance);
+    return gbuffer->radiance ? PS_OK
+                             : error_memory(error, count * sizeof(float), "indirect radiance");
+}
+
 void gbuffer_release(struct gbuffer *gbuffer)
 {
     free(gbuffer->occlusion);
     free(gbuffer->joined);
+    free(gbuffer->radiance);
     free(gbuffer->tiles);
     free(gbuffer->direct);
     free(gbuffer->emitted);
@@ -56,8 +65,10 @@ void gbuffer_release(struct gbuffer *gbuffer)
 size_t gbuffer_bytes(const struct gbuffer *gbuffer)
 {
     size_t join = gbuffer->occlusion ? sizeof *gbuffer->occlusion + sizeof *gbuffer->joined : 0;
+    size_t radiance = gbuffer->radiance ? 3 * sizeof(float) : 0;
     return gbuffer->tile_count *
-           (sizeof(ps_tile) + PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool) + join));
+           (sizeof(ps_tile) +
+            PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool) + join + radiance));
 }
 
 bool gbuffer_pixel(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane, uint32_t *x,
@@ -111,10 +122,23 @@ void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throu
     tile->material[lane] = hit->material;
 }
 
+/* Zeroes a tile's radiance, and tells the tile where it is. */
+static void clear_radiance(struct gbuffer *gbuffer, uint32_t index)
+{
+    ps_tile *tile = &gbuffer->tiles[index];
+    if (!gbuffer->radiance)
+        return;
+    tile->radiance_r = gbuffer->radiance + 3 * (size_t)index * PS_TILE_PIXELS;
+    tile->radiance_g = tile->radiance_r + PS_TILE_PIXELS;
+    tile->radiance_b = tile->radiance_g + PS_TILE_PIXELS;
+    memset(tile->radiance_r, 0, 3 * PS_TILE_PIXELS * sizeof(float));
+}
+
 void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t index)
 {
     ps_tile *tile = &gbuffer->tiles[index];
     memset(tile, 0, sizeof *tile);
+    clear_radiance(gbuffer, index);
     memset(&gbuffer->emitted[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(ps_rgb));
     memset(&gbuffer->by_chance[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(bool));
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
@@ -139,5 +163,6 @@ void gbuffer_clear_indirect(struct gbuffer *gbuffer)
         memset(tile->irradiance_g, 0, sizeof tile->irradiance_g);
         memset(tile->irradiance_b, 0, sizeof tile->irradiance_b);
         memset(tile->weight, 0, sizeof tile->weight);
+        clear_radiance(gbuffer, i);
     }
 }

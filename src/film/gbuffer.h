@@ -24,6 +24,8 @@ struct gbuffer {
      * or NULL where nobody joins it. */
     uint64_t *occlusion;
     ps_rgb *joined;
+    float *
+        radiance; /* what ps_tile.radiance_r, _g and _b point into, owned; NULL where nobody adds to it */
 };
 
 /* Tiles of a picture of that size, and no memory for them. */
@@ -34,6 +36,9 @@ void gbuffer_release(struct gbuffer *gbuffer);
 
 /* Makes room for what discontinuity_buffer.h needs. */
 ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error);
+
+/* Makes room for indirect radiance. */
+ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error);
 
 /* Bytes that the buffer takes. */
 size_t gbuffer_bytes(const struct gbuffer *gbuffer);

@@ -7,7 +7,7 @@
  */
 #include "film/film.h"
 #include "pipeline/render.h"
-#include "pipeline/render_state.h"
+#include "pipeline/stages.h"
 
 #include <unistd.h>
 

@@ -5,10 +5,12 @@
 #include "base/sample.h"
 #include "direct/direct.h"
 #include "direct/discontinuity_buffer.h"
-#include "pipeline/render_state.h"
+#include "host/host.h"
+#include "pipeline/stages.h"
 #include "view/edges.h"
 #include "view/pixel_filter.h"
 #include "view/view.h"
+#include <math.h>
 #include <psplat/tile.h>
 
 static void report_progress(const struct render *render, const char *stage, double fraction)
@@ -21,8 +23,9 @@ static void report_progress(const struct render *render, const char *stage, doub
 /* Where in its pixels a pass looks: the first at their centres, later ones at points spread over
  * them, the same in all pixels so that a pass stays coherent. Not a matter of how many passes there
  * will be: a pass depends on its own number alone. */
-static void set_jitter(const struct render *render, float jitter[2])
+static void set_jitter(struct render *render)
 {
+    float *jitter = render->jitter;
     jitter[0] = jitter[1] = 0.5f;
     if (render->pass.number == 0)
         return;
@@ -35,7 +38,6 @@ static void set_jitter(const struct render *render, float jitter[2])
 struct tile_work {
     struct render *render;
     struct view_pass view;
-    float jitter[2];
 };
 
 static struct lighting lighting_of(const struct render *render)
@@ -48,8 +50,8 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct tile_work *work = user;
     struct view_points points;
-    view_pixels(&work->render->gbuffer, (uint32_t)index, work->render->pass.number, work->jitter[0],
-                work->jitter[1], &points);
+    view_pixels(&work->render->gbuffer, (uint32_t)index, work->render->pass.number,
+                work->render->jitter[0], work->render->jitter[1], &points);
     view_trace(&work->view, &points, (uint32_t)index);
 }
 
@@ -118,23 +120,78 @@ static void end_splats(struct render *render)
     gathered_light_end(&render->gathered_light, &render->gbuffer, render->settings->threads);
 }
 
+/* Makes what is no number, or negative, 0; returns how many values there were. */
+static uint64_t mend_plane(float *plane, size_t n)
+{
+    uint64_t bad = 0;
+    for (size_t i = 0; i < n; i++)
+        bad += !(plane[i] >= 0.0f && plane[i] < INFINITY);
+    for (size_t i = 0; bad > 0 && i < n; i++)
+        plane[i] = plane[i] >= 0.0f && plane[i] < INFINITY ? plane[i] : 0.0f;
+    return bad;
+}
+
+static uint64_t mend_tile(ps_tile *tile)
+{
+    uint64_t bad = mend_plane(tile->irradiance_r, PS_TILE_PIXELS) +
+                   mend_plane(tile->irradiance_g, PS_TILE_PIXELS) +
+                   mend_plane(tile->irradiance_b, PS_TILE_PIXELS) +
+                   mend_plane(tile->weight, PS_TILE_PIXELS);
+    if (tile->radiance_r)
+        bad += mend_plane(tile->radiance_r, PS_TILE_PIXELS) +
+               mend_plane(tile->radiance_g, PS_TILE_PIXELS) +
+               mend_plane(tile->radiance_b, PS_TILE_PIXELS);
+    return bad;
+}
+
 ps_result render_estimate(struct render *render, struct error *error)
 {
-    const struct strategy *estimator = &render->settings->strategies[PS_ESTIMATOR];
-    const ps_estimator_vtable *vtable = estimator->descriptor->vtable;
+    const struct strategy *estimator = strategy_in(render, PS_ESTIMATOR);
     photon_stream_rewind(&render->photons);
-    render->error.text[0] = '\0';
     double start = clock_seconds();
-    ps_result result = vtable->accumulate(estimator->state, &render->host, &render->pass);
+    render->estimating = true;
+    ps_result result = estimator->type->table.estimator.accumulate(estimator->state,
+                                                                   estimator->host, &render->pass);
+    render->estimating = false;
     if (result == PS_OK && render->splatting)
         end_splats(render);
+    result = render_judge(render, PS_ESTIMATOR, result, error);
+    for (uint32_t i = 0; i < render->gbuffer.tile_count; i++)
+        render->refused.pixels[0] += mend_tile(&render->gbuffer.tiles[i]);
     statistics_add_seconds(render->statistics, "estimate", clock_seconds() - start);
-    if (result == PS_OK && render->host.cancelled(&render->host))
-        return PS_CANCELLED;
-    if (result == PS_OK || result == PS_CANCELLED)
-        return result;
-    return error_set(error, result, "estimator %s failed%s%.900s", estimator->descriptor->name,
-                     render->error.text[0] ? ": " : "", render->error.text);
+    return result == PS_OK && host_is_cancelled(render) ? PS_CANCELLED : result;
+}
+
+/* The estimator looks at the pass that it accumulated. */
+static ps_result end_estimate(struct render *render, struct error *error)
+{
+    const struct strategy *estimator = strategy_in(render, PS_ESTIMATOR);
+    const ps_estimator_vtable *table = &estimator->type->table.estimator;
+    if (!table->end_pass)
+        return PS_OK;
+    ps_result result = table->end_pass(estimator->state, estimator->host, &render->pass);
+    return render_judge(render, PS_ESTIMATOR, result, error);
+}
+
+static ps_result begin_estimates(struct render *render, struct error *error)
+{
+    const struct strategy *estimator = strategy_in(render, PS_ESTIMATOR);
+    const ps_estimator_vtable *table = &estimator->type->table.estimator;
+    if (!table->begin)
+        return PS_OK;
+    ps_result result = table->begin(estimator->state, estimator->host, &render->pass);
+    result = render_judge(render, PS_ESTIMATOR, result, error);
+    render->has_begun = result == PS_OK;
+    return result;
+}
+
+static void end_estimates(struct render *render)
+{
+    const struct strategy *estimator = strategy_in(render, PS_ESTIMATOR);
+    const ps_estimator_vtable *table = &estimator->type->table.estimator;
+    if (render->has_begun && table->end)
+        table->end(estimator->state, estimator->host);
+    render->has_tiles = false;
 }
 
 static void light_pixels(struct tile_work *work)
@@ -151,26 +208,34 @@ static void light_pixels(struct tile_work *work)
 /* What merges photons would take those in one place for one. */
 static uint32_t shares_places(const struct render_settings *settings)
 {
-    const ps_estimator_vtable *estimator = settings->strategies[PS_ESTIMATOR].descriptor->vtable;
-    const ps_stratification_vtable *stratification =
-        settings->strategies[PS_STRATIFICATION].descriptor->vtable;
-    return estimator->shares_places && stratification->keeps_all;
+    const struct strategy *estimator = &settings->strategies[PS_ESTIMATOR];
+    const struct strategy *stratification = &settings->strategies[PS_STRATIFICATION];
+    return (estimator->type->table.estimator.flags & PS_ESTIMATOR_SHARES_PLACES) &&
+           !stratification->type->table.stratification.stratify;
 }
 
-/* Fills the G-buffer and its direct light. */
-static struct tile_work begin_pass(struct render *render, uint32_t number)
+static void set_pass(struct render *render, uint32_t number)
 {
     render->pass = (ps_pass){
         .size = sizeof(ps_pass),
         .number = number,
         .seed = render->settings->seed,
+        .passes = render->settings->passes,
         .tile_count = render->gbuffer.tile_count,
+        .width = (uint32_t)render->gbuffer.width,
+        .height = (uint32_t)render->gbuffer.height,
         .thread_count = render->settings->threads,
         .surface_offset = render->scene->surface_offset,
         .specular = render->scene->microfacets != NULL,
         .shares_places = shares_places(render->settings),
         .bounces = render->settings->bounces,
     };
+}
+
+/* Fills the G-buffer and its direct light. */
+static struct tile_work begin_pass(struct render *render, uint32_t number)
+{
+    set_pass(render, number);
     render->splatting = false;
     report_progress(render, "direct light", (double)number / render->settings->passes);
     struct tile_work work = {
@@ -180,9 +245,8 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
          .maps = render->shadow_maps,
          .gbuffer = &render->gbuffer,
          .seed = render->settings->seed},
-        {0, 0},
     };
-    set_jitter(render, work.jitter);
+    set_jitter(render);
     over_tiles(&work, "gbuffer", trace_tile);
     light_pixels(&work);
     return work;
@@ -198,6 +262,8 @@ static ps_result run_pass(struct render *render, uint32_t number, struct error *
 {
     struct tile_work work = begin_pass(render, number);
     ps_result result = render_estimate(render, error);
+    if (result == PS_OK)
+        result = end_estimate(render, error);
     if (result == PS_CANCELLED && number == 0)
         gbuffer_clear_indirect(&render->gbuffer);
     else if (result != PS_OK)
@@ -208,12 +274,15 @@ static ps_result run_pass(struct render *render, uint32_t number, struct error *
 
 static ps_result run_passes(struct render *render, struct error *error)
 {
-    ps_result result = PS_OK;
+    set_pass(render, 0);
+    render->has_tiles = true;
+    ps_result result = begin_estimates(render, error);
     for (uint32_t pass = 0; pass < render->settings->passes && result == PS_OK; pass++)
         result = run_pass(render, pass, error);
+    end_estimates(render);
     if (result != PS_OK && result != PS_CANCELLED && render->film.passes > 0)
-        render->host.log(&render->host, PS_LOG_WARNING,
-                         "a pass failed; the picture holds those before it");
+        own_host(render)->log(own_host(render), PS_LOG_WARNING,
+                              "a pass failed; the picture holds those before it");
     /* An unfinished first pass gives its direct light, but was no pass. */
     bool unfinished = result == PS_CANCELLED && render->pass.number == 0;
     statistics_count(render->statistics, "passes", unfinished ? 0 : render->film.passes);
@@ -243,7 +312,8 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
             *error = reason;
         }
     }
-    host_report_splatter(&render);
+    render_report_splatter(&render);
+    render_report_refused(&render);
     render_destroy(&render);
     return result;
 }
@@ -265,8 +335,29 @@ ps_result render_inspect(const struct scene *scene, struct render_settings *sett
         struct tile_work work = begin_pass(&render, 0);
         end_pass(&work, false);
         film_average(&render.film);
+        render.has_tiles = render.estimating = true;
         result = inspect(user, &render, error);
     }
     render_destroy(&render);
+    return result;
+}
+
+ps_result render_try(const struct scene *scene, struct render_settings *settings,
+                     const struct render_callbacks *callbacks, struct error *error)
+{
+    struct statistics statistics;
+    struct render render = {
+        .scene = scene,
+        .settings = settings,
+        .callbacks = callbacks,
+        .statistics = &statistics,
+    };
+    statistics_init(&statistics);
+    host_create(&render);
+    ps_result result = trace_create(scene, settings->isa, &render.trace, error);
+    if (result == PS_OK)
+        result = render_start_strategies(&render, error);
+    render_destroy(&render);
+    statistics_destroy(&statistics);
     return result;
 }

@@ -11,18 +11,9 @@
 
 #include "base/statistics.h"
 #include "image/image.h"
-#include "pipeline/settings.h"
+#include "render/callbacks.h"
+#include "render/settings.h"
 #include "scene/scene.h"
-
-/* How a render talks to its user. All members may be NULL; all are called on the calling thread but
- * `log`, which any thread may call. */
-struct render_callbacks {
-    void *user;
-    void (*progress)(void *user, const char *stage,
-                     double fraction); /* of the whole render, 0..1 */
-    void (*log)(void *user, ps_log_level level, const char *message);
-    bool (*cancelled)(void *user); /* any thread */
-};
 
 /* Bytes that grow with the picture: G-buffer, film and the picture, which has all layers. */
 double render_bytes(size_t width, size_t height);
@@ -45,5 +36,24 @@ bool render_makes_layer(const char *name, size_t length);
 ps_result render_run(const struct scene *scene, struct render_settings *settings,
                      const struct render_callbacks *callbacks, struct statistics *statistics,
                      struct image *image, struct error *error);
+
+struct render;
+
+/* Looks at a render whose first pass has all but its indirect light: the G-buffer and direct light,
+ * in the tiles and, averaged, in the film. May use the services as an estimator does. */
+typedef ps_result (*render_inspector)(void *user, struct render *render, struct error *error);
+
+/* Starts a render of one pass, lets the inspector look, and ends it; there is no picture. Starts the
+ * strategies of `settings`, which may be used once. */
+ps_result render_inspect(const struct scene *scene, struct render_settings *settings,
+                         const struct render_callbacks *callbacks, struct statistics *statistics,
+                         render_inspector inspect, void *user, struct error *error);
+
+/* Starts the strategies and stops them again: whether they take their parameters, and the scene. */
+ps_result render_try(const struct scene *scene, struct render_settings *settings,
+                     const struct render_callbacks *callbacks, struct error *error);
+
+/* Lets the estimator add the indirect light of the pass under way to the tiles. */
+ps_result render_estimate(struct render *render, struct error *error);
 
 #endif

@@ -1,13 +1,14 @@
 /* render_create.c: what a render needs before its first pass, and how it ends. */
 #include "base/clock.h"
-#include "pipeline/render_state.h"
+#include "pipeline/stages.h"
 #include <stdlib.h>
 
-static ps_result start_strategies(struct render *render, struct error *error)
+ps_result render_start_strategies(struct render *render, struct error *error)
 {
     for (int kind = 0; kind < PS_KINDS; kind++) {
-        struct strategy *strategy = &render->settings->strategies[kind];
-        ps_result result = strategy_start(strategy, &render->host, error);
+        ps_result result =
+            strategy_start(strategy_in(render, (ps_kind)kind), &render->hosts[kind].host);
+        result = render_judge(render, (ps_kind)kind, result, error);
         if (result != PS_OK)
             return result;
     }
@@ -41,8 +42,8 @@ static ps_result create_shadow_maps(struct render *render, struct error *error)
 /* Those planes of the film are half of its memory, and of the time that adding to it takes. */
 static bool wants_surfaces(const struct render_settings *settings)
 {
-    const ps_denoiser_vtable *denoiser = settings->strategies[PS_DENOISER].descriptor->vtable;
-    return !settings->picture_alone || !denoiser->keeps_all;
+    return !settings->picture_alone ||
+           settings->strategies[PS_DENOISER].type->table.denoiser.filter != NULL;
 }
 
 static ps_result create_edges(struct render *render, struct error *error)
@@ -50,6 +51,21 @@ static ps_result create_edges(struct render *render, struct error *error)
     size_t count = (size_t)render->gbuffer.tile_count * PS_TILE_PIXELS;
     render->edges = calloc(count, sizeof *render->edges);
     return render->edges ? PS_OK : error_memory(error, count * sizeof *render->edges, "edges");
+}
+
+/* What the tables of some strategies ask for. */
+static ps_result create_for_strategies(struct render *render, struct error *error)
+{
+    uint32_t estimator = strategy_in(render, PS_ESTIMATOR)->type->table.estimator.flags;
+    uint32_t denoiser = strategy_in(render, PS_DENOISER)->type->table.denoiser.flags;
+    ps_result result = PS_OK;
+    if (estimator & PS_ESTIMATOR_RADIANCE)
+        result = gbuffer_prepare_radiance(&render->gbuffer, error);
+    if (result == PS_OK && denoiser & PS_DENOISER_IDS)
+        result = film_add_ids(&render->film, error);
+    if (result == PS_OK && denoiser & PS_DENOISER_HALVES && render->settings->passes > 1)
+        result = film_add_halves(&render->film, error);
+    return result;
 }
 
 ps_result render_create(struct render *render, struct error *error)
@@ -72,10 +88,11 @@ ps_result render_create(struct render *render, struct error *error)
     if (result == PS_OK && render->settings->aa_samples > 1)
         result = create_edges(render, error);
     if (result == PS_OK)
-        result = start_strategies(render, error);
+        result = create_for_strategies(render, error);
     if (result == PS_OK)
-        result = photon_stream_create(&render->photons, render->settings, &render->host,
-                                      &render->pass, render->statistics, error);
+        result = render_start_strategies(render, error);
+    if (result == PS_OK)
+        result = photon_stream_create(render, &render->photons, error);
     if (result != PS_OK)
         return result;
     statistics_set_bytes(render->statistics, "ray tracer", (double)trace_bytes(render->trace));
@@ -88,6 +105,7 @@ void render_destroy(struct render *render)
 {
     if (render->has_splatter)
         splatter_release(&render->splatter);
+    free(render->placed);
     gathered_light_release(&render->gathered_light);
     photon_stream_release(&render->photons);
     for (int kind = 0; kind < PS_KINDS; kind++)

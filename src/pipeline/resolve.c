@@ -1,7 +1,10 @@
 /* resolve.c: the film becomes a picture: normalization, ambient fallback, denoiser, combination. */
 #include "base/clock.h"
-#include "pipeline/render_state.h"
+#include "pipeline/render.h"
+#include "pipeline/stages.h"
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The layers of the picture that come straight from the film. */
@@ -79,16 +82,28 @@ static void copy_rgb(const struct render *render, struct rgb_planes from, struct
 }
 
 /* A last stage that fails, or is stopped, must not cost the picture: it is left out, with a warning. */
-static ps_result leave_out(const struct render *render, ps_kind kind, ps_result result,
+static ps_result leave_out(struct render *render, ps_kind kind, ps_result result,
                            const char *instead, struct error *error)
 {
-    char warning[256];
-    const char *name = render->settings->strategies[kind].descriptor->name;
-    const char *what = result == PS_CANCELLED ? "was stopped" : "failed";
-    snprintf(warning, sizeof warning, "%s %.80s %s; the picture %s", kinds[kind].name, name, what,
-             instead);
-    render->host.log(&render->host, PS_LOG_WARNING, warning);
-    return error_set(error, result, "%s %.80s %s", kinds[kind].name, name, what);
+    char warning[1400];
+    const char *name = strategy_in(render, kind)->type->name;
+    if (result == PS_CANCELLED)
+        error_set(error, result, "%s %.80s was stopped", kinds[kind].name, name);
+    snprintf(warning, sizeof warning, "%.1200s; the picture %s", error->text, instead);
+    own_host(render)->log(own_host(render), PS_LOG_WARNING, warning);
+    return result;
+}
+
+/* Makes what is no number, or negative, 0, and counts it. */
+static void mend(struct render *render, struct rgb_planes planes, uint64_t *refused)
+{
+    float *const channels[3] = {planes.r, planes.g, planes.b};
+    for (int c = 0; c < 3; c++)
+        for (size_t i = 0; i < pixels_of(render); i++)
+            if (!(channels[c][i] >= 0.0f && channels[c][i] < INFINITY)) {
+                channels[c][i] = 0.0f;
+                ++*refused;
+            }
 }
 
 /* The accumulated light as it stands (plugins/normalization/density.c). */
@@ -103,13 +118,10 @@ static void average_passes(const struct render *render, struct rgb_planes out)
     }
 }
 
-static ps_result normalize(struct render *render, struct rgb_planes out, struct error *error)
+static ps_film_view view_of(const struct film *film)
 {
-    const struct strategy *strategy = &render->settings->strategies[PS_NORMALIZATION];
-    const ps_normalization_vtable *vtable = strategy->descriptor->vtable;
-    const struct film *film = &render->film;
-    ps_film_view view = {
-        .size = sizeof view,
+    return (ps_film_view){
+        .size = sizeof(ps_film_view),
         .passes = film->passes,
         .pixel_count = film->width * film->height,
         .color_r = film->planes[FILM_COLOR_R],
@@ -118,13 +130,39 @@ static ps_result normalize(struct render *render, struct rgb_planes out, struct 
         .weight = film->planes[FILM_WEIGHT],
         .coverage = film->planes[FILM_COVERAGE],
     };
+}
+
+static ps_result normalize_film(struct render *render, const struct film *film,
+                                struct rgb_planes out, struct error *error)
+{
+    const struct strategy *strategy = strategy_in(render, PS_NORMALIZATION);
+    ps_film_view view = view_of(film);
     double start = clock_seconds();
-    ps_result result = vtable->resolve(strategy->state, &render->host, &view, out.r, out.g, out.b);
+    ps_result result = strategy->type->table.normalization.resolve(strategy->state, strategy->host,
+                                                                   &view, out.r, out.g, out.b);
     statistics_add_seconds(render->statistics, "normalize", clock_seconds() - start);
-    if (result == PS_OK)
-        return PS_OK;
-    average_passes(render, out);
-    return leave_out(render, PS_NORMALIZATION, result, "is normalized by density", error);
+    return render_judge(render, PS_NORMALIZATION, result, error);
+}
+
+/* Where nothing has weight, anything may stand, and the ambient colour will; so only what has counts. */
+static void mend_normalized(struct render *render, struct rgb_planes out)
+{
+    const float *weight = render->film.planes[FILM_WEIGHT];
+    for (size_t i = 0; i < pixels_of(render); i++)
+        if (!(weight[i] > 0.0f) && !isfinite(out.r[i] + out.g[i] + out.b[i]))
+            out.r[i] = out.g[i] = out.b[i] = 0.0f;
+    mend(render, out, &render->refused.pixels[1]);
+}
+
+static ps_result normalize(struct render *render, struct rgb_planes out, struct error *error)
+{
+    ps_result result = normalize_film(render, &render->film, out, error);
+    if (result != PS_OK) {
+        average_passes(render, out);
+        result = leave_out(render, PS_NORMALIZATION, result, "is normalized by density", error);
+    }
+    mend_normalized(render, out);
+    return result;
 }
 
 /* Pixels that no indirect light reached take the ambient colour (Hoet 2014, section 4.3). Light from nearby has no
@@ -145,17 +183,72 @@ static void fill_ambient(struct render *render, struct rgb_planes out)
     statistics_count(render->statistics, "pixels without weight", (double)dark);
 }
 
-/* Needs room for a copy of the light. */
-static ps_result denoise(struct render *render, struct rgb_planes indirect, struct rgb_planes copy,
-                         struct error *error)
+/* The indirect light of even and of odd passes, for a denoiser that asks: six planes in one piece of memory, of
+ * which the caller frees `light`. */
+struct halves {
+    float *light;
+    struct rgb_planes even, odd;
+};
+
+static struct rgb_planes planes_at(float *first, size_t pixels)
 {
-    const struct strategy *strategy = &render->settings->strategies[PS_DENOISER];
-    const ps_denoiser_vtable *vtable = strategy->descriptor->vtable;
-    float **planes = render->film.planes;
-    ps_image_view view = {
-        .size = sizeof view,
-        .width = (uint32_t)render->film.width,
-        .height = (uint32_t)render->film.height,
+    return (struct rgb_planes){first, first + pixels, first + 2 * pixels};
+}
+
+/* What the odd passes leave of the film. */
+static void subtract_odd(const struct film *film, float *sums, struct film *even)
+{
+    static const enum film_plane planes[] = {FILM_COLOR_R, FILM_COLOR_G, FILM_COLOR_B, FILM_WEIGHT,
+                                             FILM_COVERAGE};
+    size_t pixels = film->width * film->height;
+    *even = (struct film){
+        .width = film->width,
+        .height = film->height,
+        .passes = film->passes - film->odd->passes,
+    };
+    for (size_t k = 0; k < sizeof planes / sizeof planes[0]; k++, sums += pixels) {
+        const float *all = film->planes[planes[k]], *odd = film->odd->planes[planes[k]];
+        for (size_t i = 0; i < pixels; i++)
+            sums[i] = fmaxf(all[i] - odd[i], 0.0f);
+        even->planes[planes[k]] = sums;
+    }
+}
+
+static ps_result make_halves(struct render *render, struct halves *halves, struct error *error)
+{
+    const struct film *film = &render->film;
+    size_t pixels = pixels_of(render);
+    *halves = (struct halves){.light = NULL};
+    if (!film->odd || film->odd->passes == 0)
+        return PS_OK;
+    float *sums = malloc(5 * pixels * sizeof *sums);
+    halves->light = malloc(6 * pixels * sizeof *sums);
+    ps_result result = sums && halves->light
+                           ? PS_OK
+                           : error_memory(error, 11 * pixels * sizeof *sums, "half the film");
+    if (result == PS_OK) {
+        struct film even;
+        subtract_odd(film, sums, &even);
+        halves->even = planes_at(halves->light, pixels);
+        halves->odd = planes_at(halves->light + 3 * pixels, pixels);
+        result = normalize_film(render, &even, halves->even, error);
+        if (result == PS_OK)
+            result = normalize_film(render, film->odd, halves->odd, error);
+    }
+    free(sums);
+    return result;
+}
+
+static ps_image_view image_of(const struct render *render, struct rgb_planes indirect,
+                              const struct halves *halves)
+{
+    const struct film *film = &render->film;
+    float *const *planes = film->planes;
+    return (ps_image_view){
+        .size = sizeof(ps_image_view),
+        .width = (uint32_t)film->width,
+        .height = (uint32_t)film->height,
+        .passes = film->passes,
         .r = indirect.r,
         .g = indirect.g,
         .b = indirect.b,
@@ -169,16 +262,38 @@ static ps_result denoise(struct render *render, struct rgb_planes indirect, stru
         .position_y = planes[FILM_POSITION_Y],
         .position_z = planes[FILM_POSITION_Z],
         .depth = planes[FILM_DEPTH],
+        .weight = planes[FILM_WEIGHT],
+        .coverage = planes[FILM_COVERAGE],
+        .object = film->object,
+        .material = film->material,
+        .even_r = halves->even.r,
+        .even_g = halves->even.g,
+        .even_b = halves->even.b,
+        .odd_r = halves->odd.r,
+        .odd_g = halves->odd.g,
+        .odd_b = halves->odd.b,
     };
-    double start = clock_seconds();
-    if (!vtable->keeps_all)
-        copy_rgb(render, indirect, copy);
-    ps_result result = vtable->filter(strategy->state, &render->host, &view);
-    statistics_add_seconds(render->statistics, "denoise", clock_seconds() - start);
-    if (result == PS_OK)
+}
+
+/* Needs room for a copy of the light. */
+static ps_result denoise(struct render *render, struct rgb_planes indirect, struct rgb_planes copy,
+                         const struct halves *halves, struct error *error)
+{
+    const struct strategy *strategy = strategy_in(render, PS_DENOISER);
+    const ps_denoiser_vtable *table = &strategy->type->table.denoiser;
+    ps_image_view view = image_of(render, indirect, halves);
+    if (!table->filter)
         return PS_OK;
-    if (!vtable->keeps_all)
-        copy_rgb(render, copy, indirect);
+    double start = clock_seconds();
+    copy_rgb(render, indirect, copy);
+    ps_result result = table->filter(strategy->state, strategy->host, &view);
+    statistics_add_seconds(render->statistics, "denoise", clock_seconds() - start);
+    result = render_judge(render, PS_DENOISER, result, error);
+    if (result == PS_OK) {
+        mend(render, indirect, &render->refused.pixels[2]);
+        return PS_OK;
+    }
+    copy_rgb(render, copy, indirect);
     return leave_out(render, PS_DENOISER, result, "is not denoised", error);
 }
 
@@ -209,8 +324,13 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
     }
     ps_result normalized = normalize(render, indirect, error);
     fill_ambient(render, indirect);
+    struct halves halves;
+    ps_result halved = make_halves(render, &halves, error);
     film_average(&render->film);
-    ps_result denoised = denoise(render, indirect, picture, error);
+    ps_result denoised = halved == PS_OK
+                             ? denoise(render, indirect, picture, &halves, error)
+                             : leave_out(render, PS_DENOISER, halved, "is not denoised", error);
+    free(halves.light);
     combine(render, indirect, picture);
     result = move_film_layers(&render->film, image, error);
     statistics_add_seconds(render->statistics, "resolve", clock_seconds() - start);

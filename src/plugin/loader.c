@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #define LONGEST_ATTEMPTS 3400
+#define LOADER_LONGEST_PATH 4096
 #define SUFFIX ".so"
 
 /* Modules that are linked into the program; NULL-terminated. Empty in ordinary builds. */
@@ -18,6 +19,8 @@ extern const ps_module *const static_modules[];
 struct loader {
     char **folders; /* searched in order */
     size_t folder_count;
+    loader_warn warn; /* NULL: nobody listens */
+    void *user;
 };
 
 static bool add_folder(struct loader *loader, const char *path, size_t length)
@@ -137,20 +140,15 @@ static void say_what_it_holds(const ps_module *module, ps_kind kind, const char 
               name ? " of that name" : "");
 }
 
-/* The strategy of a kind in a file; name NULL takes any. */
-static const ps_descriptor *load_file(const char *path, ps_kind kind, const char *name,
-                                      struct error *error)
+/* The module in a file; NULL, and why, where there is none that can be used. */
+static const ps_module *load_module(const char *path, struct error *error)
 {
     struct stat status;
     if (stat(path, &status) != 0) {
         error_set(error, PS_ERROR_IO, "no such file");
         return NULL;
     }
-    if (!S_ISREG(status.st_mode)) {
-        error_set(error, PS_ERROR_INVALID, "it is no ordinary file");
-        return NULL;
-    }
-    const char *problem = elf_problem(path);
+    const char *problem = S_ISREG(status.st_mode) ? elf_problem(path) : "it is no ordinary file";
     if (problem) {
         error_set(error, PS_ERROR_INVALID, "%s", problem);
         return NULL;
@@ -165,40 +163,91 @@ static const ps_descriptor *load_file(const char *path, ps_kind kind, const char
         error_set(error, PS_ERROR_INVALID, "it is no psplat plugin: no symbol psplat_module_v1");
         return NULL;
     }
-    if (!module_check(module, error))
-        return NULL;
+    return module_check(module, error) ? module : NULL;
+}
+
+/* The strategy of a kind in a file; name NULL takes any. PS_ERROR_IO: there is no such file. */
+static ps_result load_file(const char *path, ps_kind kind, const char *name,
+                           struct strategy_type **type, struct error *error)
+{
+    const ps_module *module = load_module(path, error);
+    if (!module)
+        return access(path, F_OK) == 0 ? PS_ERROR_INVALID : PS_ERROR_IO;
     const ps_descriptor *descriptor = pick(module, kind, name);
-    if (!descriptor)
-        say_what_it_holds(module, kind, name, error);
-    return descriptor;
+    if (descriptor)
+        return strategy_type_create(descriptor, path, type, error);
+    say_what_it_holds(module, kind, name, error);
+    return PS_ERROR_INVALID;
 }
 
-/* Searches the folders in order; appends "; tried PATH: REASON" to attempts for each miss. Whether it was found. */
-static bool search(struct loader *loader, ps_kind kind, const char *name,
-                   char attempts[LONGEST_ATTEMPTS], struct found_strategy *found)
+/* What a search came by. */
+struct trail {
+    char attempts[LONGEST_ATTEMPTS]; /* "; tried PATH: REASON" for each miss */
+    char notes
+        [LONGEST_ATTEMPTS]; /* lines about what was passed over, "" where there is nothing to say */
+};
+
+static void append_note(struct trail *trail, const char *format, const char *one, const char *other)
 {
-    *found = (struct found_strategy){.descriptor = find_static(kind, name)};
-    for (size_t i = 0; i < loader->folder_count && !found->descriptor; i++) {
-        struct error reason;
-        snprintf(found->file, sizeof found->file, "%s/%s/%s" SUFFIX, loader->folders[i],
-                 kinds[kind].name, name);
-        found->descriptor = load_file(found->file, kind, name, &reason);
-        size_t used = strlen(attempts);
-        if (!found->descriptor)
-            snprintf(attempts + used, LONGEST_ATTEMPTS - used, "; tried %s: %s", found->file,
-                     reason.text);
+    size_t used = strlen(trail->notes);
+    if (used > 0 && used + 1 < sizeof trail->notes)
+        trail->notes[used++] = '\n';
+    snprintf(trail->notes + used, sizeof trail->notes - used, format, one, other);
+}
+
+/* Where a strategy of that name would lie. */
+static void path_of(const struct loader *loader, size_t folder, ps_kind kind, const char *name,
+                    char path[LOADER_LONGEST_PATH])
+{
+    snprintf(path, LOADER_LONGEST_PATH, "%s/%s/%s" SUFFIX, loader->folders[folder],
+             kinds[kind].name, name);
+}
+
+/* Notes the files after the one that was taken which have the same name. */
+static void note_hidden(const struct loader *loader, size_t first, ps_kind kind, const char *name,
+                        const char *taken, struct trail *trail)
+{
+    char path[LOADER_LONGEST_PATH];
+    for (size_t i = first; i < loader->folder_count; i++) {
+        path_of(loader, i, kind, name, path);
+        if (access(path, F_OK) == 0)
+            append_note(trail, "plugin %.1500s hides %.1500s", taken, path);
     }
-    return found->descriptor != NULL;
 }
 
-static void append_suggestion(void *user, const char *name, const ps_descriptor *descriptor,
-                              const char *problem)
+/* Searches the folders in order; NULL where none has it. */
+static struct strategy_type *search(const struct loader *loader, ps_kind kind, const char *name,
+                                    struct trail *trail)
 {
-    (void)problem;
+    struct strategy_type *type = NULL;
+    struct error reason;
+    *trail = (struct trail){.attempts = ""};
+    const ps_descriptor *linked = find_static(kind, name);
+    if (linked && strategy_type_create(linked, NULL, &type, &reason) == PS_OK)
+        return type;
+    for (size_t i = 0; i < loader->folder_count && !type; i++) {
+        char path[LOADER_LONGEST_PATH];
+        path_of(loader, i, kind, name, path);
+        ps_result result = load_file(path, kind, name, &type, &reason);
+        size_t used = strlen(trail->attempts);
+        if (result == PS_OK) {
+            note_hidden(loader, i + 1, kind, name, path, trail);
+            return type;
+        }
+        snprintf(trail->attempts + used, sizeof trail->attempts - used, "; tried %s: %s", path,
+                 reason.text);
+        if (result != PS_ERROR_IO)
+            append_note(trail, "plugin %.1500s is passed over: %.1500s", path, reason.text);
+    }
+    return NULL;
+}
+
+static void append_suggestion(void *user, const struct listed_strategy *listed)
+{
     char *names = user;
     size_t used = strlen(names);
-    if (descriptor && used < 200)
-        snprintf(names + used, 240 - used, "%s%s", used ? ", " : "", name);
+    if (listed->type && used < 200)
+        snprintf(names + used, 240 - used, "%s%s", used ? ", " : "", listed->name);
 }
 
 static ps_result not_found(struct loader *loader, ps_kind kind, const char *name,
@@ -216,24 +265,38 @@ static bool is_plain_name(const char *name)
     return *name && strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_-") == strlen(name);
 }
 
+/* Each line of the notes is a warning. */
+static void warn(const struct loader *loader, char *notes)
+{
+    for (char *rest = notes, *line; loader->warn && (line = strtok_r(rest, "\n", &rest));)
+        loader->warn(loader->user, line);
+}
+
 ps_result loader_find(struct loader *loader, ps_kind kind, const char *name,
-                      struct found_strategy *found, struct error *error)
+                      struct strategy_type **found, struct error *error)
 {
     if (strchr(name, '/')) {
         struct error reason;
-        *found = (struct found_strategy){.descriptor = load_file(name, kind, NULL, &reason)};
-        snprintf(found->file, sizeof found->file, "%s", name);
-        if (found->descriptor)
+        ps_result result = load_file(name, kind, NULL, found, &reason);
+        if (result == PS_OK)
             return PS_OK;
         return error_set(error, PS_ERROR_INVALID, "%s plugin %.300s: %.600s", kinds[kind].name,
                          name, reason.text);
     }
     if (!is_plain_name(name))
         return not_found(loader, kind, name, "", error);
-    char attempts[LONGEST_ATTEMPTS] = "";
-    if (search(loader, kind, name, attempts, found))
-        return PS_OK;
-    return not_found(loader, kind, name, attempts, error);
+    struct trail trail;
+    *found = search(loader, kind, name, &trail);
+    if (!*found)
+        return not_found(loader, kind, name, trail.attempts, error);
+    warn(loader, trail.notes);
+    return PS_OK;
+}
+
+void loader_set_warnings(struct loader *loader, loader_warn listener, void *user)
+{
+    loader->warn = listener;
+    loader->user = user;
 }
 
 /* A growing list of names, for loader_list. */
@@ -308,10 +371,11 @@ ps_result loader_list(struct loader *loader, ps_kind kind, loader_visit visit, v
     if (names.count)
         qsort(names.items, names.count, sizeof *names.items, compare_names);
     for (size_t i = 0; i < names.count; i++) {
-        char attempts[LONGEST_ATTEMPTS] = "";
-        struct found_strategy found;
-        search(loader, kind, names.items[i], attempts, &found);
-        visit(user, names.items[i], found.descriptor, attempts);
+        struct trail trail;
+        struct strategy_type *type = search(loader, kind, names.items[i], &trail);
+        visit(user,
+              &(struct listed_strategy){names.items[i], type, type ? trail.notes : trail.attempts});
+        strategy_type_destroy(type);
     }
     release_names(&names);
     return PS_OK;

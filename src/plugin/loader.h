@@ -9,7 +9,7 @@
 #define PLUGIN_LOADER_H
 
 #include "base/error.h"
-#include "plugin/kind.h"
+#include "plugin/strategy_type.h"
 #include <stdbool.h>
 
 struct loader;
@@ -18,27 +18,26 @@ struct loader;
 ps_result loader_create(struct loader **loader, struct error *error);
 void loader_destroy(struct loader *loader);
 
-#define LOADER_LONGEST_PATH 4096
+/* Finds a strategy, which the caller destroys. The message of a failure lists every path that was tried and why
+ * each failed. Main thread. */
+ps_result loader_find(struct loader *loader, ps_kind kind, const char *name,
+                      struct strategy_type **found, struct error *error);
 
-struct found_strategy {
-    const ps_descriptor *descriptor;
-    char file[LOADER_LONGEST_PATH]; /* empty: linked into the program */
+/* A strategy that loader_list found, or a name under which none could be loaded. */
+struct listed_strategy {
+    const char *name;
+    const struct strategy_type *type; /* NULL: none can be used */
+    const char *problem; /* why, and what was passed over on the way; "" where nothing is wrong */
 };
 
-/* Finds a strategy. The message of a failure lists every path that was tried and why each failed.
- * Main thread. */
-ps_result loader_find(struct loader *loader, ps_kind kind, const char *name,
-                      struct found_strategy *found, struct error *error);
-
-/* Calls visit for every strategy of a kind that can be found by name, in alphabetical order; a
- * module that can't be loaded is visited with a NULL descriptor and the reason. */
-typedef void (*loader_visit)(void *user, const char *name, const ps_descriptor *descriptor,
-                             const char *problem);
+/* Calls visit for every name of a kind that can be found, in alphabetical order. */
+typedef void (*loader_visit)(void *user, const struct listed_strategy *listed);
 ps_result loader_list(struct loader *loader, ps_kind kind, loader_visit visit, void *user,
                       struct error *error);
 
-/* Whether a module may be used; on failure the message says what is wrong with it. For the loader,
- * and for tests. */
-bool module_check(const ps_module *module, struct error *error);
+/* Called with a line for what loader_find passes over: a broken module in front of the one that it takes, or
+ * another that this one hides. */
+typedef void (*loader_warn)(void *user, const char *message);
+void loader_set_warnings(struct loader *loader, loader_warn warn, void *user);
 
 #endif

@@ -1,5 +1,5 @@
 /* module_check.c: judges a module by its data alone, before any of its functions is called. */
-#include "plugin/loader.h"
+#include "plugin/strategy_type.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -10,19 +10,29 @@ static bool reject(struct error *error, const char *why)
     return false;
 }
 
-static size_t vtable_size(uint32_t kind)
-{
-    static const size_t sizes[PS_KINDS] = {
-        [PS_INJECTION] = sizeof(ps_injection_vtable),
-        [PS_STRATIFICATION] = sizeof(ps_stratification_vtable),
-        [PS_VISIBILITY] = sizeof(ps_visibility_vtable),
-        [PS_FILTER] = sizeof(ps_filter_vtable),
-        [PS_ESTIMATOR] = sizeof(ps_estimator_vtable),
-        [PS_NORMALIZATION] = sizeof(ps_normalization_vtable),
-        [PS_DENOISER] = sizeof(ps_denoiser_vtable),
-    };
-    return sizes[kind];
-}
+/* What a struct of version 1.0 of the interface ended with: it may have grown since, and a module's may not be
+ * shorter. */
+#define FIRST_SIZE(type, last) (offsetof(type, last) + sizeof(((type *)NULL)->last))
+
+/* What a kind's table has to hold: so many bytes, and these functions. */
+struct table_rule {
+    size_t first_size;
+    size_t required[2]; /* offsets; 0: none */
+};
+
+static const struct table_rule table_rules[PS_KINDS] = {
+    [PS_INJECTION] = {FIRST_SIZE(ps_injection_vtable, prepare),
+                      {offsetof(ps_injection_vtable, path_count),
+                       offsetof(ps_injection_vtable, emit)}},
+    [PS_STRATIFICATION] = {FIRST_SIZE(ps_stratification_vtable, find_strata), {0, 0}},
+    [PS_VISIBILITY] = {FIRST_SIZE(ps_visibility_vtable, visible), {0, 0}},
+    [PS_FILTER] = {FIRST_SIZE(ps_filter_vtable, weigh), {offsetof(ps_filter_vtable, weigh), 0}},
+    [PS_ESTIMATOR] = {FIRST_SIZE(ps_estimator_vtable, end),
+                      {offsetof(ps_estimator_vtable, accumulate), 0}},
+    [PS_NORMALIZATION] = {FIRST_SIZE(ps_normalization_vtable, resolve),
+                          {offsetof(ps_normalization_vtable, resolve), 0}},
+    [PS_DENOISER] = {FIRST_SIZE(ps_denoiser_vtable, filter), {0, 0}},
+};
 
 static size_t member_size(uint32_t type)
 {
@@ -39,23 +49,15 @@ static size_t member_size(uint32_t type)
     return type < sizeof sizes / sizeof sizes[0] ? sizes[type] : 0;
 }
 
-/* Every table of functions is two 32-bit numbers and then pointers, all of which must be there but
- * a visibility's depth maps and its test of points (it may have either, or neither), an injection's
- * prepare, and a stratification's cells, which two more numbers follow. */
-static bool check_functions(const ps_descriptor *descriptor, struct error *error)
+static bool check_table(const ps_descriptor *descriptor, struct error *error)
 {
-    static const size_t first = 2 * sizeof(uint32_t);
-    const char *vtable = descriptor->vtable;
-    size_t size = vtable_size(descriptor->kind);
-    if (descriptor->kind == PS_VISIBILITY)
-        size = offsetof(ps_visibility_vtable, depth_maps);
-    if (descriptor->kind == PS_INJECTION)
-        size = offsetof(ps_injection_vtable, prepare);
-    if (descriptor->kind == PS_STRATIFICATION)
-        size = offsetof(ps_stratification_vtable, cells);
-    for (size_t offset = first; offset < size; offset += sizeof(void (*)(void))) {
+    const struct table_rule *rule = &table_rules[descriptor->kind];
+    const uint32_t *leading_size = descriptor->vtable;
+    if (!leading_size || *leading_size < rule->first_size)
+        return reject(error, "its table of functions is too small");
+    for (int i = 0; i < 2 && rule->required[i]; i++) {
         void (*function)(void);
-        memcpy(&function, vtable + offset, sizeof function);
+        memcpy(&function, (const char *)descriptor->vtable + rule->required[i], sizeof function);
         if (!function)
             return reject(error, "its table of functions lacks one");
     }
@@ -98,21 +100,18 @@ static bool check_params(const ps_descriptor *descriptor, struct error *error)
 
 static bool check_descriptor(const ps_descriptor *descriptor, struct error *error)
 {
-    if (!descriptor || descriptor->size < sizeof(ps_descriptor))
-        return reject(error, "its descriptor is too small for this version of the interface");
+    if (!descriptor || descriptor->size < FIRST_SIZE(ps_descriptor, vtable))
+        return reject(error, "its descriptor is too small");
     if (descriptor->kind >= PS_KINDS)
         return reject(error, "its descriptor is of an unknown kind");
     if (!descriptor->name || !descriptor->version || !descriptor->summary || !descriptor->paper)
         return reject(error, "its descriptor lacks a name, version, summary or paper");
-    const uint32_t *leading_size = descriptor->vtable;
-    if (!leading_size || *leading_size < vtable_size(descriptor->kind))
-        return reject(error, "its table of functions is too small for this version");
-    if (!check_functions(descriptor, error))
+    if (!check_table(descriptor, error))
         return false;
     if (descriptor->param_count && !descriptor->params)
         return reject(error, "its parameter table is missing");
-    if (descriptor->param_count && descriptor->param_size < sizeof(ps_param))
-        return reject(error, "its parameter rows are too small for this version");
+    if (descriptor->param_count && descriptor->param_size < FIRST_SIZE(ps_param, help))
+        return reject(error, "its parameter rows are too small");
     return check_params(descriptor, error);
 }
 
@@ -129,7 +128,8 @@ bool module_check(const ps_module *module, struct error *error)
     }
     if (module->fingerprint != PS_LAYOUT_FINGERPRINT)
         return reject(error, "its structs are laid out otherwise (another compiler or flags?)");
-    if (module->size < sizeof(ps_module) || module->descriptor_count == 0 || !module->descriptors)
+    if (module->size < FIRST_SIZE(ps_module, descriptors) || module->descriptor_count == 0 ||
+        !module->descriptors)
         return reject(error, "it describes no strategy");
     for (uint32_t i = 0; i < module->descriptor_count; i++)
         if (!check_descriptor(module->descriptors[i], error))

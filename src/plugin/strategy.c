@@ -4,55 +4,44 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct param_table strategy_params(const ps_descriptor *descriptor)
+const void *strategy_shared(const struct strategy *strategy)
 {
-    return (struct param_table){descriptor->params, descriptor->param_count,
-                                descriptor->param_size};
+    return (const char *)strategy->state + strategy->type->shared_offset;
 }
 
 ps_result strategy_create(struct loader *loader, ps_kind kind, const char *name,
                           struct strategy *strategy, struct error *error)
 {
-    struct found_strategy found;
-    ps_result result = loader_find(loader, kind, name, &found, error);
+    struct strategy_type *type;
+    ps_result result = loader_find(loader, kind, name, &type, error);
     if (result != PS_OK)
         return result;
-    const ps_descriptor *descriptor = found.descriptor;
-    size_t bytes = descriptor->state_size ? (size_t)descriptor->state_size : 1;
     *strategy = (struct strategy){
         .name = strdup(name),
-        .descriptor = descriptor,
-        .state = calloc(1, bytes),
+        .type = type,
+        .state = calloc(1, type->state_size),
     };
-    if (!strategy->name || !strategy->state) {
+    struct param_table table = strategy_type_params(type);
+    result = strategy->name && strategy->state
+                 ? param_set_defaults(&table, strategy->state, error)
+                 : error_memory(error, type->state_size, "a plugin's state");
+    if (result != PS_OK)
         strategy_release(strategy);
-        return error_memory(error, bytes, "a plugin's state");
-    }
-    struct param_table table = strategy_params(descriptor);
-    struct error reason;
-    result = param_set_defaults(&table, strategy->state, &reason);
-    if (result == PS_OK)
-        return PS_OK;
-    strategy_release(strategy);
-    return error_set(error, result, "%s plugin %s has a bad default: %.700s",
-                     kinds[descriptor->kind].name, descriptor->name, reason.text);
+    return result;
 }
 
-ps_result strategy_start(struct strategy *strategy, const ps_host *host, struct error *error)
+ps_result strategy_start(struct strategy *strategy, const ps_host *host)
 {
-    const ps_descriptor *descriptor = strategy->descriptor;
-    char message[512] = "no reason given";
-    if (descriptor->init && descriptor->init(strategy->state, host, message, sizeof message) != 0)
-        return error_set(error, PS_ERROR_INVALID, "%s %s: %s", kinds[descriptor->kind].name,
-                         descriptor->name, message);
-    strategy->host = host;
-    return PS_OK;
+    ps_result result = strategy->type->init ? strategy->type->init(strategy->state, host) : PS_OK;
+    if (result == PS_OK)
+        strategy->host = host;
+    return result;
 }
 
 void strategy_stop(struct strategy *strategy)
 {
-    if (strategy->host && strategy->descriptor->destroy)
-        strategy->descriptor->destroy(strategy->state, strategy->host);
+    if (strategy->host && strategy->type->destroy)
+        strategy->type->destroy(strategy->state, strategy->host);
     strategy->host = NULL;
 }
 
@@ -60,17 +49,18 @@ void strategy_release(struct strategy *strategy)
 {
     strategy_stop(strategy);
     if (strategy->state) {
-        struct param_table table = strategy_params(strategy->descriptor);
+        struct param_table table = strategy_type_params(strategy->type);
         param_release(&table, strategy->state);
     }
+    strategy_type_destroy(strategy->type);
     free(strategy->state);
     free(strategy->name);
-    *strategy = (struct strategy){.descriptor = NULL};
+    *strategy = (struct strategy){.type = NULL};
 }
 
 void strategy_format(const struct strategy *strategy, char *text, size_t size)
 {
-    struct param_table table = strategy_params(strategy->descriptor);
+    struct param_table table = strategy_type_params(strategy->type);
     size_t used = (size_t)snprintf(text, size, "%s", strategy->name);
     for (size_t i = 0; i < table.count && used < size; i++) {
         const ps_param *row = param_row(&table, i);

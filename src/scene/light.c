@@ -208,6 +208,19 @@ void light_sample(const struct light *light, const ps_vec3 *positions, const ps_
             samples[i].weight = black;
 }
 
+ps_vec3 light_sample_normal(const struct light *light, ps_vec3 position, const float numbers[2],
+                            const struct light_sample *sample)
+{
+    ps_vec3 normal = {0, 0, 0};
+    if (light->emitter == EMITTER_SPHERE) {
+        ps_vec3 point = ps_add_scaled(position, sample->distance, sample->direction);
+        normal = ps_normalize(ps_subtract(point, light->sphere.center));
+    } else if (light->emitter == EMITTER_MESH && light->surface.area > 0.0f) {
+        normal = light_surface_normal(&light->surface, numbers);
+    }
+    return ps_dot(normal, sample->direction) > 0.0f ? ps_scale(normal, -1.0f) : normal;
+}
+
 float light_pdf(const struct light *light, ps_vec3 position, ps_vec3 direction, float distance,
                 ps_vec3 normal)
 {

@@ -183,6 +183,11 @@ struct light_sample {
 void light_sample(const struct light *light, const ps_vec3 *positions, const ps_vec3 *normals,
                   const float (*numbers)[2], size_t n, struct light_sample *samples);
 
+/* The normal of the light's surface, on the side that is seen, at what light_sample chose by the two numbers; 0
+ * where it has no surface. */
+ps_vec3 light_sample_normal(const struct light *light, ps_vec3 position, const float numbers[2],
+                            const struct light_sample *sample);
+
 /* The density by which light_sample chooses `direction` from `position`, if a ray in that direction
  * meets the light at `distance`, where its front's unit normal is `normal`; of sun and sky these
  * two do not matter. Of a mesh it is that of this point alone: where others lie in line with it,

@@ -50,6 +50,7 @@ ps_rgb light_surface_emit(const struct light_surface *surface, const float u[4],
                           ps_vec3 *normal);
 void light_surface_sample(const struct light_surface *surface, const ps_vec3 *positions,
                           const float (*numbers)[2], size_t n, struct light_sample *samples);
+ps_vec3 light_surface_normal(const struct light_surface *surface, const float numbers[2]);
 float light_surface_pdf(const struct light_surface *surface, ps_vec3 direction, float distance,
                         ps_vec3 normal);
 

@@ -217,6 +217,11 @@ static inline float cosine_at_light(ps_vec3 direction, ps_vec3 normal, bool both
     return both_sides ? fabsf(cosine) : cosine;
 }
 
+ps_vec3 light_surface_normal(const struct light_surface *surface, const float numbers[2])
+{
+    return choose_point(surface, numbers[0], numbers[1]).normal;
+}
+
 float light_surface_pdf(const struct light_surface *surface, ps_vec3 direction, float distance,
                         ps_vec3 normal)
 {

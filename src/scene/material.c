@@ -397,6 +397,79 @@ ps_bsdf_sample material_scatter(const struct material *material,
     return scattered;
 }
 
+/* The lobe's part of the value, with light that comes from `in` and leaves to `out`, or the other way round;
+ * `eye`: the cosine of where it leaves to. Directions in the shading frame; `pdf` becomes the density by which
+ * material_scatter draws `in`, given `out`. */
+static ps_rgb evaluate_lobe(const struct lobe *lobe, const struct view *view, ps_vec3 out,
+                            ps_vec3 in, float eye, float *pdf)
+{
+    const struct component *component = lobe->component;
+    *pdf = 0.0f;
+    if (!component) {
+        *pdf = lobe->probability * in.z / PS_PI;
+        return ps_rgb_scale(all_diffuse_albedo(view, eye), in.z / PS_PI);
+    }
+    float roughness =
+        component->kind == COMPONENT_DIELECTRIC ? 0.0f : roughness_at(component, view->hit);
+    if (component->constant || is_smooth(roughness))
+        return (ps_rgb){0, 0, 0};
+    ps_rgb f0 = color_at(&component->specular, view->hit);
+    *pdf = lobe->probability * microfacet_pdf(roughness, out, in);
+    return ps_rgb_scale(ps_rgb_multiply(microfacet_reflect(roughness, f0, out, in),
+                                        microfacet_compensation(view->table, f0, roughness, eye)),
+                        component->share);
+}
+
+/* All lobes; the ray leaves them along view->out, or comes from there. */
+static ps_rgb evaluate_lobes(const struct view *view, ps_direction direction, ps_vec3 out,
+                             ps_vec3 in, float *pdf)
+{
+    struct lobe lobes[MOST_LOBES];
+    size_t count = list_lobes(view, lobes);
+    ps_rgb sum = {0, 0, 0};
+    *pdf = 0.0f;
+    for (size_t i = 0; i < count; i++) {
+        float own;
+        float eye = direction == PS_FROM_CAMERA ? view->cosine : in.z;
+        sum = ps_rgb_add(sum, evaluate_lobe(&lobes[i], view, out, in, eye, &own));
+        *pdf += own;
+    }
+    return sum;
+}
+
+ps_bsdf_value material_evaluate(const struct material *material,
+                                const struct microfacet_table *table, ps_direction direction,
+                                const ps_ray *ray, const ps_hit *hit, ps_vec3 away)
+{
+    struct view view = view_of(material, table, hit, ray->direction);
+    struct view reverse = view_of(material, table, hit, ps_scale(away, -1.0f));
+    ps_bsdf_value value = {.pdf = 0.0f};
+    ps_vec3 frame[3];
+    shading_frame(hit, frame);
+    ps_vec3 out = to_frame(frame, view.out), in = to_frame(frame, away);
+    if (!(in.z > 0.0f && ps_dot(away, hit->geometric_normal) > 0.0f))
+        return value;
+    out.z = fmaxf(out.z, SMALLEST_COSINE);
+    value.value = evaluate_lobes(&view, direction, out, in, &value.pdf);
+    evaluate_lobes(&reverse, direction, in, out, &value.reverse_pdf);
+    if (direction == PS_FROM_LIGHT)
+        value.value = ps_rgb_scale(value.value, shading_correction(&view, away));
+    return value;
+}
+
+float material_roughness(const struct material *material, const ps_hit *hit)
+{
+    float least = 1.0f;
+    for (uint32_t i = 0; i < material->component_count; i++) {
+        const struct component *component = &material->components[i];
+        if (component->kind == COMPONENT_DIFFUSE)
+            continue;
+        bool mirrors = component->kind == COMPONENT_DIELECTRIC || component->constant;
+        least = fminf(least, mirrors ? 0.0f : roughness_at(component, hit));
+    }
+    return is_smooth(least) ? 0.0f : least;
+}
+
 ps_rgb material_gloss(const struct material *material, const struct microfacet_table *table,
                       const ps_ray *ray, const ps_hit *hit, ps_vec3 in, float light_pdf)
 {

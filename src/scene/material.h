@@ -76,10 +76,18 @@ ps_rgb material_albedo(const struct material *material, const struct microfacet_
 /* Radiance that the surface emits along the ray, towards its origin. */
 ps_rgb material_emission(const struct material *material, const ps_hit *hit);
 
-/* See ps_host.scatter. */
+/* See ps_host.sample_bsdf. */
 ps_bsdf_sample material_scatter(const struct material *material,
                                 const struct microfacet_table *table, ps_direction direction,
                                 const ps_ray *ray, const ps_hit *hit, const float sample[4]);
+
+/* See ps_host.evaluate_bsdf. */
+ps_bsdf_value material_evaluate(const struct material *material,
+                                const struct microfacet_table *table, ps_direction direction,
+                                const ps_ray *ray, const ps_hit *hit, ps_vec3 away);
+
+/* See ps_hit.roughness. */
+float material_roughness(const struct material *material, const ps_hit *hit);
 
 /* Radiance towards the ray's origin by its rough reflectors for irradiance 1 across the beam that
  * comes from unit direction `in`: f * cosine, weighed against material_scatter's sampling for a light

@@ -48,16 +48,16 @@ struct wall {
 };
 
 /* How far to look for the walls of a splat: across a bundle that leaves at a slope the way is shorter. */
-static float length_for(const ps_photon *photon, const ps_splat *splat)
+static float length_for(const ps_photon *photon, const struct splat *splat)
 {
-    return REACH * splat->half_width * ps_min(1.0f / footprint_cosine(photon), MOST_SLOPE);
+    return REACH * splat->bundle.radius * ps_min(1.0f / footprint_cosine(photon), MOST_SLOPE);
 }
 
 /* `height` above the surface, so far as `length`. */
 static struct star look_around(const ps_host *host, const ps_photon *photon, float height,
                                float length)
 {
-    _Alignas(64) ps_packet packet;
+    _Alignas(64) ps_ray_packet packet;
     struct star star;
     ps_vec3 u, v, origin = ps_add_scaled(photon->position, height, photon->normal);
     ps_frame(photon->normal, &u, &v);
@@ -76,11 +76,11 @@ static struct star look_around(const ps_host *host, const ps_photon *photon, flo
     return star;
 }
 
-static struct free_way way_across(const struct star *star, const ps_splat *splat)
+static struct free_way way_across(const struct star *star, const struct splat *splat)
 {
     struct free_way way;
-    ps_vec3 axis_u = splat->axis_u, axis_v = splat->axis_v;
-    float nearer = 1.0f / (REACH * splat->half_width);
+    ps_vec3 axis_u = splat->bundle.axis_u, axis_v = splat->bundle.axis_v;
+    float nearer = 1.0f / (REACH * splat->bundle.radius);
 #pragma omp simd
     for (int i = 0; i < AZIMUTHS; i++) {
         ps_vec3 direction = {star->x[i], star->y[i], star->z[i]};
@@ -159,14 +159,14 @@ static int first_stopped(const float left[AZIMUTHS])
     return nearest;
 }
 
-static void add_wall(const struct wall *wall, ps_splat *splat)
+static void add_wall(const struct wall *wall, struct splat *splat)
 {
     float inverse = sqrtf(wall->a * wall->a + wall->b * wall->b);
-    ps_boundary *added = &splat->boundaries[splat->boundary_count++];
+    ps_boundary *added = &splat->bundle.boundaries[splat->bundle.boundary_count++];
     *added = (ps_boundary){wall->a / inverse, wall->b / inverse, REACH / inverse};
 }
 
-static void find(const struct free_way *way, ps_splat *splat)
+static void find(const struct free_way *way, struct splat *splat)
 {
     float left[AZIMUTHS];
     memcpy(left, way->reach, sizeof left);
@@ -185,17 +185,18 @@ static void find(const struct free_way *way, ps_splat *splat)
 /* The way around a photon, and where its bundle starts. A hollow surface rises all around: its own walls
  * are no others, and its bundle starts higher. */
 static struct free_way look(const ps_host *host, float surface_offset, const ps_photon *photon,
-                            const struct star *star, ps_splat *splat)
+                            const struct star *star, struct splat *splat)
 {
     struct free_way low = way_across(star, splat);
     if (count_stopped(&low, &low, 1.0f) >= MOST_AZIMUTHS) {
-        float clearance = footprint_clearance(surface_offset, splat->half_width, true);
+        float clearance = footprint_clearance(surface_offset, splat->bundle.radius, true);
         struct star above = look_around(host, photon, clearance, length_for(photon, splat));
         struct free_way high = way_across(&above, splat);
         if (count_stopped(&low, &high, 1.0f / HIGHER_REACH) >= MOST_AZIMUTHS)
             return high;
     }
-    footprint_start(photon, footprint_clearance(surface_offset, splat->half_width, false), splat);
+    footprint_start(photon, footprint_clearance(surface_offset, splat->bundle.radius, false),
+                    splat);
     return low;
 }
 
@@ -206,7 +207,7 @@ static bool same_place(const ps_photon *a, const ps_photon *b)
 
 /* Of photons in one place, which share their star. */
 static void find_around(const ps_host *host, float surface_offset, const ps_photon *photons,
-                        size_t n, ps_splat *splats)
+                        size_t n, struct splat *splats)
 {
     float length = 0.0f;
     for (size_t i = 0; i < n; i++)
@@ -215,7 +216,7 @@ static void find_around(const ps_host *host, float surface_offset, const ps_phot
         return;
     struct star star = look_around(host, &photons[0], surface_offset, length);
     for (size_t i = 0; i < n; i++) {
-        if (!(splats[i].half_width > 0.0f))
+        if (!(splats[i].bundle.radius > 0.0f))
             continue;
         struct free_way way = look(host, surface_offset, &photons[i], &star, &splats[i]);
         find(&way, &splats[i]);
@@ -223,7 +224,7 @@ static void find_around(const ps_host *host, float surface_offset, const ps_phot
 }
 
 void boundary_find(const ps_host *host, float surface_offset, const ps_photon *photons, size_t n,
-                   ps_splat *splats)
+                   struct splat *splats)
 {
     for (size_t first = 0, end; first < n; first = end) {
         for (end = first + 1; end < n && same_place(&photons[first], &photons[end]);)

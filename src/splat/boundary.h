@@ -22,11 +22,12 @@
 #ifndef SPLAT_BOUNDARY_H
 #define SPLAT_BOUNDARY_H
 
+#include "splat/splat.h"
 #include <psplat/host.h>
 
 /* Finds the walls of n placed full bundles, and where they start; those of half-width 0 are left out. Any
  * thread. */
 void boundary_find(const ps_host *host, float surface_offset, const ps_photon *photons, size_t n,
-                   ps_splat *splats);
+                   struct splat *splats);
 
 #endif

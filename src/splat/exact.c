@@ -24,9 +24,9 @@ static void add(struct interleaved_tile *tile, uint32_t lane, ps_rgb power, floa
 }
 
 struct kernel_count exact_accumulate(struct interleaved_tile *tile, const struct exact_test *test,
-                                     const ps_splat *splats, const struct kernel_splat *prepared,
-                                     const uint32_t *indices, size_t n,
-                                     const struct kernel_profile *profile)
+                                     const struct splat *splats,
+                                     const struct kernel_splat *prepared, const uint32_t *indices,
+                                     size_t n, const struct kernel_profile *profile)
 {
     struct kernel_count count = {0, 0};
     struct kernel_weighed weighed;
@@ -38,7 +38,8 @@ struct kernel_count exact_accumulate(struct interleaved_tile *tile, const struct
         if (pixels == 0)
             continue;
         collect_points(tile, weighed.lanes, pixels, test->surface_offset, points);
-        test->vtable->visible(test->state, test->host, &splats[indices[i]], points, pixels, lit);
+        test->vtable->visible(test->state, test->host, &splats[indices[i]].bundle, points, pixels,
+                              lit);
         count.tests += pixels;
         for (uint32_t k = 0; k < pixels; k++)
             if (lit[k]) {

@@ -21,8 +21,8 @@ struct exact_test {
 /* Adds n splats, in order, to the tile. `splats` and `prepared` are the same splats, chosen by
  * `indices`. Tests are of points with weight. Any thread that owns the tile. */
 struct kernel_count exact_accumulate(struct interleaved_tile *tile, const struct exact_test *test,
-                                     const ps_splat *splats, const struct kernel_splat *prepared,
-                                     const uint32_t *indices, size_t n,
-                                     const struct kernel_profile *profile);
+                                     const struct splat *splats,
+                                     const struct kernel_splat *prepared, const uint32_t *indices,
+                                     size_t n, const struct kernel_profile *profile);
 
 #endif

@@ -17,7 +17,7 @@ static const float place_v[RAYS] = {0.0000f,  0.2068f,  -0.3938f, 0.3712f, -0.09
 
 /* Rays beside the axis, which start where the bundle's do on even ground. */
 static void trace_disc(const ps_host *host, const struct footprint_scene *scene,
-                       const ps_photon *photon, float half_width, ps_packet *packet)
+                       const ps_photon *photon, float half_width, ps_ray_packet *packet)
 {
     ps_vec3 u, v, w = photon->direction;
     ps_frame(w, &u, &v);
@@ -36,8 +36,9 @@ static void trace_disc(const ps_host *host, const struct footprint_scene *scene,
 
 /* How wide the box must be for what the rays met: as far out as the outermost of them whose pixels would
  * take in the axis, and no narrower than `least`. */
-static float width_for(const struct footprint_scene *scene, const ps_footprint_settings *settings,
-                       const ps_photon *photon, const ps_packet *packet, float widest, float least)
+static float width_for(const struct footprint_scene *scene, const struct footprint_params *settings,
+                       const ps_photon *photon, const ps_ray_packet *packet, float widest,
+                       float least)
 {
     for (int i = RAYS - 1; i >= 0; i--) { /* inwards */
         float aside = widest * sqrtf(place_u[i] * place_u[i] + place_v[i] * place_v[i]);
@@ -52,7 +53,7 @@ static float width_for(const struct footprint_scene *scene, const ps_footprint_s
 }
 
 /* How far away along the axis the nearest thing lies that the rays met; INFINITY: they met nothing. */
-static float nearest_of(const ps_packet *packet, const ps_photon *photon)
+static float nearest_of(const ps_ray_packet *packet, const ps_photon *photon)
 {
     float nearest = INFINITY;
     for (size_t i = 0; i < RAYS; i++) {
@@ -64,10 +65,10 @@ static float nearest_of(const ps_packet *packet, const ps_photon *photon)
 }
 
 static void find_one(const ps_host *host, const struct footprint_scene *scene,
-                     const ps_footprint_settings *settings, const ps_photon *photon, ps_hit *hit,
+                     const struct footprint_params *settings, const ps_photon *photon, ps_hit *hit,
                      float *half_width)
 {
-    _Alignas(64) ps_packet packet;
+    _Alignas(64) ps_ray_packet packet;
     float widest = *half_width,
           least = footprint_half_width(scene, settings, photon, hit->distance);
     bool met = hit->distance < INFINITY;
@@ -84,7 +85,7 @@ static void find_one(const ps_host *host, const struct footprint_scene *scene,
 }
 
 void extent_find(const ps_host *host, const struct footprint_scene *scene,
-                 const ps_footprint_settings *settings, const ps_photon *photons, size_t n,
+                 const struct footprint_params *settings, const ps_photon *photons, size_t n,
                  ps_hit *hits, float *half_widths)
 {
     for (size_t i = 0; i < n; i++)

@@ -19,7 +19,7 @@
  * slope is anything. One whose disc meets nothing either stays as wide: what is thinner than the space between
  * the rays may stand there, as mullions before the sky do, which lost a sixth of their light. Any thread. */
 void extent_find(const ps_host *host, const struct footprint_scene *scene,
-                 const ps_footprint_settings *settings, const ps_photon *photons, size_t n,
+                 const struct footprint_params *settings, const ps_photon *photons, size_t n,
                  ps_hit *hits, float *half_widths);
 
 #endif

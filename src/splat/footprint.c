@@ -46,20 +46,19 @@ float footprint_automatic_near(float scene_radius, float light_spread, uint64_t 
     return NEAR_IN_SIZES * footprint_automatic_size(scene_radius, light_spread, few, 0);
 }
 
-enum step_back_rule { STEP_BACK_NUMBER = -1, STEP_BACK_AUTO = 0, STEP_BACK_FULL = 1 };
-
 /* The axes u, v turn by an angle of their own for each photon, so that texel borders don't line up.
  */
-static void set_frame(const struct footprint_scene *scene, const ps_photon *photon, ps_splat *splat)
+static void set_frame(const struct footprint_scene *scene, const ps_photon *photon,
+                      struct splat *splat)
 {
     ps_vec3 u, v;
     ps_frame(photon->direction, &u, &v);
     uint32_t key = sample_key(scene->seed, PS_STREAM_SPLAT, photon->bounce);
     float turn = (float)(sample_hash((uint64_t)key << 32 ^ photon->path) >> 8) * 0x1p-24f;
     float c = cosf(2.0f * PS_PI * turn), s = sinf(2.0f * PS_PI * turn);
-    splat->axis_u = ps_add_scaled(ps_scale(u, c), s, v);
-    splat->axis_v = ps_add_scaled(ps_scale(v, c), -s, u);
-    splat->axis_w = photon->direction;
+    splat->bundle.axis_u = ps_add_scaled(ps_scale(u, c), s, v);
+    splat->bundle.axis_v = ps_add_scaled(ps_scale(v, c), -s, u);
+    splat->bundle.axis_w = photon->direction;
 }
 
 static float slope_of(float cosine)
@@ -87,19 +86,18 @@ float footprint_cosine(const ps_photon *photon)
     return ps_max(ps_dot(photon->normal, photon->direction), LEAST_COSINE);
 }
 
-void footprint_start(const ps_photon *photon, float clearance, ps_splat *splat)
+void footprint_start(const ps_photon *photon, float clearance, struct splat *splat)
 {
     float cosine = footprint_cosine(photon);
-    splat->start_depth =
+    splat->bundle.start_depth =
         splat->photon_depth + ps_min(clearance / cosine, -0.5f * splat->photon_depth);
 }
 
-static float step_back(const ps_footprint_settings *settings, float half_width, float distance,
+static float step_back(const struct footprint_params *settings, float half_width, float distance,
                        float slope)
 {
-    float wanted = settings->step_back_rule == STEP_BACK_NUMBER
-                       ? (float)fmin(settings->step_back, 1e9)
-                       : half_width * slope + 0.5f * half_width;
+    float wanted = settings->step_back.choice < 0 ? (float)fmin(settings->step_back.number, 1e9)
+                                                  : half_width * slope + 0.5f * half_width;
     return ps_min(wanted, distance);
 }
 
@@ -112,7 +110,7 @@ static float bounded(const struct footprint_scene *scene, double length)
 /* A merged photon has the light of many: over as many times the area, a splat is no brighter than
  * theirs, and as many splats overlap as without merging. But larger splats lose light at edges and
  * creases, so there is a limit. */
-static float growth(const ps_footprint_settings *settings, const ps_photon *photon)
+static float growth(const struct footprint_params *settings, const ps_photon *photon)
 {
     if (!(settings->max_merge_scale > 1.0 && photon->merged > 1.0f))
         return 1.0f;
@@ -141,12 +139,13 @@ static float smallest(const struct footprint_scene *scene, const ps_photon *phot
 
 /* Half-width where nothing was merged and no distance is followed. */
 static float footprint_size(const struct footprint_scene *scene,
-                            const ps_footprint_settings *settings)
+                            const struct footprint_params *settings)
 {
-    return settings->radius > 0 ? bounded(scene, settings->radius) : scene->automatic_size;
+    return settings->radius.number > 0 ? bounded(scene, settings->radius.number)
+                                       : scene->automatic_size;
 }
 
-float footprint_widest(const struct footprint_scene *scene, const ps_footprint_settings *settings,
+float footprint_widest(const struct footprint_scene *scene, const struct footprint_params *settings,
                        const ps_photon *photon)
 {
     double size = footprint_size(scene, settings);
@@ -154,18 +153,18 @@ float footprint_widest(const struct footprint_scene *scene, const ps_footprint_s
 }
 
 float footprint_gather_distance(const struct footprint_scene *scene,
-                                const ps_footprint_settings *settings, uint64_t paths)
+                                const struct footprint_params *settings, uint64_t paths)
 {
-    if (settings->step_back_rule != STEP_BACK_FULL || !(settings->bandwidth_scale > 0))
+    if (settings->step_back.choice != STEP_BACK_FULL || !(settings->bandwidth_scale > 0))
         return 0.0f;
-    if (!(settings->radius > 0))
+    if (!(settings->radius.number > 0))
         return scene->automatic_near;
     double wider = pow(fmax((double)paths / FEW_PATHS, 1), -POWER_OF_MANY);
-    return bounded(scene, (double)NEAR_IN_SIZES * wider * settings->radius);
+    return bounded(scene, (double)NEAR_IN_SIZES * wider * settings->radius.number);
 }
 
 float footprint_half_width(const struct footprint_scene *scene,
-                           const ps_footprint_settings *settings, const ps_photon *photon,
+                           const struct footprint_params *settings, const ps_photon *photon,
                            float distance)
 {
     float size = footprint_widest(scene, settings, photon);
@@ -184,58 +183,80 @@ void footprint_stand_in(const ps_photon *photon, float distance, ps_hit *hit)
 
 /* Around a bundle that starts at its photon. Pixels with narrow parts of its disc take it from below the
  * start plane (kernel.h), so the box begins at the photon's plane itself. */
-static void place_full(const struct footprint_scene *scene, const ps_footprint_settings *settings,
-                       const ps_photon *photon, float distance, ps_splat *splat)
+static void place_full(const struct footprint_scene *scene, const struct footprint_params *settings,
+                       const ps_photon *photon, float distance, struct splat *splat)
 {
     float cosine = footprint_cosine(photon);
-    splat->start_slope_u = -ps_dot(photon->normal, splat->axis_u) / cosine;
-    splat->start_slope_v = -ps_dot(photon->normal, splat->axis_v) / cosine;
+    splat->bundle.start_slope_u = -ps_dot(photon->normal, splat->bundle.axis_u) / cosine;
+    splat->bundle.start_slope_v = -ps_dot(photon->normal, splat->bundle.axis_v) / cosine;
     splat->photon_depth = -distance;
-    footprint_start(photon, footprint_clearance(scene->surface_offset, splat->half_width, true),
+    footprint_start(photon, footprint_clearance(scene->surface_offset, splat->bundle.radius, true),
                     splat);
-    float slope = sqrtf(splat->start_slope_u * splat->start_slope_u +
-                        splat->start_slope_v * splat->start_slope_v);
-    splat->near_depth = ps_min(splat->photon_depth - slope * splat->half_width, 0.0f);
+    float slope = sqrtf(splat->bundle.start_slope_u * splat->bundle.start_slope_u +
+                        splat->bundle.start_slope_v * splat->bundle.start_slope_v);
+    splat->near_depth = ps_min(splat->photon_depth - slope * splat->bundle.radius, 0.0f);
     splat->follow = (float)fmin(settings->bandwidth_scale, 1e9);
     splat->blend_distance = blend_distance(scene, photon);
     splat->widest = footprint_widest(scene, settings, photon);
     splat->narrowest = smallest(scene, photon, distance, splat->widest);
 }
 
-static ps_splat place_one(const struct footprint_scene *scene,
-                          const ps_footprint_settings *settings, const ps_photon *photon,
-                          const ps_hit *hit, float size)
+static struct splat place_one(const struct footprint_scene *scene,
+                              const struct footprint_params *settings, const ps_photon *photon,
+                              const ps_hit *hit, float size)
 {
-    ps_splat splat = {.power = photon->power, .merged = photon->merged, .path = photon->path};
+    struct splat splat = {.power = photon->power, .merged = photon->merged, .path = photon->path};
     if (!(size > 0.0f && hit->distance < INFINITY))
         return splat;
     float slope = slope_of(-ps_dot(photon->direction, hit->normal));
     set_frame(scene, photon, &splat);
-    splat.centre = hit->position;
-    splat.half_width = size;
-    splat.far_depth = settings->depth > 0 ? bounded(scene, settings->depth) : size * slope + size;
-    if (settings->step_back_rule == STEP_BACK_FULL) {
+    splat.bundle.centre = hit->position;
+    splat.bundle.radius = size;
+    splat.bundle.far_depth =
+        settings->depth.number > 0 ? bounded(scene, settings->depth.number) : size * slope + size;
+    if (settings->step_back.choice == STEP_BACK_FULL) {
         place_full(scene, settings, photon, hit->distance, &splat);
     } else {
         splat.near_depth = -step_back(settings, size, hit->distance, slope);
-        splat.start_depth = splat.near_depth;
+        splat.bundle.start_depth = splat.near_depth;
     }
     return splat;
 }
 
-void footprint_place(const struct footprint_scene *scene, const ps_footprint_settings *settings,
+void footprint_place(const struct footprint_scene *scene, const struct footprint_params *settings,
                      const ps_photon *photons, const ps_hit *hits, const float *half_widths,
-                     size_t n, ps_splat *splats)
+                     size_t n, struct splat *splats)
 {
     for (size_t i = 0; i < n; i++)
         splats[i] = place_one(scene, settings, &photons[i], &hits[i], half_widths[i]);
 }
 
-void footprint_cut(ps_splat *splat, const float *depths, uint32_t resolution)
+void footprint_cut(struct splat *splat, const float *depths, uint32_t resolution)
 {
     float farthest = -INFINITY;
     for (uint32_t i = 0; i < resolution * resolution; i++)
         farthest = ps_max(depths[i], farthest);
     float tolerance = splat->bias_constant + splat->bias_slope * FOOTPRINT_STEEPEST;
-    splat->far_depth = ps_min(farthest + tolerance, splat->far_depth);
+    splat->bundle.far_depth = ps_min(farthest + tolerance, splat->bundle.far_depth);
+}
+
+void footprint_open(const struct footprint_params *settings, struct splat *splats, size_t n)
+{
+    if (settings->step_back.choice != STEP_BACK_FULL || settings->depth.number > 0)
+        return;
+    for (size_t i = 0; i < n; i++)
+        splats[i].bundle.far_depth = INFINITY;
+}
+
+void footprint_set_bias(const struct footprint_params *settings, struct splat *splats, size_t n)
+{
+    static const float slope_texels = 0.75f;
+    static const float flat_texels = 0.1f; /* where the light arrives at a right angle */
+    for (size_t i = 0; i < n; i++) {
+        float texel = 2.0f * splats[i].bundle.radius / (float)settings->resolution;
+        bool by_slope = settings->bias.choice >= 0;
+        splats[i].bias_constant =
+            by_slope ? flat_texels * texel : (float)fmin(settings->bias.number, 1e9);
+        splats[i].bias_slope = by_slope ? slope_texels * texel : 0.0f;
+    }
 }

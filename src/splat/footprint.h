@@ -22,8 +22,9 @@
 #ifndef SPLAT_FOOTPRINT_H
 #define SPLAT_FOOTPRINT_H
 
+#include "plugin/shared_params.h"
 #include "scene/camera.h"
-#include <psplat/host.h>
+#include "splat/splat.h"
 #include <stdbool.h>
 
 /* Slopes (tangents) past this are treated as this: 84 degrees, where 1 % of the energy arrives. */
@@ -63,18 +64,18 @@ float footprint_automatic_size(float scene_radius, float light_spread, uint64_t 
  * photons and follow the distance. (After the bias compensation of virtual point lights: Kollig and Keller
  * 2006, "Illumination in the presence of weak singularities".) */
 float footprint_gather_distance(const struct footprint_scene *scene,
-                                const ps_footprint_settings *settings, uint64_t paths);
+                                const struct footprint_params *settings, uint64_t paths);
 
 /* That distance where the settings leave the size open. */
 float footprint_automatic_near(float scene_radius, float light_spread, uint64_t paths);
 
 /* Half-width of the disc that a photon's light may fill. */
-float footprint_widest(const struct footprint_scene *scene, const ps_footprint_settings *settings,
+float footprint_widest(const struct footprint_scene *scene, const struct footprint_params *settings,
                        const ps_photon *photon);
 
 /* The same where the light travels so far. */
 float footprint_half_width(const struct footprint_scene *scene,
-                           const ps_footprint_settings *settings, const ps_photon *photon,
+                           const struct footprint_params *settings, const ps_photon *photon,
                            float distance);
 
 /* In place of the hit of a bundle that meets nothing: a point of its axis, with a normal of 0. */
@@ -82,14 +83,31 @@ void footprint_stand_in(const ps_photon *photon, float distance, ps_hit *hit);
 
 /* Places the boxes of n photons whose rays met `hits`; see ps_host.place_footprints. A half-width of 0 makes a
  * splat that lights nothing. */
-void footprint_place(const struct footprint_scene *scene, const ps_footprint_settings *settings,
+void footprint_place(const struct footprint_scene *scene, const struct footprint_params *settings,
                      const ps_photon *photons, const ps_hit *hits, const float *half_widths,
-                     size_t n, ps_splat *splats);
+                     size_t n, struct splat *splats);
 
 /* Lets a full bundle start so far above its photon's tangent plane. */
-void footprint_start(const ps_photon *photon, float clearance, ps_splat *splat);
+void footprint_start(const ps_photon *photon, float clearance, struct splat *splat);
 
 /* Cuts the far end of a splat to what its map holds (resolution^2 depths). */
-void footprint_cut(ps_splat *splat, const float *depths, uint32_t resolution);
+void footprint_cut(struct splat *splat, const float *depths, uint32_t resolution);
+
+/* Opens full bundles, for visibilities that follow their rays: they get no end where depth is
+ * automatic. Maps are one-sided (a pixel before the map's depth is lit), since a ray that went on past
+ * a point before it met anything must have passed it: where surfaces end within a texel (edges seen
+ * against what lies farther away, walls that the bundle sticks through, Hoet 2014, section 3.3), a
+ * two-sided test would shadow them falsely, half a texel wide. The plane of the photon keeps what lies
+ * behind it dark. */
+void footprint_open(const struct footprint_params *settings, struct splat *splats, size_t n);
+
+/* Depth tolerance of splats with maps. A pixel is compared with the texel that it
+ * falls into, so its depth may differ by the slope of its surface times its distance to the texel's
+ * centre, half a diagonal at most. A bias by slope grants that and little more: 0.75 texels *
+ * tan(theta), theta between the light and the pixel's normal. Twice as much gives back 0.3 % of the
+ * light in creases, and loses the shadow of a plate 10 cm before a wall. A constant bias either shadows
+ * slopes (acne, and energy lost) or leaks at contacts; it stays selectable, for comparison with the
+ * thesis. */
+void footprint_set_bias(const struct footprint_params *settings, struct splat *splats, size_t n);
 
 #endif

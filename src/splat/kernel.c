@@ -1,7 +1,6 @@
 #include "splat/kernel.h"
 
 #include <math.h>
-#include <psplat/bundle.h>
 #include <string.h>
 
 #define KERNEL_DECLARE(name)                                                                       \
@@ -93,53 +92,54 @@ void kernel_profile_count(struct kernel_profile *profile)
     profile->counting = true;
 }
 
-static float boundaries_likeness(const ps_splat *splat)
+static float boundaries_likeness(const struct splat *splat)
 {
-    const ps_boundary *walls = splat->boundaries;
-    if (ps_boundary_count(splat) < 2)
+    const ps_boundary *walls = splat->bundle.boundaries;
+    if (splat->bundle.boundary_count < 2)
         return 0.0f;
     float cosine = walls[0].normal_u * walls[1].normal_u + walls[0].normal_v * walls[1].normal_v;
     return 2.0f / PS_PI * asinf(ps_max(ps_min(cosine, 1.0f), -1.0f));
 }
 
-/* A plugin's own splats may claim anything; 1 / 0 would make NaN of what is not lit. */
+/* 1 / 0 would make NaN of what is not lit. */
 #define LEAST_WIDTH 1e-3f
 
 /* One width for all pixels, but for full bundles that follow the distance. Pixels that would take more than
  * the box holds all take part, with the weight of a wider disc. */
-static struct bandwidth prepare_width(const ps_splat *splat)
+static struct bandwidth prepare_width(const struct splat *splat)
 {
-    float inverse = 1.0f / splat->half_width;
+    float inverse = 1.0f / splat->bundle.radius;
     float narrowest = ps_max(splat->narrowest * inverse, LEAST_WIDTH);
     if (!(splat->follow > 0.0f))
         return (struct bandwidth){.narrowest = 1.0f, .widest = 1.0f};
     return (struct bandwidth){
         .by_distance = splat->follow * inverse,
-        .spread = splat->follow * splat->half_width,
-        .tilt_u = splat->follow * splat->start_slope_u,
-        .tilt_v = splat->follow * splat->start_slope_v,
+        .spread = splat->follow * splat->bundle.radius,
+        .tilt_u = splat->follow * splat->bundle.start_slope_u,
+        .tilt_v = splat->follow * splat->bundle.start_slope_v,
         .narrowest = narrowest,
         .widest = ps_max(splat->widest * inverse, narrowest),
     };
 }
 
-struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_profile *profile,
+struct kernel_splat kernel_prepare(const struct splat *splat, const struct kernel_profile *profile,
                                    const float *depths)
 {
-    float inverse = 1.0f / splat->half_width;
+    float inverse = 1.0f / splat->bundle.radius;
     float merged = profile->counting ? 1.0f : ps_max(splat->merged, 1.0f);
     return (struct kernel_splat){
-        .centre = splat->centre,
-        .u = ps_scale(splat->axis_u, inverse),
-        .v = ps_scale(splat->axis_v, inverse),
-        .w = splat->axis_w,
+        .centre = splat->bundle.centre,
+        .u = ps_scale(splat->bundle.axis_u, inverse),
+        .v = ps_scale(splat->bundle.axis_v, inverse),
+        .w = splat->bundle.axis_w,
         .near_depth = splat->near_depth,
-        .far_depth = splat->far_depth,
-        .start_u = splat->start_slope_u * splat->half_width,
-        .start_v = splat->start_slope_v * splat->half_width,
-        .photon_depth = splat->follow > 0.0f ? splat->photon_depth : splat->start_depth,
-        .clearance =
-            splat->follow > 0.0f ? ps_max(splat->start_depth - splat->photon_depth, 0.0f) : 0.0f,
+        .far_depth = splat->bundle.far_depth,
+        .start_u = splat->bundle.start_slope_u * splat->bundle.radius,
+        .start_v = splat->bundle.start_slope_v * splat->bundle.radius,
+        .photon_depth = splat->follow > 0.0f ? splat->photon_depth : splat->bundle.start_depth,
+        .clearance = splat->follow > 0.0f
+                         ? ps_max(splat->bundle.start_depth - splat->photon_depth, 0.0f)
+                         : 0.0f,
         .near = gather_share_until(splat->follow > 0.0f ? splat->blend_distance : 0.0f),
         .width = prepare_width(splat),
         .bias_constant = splat->bias_constant,
@@ -148,8 +148,8 @@ struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_pr
         .kernel_scale = profile->counting ? 1.0f : merged * profile->scale * inverse * inverse,
         .power = ps_rgb_scale(splat->power, 1.0f / merged),
         .depths = depths,
-        .boundary_count = profile->counting ? 0 : ps_boundary_count(splat),
-        .boundaries = {splat->boundaries[0], splat->boundaries[1]},
+        .boundary_count = profile->counting ? 0 : splat->bundle.boundary_count,
+        .boundaries = {splat->bundle.boundaries[0], splat->bundle.boundaries[1]},
         .boundaries_likeness = boundaries_likeness(splat),
     };
 }

@@ -34,7 +34,7 @@
 #include "splat/bandwidth.h"
 #include "splat/gather_share.h"
 #include "splat/interleaved.h"
-#include <psplat/types.h>
+#include "splat/splat.h"
 #include <stdbool.h>
 
 #define KERNEL_PROFILE_SIZE 1024
@@ -141,7 +141,7 @@ void kernel_profile_count(struct kernel_profile *profile);
 float kernel_profile_radius2(size_t i);
 
 /* What the inner loop needs of a splat of half-width > 0; `depths` must outlive it. */
-struct kernel_splat kernel_prepare(const ps_splat *splat, const struct kernel_profile *profile,
+struct kernel_splat kernel_prepare(const struct splat *splat, const struct kernel_profile *profile,
                                    const float *depths);
 
 #endif

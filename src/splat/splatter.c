@@ -32,23 +32,20 @@ ps_result splatter_create(struct splatter *splatter, const struct gbuffer *gbuff
     const ps_visibility_vtable *visibility = settings->visibility;
     *splatter = (struct splatter){
         .settings = *settings,
-        .resolution = visibility->resolution(settings->visibility_state),
+        .resolution = visibility->depth_maps ? settings->resolution : 0,
     };
-    if (splatter->resolution > 64 || (splatter->resolution && !visibility->depth_maps))
-        return error_set(error, PS_ERROR_INVALID,
-                         "the visibility has no depth maps of resolution %u", splatter->resolution);
     splatter->settings.batch = batch_size(splatter);
     size_t map_bytes = splatter->settings.batch * map_texels(splatter) * sizeof(float);
     splatter->depths = malloc(map_bytes > 0 ? map_bytes : 1);
     splatter->prepared = malloc(splatter->settings.batch * sizeof *splatter->prepared);
     ps_result result =
         splatter->depths && splatter->prepared
-            ? interleaved_create(gbuffer, settings->interleave, &splatter->field, error)
+            ? interleaved_create(gbuffer, settings->interleave, &splatter->pixels, error)
             : error_memory(error, map_bytes, "depth maps");
     if (result == PS_OK)
-        result = pyramid_create(&splatter->field, &splatter->pyramid, error);
+        result = pyramid_create(&splatter->pixels, &splatter->pyramid, error);
     if (result == PS_OK)
-        result = bins_create(splatter->field.tile_count, &splatter->bins, error);
+        result = bins_create(splatter->pixels.tile_count, &splatter->bins, error);
     if (result != PS_OK)
         splatter_release(splatter);
     return result;
@@ -56,7 +53,7 @@ ps_result splatter_create(struct splatter *splatter, const struct gbuffer *gbuff
 
 void splatter_release(struct splatter *splatter)
 {
-    interleaved_release(&splatter->field);
+    interleaved_release(&splatter->pixels);
     pyramid_release(&splatter->pyramid);
     bins_release(&splatter->bins);
     free(splatter->depths);
@@ -75,14 +72,14 @@ void splatter_begin_pass(struct splatter *splatter, const struct gbuffer *gbuffe
                          struct splatter_pass pass)
 {
     splatter->pass = pass;
-    interleaved_fill(&splatter->field, gbuffer, splatter->settings.threads);
-    pyramid_build(&splatter->pyramid, &splatter->field, splatter->settings.threads);
+    interleaved_fill(&splatter->pixels, gbuffer, splatter->settings.threads);
+    pyramid_build(&splatter->pyramid, &splatter->pixels, splatter->settings.threads);
 }
 
 void splatter_end_pass(struct splatter *splatter, struct gbuffer *gbuffer)
 {
     double start = clock_seconds();
-    interleaved_join(&splatter->field, gbuffer, splatter->settings.threads);
+    interleaved_join(&splatter->pixels, gbuffer, splatter->settings.threads);
     splatter->join_seconds += clock_seconds() - start;
 }
 
@@ -92,14 +89,14 @@ void splatter_end_pass(struct splatter *splatter, struct gbuffer *gbuffer)
 static uint32_t subset_of(const struct splatter *splatter, uint64_t path)
 {
     const struct splatter_pass *pass = &splatter->pass;
-    uint64_t subsets = splatter->field.subsets;
+    uint64_t subsets = splatter->pixels.subsets;
     uint64_t count = pass->path_count > 0 ? pass->path_count : 1;
     return (uint32_t)((path % count * subsets / count + pass->number) % subsets);
 }
 
 struct batch {
     struct splatter *splatter;
-    ps_splat *splats;
+    struct splat *splats;
     size_t n;
     struct kernel_count *counts; /* per tile */
 };
@@ -109,14 +106,14 @@ static bool judges_points(const struct splatter *splatter)
     return splatter->settings.visibility->visible && splatter->resolution == 0;
 }
 
-static struct kernel_splat prepare(const struct splatter *splatter, const ps_splat *splat,
+static struct kernel_splat prepare(const struct splatter *splatter, const struct splat *splat,
                                    const float *map)
 {
-    if (!(splat->half_width > 0.0f))
+    if (!(splat->bundle.radius > 0.0f))
         return (struct kernel_splat){.kernel_scale = 0.0f};
     struct kernel_splat prepared = kernel_prepare(splat, &splatter->settings.profile, map);
     prepared.subset = subset_of(splatter, splat->path);
-    prepared.kernel_scale *= (float)splatter->field.subsets;
+    prepared.kernel_scale *= (float)splatter->pixels.subsets;
     return prepared;
 }
 
@@ -130,15 +127,35 @@ static bool touches_none(void *user, uint32_t tile)
 {
     const struct touch *touch = user;
     const struct splatter *splatter = touch->splatter;
-    return !splatter->settings.kernel.touch(&splatter->field.tiles[tile].blocks, &touch->splat);
+    return !splatter->settings.kernel.touch(&splatter->pixels.tiles[tile].blocks, &touch->splat);
 }
 
-bool splatter_touches(const struct splatter *splatter, const ps_splat *splat)
+bool splatter_touches(const struct splatter *splatter, const struct splat *splat)
 {
     struct touch touch = {splatter, prepare(splatter, splat, open_map)};
     return touch.splat.kernel_scale > 0.0f &&
            !pyramid_visit(&splatter->pyramid, &splatter->settings.kernel, &touch.splat,
                           touches_none, &touch);
+}
+
+/* The depth maps of up to MAP_CHUNK splats; those of splats that light nothing are left as they are. */
+static void fill_maps(const struct splatter *splatter, const struct splat *splats, size_t n,
+                      float *depths)
+{
+    const struct splatter_settings *settings = &splatter->settings;
+    ps_bundle bundles[MAP_CHUNK];
+    size_t texels = map_texels(splatter), first = 0;
+    while (first < n) {
+        size_t count = 0;
+        while (first + count < n && splats[first + count].bundle.radius > 0.0f) {
+            bundles[count] = splats[first + count].bundle;
+            count++;
+        }
+        if (count > 0)
+            settings->visibility->depth_maps(settings->visibility_state, settings->host, bundles,
+                                             count, splatter->resolution, depths + first * texels);
+        first += count + 1;
+    }
 }
 
 /* Fills the maps of up to MAP_CHUNK splats, cuts the splats to them, and prepares the kernel's
@@ -153,13 +170,11 @@ static void map_chunk(void *user, uint64_t index, uint32_t worker)
     size_t texels = map_texels(splatter);
     float *depths = splatter->depths + first * texels;
     if (texels)
-        splatter->settings.visibility->depth_maps(splatter->settings.visibility_state,
-                                                  splatter->settings.host, batch->splats + first, n,
-                                                  depths);
+        fill_maps(splatter, batch->splats + first, n, depths);
     for (size_t i = 0; i < n; i++) {
-        ps_splat *splat = &batch->splats[first + i];
+        struct splat *splat = &batch->splats[first + i];
         const float *map = texels ? depths + i * texels : open_map;
-        if (texels && splat->half_width > 0.0f)
+        if (texels && splat->bundle.radius > 0.0f)
             footprint_cut(splat, map, splatter->resolution);
         splatter->prepared[first + i] = prepare(splatter, splat, map);
     }
@@ -185,7 +200,7 @@ static void splat_tile(void *user, uint64_t index, uint32_t worker)
     size_t number = bins->first_tile + index;
     const uint32_t *indices = bins->indices + bins->offsets[number];
     size_t n = bins->offsets[number + 1] - bins->offsets[number];
-    struct interleaved_tile *tile = &splatter->field.tiles[number];
+    struct interleaved_tile *tile = &splatter->pixels.tiles[number];
     if (n == 0)
         return;
     struct kernel_count count =
@@ -223,7 +238,7 @@ static ps_result add_batch(const struct batch *batch, struct error *error)
 
 static void add_counts(struct splatter *splatter, const struct kernel_count *counts)
 {
-    for (uint32_t i = 0; i < splatter->field.tile_count; i++) {
+    for (uint32_t i = 0; i < splatter->pixels.tile_count; i++) {
         splatter->useful_tests += counts[i].lit;
         if (judges_points(splatter))
             splatter->exact_tests += counts[i].tests;
@@ -232,9 +247,10 @@ static void add_counts(struct splatter *splatter, const struct kernel_count *cou
     }
 }
 
-ps_result splatter_add(struct splatter *splatter, ps_splat *splats, size_t n, struct error *error)
+ps_result splatter_add(struct splatter *splatter, struct splat *splats, size_t n,
+                       struct error *error)
 {
-    size_t tiles = splatter->field.tile_count, most = splatter->settings.batch;
+    size_t tiles = splatter->pixels.tile_count, most = splatter->settings.batch;
     struct kernel_count *counts = calloc(tiles, sizeof *counts);
     if (!counts)
         return error_memory(error, tiles * sizeof *counts, "statistics");

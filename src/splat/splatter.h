@@ -16,6 +16,7 @@ struct splatter_settings {
     const ps_host *host;
     const ps_visibility_vtable *visibility;
     const void *visibility_state;
+    uint32_t resolution;  /* of its depth maps */
     float surface_offset; /* see ps_pass */
     struct kernel_profile profile;
     struct kernel_variant kernel;
@@ -35,7 +36,7 @@ struct splatter {
     struct splatter_settings settings;
     uint32_t resolution; /* of depth maps; 0: none */
     struct splatter_pass pass;
-    struct interleaved field;
+    struct interleaved pixels;
     struct pyramid pyramid;
     struct bins bins;
     float *depths;                 /* batch * resolution^2 */
@@ -55,10 +56,11 @@ void splatter_begin_pass(struct splatter *splatter, const struct gbuffer *gbuffe
                          struct splatter_pass pass);
 
 /* Whether a splat of this pass may light any pixel. Any thread. */
-bool splatter_touches(const struct splatter *splatter, const ps_splat *splat);
+bool splatter_touches(const struct splatter *splatter, const struct splat *splat);
 
 /* Adds n splats; cuts their depth ranges to their maps. */
-ps_result splatter_add(struct splatter *splatter, ps_splat *splats, size_t n, struct error *error);
+ps_result splatter_add(struct splatter *splatter, struct splat *splats, size_t n,
+                       struct error *error);
 
 /* Adds what the pass's splats gave to the G-buffer's tiles. */
 void splatter_end_pass(struct splatter *splatter, struct gbuffer *gbuffer);

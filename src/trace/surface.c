@@ -168,6 +168,7 @@ ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray, const struc
     }
     face_ray(ray, &hit);
     hit.albedo = material_albedo(material, scene->microfacets, &hit, ray->direction);
+    hit.roughness = material->specular ? material_roughness(material, &hit) : 1.0f;
     return hit;
 }
 

@@ -21,10 +21,6 @@
 
 #define PACKET 16
 
-_Static_assert(sizeof(struct RTCRayHit16) <= sizeof(ps_packet), "ps_packet must hold RTCRayHit16");
-_Static_assert(offsetof(struct RTCRay16, tfar) == offsetof(ps_packet, tfar), "ps_packet order");
-_Static_assert(offsetof(struct RTCRayHit16, hit) == offsetof(ps_packet, tail), "ps_packet order");
-
 /* Rays of the camera see geometry with the first bit, all others geometry with the second. */
 #define MASK_CAMERA 1u
 #define MASK_LIGHT 2u
@@ -269,34 +265,56 @@ size_t trace_bytes(const struct trace *trace)
 }
 
 /* What all rays of a packet have in common. */
-static void set_common(ps_packet *packet, uint32_t mask)
+static void set_common(struct RTCRay16 *rays, unsigned mask)
 {
-    memset(packet->time, 0, sizeof packet->time);
-    memset(packet->flags, 0, sizeof packet->flags);
+    memset(rays->time, 0, sizeof rays->time);
+    memset(rays->flags, 0, sizeof rays->flags);
     for (size_t lane = 0; lane < PACKET; lane++)
-        packet->mask[lane] = mask;
+        rays->mask[lane] = mask;
+}
+
+static void load_packet(struct RTCRay16 *rays, const ps_ray_packet *packet)
+{
+    memcpy(rays->org_x, packet->origin_x, sizeof rays->org_x);
+    memcpy(rays->org_y, packet->origin_y, sizeof rays->org_y);
+    memcpy(rays->org_z, packet->origin_z, sizeof rays->org_z);
+    memcpy(rays->tnear, packet->tnear, sizeof rays->tnear);
+    memcpy(rays->dir_x, packet->direction_x, sizeof rays->dir_x);
+    memcpy(rays->dir_y, packet->direction_y, sizeof rays->dir_y);
+    memcpy(rays->dir_z, packet->direction_z, sizeof rays->dir_z);
+    memcpy(rays->tfar, packet->tfar, sizeof rays->tfar);
+}
+
+static void load_ray(struct RTCRay16 *rays, size_t lane, const ps_ray *ray)
+{
+    rays->org_x[lane] = ray->origin.x;
+    rays->org_y[lane] = ray->origin.y;
+    rays->org_z[lane] = ray->origin.z;
+    rays->tnear[lane] = ray->tnear;
+    rays->dir_x[lane] = ray->direction.x;
+    rays->dir_y[lane] = ray->direction.y;
+    rays->dir_z[lane] = ray->direction.z;
+    rays->tfar[lane] = ray->tfar;
 }
 
 /* Fills up to 16 lanes; the rest are marked invalid, and hold what Embree's checks accept. */
-static void load_rays(ps_packet *packet, int valid[PACKET], const ps_ray *rays, size_t n,
+static void load_rays(struct RTCRay16 *packet, int valid[PACKET], const ps_ray *rays, size_t n,
                       uint32_t mask)
 {
     set_common(packet, mask);
     for (size_t lane = 0; lane < PACKET; lane++) {
         valid[lane] = lane < n ? -1 : 0;
-        ps_packet_set(packet, lane, rays[lane < n ? lane : 0]);
+        load_ray(packet, lane, &rays[lane < n ? lane : 0]);
     }
 }
 
-/* The packet with its hits, which had none before. */
-static const struct RTCRayHit16 *intersect(const struct trace *trace, const int valid[PACKET],
-                                           ps_packet *packet, bool coherent)
+/* Finds the hits of the rays. */
+static void intersect(const struct trace *trace, const int valid[PACKET], struct RTCRayHit16 *hits,
+                      bool coherent)
 {
-    struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)packet;
-    memset(embree->hit.geomID, 0xff, sizeof embree->hit.geomID);
-    memset(embree->hit.instID, 0xff, sizeof embree->hit.instID);
-    shim_intersect16(valid, trace->embree, embree, coherent);
-    return embree;
+    memset(hits->hit.geomID, 0xff, sizeof hits->hit.geomID);
+    memset(hits->hit.instID, 0xff, sizeof hits->hit.instID);
+    shim_intersect16(valid, trace->embree, hits, coherent);
 }
 
 static ps_hit resolve(const struct trace *trace, const ps_ray *ray, const struct RTCRayHit16 *hits,
@@ -317,40 +335,41 @@ static ps_hit resolve(const struct trace *trace, const ps_ray *ray, const struct
 void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray *rays, size_t n,
                      ps_hit *hits)
 {
-    _Alignas(64) ps_packet packet;
+    _Alignas(64) struct RTCRayHit16 packet;
     _Alignas(64) int valid[PACKET];
     for (size_t first = 0; first < n; first += PACKET) {
         size_t lanes = n - first < PACKET ? n - first : PACKET;
-        load_rays(&packet, valid, rays + first, lanes,
+        load_rays(&packet.ray, valid, rays + first, lanes,
                   kind == RAYS_CAMERA ? MASK_CAMERA : MASK_LIGHT);
-        const struct RTCRayHit16 *embree =
-            intersect(trace, valid, &packet, kind != RAYS_INCOHERENT);
+        intersect(trace, valid, &packet, kind != RAYS_INCOHERENT);
         for (size_t lane = 0; lane < lanes; lane++)
-            hits[first + lane] = resolve(trace, &rays[first + lane], embree, lane);
+            hits[first + lane] = resolve(trace, &rays[first + lane], &packet, lane);
     }
 }
 
 /* Never as a coherent packet: with instances or cut-outs Embree 3.13 then may not come back. */
 void trace_occluded(const struct trace *trace, const ps_ray *rays, size_t n, uint8_t *blocked)
 {
-    _Alignas(64) ps_packet packet;
+    _Alignas(64) struct RTCRay16 packet;
     _Alignas(64) int valid[PACKET];
     for (size_t first = 0; first < n; first += PACKET) {
         size_t lanes = n - first < PACKET ? n - first : PACKET;
         load_rays(&packet, valid, rays + first, lanes, MASK_LIGHT);
-        struct RTCRayHit16 *embree = (struct RTCRayHit16 *)(void *)&packet;
-        shim_occluded16(valid, trace->embree, &embree->ray, 0);
+        shim_occluded16(valid, trace->embree, &packet, 0);
         for (size_t lane = 0; lane < lanes; lane++)
             blocked[first + lane] = packet.tfar[lane] < 0.0f; /* -inf: something was met */
     }
 }
 
-void trace_packets(const struct trace *trace, ps_packet *packets, size_t n, bool coherent)
+void trace_packets(const struct trace *trace, ps_ray_packet *packets, size_t n, bool coherent)
 {
     _Alignas(64) static const int valid[PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1,
                                                    -1, -1, -1, -1, -1, -1, -1, -1};
+    _Alignas(64) struct RTCRayHit16 hits;
+    set_common(&hits.ray, MASK_LIGHT);
     for (size_t i = 0; i < n; i++) {
-        set_common(&packets[i], MASK_LIGHT);
-        intersect(trace, valid, &packets[i], coherent);
+        load_packet(&hits.ray, &packets[i]);
+        intersect(trace, valid, &hits, coherent);
+        memcpy(packets[i].tfar, hits.ray.tfar, sizeof packets[i].tfar);
     }
 }

@@ -32,6 +32,6 @@ void trace_occluded(const struct trace *trace, const ps_ray *rays, size_t n, uin
 
 /* Shortens tfar of each ray of n packets to its first hit. `coherent`: whether rays of a packet run close
  * together. */
-void trace_packets(const struct trace *trace, ps_packet *packets, size_t n, bool coherent);
+void trace_packets(const struct trace *trace, ps_ray_packet *packets, size_t n, bool coherent);
 
 #endif

@@ -19,6 +19,7 @@ struct looks {
     _Alignas(64) ps_tile tile;
     ps_rgb direct[PS_TILE_PIXELS], emitted[PS_TILE_PIXELS];
     bool by_chance[PS_TILE_PIXELS];
+    float radiance[3 * PS_TILE_PIXELS];
     struct view_points points;
     uint32_t x[PS_TILE_PIXELS], y[PS_TILE_PIXELS]; /* their pixels */
     struct light_runs light_runs;
@@ -62,6 +63,7 @@ struct neighbours {
     float x[NEIGHBOURS], y[NEIGHBOURS], z[NEIGHBOURS];
     float normal_x[NEIGHBOURS], normal_y[NEIGHBOURS], normal_z[NEIGHBOURS];
     float r[NEIGHBOURS], g[NEIGHBOURS], b[NEIGHBOURS], weight[NEIGHBOURS]; /* indirect light */
+    ps_rgb radiance[NEIGHBOURS];
 };
 
 static void set_neighbour(const ps_tile *tile, uint32_t lane, struct neighbours *neighbours, int i)
@@ -77,6 +79,9 @@ static void set_neighbour(const ps_tile *tile, uint32_t lane, struct neighbours 
     neighbours->g[i] = tile->irradiance_g[lane];
     neighbours->b[i] = tile->irradiance_b[lane];
     neighbours->weight[i] = tile->weight[lane];
+    if (tile->radiance_r)
+        neighbours->radiance[i] =
+            (ps_rgb){tile->radiance_r[lane], tile->radiance_g[lane], tile->radiance_b[lane]};
 }
 
 static void find_neighbours(const struct gbuffer *gbuffer, uint32_t x, uint32_t y,
@@ -118,6 +123,21 @@ static int compare(const struct neighbours *neighbours, const ps_tile *tile, uin
     return most;
 }
 
+/* Gives a sample the mean of the radiance of the neighbours that are as like as `most`. */
+static void borrow_radiance(const struct neighbours *neighbours, const int likeness[NEIGHBOURS],
+                            int most, float scale, ps_tile *tile, uint32_t lane)
+{
+    ps_rgb sum = {0, 0, 0};
+    if (!tile->radiance_r)
+        return;
+    for (int i = 0; i < NEIGHBOURS; i++)
+        if (likeness[i] == most)
+            sum = ps_rgb_add(sum, neighbours->radiance[i]);
+    tile->radiance_r[lane] = scale * sum.r;
+    tile->radiance_g[lane] = scale * sum.g;
+    tile->radiance_b[lane] = scale * sum.b;
+}
+
 /* Gives a sample the mean of the indirect light that the pixels around found on its surface. */
 static void borrow_indirect(const struct neighbours *neighbours, ps_tile *tile, uint32_t lane)
 {
@@ -138,6 +158,7 @@ static void borrow_indirect(const struct neighbours *neighbours, ps_tile *tile, 
     tile->irradiance_g[lane] = scale * g;
     tile->irradiance_b[lane] = scale * b;
     tile->weight[lane] = scale * weight;
+    borrow_radiance(neighbours, likeness, most, scale, tile, lane);
 }
 
 static bool same_pixel(const struct looks *looks, uint32_t i, uint32_t j)
@@ -174,6 +195,7 @@ static void finish_looks(const struct edge_pass *pass, struct looks *looks, stru
         .direct = looks->direct,
         .emitted = looks->emitted,
         .by_chance = looks->by_chance,
+        .radiance = pass->gbuffer->radiance ? looks->radiance : NULL,
     };
     struct view_pass view = {
         .scene = lighting->scene,

@@ -32,7 +32,7 @@ static ps_ray look(const struct view_pass *pass, const struct view_points *point
 static void start(const struct view_pass *pass, const struct view_points *points, uint32_t tile,
                   struct camera_paths *paths)
 {
-    bool *by_chance = &pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
+    bool *by_chance = pass->hits ? NULL : &pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
     paths->count = points->count;
     paths->indices = points->indices;
     for (size_t i = 0; i < points->count; i++) {
@@ -41,7 +41,8 @@ static void start(const struct view_pass *pass, const struct view_points *points
         paths->throughput[i] = (ps_rgb){1, 1, 1};
         paths->travelled[i] = 0.0f;
         paths->pdfs[i] = 0.0f;
-        by_chance[points->lanes[i]] = pass->scene->camera.aperture > 0.0f;
+        if (by_chance)
+            by_chance[points->lanes[i]] = pass->scene->camera.aperture > 0.0f;
     }
 }
 
@@ -64,19 +65,31 @@ static void collect_emission(const struct view_pass *pass, uint32_t tile, uint32
     }
 }
 
+/* Path i ends at the hit. */
+static void end_path(const struct view_pass *pass, uint32_t tile, const struct camera_paths *paths,
+                     size_t i, const ps_hit *hit, ps_rgb throughput, float travelled)
+{
+    uint32_t lane = paths->lanes[i];
+    if (!pass->hits) {
+        gbuffer_store(&pass->gbuffer->tiles[tile], lane, hit, throughput, travelled);
+        return;
+    }
+    pass->rays[lane] = paths->rays[i];
+    pass->hits[lane] = *hit;
+}
+
 /* Ends paths at purely diffuse surfaces and where nothing was met; returns how many are left, and
  * their hits moved to the front. */
 static void end_at_diffuse(const struct view_pass *pass, uint32_t tile, struct camera_paths *paths,
                            ps_hit *hits)
 {
-    ps_tile *pixels = &pass->gbuffer->tiles[tile];
     size_t left = 0;
     for (size_t i = 0; i < paths->count; i++) {
         float travelled = paths->travelled[i] + hits[i].distance;
         if (!(hits[i].distance < INFINITY))
             continue;
         if (!(hits[i].flags & PS_HIT_SPECULAR)) {
-            gbuffer_store(pixels, paths->lanes[i], &hits[i], paths->throughput[i], travelled);
+            end_path(pass, tile, paths, i, &hits[i], paths->throughput[i], travelled);
             continue;
         }
         hits[left] = hits[i];
@@ -113,8 +126,7 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
                     struct camera_paths *paths, const ps_hit *hits)
 {
     const struct scene *scene = pass->scene;
-    ps_tile *pixels = &pass->gbuffer->tiles[tile];
-    bool *by_chance = &pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
+    bool *by_chance = pass->hits ? NULL : &pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
     uint32_t key = sample_key(pass->seed, PS_STREAM_VIEW, depth);
     size_t left = 0;
     for (size_t i = 0; i < paths->count; i++) {
@@ -123,11 +135,12 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
         ps_bsdf_sample on =
             material_scatter(&scene->materials[hits[i].material], scene->microfacets,
                              PS_FROM_CAMERA, &paths->rays[i], &hits[i], numbers);
-        by_chance[paths->lanes[i]] |= on.probability < 1.0f || on.lobe == PS_GLOSSY;
+        if (by_chance)
+            by_chance[paths->lanes[i]] |= on.probability < 1.0f || on.lobe == PS_GLOSSY;
         if (on.lobe == PS_DIFFUSE) {
             ps_rgb throughput = ps_rgb_scale(paths->throughput[i], 1.0f / on.probability);
             if (ps_rgb_maximum(hits[i].albedo) > 0.0f)
-                gbuffer_store(pixels, paths->lanes[i], &hits[i], throughput, paths->travelled[i]);
+                end_path(pass, tile, paths, i, &hits[i], throughput, paths->travelled[i]);
             continue;
         }
         if (!(ps_rgb_maximum(on.weight) > 0.0f))
@@ -162,15 +175,18 @@ void view_trace(const struct view_pass *pass, const struct view_points *points, 
 {
     struct camera_paths paths;
     ps_hit hits[PS_TILE_PIXELS];
-    gbuffer_clear_tile(pass->gbuffer, index);
+    if (!pass->hits)
+        gbuffer_clear_tile(pass->gbuffer, index);
     start(pass, points, index, &paths);
     for (uint32_t depth = 0; paths.count > 0 && depth <= PS_LONGEST_CHAIN; depth++) {
         trace_intersect(pass->trace, depth == 0 ? RAYS_CAMERA : RAYS_INCOHERENT, paths.rays,
                         paths.count, hits);
-        collect_emission(pass, index, depth, &paths, hits);
+        if (!pass->hits)
+            collect_emission(pass, index, depth, &paths, hits);
         end_at_diffuse(pass, index, &paths, hits);
         if (paths.count > 0) {
-            collect_gloss(pass, index, depth, &paths, hits);
+            if (!pass->hits)
+                collect_gloss(pass, index, depth, &paths, hits);
             scatter(pass, index, depth, &paths, hits);
         }
     }

@@ -16,6 +16,10 @@ struct view_pass {
     const struct shadow_maps *maps; /* for what gloss reflects of the lights; NULL: shadow rays */
     struct gbuffer *gbuffer;
     uint64_t seed;
+    /* Instead of the G-buffer: the rays that paths end with and what they met, for each lane; lanes whose
+     * paths end nowhere are left as they are. NULL: the G-buffer is filled. */
+    ps_ray *rays;
+    ps_hit *hits;
 };
 
 /* Where lanes of a tile look. */
@@ -31,7 +35,7 @@ struct view_points {
 void view_pixels(const struct gbuffer *gbuffer, uint32_t tile, uint32_t number, float jitter_x,
                  float jitter_y, struct view_points *points);
 
-/* Fills tile `index`, and zeroes its accumulators. */
+/* Fills tile `index`, and zeroes its accumulators; or fills `rays` and `hits`. */
 void view_trace(const struct view_pass *pass, const struct view_points *points, uint32_t index);
 
 #endif

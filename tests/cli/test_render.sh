@@ -175,7 +175,7 @@ expect_text err "psplat: error: --size"
 
 run 0 $small --passes 2 --stats stats.json -o stats.exr "$cornell"
 for key in seconds counters bytes load scene build gbuffer direct inject stratify place estimate film resolve \
-    normalize denoise maps bin splat write total "photons injected" photons passes \
+    normalize maps bin splat write total "photons injected" photons passes \
     "pixels without weight" splats "map rays" "pixel-splat tests" \
     "pixel-splat tests with weight" "ray tracer" G-buffer; do
     expect_text stats.json "\"$key\":"

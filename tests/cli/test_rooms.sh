@@ -60,7 +60,7 @@ wrong src/base/text.c '"scene/scene.h"' 'base may not use scene'
 wrong src/scene/shape.c '"pipeline/render.h"' 'scene may not use pipeline'
 wrong parser/yaml/node.c '"parser/sections/reader.h"' 'parser/yaml may not use parser/sections'
 wrong parser/sections/value.c '"parser/psd.h"' 'parser/sections may not use parser'
-wrong src/pipeline/host.c '<embree3/rtcore.h>' 'which is for src/trace'
+wrong src/host/host.c '<embree3/rtcore.h>' 'which is for src/trace'
 wrong plugins/filter/tent.c '"base/text.h"' 'plugins include <psplat/...> alone'
 
 finish

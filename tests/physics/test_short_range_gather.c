@@ -10,7 +10,7 @@
  * Splats of half-width h and more smear that over the crease; short rays find it.
  */
 #include "gather/gather_pilot.h"
-#include "pipeline/render_state.h"
+#include "render/state.h"
 #include "support/render_scene.h"
 #include <math.h>
 #include <setjmp.h>

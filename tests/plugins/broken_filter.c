@@ -103,23 +103,19 @@ void weigh(const void *state, const float *r2, float *weights, size_t n)
         weights[i] = WEIGHT;
 }
 
-extern int32_t refuse(void *state, const ps_host *host, char *message, size_t size);
-int32_t refuse(void *state, const ps_host *host, char *message, size_t size)
+extern ps_result refuse(void *state, const ps_host *host);
+ps_result refuse(void *state, const ps_host *host)
 {
     (void)state;
-    (void)host;
-    snprintf(message, size, "the moon is in the wrong quarter");
-    return 1;
+    return host->fail(host, PS_ERROR_INVALID, "the moon is in the wrong quarter");
 }
 
-extern int32_t refuse_silently(void *state, const ps_host *host, char *message, size_t size);
-int32_t refuse_silently(void *state, const ps_host *host, char *message, size_t size)
+extern ps_result refuse_silently(void *state, const ps_host *host);
+ps_result refuse_silently(void *state, const ps_host *host)
 {
     (void)state;
     (void)host;
-    (void)message;
-    (void)size;
-    return -1;
+    return PS_ERROR_INVALID;
 }
 
 #ifndef PARAM_MINIMUM

@@ -43,7 +43,7 @@ static ps_result resolve(const void *state, const ps_host *host, const ps_film_v
     return end(host);
 }
 
-static ps_result accumulate(const void *state, const ps_host *host, const ps_pass *pass)
+static ps_result accumulate(void *state, const ps_host *host, const ps_pass *pass)
 {
     (void)state;
     for (uint32_t i = 0; i < pass->tile_count; i++)

@@ -1,7 +1,7 @@
 #include "support/inject.h"
 
+#include "host/host.h"
 #include "parser/psd.h"
-#include "pipeline/render_state.h"
 #include "support/render_scene.h"
 #include "trace/trace.h"
 #include <math.h>
@@ -119,9 +119,7 @@ static void collect(struct bench *bench, struct injected *injected)
     const ps_photon *photons;
     struct photon_stream stream;
     size_t n;
-    assert_int_equal(photon_stream_create(&stream, &bench->settings, &bench->render.host,
-                                          &bench->render.pass, bench->statistics, &error),
-                     PS_OK);
+    assert_int_equal(photon_stream_create(&bench->render, &stream, &error), PS_OK);
     do {
         if (photon_stream_next(&stream, &photons, &n, &error) != PS_OK)
             fail_msg("%s", error.text);
@@ -132,11 +130,19 @@ static void collect(struct bench *bench, struct injected *injected)
     photon_stream_release(&stream);
 }
 
+static void start(struct bench *bench, ps_kind kind)
+{
+    struct error error;
+    struct strategy *strategy = &bench->settings.strategies[kind];
+    ps_result result = strategy_start(strategy, &bench->render.hosts[kind].host);
+    if (render_judge(&bench->render, kind, result, &error) != PS_OK)
+        fail_msg("%s", error.text);
+}
+
 struct injected inject_text(const char *text, const char *choice, uint32_t pass, uint32_t threads)
 {
     struct bench *bench = bench_create(text, choice, threads);
     struct injected injected = {.photons = NULL};
-    struct error error;
     bench->render.pass = (ps_pass){
         .size = sizeof(ps_pass),
         .number = pass,
@@ -147,8 +153,7 @@ struct injected inject_text(const char *text, const char *choice, uint32_t pass,
         .bounces = bench->settings.bounces,
     };
     for (int kind = PS_INJECTION; kind <= PS_STRATIFICATION; kind++)
-        if (strategy_start(&bench->settings.strategies[kind], &bench->render.host, &error) != PS_OK)
-            fail_msg("%s", error.text);
+        start(bench, (ps_kind)kind);
     collect(bench, &injected);
     for (int kind = PS_INJECTION; kind <= PS_STRATIFICATION; kind++)
         strategy_stop(&bench->settings.strategies[kind]);
@@ -167,7 +172,7 @@ void injected_release(struct injected *injected)
 void with_host_of(const char *text, void (*body)(const ps_host *host))
 {
     struct bench *bench = bench_create(text, "photon", 1);
-    body(&bench->render.host);
+    body(own_host(&bench->render));
     discard(bench->statistics);
     bench_release(bench);
 }
@@ -177,7 +182,9 @@ char *injection_refusal(const char *text, const char *choice)
     struct bench *bench = bench_create(text, choice, 1);
     struct error error;
     struct strategy *injection = &bench->settings.strategies[PS_INJECTION];
-    assert_int_equal(strategy_start(injection, &bench->render.host, &error), PS_ERROR_INVALID);
+    ps_result result = strategy_start(injection, &bench->render.hosts[PS_INJECTION].host);
+    result = render_judge(&bench->render, PS_INJECTION, result, &error);
+    assert_int_equal(result, PS_ERROR_INVALID);
     expect_no_memory(bench->statistics);
     discard(bench->statistics);
     bench_release(bench);

@@ -1,9 +1,10 @@
 #include "support/one_strategy.h"
 
 #include "base/parallel.h"
-#include "pipeline/settings.h"
+#include "render/settings.h"
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include <cmocka.h>
@@ -38,6 +39,13 @@ static void bounds(const ps_host *host, ps_vec3 *center, float *radius)
     *radius = BARE_HOST_RADIUS;
 }
 
+static ps_result refuse(const ps_host *host, ps_result result, const char *why)
+{
+    struct bare_host *bare = bare_of(host);
+    snprintf(bare->why, sizeof bare->why, "%s", why);
+    return result;
+}
+
 static int32_t cancelled(const ps_host *host)
 {
     return bare_of(host)->cancelled;
@@ -55,12 +63,13 @@ void bare_host_create(struct bare_host *bare, uint32_t threads)
         .parallel_for = loop,
         .scene_bounds = bounds,
         .cancelled = cancelled,
+        .fail = refuse,
     };
 }
 
 static void set_parameter(struct strategy *strategy, const struct parameter_text *parameter)
 {
-    struct param_table table = strategy_params(strategy->descriptor);
+    struct param_table table = strategy_type_params(strategy->type);
     const ps_param *row = param_find(&table, parameter->key);
     struct error error;
     assert_non_null(row);

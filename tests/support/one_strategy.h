@@ -8,12 +8,13 @@
 #define BARE_HOST_RADIUS 100.0f
 
 /* A host that has memory, loops on `threads` threads, the bounds of a scene with its centre in the origin and
- * radius BARE_HOST_RADIUS, and says whether it is cancelled; nothing else. */
+ * radius BARE_HOST_RADIUS, says whether it is cancelled, and keeps failures; nothing else. */
 struct bare_host {
     ps_host host;
     uint32_t threads;
     int live_allocations;
     bool cancelled;
+    char why[200]; /* the last failure */
 };
 
 /* `bare` must stay where it is while it is used. */

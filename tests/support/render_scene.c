@@ -1,7 +1,7 @@
 #include "support/render_scene.h"
 
 #include "parser/psd.h"
-#include "pipeline/render_state.h"
+#include "pipeline/render.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,7 +1,9 @@
 #include "support/stratify.h"
 
 #include "base/sample.h"
-#include "pipeline/settings.h"
+#include "render/settings.h"
+#include "stratify/cells.h"
+#include "stratify/stratify.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -43,10 +45,23 @@ static void bounds(const ps_host *host, ps_vec3 *center, float *radius)
     *radius = stage_on(host)->radius;
 }
 
-static void look(const ps_host *host, ps_vec3 *position, ps_vec3 *direction)
+static void look(const ps_host *host, ps_camera *camera)
 {
-    *position = stage_on(host)->camera;
-    *direction = (ps_vec3){0, 0, 1};
+    camera->position = stage_on(host)->camera;
+    camera->forward = (ps_vec3){0, 0, 1};
+}
+
+static const void *extend(const ps_host *host, const char *name)
+{
+    (void)host;
+    return strcmp(name, PS_CELLS_EXTENSION) == 0 ? &cells_service : NULL;
+}
+
+static ps_result refuse(const ps_host *host, ps_result result, const char *why)
+{
+    (void)host;
+    print_message("%s\n", why);
+    return result;
 }
 
 static void add_up(const ps_host *host, const char *counter, double amount)
@@ -89,6 +104,8 @@ static ps_host host_of(struct stage *stage)
         .scene_bounds = bounds,
         .count = add_up,
         .camera = look,
+        .extension = extend,
+        .fail = refuse,
     };
 }
 
@@ -99,7 +116,7 @@ static void create(struct loader *loader, const char *text, struct strategy *str
     assert_int_equal(settings_parse_choice(text, &choice, &error), PS_OK);
     if (strategy_create(loader, PS_STRATIFICATION, choice.name, strategy, &error) != PS_OK)
         fail_msg("%s", error.text);
-    struct param_table table = strategy_params(strategy->descriptor);
+    struct param_table table = strategy_type_params(strategy->type);
     for (size_t i = 0; i < choice.parameter_count; i++) {
         const ps_param *row = param_find(&table, choice.parameters[i].key);
         assert_non_null(row);
@@ -117,8 +134,7 @@ struct running {
     ps_pass pass;
 };
 
-static const ps_stratification_vtable *start(struct stage *stage, const char *choice,
-                                             struct running *running)
+static void start(struct stage *stage, const char *choice, struct running *running)
 {
     struct error error;
     running->host = host_of(stage);
@@ -127,9 +143,7 @@ static const ps_stratification_vtable *start(struct stage *stage, const char *ch
     statistics_init(&stage->statistics);
     assert_int_equal(loader_create(&running->loader, &error), PS_OK);
     create(running->loader, choice, &running->strategy);
-    if (strategy_start(&running->strategy, &running->host, &error) != PS_OK)
-        fail_msg("%s: %s", choice, error.text);
-    return running->strategy.descriptor->vtable;
+    assert_int_equal(strategy_start(&running->strategy, &running->host), PS_OK);
 }
 
 static void stop(struct stage *stage, struct running *running)
@@ -139,12 +153,11 @@ static void stop(struct stage *stage, struct running *running)
     loader_destroy(running->loader);
 }
 
-size_t stratify(struct stage *stage, const char *choice, ps_photon *photons, size_t n)
+size_t stratify_photons(struct stage *stage, const char *choice, ps_photon *photons, size_t n)
 {
     struct running running;
-    const ps_stratification_vtable *vtable = start(stage, choice, &running);
-    stage->result =
-        vtable->combine(running.strategy.state, &running.host, &running.pass, photons, &n);
+    start(stage, choice, &running);
+    stage->result = stratify(&running.strategy, &running.host, &running.pass, photons, &n);
     stop(stage, &running);
     return n;
 }
@@ -153,16 +166,21 @@ bool stratify_cells(struct stage *stage, const char *choice, const ps_photon *ph
                     uint64_t *numbers)
 {
     struct running running;
-    const ps_stratification_vtable *vtable = start(stage, choice, &running);
-    bool has_cells = vtable->cells != NULL;
+    start(stage, choice, &running);
+    bool has_cells = running.strategy.type->table.stratification.find_strata != NULL;
     ps_vec3 *points = calloc(n + 1, sizeof *points);
+    ps_photon *copies = calloc(n + 1, sizeof *copies);
     assert_non_null(points);
-    for (size_t i = 0; i < n; i++)
+    assert_non_null(copies);
+    for (size_t i = 0; i < n; i++) {
+        copies[i] = photons[i];
         points[i] = photons[i].position;
+    }
     if (has_cells)
-        stage->result = vtable->cells(running.strategy.state, &running.host, &running.pass, photons,
-                                      n, points, n, numbers);
+        stage->result = stratify_numbers(&running.strategy, &running.host, &running.pass, copies, n,
+                                         points, n, numbers);
     free(points);
+    free(copies);
     stop(stage, &running);
     return has_cells;
 }
@@ -175,7 +193,7 @@ bool stratification_refuses(struct stage *stage, const char *choice)
     ps_host host = host_of(stage);
     assert_int_equal(loader_create(&loader, &error), PS_OK);
     create(loader, choice, &strategy);
-    bool refused = strategy_start(&strategy, &host, &error) != PS_OK;
+    bool refused = strategy_start(&strategy, &host) != PS_OK;
     strategy_release(&strategy);
     loader_destroy(loader);
     return refused;

@@ -27,7 +27,7 @@ ps_photon stratify_photon(ps_vec3 position, float power, uint64_t path);
 
 /* Combines n photons in place by a choice such as "grid:cell=1"; how many are left. A plugin that
  * refuses its parameters fails the test. Everything it allocated must be released. */
-size_t stratify(struct stage *stage, const char *choice, ps_photon *photons, size_t n);
+size_t stratify_photons(struct stage *stage, const char *choice, ps_photon *photons, size_t n);
 
 /* The numbers of the cells that the photons themselves lie in, by that choice; false where it has no
  * cells. */

@@ -1,6 +1,6 @@
 /* test_alias.c: an alias table holds each entry's chance, whatever the weights. */
+#include "host/alias.h"
 #include "support/random.h"
-#include <psplat/alias.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@ static uint32_t order[MOST];
 static void expect_chances(const float *weights, uint32_t n)
 {
     static double chances[MOST];
-    double total = ps_alias_build(weights, n, table, order), sum = 0;
+    double total = alias_service.build(weights, n, table, order), sum = 0;
     for (uint32_t i = 0; i < n; i++) {
         sum += (double)weights[i];
         chances[i] = 0;
@@ -57,23 +57,23 @@ static void test_choice(void **state)
     (void)state;
     static const float weights[4] = {3, 0, 1, 4};
     int counts[4] = {0};
-    assert_true(ps_alias_build(weights, 4, table, order) == 8);
+    assert_true(alias_service.build(weights, 4, table, order) == 8);
     for (int i = 0; i < 400; i++)
         for (int k = 0; k < 400; k++)
-            counts[ps_alias_choose(table, 4, (i + 0.5) / 100, ((float)k + 0.5f) / 400)]++;
+            counts[alias_service.choose(table, 4, (i + 0.5) / 100, ((float)k + 0.5f) / 400)]++;
     assert_int_equal(counts[0], 60000);
     assert_int_equal(counts[1], 0);
     assert_int_equal(counts[2], 20000);
     assert_int_equal(counts[3], 80000);
-    assert_true(ps_alias_choose(table, 4, 4.0, 0.999f) < 4);
+    assert_true(alias_service.choose(table, 4, 4.0, 0.999f) < 4);
 }
 
 static void test_nothing_to_choose(void **state)
 {
     (void)state;
     static const float zeros[3] = {0, 0, 0};
-    assert_true(ps_alias_build(zeros, 3, table, order) == 0);
-    assert_true(ps_alias_build(zeros, 0, table, order) == 0);
+    assert_true(alias_service.build(zeros, 3, table, order) == 0);
+    assert_true(alias_service.build(zeros, 0, table, order) == 0);
 }
 
 int main(void)

@@ -23,7 +23,7 @@ struct bench {
     struct interleaved field;
     struct pyramid pyramid;
     struct kernel_variant kernel;
-    ps_splat splats[SPLATS];
+    struct splat splats[SPLATS];
     struct kernel_splat prepared[SPLATS];
 };
 
@@ -50,25 +50,25 @@ static void fill_lane(ps_tile *tile, uint32_t lane, uint32_t x, uint32_t y)
     tile->depth[lane] = seen ? 1 : INFINITY;
 }
 
-static ps_splat random_splat(struct random *random)
+static struct splat random_splat(struct random *random)
 {
-    ps_splat splat = {
-        .centre = {3.2f * random_unit(random) - 0.1f, 2.2f * random_unit(random) - 0.1f,
-                   ALTITUDE + random_between(random, -0.15f, 0.15f)},
-        .half_width = random_unit(random) < 0.05f ? 0 : random_between(random, 0.01f, 0.3f),
-        .axis_w = random_direction(random),
+    struct splat splat = {
+        .bundle.centre = {3.2f * random_unit(random) - 0.1f, 2.2f * random_unit(random) - 0.1f,
+                          ALTITUDE + random_between(random, -0.15f, 0.15f)},
+        .bundle.radius = random_unit(random) < 0.05f ? 0 : random_between(random, 0.01f, 0.3f),
+        .bundle.axis_w = random_direction(random),
         .near_depth = -random_between(random, 0.0f, 0.5f),
-        .far_depth = random_between(random, 0.0f, 0.5f),
+        .bundle.far_depth = random_between(random, 0.0f, 0.5f),
     };
-    splat.axis_w = ps_normalize(splat.axis_w);
-    ps_frame(splat.axis_w, &splat.axis_u, &splat.axis_v);
+    splat.bundle.axis_w = ps_normalize(splat.bundle.axis_w);
+    ps_frame(splat.bundle.axis_w, &splat.bundle.axis_u, &splat.bundle.axis_v);
     return splat;
 }
 
-static struct kernel_splat prepare(const ps_splat *splat, uint32_t subset)
+static struct kernel_splat prepare(const struct splat *splat, uint32_t subset)
 {
     static const struct kernel_profile profile = {.scale = 1};
-    if (!(splat->half_width > 0))
+    if (!(splat->bundle.radius > 0))
         return (struct kernel_splat){.kernel_scale = 0};
     struct kernel_splat prepared = kernel_prepare(splat, &profile, NULL);
     prepared.subset = subset;
@@ -115,20 +115,20 @@ static int close_bench(void **state)
 
 /* Whether some pixel of the tile is inside of the splat's disc and box, and faces it; `slack`
  * widens all limits. */
-static bool lights(const struct interleaved_tile *tile, const ps_splat *splat, float slack)
+static bool lights(const struct interleaved_tile *tile, const struct splat *splat, float slack)
 {
-    if (!(splat->half_width > 0))
+    if (!(splat->bundle.radius > 0))
         return false;
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
         if (!(tile->position_x[i] < BOUNDS_NOWHERE))
             continue;
         ps_vec3 p = {tile->position_x[i], tile->position_y[i], tile->position_z[i]};
         ps_vec3 n = {tile->normal_x[i], tile->normal_y[i], tile->normal_z[i]};
-        ps_vec3 d = ps_subtract(p, splat->centre);
-        float u = ps_dot(d, splat->axis_u), v = ps_dot(d, splat->axis_v);
-        float t = ps_dot(d, splat->axis_w), reach = splat->half_width + slack;
+        ps_vec3 d = ps_subtract(p, splat->bundle.centre);
+        float u = ps_dot(d, splat->bundle.axis_u), v = ps_dot(d, splat->bundle.axis_v);
+        float t = ps_dot(d, splat->bundle.axis_w), reach = splat->bundle.radius + slack;
         if (u * u + v * v < reach * reach && t >= splat->near_depth - slack &&
-            t <= splat->far_depth + slack && ps_dot(n, splat->axis_w) < slack)
+            t <= splat->bundle.far_depth + slack && ps_dot(n, splat->bundle.axis_w) < slack)
             return true;
     }
     return false;
@@ -195,10 +195,10 @@ static void test_leaves_out_what_lights_nothing(void **state)
     struct bins bins = sort(bench, SPLATS, 1);
     uint32_t empty_splats = 0, empty_tiles = 0;
     for (uint32_t i = 0; i < SPLATS; i++)
-        empty_splats += bench->splats[i].half_width == 0;
+        empty_splats += bench->splats[i].bundle.radius == 0;
     assert_true(empty_splats > 5);
     for (uint32_t i = 0; i < bins.offsets[bins.tile_count]; i++)
-        assert_true(bench->splats[bins.indices[i]].half_width > 0);
+        assert_true(bench->splats[bins.indices[i]].bundle.radius > 0);
     for (uint32_t tile = 0; tile < bins.tile_count; tile++) {
         bool empty = true;
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
@@ -340,13 +340,13 @@ static void test_smallest_picture(void **state)
     assert_int_equal(pyramid_create(&field, &pyramid, &error), PS_OK);
     pyramid_build(&pyramid, &field, 1);
     assert_int_equal(bins_create(1, &bins, &error), PS_OK);
-    ps_splat splats[2] = {{.half_width = 0.1f, .near_depth = -1, .far_depth = 1}};
-    splats[0].axis_u = (ps_vec3){1, 0, 0};
-    splats[0].axis_v = (ps_vec3){0, -1, 0};
-    splats[0].axis_w = (ps_vec3){0, 0, -1};
-    splats[0].centre.z = ALTITUDE;
+    struct splat splats[2] = {{.bundle.radius = 0.1f, .near_depth = -1, .bundle.far_depth = 1}};
+    splats[0].bundle.axis_u = (ps_vec3){1, 0, 0};
+    splats[0].bundle.axis_v = (ps_vec3){0, -1, 0};
+    splats[0].bundle.axis_w = (ps_vec3){0, 0, -1};
+    splats[0].bundle.centre.z = ALTITUDE;
     splats[1] = splats[0];
-    splats[0].centre.x = 1;
+    splats[0].bundle.centre.x = 1;
     const struct kernel_splat prepared[2] = {prepare(&splats[0], 0), prepare(&splats[1], 0)};
     assert_int_equal(bins_sort(&bins, &pyramid, &kernel, prepared, 2, 1, &error), PS_OK);
     assert_int_equal(bins.offsets[1], 1);

@@ -32,13 +32,13 @@ static float meet(const struct plane *plane, ps_vec3 origin, ps_vec3 direction, 
     return ps_dot(sideways, sideways) < plane->half_width * plane->half_width ? t : before;
 }
 
-static void trace(const ps_host *host, ps_packet *packets, size_t n, int coherent)
+static void trace(const ps_host *host, ps_ray_packet *packets, size_t n, int coherent)
 {
     (void)coherent;
     const struct room *room = host->core;
     for (size_t k = 0; k < n; k++)
         for (int i = 0; i < 16; i++) {
-            ps_packet *p = &packets[k];
+            ps_ray_packet *p = &packets[k];
             ps_vec3 origin = {p->origin_x[i], p->origin_y[i], p->origin_z[i]};
             ps_vec3 direction = {p->direction_x[i], p->direction_y[i], p->direction_z[i]};
             for (size_t w = 0; w < room->count; w++)
@@ -47,18 +47,18 @@ static void trace(const ps_host *host, ps_packet *packets, size_t n, int coheren
 }
 
 /* Light from the origin of a floor (y = 0), as much to the side as up, in bundles of half-width 2. */
-static ps_splat beam_in(struct room *room)
+static struct splat bundle_in(struct room *room)
 {
     static const float half = 0.70710678f;
     const ps_photon photon = {.normal = {0, 1, 0}, .direction = {half, half, 0}};
-    ps_splat splat = {
-        .half_width = 2,
-        .axis_u = {half, -half, 0},
-        .axis_v = {0, 0, 1},
-        .axis_w = photon.direction,
-        .start_slope_u = 1, /* points of the floor have y = 0 */
+    struct splat splat = {
+        .bundle.radius = 2,
+        .bundle.axis_u = {half, -half, 0},
+        .bundle.axis_v = {0, 0, 1},
+        .bundle.axis_w = photon.direction,
+        .bundle.start_slope_u = 1, /* points of the floor have y = 0 */
         .photon_depth = -10,
-        .start_depth = 2.0f / 8 / half - 10,
+        .bundle.start_depth = 2.0f / 8 / half - 10,
     };
     ps_host host = {.core = room, .intersect_packets = trace};
     boundary_find(&host, 0.001f, &photon, 1, &splat);
@@ -75,10 +75,10 @@ static void test_no_wall(void **state)
 {
     (void)state;
     struct room empty = {.count = 0};
-    assert_int_equal(beam_in(&empty).boundary_count, 0);
+    assert_int_equal(bundle_in(&empty).bundle.boundary_count, 0);
     /* Past twice the way to the rim, which lies at z = 2. */
     struct room far = {{{{0, 0, 1}, 4.1f, 1e9f}}, 1};
-    assert_int_equal(beam_in(&far).boundary_count, 0);
+    assert_int_equal(bundle_in(&far).bundle.boundary_count, 0);
 }
 
 /* Pixels that take in the photon may start as far out as the rim, and look as far again. */
@@ -86,9 +86,9 @@ static void test_wall_past_the_rim(void **state)
 {
     (void)state;
     struct room room = {{{{0, 0, 1}, 3.5f, 1e9f}}, 1};
-    ps_splat splat = beam_in(&room);
-    assert_int_equal(splat.boundary_count, 1);
-    expect_near(splat.boundaries[0].distance, 1.75);
+    struct splat splat = bundle_in(&room);
+    assert_int_equal(splat.bundle.boundary_count, 1);
+    expect_near(splat.bundle.boundaries[0].distance, 1.75);
 }
 
 /* A well whose walls lean outwards, as a hollow surface does: the bundle starts an eighth of its half-width
@@ -102,8 +102,8 @@ static void test_hollows_raise_the_start(void **state)
         {half, -half, 0}, {-half, -half, 0}, {0, -half, half}, {0, -half, -half}};
     for (size_t i = 0; i < 4; i++)
         hollow.planes[i] = (struct plane){leaning[i], 0.1f, 1e9f};
-    expect_near(beam_in(&flat).start_depth, 2.0 / 32 / (double)half - 10);
-    expect_near(beam_in(&hollow).start_depth, 2.0 / 8 / (double)half - 10);
+    expect_near(bundle_in(&flat).bundle.start_depth, 2.0 / 32 / (double)half - 10);
+    expect_near(bundle_in(&hollow).bundle.start_depth, 2.0 / 8 / (double)half - 10);
 }
 
 /* Across the bundle a distance is what it is on the floor. */
@@ -111,11 +111,11 @@ static void test_wall_beside_the_beam(void **state)
 {
     (void)state;
     struct room room = {{{{0, 0, 1}, 0.5f, 1e9f}}, 1};
-    ps_splat splat = beam_in(&room);
-    assert_int_equal(splat.boundary_count, 1);
-    expect_near(splat.boundaries[0].normal_u, 0);
-    expect_near(splat.boundaries[0].normal_v, 1);
-    expect_near(splat.boundaries[0].distance, 0.25);
+    struct splat splat = bundle_in(&room);
+    assert_int_equal(splat.bundle.boundary_count, 1);
+    expect_near(splat.bundle.boundaries[0].normal_u, 0);
+    expect_near(splat.bundle.boundaries[0].normal_v, 1);
+    expect_near(splat.bundle.boundaries[0].distance, 0.25);
 }
 
 /* Along the bundle's slope the disc covers sqrt(2) times as much floor. */
@@ -123,22 +123,22 @@ static void test_wall_behind_the_beam(void **state)
 {
     (void)state;
     struct room room = {{{{-1, 0, 0}, 1, 1e9f}}, 1};
-    ps_splat splat = beam_in(&room);
-    assert_int_equal(splat.boundary_count, 1);
-    expect_near(splat.boundaries[0].normal_u, -1);
-    expect_near(splat.boundaries[0].normal_v, 0);
-    expect_near(splat.boundaries[0].distance, 0.5 / sqrt(2));
+    struct splat splat = bundle_in(&room);
+    assert_int_equal(splat.bundle.boundary_count, 1);
+    expect_near(splat.bundle.boundaries[0].normal_u, -1);
+    expect_near(splat.bundle.boundaries[0].normal_v, 0);
+    expect_near(splat.bundle.boundaries[0].distance, 0.5 / sqrt(2));
 }
 
 static void test_corner(void **state)
 {
     (void)state;
     struct room room = {{{{0, 0, 1}, 0.5f, 1e9f}, {{-1, 0, 0}, 1, 1e9f}}, 2};
-    ps_splat splat = beam_in(&room);
-    assert_int_equal(splat.boundary_count, 2);
-    expect_near(splat.boundaries[0].distance, 0.25);
-    expect_near(splat.boundaries[1].normal_u, -1);
-    expect_near(splat.boundaries[1].distance, 0.5 / sqrt(2));
+    struct splat splat = bundle_in(&room);
+    assert_int_equal(splat.bundle.boundary_count, 2);
+    expect_near(splat.bundle.boundaries[0].distance, 0.25);
+    expect_near(splat.bundle.boundaries[1].normal_u, -1);
+    expect_near(splat.bundle.boundaries[1].distance, 0.5 / sqrt(2));
 }
 
 /* Three walls leave a niche: two of them are taken. */
@@ -147,18 +147,18 @@ static void test_niche(void **state)
     (void)state;
     struct room room = {{{{0, 0, 1}, 0.5f, 1e9f}, {{0, 0, -1}, 0.6f, 1e9f}, {{-1, 0, 0}, 1, 1e9f}},
                         3};
-    ps_splat splat = beam_in(&room);
-    assert_int_equal(splat.boundary_count, PS_MOST_BOUNDARIES);
-    expect_near(splat.boundaries[0].normal_v, 1);
-    expect_near(splat.boundaries[1].normal_v, -1);
-    expect_near(splat.boundaries[1].distance, 0.3);
+    struct splat splat = bundle_in(&room);
+    assert_int_equal(splat.bundle.boundary_count, PS_MOST_BOUNDARIES);
+    expect_near(splat.bundle.boundaries[0].normal_v, 1);
+    expect_near(splat.bundle.boundaries[1].normal_v, -1);
+    expect_near(splat.bundle.boundaries[1].distance, 0.3);
 }
 
 static void test_a_pole_is_no_wall(void **state)
 {
     (void)state;
     struct room room = {{{{0, 0, 1}, 0.5f, 0.3f}}, 1};
-    assert_int_equal(beam_in(&room).boundary_count, 0);
+    assert_int_equal(bundle_in(&room).bundle.boundary_count, 0);
 }
 
 static void test_leaves_out_splats_that_light_nothing(void **state)
@@ -167,9 +167,9 @@ static void test_leaves_out_splats_that_light_nothing(void **state)
     struct room room = {{{{0, 0, 1}, 0.5f, 1e9f}}, 1};
     ps_host host = {.core = &room, .intersect_packets = trace};
     const ps_photon photon = {.normal = {0, 1, 0}, .direction = {0, 1, 0}};
-    ps_splat nothing = {.half_width = 0};
+    struct splat nothing = {.bundle.radius = 0};
     boundary_find(&host, 0.001f, &photon, 1, &nothing);
-    assert_int_equal(nothing.boundary_count, 0);
+    assert_int_equal(nothing.bundle.boundary_count, 0);
 }
 
 int main(void)

@@ -1,5 +1,5 @@
 /* test_choice.c: strategies as the command line writes them: parsing, and laying over. */
-#include "pipeline/settings.h"
+#include "render/settings.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -4,6 +4,7 @@
 #include "debug/id_colour.h"
 #include "debug/legend.h"
 #include "debug/project.h"
+#include "host/place.h"
 #include "support/render_scene.h"
 
 #include <psplat/math.h>
@@ -95,24 +96,26 @@ struct tally {
     bool *borderline;
 };
 
-static void tally_pixel(const struct tally *tally, const ps_splat *splat, size_t pixel)
+static void tally_pixel(const struct tally *tally, const struct splat *splat, size_t pixel)
 {
     const struct film *film = &tally->render->film;
     ps_vec3 p = {film->planes[FILM_POSITION_X][pixel], film->planes[FILM_POSITION_Y][pixel],
                  film->planes[FILM_POSITION_Z][pixel]};
     ps_vec3 n = {film->planes[FILM_NORMAL_X][pixel], film->planes[FILM_NORMAL_Y][pixel],
                  film->planes[FILM_NORMAL_Z][pixel]};
-    double x = p.x - splat->centre.x, y = p.y - splat->centre.y, z = p.z - splat->centre.z;
-    double u = x * splat->axis_u.x + y * splat->axis_u.y + z * splat->axis_u.z;
-    double v = x * splat->axis_v.x + y * splat->axis_v.y + z * splat->axis_v.z;
-    double t = x * splat->axis_w.x + y * splat->axis_w.y + z * splat->axis_w.z;
-    double start = splat->start_depth + splat->start_slope_u * u + splat->start_slope_v * v;
-    double cosine =
-        -((double)n.x * splat->axis_w.x + (double)n.y * splat->axis_w.y + n.z * splat->axis_w.z);
-    const double margins[5] = {(splat->half_width - hypot(u, v)) / splat->half_width, cosine,
-                               (t - splat->near_depth) / splat->half_width,
-                               (splat->far_depth - t) / splat->half_width,
-                               (t - start) / splat->half_width};
+    double x = p.x - splat->bundle.centre.x, y = p.y - splat->bundle.centre.y,
+           z = p.z - splat->bundle.centre.z;
+    double u = x * splat->bundle.axis_u.x + y * splat->bundle.axis_u.y + z * splat->bundle.axis_u.z;
+    double v = x * splat->bundle.axis_v.x + y * splat->bundle.axis_v.y + z * splat->bundle.axis_v.z;
+    double t = x * splat->bundle.axis_w.x + y * splat->bundle.axis_w.y + z * splat->bundle.axis_w.z;
+    double start = splat->bundle.start_depth + splat->bundle.start_slope_u * u +
+                   splat->bundle.start_slope_v * v;
+    double cosine = -((double)n.x * splat->bundle.axis_w.x + (double)n.y * splat->bundle.axis_w.y +
+                      n.z * splat->bundle.axis_w.z);
+    const double margins[5] = {(splat->bundle.radius - hypot(u, v)) / splat->bundle.radius, cosine,
+                               (t - splat->near_depth) / splat->bundle.radius,
+                               (splat->bundle.far_depth - t) / splat->bundle.radius,
+                               (t - start) / splat->bundle.radius};
     int inside = 1;
     for (int i = 0; i < 5; i++) {
         inside = inside && margins[i] > 0;
@@ -124,19 +127,17 @@ static void tally_pixel(const struct tally *tally, const ps_splat *splat, size_t
 /* Asks for the splats as the estimator does, and tries each against each pixel. */
 static ps_result count_by_hand(void *user, struct render *render, struct error *error)
 {
-    (void)error;
     struct tally *tally = user;
     tally->render = render;
     const ps_photon *photons;
     size_t n;
-    double progress;
     do {
-        assert_int_equal(render->host.next_photons(&render->host, &photons, &n, &progress), PS_OK);
-        ps_splat *splats = malloc((n + 1) * sizeof *splats);
+        assert_int_equal(photon_stream_next(&render->photons, &photons, &n, error), PS_OK);
+        struct splat *splats = malloc((n + 1) * sizeof *splats);
         assert_non_null(splats);
-        assert_int_equal(render->host.place_splats(&render->host, photons, n, splats), PS_OK);
+        place_splats(render, photons, n, splats);
         for (size_t i = 0; i < n; i++)
-            for (size_t pixel = 0; pixel < PIXELS && splats[i].half_width > 0; pixel++)
+            for (size_t pixel = 0; pixel < PIXELS && splats[i].bundle.radius > 0; pixel++)
                 if (render->film.planes[FILM_COVERAGE][pixel] > 0)
                     tally_pixel(tally, &splats[i], pixel);
         free(splats);

@@ -16,7 +16,7 @@
 
 struct bench {
     _Alignas(64) struct interleaved_tile tile;
-    ps_splat splats[SPLATS];
+    struct splat splats[SPLATS];
     struct kernel_splat prepared[SPLATS];
     uint32_t indices[SPLATS];
     struct kernel_profile profile;
@@ -60,51 +60,52 @@ static struct bench *make_bench(void)
     for (uint32_t s = 0; s < SPLATS; s++) {
         float angle = random_between(&random, 0, 6), other = random_between(&random, 0, 6);
         bench.indices[s] = s;
-        bench.splats[s] = (ps_splat){
-            .centre = {random_between(&random, -0.5f, 0.5f), random_between(&random, -0.5f, 0.5f),
-                       0},
-            .half_width = random_between(&random, 0.3f, 1.0f),
-            .axis_w = ps_normalize(random_direction(&random)),
+        bench.splats[s] = (struct splat){
+            .bundle.centre = {random_between(&random, -0.5f, 0.5f),
+                              random_between(&random, -0.5f, 0.5f), 0},
+            .bundle.radius = random_between(&random, 0.3f, 1.0f),
+            .bundle.axis_w = ps_normalize(random_direction(&random)),
             .near_depth = -0.7f,
-            .far_depth = 0.7f,
-            .start_depth = -0.6f,
+            .bundle.far_depth = 0.7f,
+            .bundle.start_depth = -0.6f,
             .photon_depth = -0.7f,
             .follow = s % 2 ? 0.6f : 0.0f,
             .narrowest = 0.1f,
             .widest = 0.5f,
             .blend_distance = s % 4 == 1 ? 0.8f : 0.0f,
             .power = {1, 2, 3},
-            .boundary_count = s % 3,
-            .boundaries = {{cosf(angle), sinf(angle), random_unit(&random)},
-                           {cosf(other), sinf(other), random_unit(&random)}},
+            .bundle.boundary_count = s % 3,
+            .bundle.boundaries = {{cosf(angle), sinf(angle), random_unit(&random)},
+                                  {cosf(other), sinf(other), random_unit(&random)}},
         };
-        ps_frame(bench.splats[s].axis_w, &bench.splats[s].axis_u, &bench.splats[s].axis_v);
+        ps_frame(bench.splats[s].bundle.axis_w, &bench.splats[s].bundle.axis_u,
+                 &bench.splats[s].bundle.axis_v);
     }
     prepare(&bench);
     return &bench;
 }
 
-static void see_all(const void *state, const ps_host *host, const ps_splat *splat,
+static void see_all(const void *state, const ps_host *host, const ps_bundle *bundle,
                     const ps_vec3 *points, size_t n, uint8_t *lit)
 {
     (void)state;
     (void)host;
-    (void)splat;
+    (void)bundle;
     (void)points;
     memset(lit, 1, n);
 }
 
-static void see_right_half(const void *state, const ps_host *host, const ps_splat *splat,
+static void see_right_half(const void *state, const ps_host *host, const ps_bundle *bundle,
                            const ps_vec3 *points, size_t n, uint8_t *lit)
 {
     (void)state;
     (void)host;
-    (void)splat;
+    (void)bundle;
     for (size_t i = 0; i < n; i++)
         lit[i] = points[i].x > 0;
 }
 
-typedef void visible_test(const void *state, const ps_host *host, const ps_splat *splat,
+typedef void visible_test(const void *state, const ps_host *host, const ps_bundle *bundle,
                           const ps_vec3 *points, size_t n, uint8_t *lit);
 
 static struct kernel_count run(const struct bench *bench, visible_test *visible,
@@ -160,7 +161,7 @@ static void test_agrees_with_the_kernel_where_all_is_seen(void **state)
 static void take_walls_away(struct bench *bench)
 {
     for (uint32_t s = 0; s < SPLATS; s++)
-        bench->splats[s].boundary_count = 0;
+        bench->splats[s].bundle.boundary_count = 0;
     prepare(bench);
 }
 

@@ -15,14 +15,14 @@ struct board {
     size_t packets; /* traced */
 };
 
-static void trace(const ps_host *host, ps_packet *packets, size_t n, int coherent)
+static void trace(const ps_host *host, ps_ray_packet *packets, size_t n, int coherent)
 {
     (void)coherent;
     struct board *board = host->core;
     board->packets += n;
     for (size_t k = 0; k < n; k++)
         for (int i = 0; i < 16; i++) {
-            ps_packet *p = &packets[k];
+            ps_ray_packet *p = &packets[k];
             float t = (board->distance - p->origin_x[i]) / p->direction_x[i];
             float y = p->origin_y[i] + t * p->direction_y[i];
             if (t > p->tnear[i] && t < p->tfar[i] && y < board->top)
@@ -39,7 +39,7 @@ struct bundle {
     float half_width;
 };
 
-static struct bundle find(struct board *board, ps_footprint_settings settings, ps_hit hit)
+static struct bundle find(struct board *board, struct footprint_params settings, ps_hit hit)
 {
     const ps_photon photon = {.normal = {0, 1, 0}, .direction = {0.70710678f, 0.70710678f, 0}};
     ps_host host = {.core = board, .intersect_packets = trace};
@@ -55,7 +55,7 @@ static void test_a_board_beside_the_axis(void **state)
 {
     (void)state;
     struct board board = {.distance = 10, .top = 9};
-    struct bundle bundle = find(&board, (ps_footprint_settings){.radius = 2}, nothing);
+    struct bundle bundle = find(&board, (struct footprint_params){.radius.number = 2}, nothing);
     assert_true(bundle.half_width == 2);
     assert_true(bundle.hit.distance > 12 && bundle.hit.distance < 14.2f);
     assert_true(fabsf(bundle.hit.position.x - bundle.hit.distance * 0.70710678f) < 1e-4f);
@@ -68,7 +68,7 @@ static void test_a_board_too_far_from_the_axis(void **state)
 {
     (void)state;
     struct board board = {.distance = 10, .top = 6};
-    struct bundle bundle = find(&board, (ps_footprint_settings){.radius = 2}, nothing);
+    struct bundle bundle = find(&board, (struct footprint_params){.radius.number = 2}, nothing);
     assert_true(bundle.half_width == 2 && bundle.hit.distance == 2);
     assert_true(board.packets == 1);
 }
@@ -80,8 +80,8 @@ static void test_something_near_before_something_far(void **state)
     (void)state;
     struct board board = {.distance = 10, .top = 1e9f};
     const ps_hit near = {.distance = 3, .position = {1, 2, 3}, .normal = {0, 0, 1}};
-    const ps_footprint_settings wide = {.radius = 2, .bandwidth_scale = 0.2},
-                                narrow = {.radius = 2, .bandwidth_scale = 0.05};
+    const struct footprint_params wide = {.radius.number = 2, .bandwidth_scale = 0.2},
+                                  narrow = {.radius.number = 2, .bandwidth_scale = 0.05};
     struct bundle bundle = find(&board, wide, near);
     assert_true(bundle.half_width == 2);
     assert_true(bundle.hit.distance == 3 && ps_same(bundle.hit.position, near.position));
@@ -95,11 +95,11 @@ static void test_leaves_wide_beams_and_none(void **state)
     (void)state;
     struct board board = {.distance = 10, .top = 9};
     const ps_hit far = {.distance = 30};
-    const ps_footprint_settings settings = {.radius = 2, .bandwidth_scale = 0.2};
+    const struct footprint_params settings = {.radius.number = 2, .bandwidth_scale = 0.2};
     assert_true(find(&board, settings, far).half_width == 2);
     assert_true(
-        find(&board, (ps_footprint_settings){.radius = 2}, (ps_hit){.distance = 0.1f}).half_width ==
-        2);
+        find(&board, (struct footprint_params){.radius.number = 2}, (ps_hit){.distance = 0.1f})
+            .half_width == 2);
     ps_host host = {.core = &board, .intersect_packets = trace};
     const ps_photon photon = {.normal = {0, 1, 0}, .direction = {0, 1, 0}};
     ps_hit hit = nothing;

@@ -122,7 +122,7 @@ static void test_shapes_of_one_splat(void **state)
 static struct kernel_profile profile_of(const char *text)
 {
     struct strategy filter = strategy_of(text);
-    const ps_filter_vtable *vtable = filter.descriptor->vtable;
+    const ps_filter_vtable *vtable = &filter.type->table.filter;
     struct kernel_profile profile;
     float radius2[KERNEL_PROFILE_SIZE];
     for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++)

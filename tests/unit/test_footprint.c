@@ -28,10 +28,11 @@ static void expect_near(double value, double expected)
         fail_msg("%.7g, expected %.7g", value, expected);
 }
 
-static ps_splat place_one(const struct footprint_scene *own, const ps_footprint_settings *settings,
-                          const ps_photon *photon, const ps_hit *hit)
+static struct splat place_one(const struct footprint_scene *own,
+                              const struct footprint_params *settings, const ps_photon *photon,
+                              const ps_hit *hit)
 {
-    ps_splat splat;
+    struct splat splat;
     float half_width = footprint_half_width(own, settings, photon, hit->distance);
     footprint_place(own, settings, photon, hit, &half_width, 1, &splat);
     return splat;
@@ -39,7 +40,8 @@ static ps_splat place_one(const struct footprint_scene *own, const ps_footprint_
 
 /* A photon at the origin on a surface that faces up, whose light goes along w and arrives after
  * `distance` where the cosine is `cosine`. */
-static ps_splat place_along(ps_vec3 w, ps_footprint_settings settings, float distance, float cosine)
+static struct splat place_along(ps_vec3 w, struct footprint_params settings, float distance,
+                                float cosine)
 {
     ps_vec3 u, v;
     ps_frame(w, &u, &v);
@@ -51,7 +53,7 @@ static ps_splat place_along(ps_vec3 w, ps_footprint_settings settings, float dis
     return place_one(&scene, &settings, &photon, &hit);
 }
 
-static ps_splat place(ps_footprint_settings settings, float distance, float cosine)
+static struct splat place(struct footprint_params settings, float distance, float cosine)
 {
     return place_along((ps_vec3){0, 1, 0}, settings, distance, cosine);
 }
@@ -59,18 +61,18 @@ static ps_splat place(ps_footprint_settings settings, float distance, float cosi
 static void test_carries_the_photon(void **state)
 {
     (void)state;
-    ps_splat splat = place((ps_footprint_settings){.radius = 2}, 10, 1);
-    expect_near(splat.centre.y, 10);
+    struct splat splat = place((struct footprint_params){.radius.number = 2}, 10, 1);
+    expect_near(splat.bundle.centre.y, 10);
     assert_true(splat.power.r == 1 && splat.power.g == 2 && splat.power.b == 3);
     assert_true(splat.path == 55);
-    assert_true(splat.axis_w.y == 1);
+    assert_true(splat.bundle.axis_w.y == 1);
 }
 
 static void test_size(void **state)
 {
     (void)state;
-    expect_near(place((ps_footprint_settings){.radius = 3}, 10, 1).half_width, 3);
-    expect_near(place((ps_footprint_settings){.radius = 0}, 10, 1).half_width, 2);
+    expect_near(place((struct footprint_params){.radius.number = 3}, 10, 1).bundle.radius, 3);
+    expect_near(place((struct footprint_params){.radius.number = 0}, 10, 1).bundle.radius, 2);
 }
 
 /* By the fourth root of few paths, the fifth root of many, the sixth root of the passes; never a large part of
@@ -107,35 +109,35 @@ static void test_size_by_the_spread_of_light(void **state)
 static void test_size_follows_distance(void **state)
 {
     (void)state;
-    const ps_footprint_settings settings = {.radius = 3, .bandwidth_scale = 0.25};
-    expect_near(place(settings, 100, 1).half_width, 3);
-    expect_near(place(settings, 12.1f, 1).half_width, 3);
-    expect_near(place(settings, 8, 1).half_width, 2);
-    expect_near(place(settings, 4, 1).half_width, 1);
-    expect_near(place(settings, 2, 1).half_width, 0.9);
-    expect_near(place(settings, 0.001f, 1).half_width, 0.9);
-    const ps_footprint_settings automatic = {.bandwidth_scale = 0.25};
-    expect_near(place(automatic, 4, 1).half_width, 1);
-    expect_near(place(automatic, 0.1f, 1).half_width, 0.6);
-    const ps_footprint_settings unlimited = {.radius = 3};
-    expect_near(place(unlimited, 0.001f, 1).half_width, 3);
+    const struct footprint_params settings = {.radius.number = 3, .bandwidth_scale = 0.25};
+    expect_near(place(settings, 100, 1).bundle.radius, 3);
+    expect_near(place(settings, 12.1f, 1).bundle.radius, 3);
+    expect_near(place(settings, 8, 1).bundle.radius, 2);
+    expect_near(place(settings, 4, 1).bundle.radius, 1);
+    expect_near(place(settings, 2, 1).bundle.radius, 0.9);
+    expect_near(place(settings, 0.001f, 1).bundle.radius, 0.9);
+    const struct footprint_params automatic = {.bandwidth_scale = 0.25};
+    expect_near(place(automatic, 4, 1).bundle.radius, 1);
+    expect_near(place(automatic, 0.1f, 1).bundle.radius, 0.6);
+    const struct footprint_params unlimited = {.radius.number = 3};
+    expect_near(place(unlimited, 0.001f, 1).bundle.radius, 3);
 }
 
 /* Surfaces that others light have no shadows' edges to keep sharp. */
 static void test_size_follows_less_far_after_the_first_bounce(void **state)
 {
     (void)state;
-    const ps_footprint_settings settings = {.radius = 3, .bandwidth_scale = 0.25};
+    const struct footprint_params settings = {.radius.number = 3, .bandwidth_scale = 0.25};
     ps_photon photon = {.normal = {0, 1, 0}, .direction = {0, 1, 0}, .power = {1, 1, 1}};
     ps_hit hit = {.position = {0, 2, 0}, .distance = 2, .normal = {0, -1, 0}};
     const double half_widths[3] = {0.9, 1.8, 1.8}; /* of bounce 1, 2, 3 */
     for (uint16_t i = 0; i < 3; i++) {
         photon.bounce = (uint16_t)(i + 1);
-        expect_near(place_one(&scene, &settings, &photon, &hit).half_width, half_widths[i]);
+        expect_near(place_one(&scene, &settings, &photon, &hit).bundle.radius, half_widths[i]);
     }
 }
 
-static ps_splat place_near(ps_footprint_settings settings, uint16_t bounce, uint8_t specular)
+static struct splat place_near(struct footprint_params settings, uint16_t bounce, uint8_t specular)
 {
     struct footprint_scene own = scene;
     own.gather_distance = footprint_gather_distance(&own, &settings, 100000);
@@ -149,8 +151,8 @@ static ps_splat place_near(ps_footprint_settings settings, uint16_t bounce, uint
 static void test_short_range_light_stays_as_near(void **state)
 {
     (void)state;
-    const ps_footprint_settings by_hand = {
-        .radius = 3, .bandwidth_scale = 0.25, .step_back_rule = 1};
+    const struct footprint_params by_hand = {
+        .radius.number = 3, .bandwidth_scale = 0.25, .step_back.choice = 1};
     expect_near(footprint_gather_distance(&scene, &by_hand, 6250), 2.5 * 3);
     expect_near(footprint_gather_distance(&scene, &by_hand, 3200000), 2.5 * 6);
     double size = footprint_automatic_size(RADIUS, 0, 100000, 0);
@@ -164,16 +166,17 @@ static void test_short_range_light_stays_as_near(void **state)
 static void test_short_range_light_is_left(void **state)
 {
     (void)state;
-    const ps_footprint_settings full = {.radius = 3, .bandwidth_scale = 0.25, .step_back_rule = 1};
+    const struct footprint_params full = {
+        .radius.number = 3, .bandwidth_scale = 0.25, .step_back.choice = 1};
     expect_near(place_near(full, 1, 0).blend_distance, 2.5 * 3);
-    expect_near(place_near(full, 1, 0).half_width, 0.6 * 3);
+    expect_near(place_near(full, 1, 0).bundle.radius, 0.6 * 3);
     expect_near(place_near(full, 1, 1).blend_distance, 0);
-    expect_near(place_near(full, 1, 1).half_width, 0.3 * 3);
+    expect_near(place_near(full, 1, 1).bundle.radius, 0.3 * 3);
     expect_near(place_near(full, 2, 0).blend_distance, 0);
-    const ps_footprint_settings automatic = {.bandwidth_scale = 0.25, .step_back_rule = 1};
+    const struct footprint_params automatic = {.bandwidth_scale = 0.25, .step_back.choice = 1};
     expect_near(place_near(automatic, 1, 0).blend_distance, 2);
-    const ps_footprint_settings sloped = {.radius = 3, .bandwidth_scale = 0.25},
-                                still = {.radius = 3, .step_back_rule = 1};
+    const struct footprint_params sloped = {.radius.number = 3, .bandwidth_scale = 0.25},
+                                  still = {.radius.number = 3, .step_back.choice = 1};
     expect_near(place_near(sloped, 1, 0).blend_distance, 0);
     expect_near(place_near(still, 1, 0).blend_distance, 0);
 }
@@ -182,46 +185,46 @@ static void test_short_range_light_is_left(void **state)
 static void test_size_follows_no_further_than_pixels(void **state)
 {
     (void)state;
-    const ps_footprint_settings settings = {.radius = 3, .bandwidth_scale = 0.25};
+    const struct footprint_params settings = {.radius.number = 3, .bandwidth_scale = 0.25};
     camera.across = (ps_vec3){0.3f, 0, 0};
-    expect_near(place(settings, 8, 1).half_width, 2);
-    expect_near(place(settings, 0.001f, 1).half_width, 1.2);
+    expect_near(place(settings, 8, 1).bundle.radius, 2);
+    expect_near(place(settings, 0.001f, 1).bundle.radius, 1.2);
     camera.across = (ps_vec3){5, 0, 0};
-    expect_near(place(settings, 0.001f, 1).half_width, 3);
+    expect_near(place(settings, 0.001f, 1).bundle.radius, 3);
     camera.orthographic = false;
     camera.across = (ps_vec3){0.003f, 0, 0};
-    expect_near(place(settings, 0.001f, 1).half_width, 0.003 * 99 * 4);
+    expect_near(place(settings, 0.001f, 1).bundle.radius, 0.003 * 99 * 4);
     camera.orthographic = true;
     camera.across = (ps_vec3){0, 0, 0};
 }
 
-static double half_width_of(float merged, ps_footprint_settings settings, float distance)
+static double half_width_of(float merged, struct footprint_params settings, float distance)
 {
     ps_photon photon = {
         .normal = {0, 1, 0}, .direction = {0, 1, 0}, .merged = merged, .power = {1, 1, 1}};
     ps_hit hit = {.position = {0, distance, 0}, .distance = distance, .normal = {0, -1, 0}};
-    return place_one(&scene, &settings, &photon, &hit).half_width;
+    return place_one(&scene, &settings, &photon, &hit).bundle.radius;
 }
 
 /* By the square root of what was merged, up to a limit; then the distance limits as ever. */
 static void test_size_grows_with_what_was_merged(void **state)
 {
     (void)state;
-    const ps_footprint_settings settings = {.radius = 2, .max_merge_scale = 3};
+    const struct footprint_params settings = {.radius.number = 2, .max_merge_scale = 3};
     expect_near(half_width_of(4, settings, 100), 4);
     expect_near(half_width_of(2, settings, 100), 2 * sqrt(2));
     expect_near(half_width_of(9, settings, 100), 6);
     expect_near(half_width_of(1000, settings, 100), 6);
     assert_true(half_width_of(1, settings, 100) == 2);
     assert_true(half_width_of(0.5f, settings, 100) == 2);
-    const ps_footprint_settings none = {.radius = 2, .max_merge_scale = 1};
+    const struct footprint_params none = {.radius.number = 2, .max_merge_scale = 1};
     assert_true(half_width_of(9, none, 100) == 2);
-    const ps_footprint_settings follows = {
-        .radius = 2, .max_merge_scale = 3, .bandwidth_scale = 0.25};
+    const struct footprint_params follows = {
+        .radius.number = 2, .max_merge_scale = 3, .bandwidth_scale = 0.25};
     expect_near(half_width_of(9, follows, 100), 6);
     expect_near(half_width_of(9, follows, 16), 4);
     expect_near(half_width_of(9, follows, 0.1f), 1.8);
-    const ps_footprint_settings vast = {.radius = 2, .max_merge_scale = INFINITY};
+    const struct footprint_params vast = {.radius.number = 2, .max_merge_scale = INFINITY};
     expect_near(half_width_of(1e12f, vast, 100), 4 * RADIUS);
 }
 
@@ -229,42 +232,43 @@ static void test_size_grows_with_what_was_merged(void **state)
 static void test_automatic_step_back(void **state)
 {
     (void)state;
-    const ps_footprint_settings settings = {.radius = 2};
-    ps_splat flat = place(settings, 10, 1);
+    const struct footprint_params settings = {.radius.number = 2};
+    struct splat flat = place(settings, 10, 1);
     expect_near(flat.near_depth, -1);
-    expect_near(flat.far_depth, 2);
-    expect_near(flat.start_depth, -1);
-    assert_true(flat.start_slope_u == 0 && flat.start_slope_v == 0);
-    ps_splat sloped = place(settings, 10, 0.6f); /* tan = 4/3 */
+    expect_near(flat.bundle.far_depth, 2);
+    expect_near(flat.bundle.start_depth, -1);
+    assert_true(flat.bundle.start_slope_u == 0 && flat.bundle.start_slope_v == 0);
+    struct splat sloped = place(settings, 10, 0.6f); /* tan = 4/3 */
     expect_near(sloped.near_depth, -(2 * 4.0 / 3 + 1));
-    expect_near(sloped.far_depth, 2 * 4.0 / 3 + 2);
-    ps_splat close = place(settings, 0.5f, 0.6f); /* not behind the photon */
+    expect_near(sloped.bundle.far_depth, 2 * 4.0 / 3 + 2);
+    struct splat close = place(settings, 0.5f, 0.6f); /* not behind the photon */
     expect_near(close.near_depth, -0.5);
-    expect_near(close.far_depth, 2 * 4.0 / 3 + 2);
+    expect_near(close.bundle.far_depth, 2 * 4.0 / 3 + 2);
 }
 
 static void test_steep_slopes_are_limited(void **state)
 {
     (void)state;
-    const ps_footprint_settings settings = {.radius = 1};
-    ps_splat grazing = place(settings, 1000, 1e-3f);
+    const struct footprint_params settings = {.radius.number = 1};
+    struct splat grazing = place(settings, 1000, 1e-3f);
     expect_near(grazing.near_depth, -(10 + 0.5));
-    expect_near(grazing.far_depth, 11);
-    ps_splat behind = place(settings, 1000, -0.5f); /* rounding may turn a normal away */
-    expect_near(behind.far_depth, 11);
+    expect_near(grazing.bundle.far_depth, 11);
+    struct splat behind = place(settings, 1000, -0.5f); /* rounding may turn a normal away */
+    expect_near(behind.bundle.far_depth, 11);
 }
 
 static void test_numbers(void **state)
 {
     (void)state;
-    const ps_footprint_settings settings = {
-        .radius = 2, .depth = 7, .step_back = 3, .step_back_rule = -1};
-    ps_splat splat = place(settings, 10, 0.6f);
+    const struct footprint_params settings = {
+        .radius.number = 2, .depth.number = 7, .step_back.number = 3, .step_back.choice = -1};
+    struct splat splat = place(settings, 10, 0.6f);
     expect_near(splat.near_depth, -3);
-    expect_near(splat.start_depth, -3);
-    expect_near(splat.far_depth, 7);
+    expect_near(splat.bundle.start_depth, -3);
+    expect_near(splat.bundle.far_depth, 7);
     expect_near(place(settings, 2, 0.6f).near_depth, -2); /* the photon is nearer */
-    const ps_footprint_settings none = {.radius = 2, .step_back = 0, .step_back_rule = -1};
+    const struct footprint_params none = {
+        .radius.number = 2, .step_back.number = 0, .step_back.choice = -1};
     expect_near(place(none, 10, 1).near_depth, 0);
 }
 
@@ -272,55 +276,56 @@ static void test_numbers(void **state)
 static void test_full_beam_straight_up(void **state)
 {
     (void)state;
-    const ps_footprint_settings settings = {.radius = 2, .step_back_rule = 1};
-    ps_splat splat = place(settings, 10, 1);
-    expect_near(splat.start_depth, 0.25 - 10);
-    expect_near(splat.start_slope_u, 0);
-    expect_near(splat.start_slope_v, 0);
+    const struct footprint_params settings = {.radius.number = 2, .step_back.choice = 1};
+    struct splat splat = place(settings, 10, 1);
+    expect_near(splat.bundle.start_depth, 0.25 - 10);
+    expect_near(splat.bundle.start_slope_u, 0);
+    expect_near(splat.bundle.start_slope_v, 0);
     expect_near(splat.near_depth, -10);
     expect_near(splat.photon_depth, -10);
-    expect_near(splat.far_depth, 2);
+    expect_near(splat.bundle.far_depth, 2);
     /* Never past half of the way. */
-    expect_near(place(settings, 0.2f, 1).start_depth, -0.1);
+    expect_near(place(settings, 0.2f, 1).bundle.start_depth, -0.1);
 }
 
 /* Every ray of a slanted bundle starts on one plane parallel to the photon's surface. */
 static void test_full_beam_starts_along_the_surface(void **state)
 {
     (void)state;
-    const ps_footprint_settings settings = {.radius = 2, .step_back_rule = 1};
-    ps_splat splat = place_along((ps_vec3){0.8f, 0.6f, 0}, settings, 10, 1);
+    const struct footprint_params settings = {.radius.number = 2, .step_back.choice = 1};
+    struct splat splat = place_along((ps_vec3){0.8f, 0.6f, 0}, settings, 10, 1);
     float earliest = 0;
     for (int i = 0; i < 32; i++) { /* around the edge of the disc */
         float u = 2 * cosf((float)i * PS_PI / 16), v = 2 * sinf((float)i * PS_PI / 16);
-        float start = splat.start_depth + u * splat.start_slope_u + v * splat.start_slope_v;
-        ps_vec3 origin = ps_add_scaled(splat.centre, u, splat.axis_u);
-        origin = ps_add_scaled(origin, v, splat.axis_v);
-        origin = ps_add_scaled(origin, start, splat.axis_w);
+        float start = splat.bundle.start_depth + u * splat.bundle.start_slope_u +
+                      v * splat.bundle.start_slope_v;
+        ps_vec3 origin = ps_add_scaled(splat.bundle.centre, u, splat.bundle.axis_u);
+        origin = ps_add_scaled(origin, v, splat.bundle.axis_v);
+        origin = ps_add_scaled(origin, start, splat.bundle.axis_w);
         expect_near(origin.y, 0.25); /* R / 8 above the surface */
         earliest = fminf(earliest, start);
     }
     assert_true(splat.near_depth <= earliest - 0.4f && splat.near_depth > earliest - 0.5f);
-    expect_near(splat.start_depth, 0.25 / 0.6 - 10);
+    expect_near(splat.bundle.start_depth, 0.25 / 0.6 - 10);
 }
 
 static void test_a_miss_lights_nothing(void **state)
 {
     (void)state;
     for (int rule = -1; rule <= 1; rule++) {
-        const ps_footprint_settings settings = {
-            .radius = 2, .step_back = 1, .step_back_rule = rule};
+        const struct footprint_params settings = {
+            .radius.number = 2, .step_back.number = 1, .step_back.choice = rule};
         ps_photon photon = {.normal = {0, 1, 0}, .direction = {0, 1, 0}, .power = {1, 1, 1}};
         ps_hit hit = {.distance = INFINITY, .object = PS_NO_OBJECT};
-        assert_true(place_one(&scene, &settings, &photon, &hit).half_width == 0);
+        assert_true(place_one(&scene, &settings, &photon, &hit).bundle.radius == 0);
     }
 }
 
-static ps_splat frame_of(uint64_t seed, uint64_t path, uint32_t bounce, ps_vec3 w)
+static struct splat frame_of(uint64_t seed, uint64_t path, uint32_t bounce, ps_vec3 w)
 {
     const struct footprint_scene own = {
         .radius = RADIUS, .surface_offset = 0.001f, .seed = seed, .camera = &camera};
-    const ps_footprint_settings settings = {.radius = 2};
+    const struct footprint_params settings = {.radius.number = 2};
     ps_photon photon = {.normal = w, .direction = w, .bounce = bounce, .path = path};
     ps_hit hit = {.position = w, .distance = 1, .normal = ps_scale(w, -1)};
     return place_one(&own, &settings, &photon, &hit);
@@ -332,13 +337,13 @@ static void test_frames_are_orthonormal(void **state)
     struct random random = {8};
     for (uint64_t path = 0; path < 1000; path++) {
         ps_vec3 w = ps_normalize(random_direction(&random));
-        ps_splat splat = frame_of(1, path, 1, w);
-        assert_memory_equal(&splat.axis_w, &w, sizeof w);
-        assert_true(fabsf(ps_length(splat.axis_u) - 1) < 1e-5f);
-        assert_true(fabsf(ps_length(splat.axis_v) - 1) < 1e-5f);
-        assert_true(fabsf(ps_dot(splat.axis_u, splat.axis_v)) < 1e-5f);
-        assert_true(fabsf(ps_dot(splat.axis_u, w)) < 1e-5f);
-        assert_true(ps_dot(ps_cross(splat.axis_u, splat.axis_v), w) > 0.999f);
+        struct splat splat = frame_of(1, path, 1, w);
+        assert_memory_equal(&splat.bundle.axis_w, &w, sizeof w);
+        assert_true(fabsf(ps_length(splat.bundle.axis_u) - 1) < 1e-5f);
+        assert_true(fabsf(ps_length(splat.bundle.axis_v) - 1) < 1e-5f);
+        assert_true(fabsf(ps_dot(splat.bundle.axis_u, splat.bundle.axis_v)) < 1e-5f);
+        assert_true(fabsf(ps_dot(splat.bundle.axis_u, w)) < 1e-5f);
+        assert_true(ps_dot(ps_cross(splat.bundle.axis_u, splat.bundle.axis_v), w) > 0.999f);
     }
 }
 
@@ -351,7 +356,7 @@ static void test_frames_turn(void **state)
     double sum_x = 0, sum_z = 0;
     int quadrants[4] = {0};
     for (uint64_t path = 0; path < PATHS; path++) {
-        ps_vec3 u = frame_of(1, path, 1, up).axis_u;
+        ps_vec3 u = frame_of(1, path, 1, up).bundle.axis_u;
         sum_x += u.x;
         sum_z += u.z;
         quadrants[(u.x > 0) + 2 * (u.z > 0)]++;
@@ -359,20 +364,20 @@ static void test_frames_turn(void **state)
     assert_true(fabs(sum_x) < 0.1 * PATHS && fabs(sum_z) < 0.1 * PATHS);
     for (int i = 0; i < 4; i++)
         assert_in_range(quadrants[i], PATHS / 5, 3 * PATHS / 10);
-    ps_vec3 u = frame_of(1, 3, 1, up).axis_u, again = frame_of(1, 3, 1, up).axis_u;
+    ps_vec3 u = frame_of(1, 3, 1, up).bundle.axis_u, again = frame_of(1, 3, 1, up).bundle.axis_u;
     assert_memory_equal(&u, &again, sizeof u);
-    assert_true(ps_dot(u, frame_of(2, 3, 1, up).axis_u) < 0.9999f);
-    assert_true(ps_dot(u, frame_of(1, 3, 2, up).axis_u) < 0.9999f);
-    assert_true(ps_dot(u, frame_of(1, 4, 1, up).axis_u) < 0.9999f);
+    assert_true(ps_dot(u, frame_of(2, 3, 1, up).bundle.axis_u) < 0.9999f);
+    assert_true(ps_dot(u, frame_of(1, 3, 2, up).bundle.axis_u) < 0.9999f);
+    assert_true(ps_dot(u, frame_of(1, 4, 1, up).bundle.axis_u) < 0.9999f);
 }
 
-static ps_splat uncut(void)
+static struct splat uncut(void)
 {
-    return (ps_splat){.half_width = 1,
-                      .near_depth = -5,
-                      .far_depth = 5,
-                      .bias_constant = 0.1f,
-                      .bias_slope = 0.02f}; /* up to 0.2 at the steepest */
+    return (struct splat){.bundle.radius = 1,
+                          .near_depth = -5,
+                          .bundle.far_depth = 5,
+                          .bias_constant = 0.1f,
+                          .bias_slope = 0.02f}; /* up to 0.2 at the steepest */
 }
 
 /* What lies before the map is lit too: only the far end moves. */
@@ -380,14 +385,14 @@ static void test_cut(void **state)
 {
     (void)state;
     const float depths[4] = {-1, 0.5f, 2, 0};
-    ps_splat splat = uncut();
+    struct splat splat = uncut();
     footprint_cut(&splat, depths, 2);
     expect_near(splat.near_depth, -5);
-    expect_near(splat.far_depth, 2.3);
+    expect_near(splat.bundle.far_depth, 2.3);
     splat = uncut(); /* never grows */
-    splat.far_depth = 1;
+    splat.bundle.far_depth = 1;
     footprint_cut(&splat, depths, 2);
-    expect_near(splat.far_depth, 1);
+    expect_near(splat.bundle.far_depth, 1);
 }
 
 /* A box stays open to its end where nothing was hit. */
@@ -395,12 +400,12 @@ static void test_cut_with_misses(void **state)
 {
     (void)state;
     const float some[4] = {-1, INFINITY, 2, 0}, none[1] = {INFINITY};
-    ps_splat splat = uncut();
+    struct splat splat = uncut();
     footprint_cut(&splat, some, 2);
-    expect_near(splat.far_depth, 5);
+    expect_near(splat.bundle.far_depth, 5);
     splat = uncut();
     footprint_cut(&splat, none, 1);
-    expect_near(splat.far_depth, 5);
+    expect_near(splat.bundle.far_depth, 5);
 }
 
 int main(void)

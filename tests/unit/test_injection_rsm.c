@@ -236,7 +236,7 @@ static void test_too_many_pixels(void **state)
 
 static void look_at_lights(const ps_host *host)
 {
-    ps_light light;
+    ps_light light = {.size = sizeof light};
     assert_int_equal(host->light_count(host), 5);
     host->light(host, 0, &light);
     assert_int_equal(light.kind, PS_LIGHT_POINT);

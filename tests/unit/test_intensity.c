@@ -38,7 +38,7 @@ static struct picture resolve(const char *normalization)
     struct picture picture;
     bare_host_create(&bare, 1);
     struct strategy strategy = strategy_of(normalization);
-    const ps_normalization_vtable *vtable = strategy.descriptor->vtable;
+    const ps_normalization_vtable *vtable = &strategy.type->table.normalization;
     assert_int_equal(
         vtable->resolve(strategy.state, &bare.host, &film, picture.r, picture.g, picture.b), PS_OK);
     strategy_release(&strategy);

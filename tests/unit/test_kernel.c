@@ -23,7 +23,7 @@
 
 struct bench {
     _Alignas(64) struct interleaved_tile tile;
-    ps_splat splats[SPLATS];
+    struct splat splats[SPLATS];
     float depths[SPLATS][MOST_TEXELS];
     uint32_t indices[SPLATS];
     struct kernel_profile profile;
@@ -78,45 +78,45 @@ static void fill_tile(struct interleaved_tile *tile, struct random *random)
 }
 
 /* No wall, one or two; some beside the disc's middle, some past its rim. */
-static void add_walls(ps_splat *splat, struct random *random)
+static void add_walls(struct splat *splat, struct random *random)
 {
-    splat->boundary_count = (uint32_t)random_between(random, 0, 2.999f);
-    for (uint32_t i = 0; i < splat->boundary_count; i++) {
+    splat->bundle.boundary_count = (uint32_t)random_between(random, 0, 2.999f);
+    for (uint32_t i = 0; i < splat->bundle.boundary_count; i++) {
         ps_vec3 direction = random_direction(random);
         float length = sqrtf(direction.x * direction.x + direction.y * direction.y);
-        splat->boundaries[i] = (ps_boundary){direction.x / length, direction.y / length,
-                                             random_between(random, 0.0f, 1.2f)};
+        splat->bundle.boundaries[i] = (ps_boundary){direction.x / length, direction.y / length,
+                                                    random_between(random, 0.0f, 1.2f)};
     }
 }
 
 /* Every other splat's pixels choose how much of the disc they take. */
-static void add_width(ps_splat *splat, struct random *random)
+static void add_width(struct splat *splat, struct random *random)
 {
     if (random_unit(random) < 0.5f)
         return;
-    splat->photon_depth = splat->start_depth - random_between(random, 0.01f, 0.3f);
+    splat->photon_depth = splat->bundle.start_depth - random_between(random, 0.01f, 0.3f);
     splat->follow = random_between(random, 0.2f, 2.0f);
-    splat->narrowest = random_between(random, 0.1f, 0.5f) * splat->half_width;
-    splat->widest = random_between(random, 0.5f, 1.5f) * splat->half_width;
+    splat->narrowest = random_between(random, 0.1f, 0.5f) * splat->bundle.radius;
+    splat->widest = random_between(random, 0.5f, 1.5f) * splat->bundle.radius;
     splat->blend_distance = random_between(random, -0.3f, 0.6f);
 }
 
-static ps_splat random_splat(struct random *random)
+static struct splat random_splat(struct random *random)
 {
-    ps_splat splat = {
-        .centre = ps_scale(random_direction(random), 0.7f),
-        .half_width = random_between(random, 0.2f, 1.5f),
-        .axis_w = ps_normalize(random_direction(random)),
+    struct splat splat = {
+        .bundle.centre = ps_scale(random_direction(random), 0.7f),
+        .bundle.radius = random_between(random, 0.2f, 1.5f),
+        .bundle.axis_w = ps_normalize(random_direction(random)),
         .near_depth = random_between(random, -1.0f, 0.0f),
-        .far_depth = random_between(random, 0.1f, 1.0f),
-        .start_depth = random_between(random, -0.8f, 0.0f),
-        .start_slope_u = random_between(random, -1.0f, 1.0f),
-        .start_slope_v = random_between(random, -1.0f, 1.0f),
+        .bundle.far_depth = random_between(random, 0.1f, 1.0f),
+        .bundle.start_depth = random_between(random, -0.8f, 0.0f),
+        .bundle.start_slope_u = random_between(random, -1.0f, 1.0f),
+        .bundle.start_slope_v = random_between(random, -1.0f, 1.0f),
         .bias_constant = random_between(random, 0.0f, 0.1f),
         .bias_slope = random_between(random, 0.0f, 0.1f),
         .power = {random_unit(random), random_unit(random), random_unit(random)},
     };
-    ps_frame(splat.axis_w, &splat.axis_u, &splat.axis_v);
+    ps_frame(splat.bundle.axis_w, &splat.bundle.axis_u, &splat.bundle.axis_v);
     add_walls(&splat, random);
     add_width(&splat, random);
     return splat;
@@ -161,23 +161,23 @@ static size_t texel(double across, uint32_t resolution, bool *borderline)
 
 /* The half-width of the disc that a pixel takes, in those of the splat; see bandwidth.h. n: its normal;
  * `above`: its distance from the photon's plane. */
-static double width_of(const ps_splat *splat, const double n[3], double cosine, double above)
+static double width_of(const struct splat *splat, const double n[3], double cosine, double above)
 {
     if (!(splat->follow > 0))
         return 1;
-    double across = dot(splat->axis_u, n) / cosine - splat->start_slope_u;
-    double down = dot(splat->axis_v, n) / cosine - splat->start_slope_v;
+    double across = dot(splat->bundle.axis_u, n) / cosine - splat->bundle.start_slope_u;
+    double down = dot(splat->bundle.axis_v, n) / cosine - splat->bundle.start_slope_v;
     double h = splat->follow * above / (1 + splat->follow * hypot(across, down));
-    return fmax(splat->narrowest, fmin(h, splat->widest)) / splat->half_width;
+    return fmax(splat->narrowest, fmin(h, splat->widest)) / splat->bundle.radius;
 }
 
 /* What the walls beside a splat make of its weight. */
-static double made_up(const struct bench *bench, const ps_splat *splat, double u, double v,
+static double made_up(const struct bench *bench, const struct splat *splat, double u, double v,
                       double width, bool *borderline)
 {
     double beyond[2] = {0, 0};
-    for (uint32_t i = 0; i < splat->boundary_count; i++) {
-        const ps_boundary *wall = &splat->boundaries[i];
+    for (uint32_t i = 0; i < splat->bundle.boundary_count; i++) {
+        const ps_boundary *wall = &splat->bundle.boundaries[i];
         double distance = wall->distance - (u * wall->normal_u + v * wall->normal_v);
         if (!(distance > 0))
             return 0;
@@ -185,7 +185,7 @@ static double made_up(const struct bench *bench, const ps_splat *splat, double u
         *borderline |= fabs(place - floor(place + 0.5)) < 1e-3;
         beyond[i] = bench->profile.beyond[(size_t)fmin(fmax(place, 0), KERNEL_BOUNDARY_SIZE - 1)];
     }
-    const ps_boundary *walls = splat->boundaries;
+    const ps_boundary *walls = splat->bundle.boundaries;
     double cosine = walls[0].normal_u * walls[1].normal_u + walls[0].normal_v * walls[1].normal_v;
     double likeness = 2 / 3.14159265358979 * asin(fmax(-1, fmin(cosine, 1)));
     double product = beyond[0] * beyond[1];
@@ -203,15 +203,16 @@ static double smooth_step(double x)
 /* One splat's light on one pixel. */
 static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel, struct sums *sums)
 {
-    const ps_splat *splat = &bench->splats[s];
+    const struct splat *splat = &bench->splats[s];
     const struct interleaved_tile *tile = &bench->tile;
-    const double d[3] = {(double)tile->position_x[pixel] - splat->centre.x,
-                         (double)tile->position_y[pixel] - splat->centre.y,
-                         (double)tile->position_z[pixel] - splat->centre.z};
+    const double d[3] = {(double)tile->position_x[pixel] - splat->bundle.centre.x,
+                         (double)tile->position_y[pixel] - splat->bundle.centre.y,
+                         (double)tile->position_z[pixel] - splat->bundle.centre.z};
     const double n[3] = {tile->normal_x[pixel], tile->normal_y[pixel], tile->normal_z[pixel]};
-    double u = dot(splat->axis_u, d) / splat->half_width;
-    double v = dot(splat->axis_v, d) / splat->half_width;
-    double t = dot(splat->axis_w, d), cosine = -dot(splat->axis_w, n), r2 = u * u + v * v;
+    double u = dot(splat->bundle.axis_u, d) / splat->bundle.radius;
+    double v = dot(splat->bundle.axis_v, d) / splat->bundle.radius;
+    double t = dot(splat->bundle.axis_w, d), cosine = -dot(splat->bundle.axis_w, n),
+           r2 = u * u + v * v;
     bool borderline = false;
     if (!sees_surface(tile, pixel))
         return;
@@ -219,14 +220,16 @@ static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel,
     bool inside = below(r2, 1, 1e-5, &borderline);
     inside = below(0, cosine, 1e-6, &borderline) && inside;
     inside = below(splat->near_depth, t, 1e-5, &borderline) && inside;
-    inside = below(t, splat->far_depth, 1e-5, &borderline) && inside;
-    double before = splat->follow > 0 ? splat->photon_depth : splat->start_depth;
+    inside = below(t, splat->bundle.far_depth, 1e-5, &borderline) && inside;
+    double before = splat->follow > 0 ? splat->photon_depth : splat->bundle.start_depth;
     double above =
-        t - before - splat->half_width * (u * splat->start_slope_u + v * splat->start_slope_v);
+        t - before -
+        splat->bundle.radius * (u * splat->bundle.start_slope_u + v * splat->bundle.start_slope_v);
     double width = width_of(splat, n, cosine, above);
     inside = below(r2, width * width, 1e-5, &borderline) && inside;
     inside =
-        below((splat->start_depth - before) * fmin(width, 1), above, 1e-5, &borderline) && inside;
+        below((splat->bundle.start_depth - before) * fmin(width, 1), above, 1e-5, &borderline) &&
+        inside;
     if (!inside) {
         sums->borderline |= borderline;
         return;
@@ -239,7 +242,7 @@ static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel,
     sums->borderline |= borderline;
     if (!lit)
         return;
-    double disc = width * splat->half_width;
+    double disc = width * splat->bundle.radius;
     double entry = fmin(r2 / (width * width) * KERNEL_PROFILE_SIZE, KERNEL_PROFILE_SIZE - 1);
     double k = bench->profile.weights[(size_t)entry] * (double)bench->profile.scale / (disc * disc);
     k *= made_up(bench, splat, u, v, width, &sums->borderline);
@@ -333,9 +336,9 @@ static void test_pixels_without_surface_get_nothing(void **state)
     for (size_t v = 0; v < count; v++) {
         struct bench *bench = make_bench(8, 5);
         for (uint32_t s = 0; s < SPLATS; s++) {
-            bench->splats[s].far_depth = INFINITY;
-            bench->splats[s].near_depth = bench->splats[s].start_depth = -INFINITY;
-            bench->splats[s].half_width = s % 2 ? 1e-6f : 1e6f;
+            bench->splats[s].bundle.far_depth = INFINITY;
+            bench->splats[s].near_depth = bench->splats[s].bundle.start_depth = -INFINITY;
+            bench->splats[s].bundle.radius = s % 2 ? 1e-6f : 1e6f;
         }
         assert_true(run(&variants[v], bench, &tile).lit > 0);
         for (uint32_t i = 0; i < PS_TILE_PIXELS; i++)
@@ -379,14 +382,14 @@ static void test_adds_to_what_is_there(void **state)
 static struct bench *bench_from_above(float depth)
 {
     struct bench *bench = make_bench(1, 7);
-    const ps_splat ahead = {
-        .axis_u = {1, 0, 0},
-        .axis_v = {0, 1, 0},
-        .axis_w = {0, 0, -1},
-        .half_width = 4,
+    const struct splat ahead = {
+        .bundle.axis_u = {1, 0, 0},
+        .bundle.axis_v = {0, 1, 0},
+        .bundle.axis_w = {0, 0, -1},
+        .bundle.radius = 4,
         .near_depth = -1,
-        .start_depth = -1,
-        .far_depth = 1,
+        .bundle.start_depth = -1,
+        .bundle.far_depth = 1,
         .bias_slope = 0.1f,
         .power = {1, 1, 1},
     };

@@ -1,6 +1,7 @@
 /* test_light_spread.c: how far apart light lands that comes straight from the lights, and that splats of
  * automatic size follow it. */
-#include "pipeline/render_state.h"
+#include "host/place.h"
+#include "render/state.h"
 #include "splat/footprint.h"
 #include "support/inject.h"
 #include "support/lit_room.h"
@@ -64,27 +65,25 @@ static void test_darkness(void **state)
 
 static ps_result check_size(void *user, struct render *render, struct error *error)
 {
-    const ps_footprint_settings automatic = {.radius = 0};
-    const ps_hit hit = {.distance = 1, .normal = {0, -1, 0}, .position = {0, 1, 0}};
     const ps_photon *photons;
     size_t n;
-    double progress;
-    ps_splat splat;
-    (void)user, (void)error;
-    assert_int_equal(render->host.next_photons(&render->host, &photons, &n, &progress), PS_OK);
+    struct splat splat;
+    (void)user;
+    assert_int_equal(photon_stream_next(&render->photons, &photons, &n, error), PS_OK);
     assert_true(n > 0);
-    render->host.place_footprints(&render->host, &automatic, photons, &hit, 1, &splat);
+    place_splats(render, photons, 1, &splat);
     float radius = render->scene->radius;
     float expected = footprint_automatic_size(radius, (float)spread_of_pool(), 4096, 0);
     assert_true(expected < 0.8f * footprint_automatic_size(radius, 0, 4096, 0));
-    assert_true(fabsf(splat.half_width - expected) < 0.01f * expected);
+    assert_true(fabsf(splat.bundle.radius - expected) < 0.01f * expected);
     return PS_OK;
 }
 
 static void test_splats_follow_it(void **state)
 {
     (void)state;
-    static const char *const choices[] = {"injection=photon:count=4096", NULL};
+    static const char *const choices[] = {"injection=photon:count=4096",
+                                          "visibility=none:bandwidth_scale=0", NULL};
     inspect_text(SCENE_HEAD LAMP ROOM, choices, check_size, NULL);
 }
 

@@ -65,7 +65,7 @@ static void test_octree_by_definition(void **state)
             snprintf(choice, sizeof choice, "octree:capacity=%d,depth=%d", (int)capacity,
                      (int)depth);
             memcpy(photons, given, sizeof given);
-            size_t left = stratify(&stage, choice, photons, N);
+            size_t left = stratify_photons(&stage, choice, photons, N);
             struct node root = {{-16, -16, -16}, 32, capacity, depth};
             assert_int_equal(check_leaves(root, given, N, photons, left), left);
         }

@@ -20,10 +20,11 @@ static void test_nearest_mean(void **state)
     /* The mean weighs: 0.1, 0.2 and 0.9 with powers 1, 1, 4 have theirs at 0.65. */
     ps_photon even[] = {photon_at(0.1f, 1, 0), photon_at(0.5f, 1, 1), photon_at(0.8f, 1, 2)};
     ps_photon uneven[] = {photon_at(0.1f, 1, 0), photon_at(0.2f, 1, 1), photon_at(0.9f, 4, 2)};
-    assert_int_equal(stratify(&stage, "grid:cell=1,representative=nearest_mean", even, 3), 1);
+    assert_int_equal(stratify_photons(&stage, "grid:cell=1,representative=nearest_mean", even, 3),
+                     1);
     assert_int_equal(even[0].path, 1);
     assert_true(even[0].power.r == 3 && even[0].merged == 3);
-    assert_int_equal(stratify(&stage, "octree:representative=nearest_mean", uneven, 3), 1);
+    assert_int_equal(stratify_photons(&stage, "octree:representative=nearest_mean", uneven, 3), 1);
     assert_int_equal(uneven[0].path, 2);
     stage_release(&stage);
 }
@@ -36,7 +37,8 @@ static void test_dominant(void **state)
     photons[0].direction = (ps_vec3){1, 0, 0};
     photons[1].direction = (ps_vec3){0, 1, 0};
     photons[2].direction = (ps_vec3){0.6f, 0, 0.8f};
-    assert_int_equal(stratify(&stage, "grid:cell=1,representative=dominant", photons, 3), 1);
+    assert_int_equal(stratify_photons(&stage, "grid:cell=1,representative=dominant", photons, 3),
+                     1);
     assert_int_equal(photons[0].path, 2);
     assert_true(photons[0].power.r == 7);
     stage_release(&stage);
@@ -56,7 +58,8 @@ static void test_random_goes_by_power(void **state)
         size_t cell = i / 4, member = i % 4;
         photons[i] = photon_at((float)cell + 0.2f * (float)(member + 1), powers[member], i);
     }
-    assert_int_equal(stratify(&stage, "grid:cell=1,threshold=1", photons, 4 * CELLS), CELLS);
+    assert_int_equal(stratify_photons(&stage, "grid:cell=1,threshold=1", photons, 4 * CELLS),
+                     CELLS);
     for (size_t i = 0; i < CELLS; i++) {
         assert_true(photons[i].power.g == 10 && photons[i].merged == 4);
         kept[photons[i].path % 4]++;

@@ -29,7 +29,7 @@ static void expect_groups(struct stage *stage, const char *choice, const float *
     assert_true(n <= 64);
     for (size_t i = 0; i < n; i++)
         photons[i] = stratify_photon((ps_vec3){x[i], 0.5f, 0.5f}, 1, i);
-    size_t left = stratify(stage, choice, photons, n);
+    size_t left = stratify_photons(stage, choice, photons, n);
     qsort(photons, left, sizeof *photons, by_x);
     for (size_t i = 0; i < left; i++) {
         assert_true(photons[i].power.r == photons[i].merged);
@@ -154,7 +154,7 @@ static void test_normals(void **state)
             photons[i] = stratify_photon((ps_vec3){0.5f, 0.5f, 0.5f}, 1, i);
             photons[i].normal = tilted(angles[i]);
         }
-        assert_int_equal(stratify(&stage, cases[c].choice, photons, 4), cases[c].left);
+        assert_int_equal(stratify_photons(&stage, cases[c].choice, photons, 4), cases[c].left);
         float merged = 0; /* of the group that the photon of normal 0 went to */
         for (size_t i = 0; i < cases[c].left; i++)
             if (photons[i].path != 2 || cases[c].left == 1)
@@ -212,7 +212,7 @@ static void test_automatic_cascades(void **state)
         stage.camera = ps_scale(random_direction(&random), 9 * (float)place);
         for (size_t i = 0; i < N; i++)
             photons[i] = stratify_photon(ps_scale(random_direction(&random), 7), 1, i);
-        stratify(&stage, "cascade:levels=3,beyond=drop", photons, N);
+        stratify_photons(&stage, "cascade:levels=3,beyond=drop", photons, N);
         assert_true(statistics_counter(&stage.statistics, "photons beyond") == 0);
         stage_release(&stage);
     }

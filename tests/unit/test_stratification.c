@@ -98,7 +98,7 @@ static void test_power_and_order_stay(void **state)
     ps_photon *given = random_photons(N), *photons = random_photons(N);
     for (size_t c = 0; c < CHOICES; c++) {
         memcpy(photons, given, N * sizeof *given);
-        size_t left = stratify(&stage, choices[c], photons, N);
+        size_t left = stratify_photons(&stage, choices[c], photons, N);
         assert_int_equal(stage.result, PS_OK);
         assert_true(left > 0 && left <= N && (left < N || c == 0 || strstr(choices[c], "=1,")));
         expect_same_total(choices[c], total_of(given, N), total_of(photons, left));
@@ -119,9 +119,9 @@ static void test_none_and_one(void **state)
     ps_photon *given = random_photons(1);
     for (size_t c = 0; c < CHOICES; c++) {
         ps_photon photon = given[0];
-        assert_int_equal(stratify(&stage, choices[c], &photon, 0), 0);
+        assert_int_equal(stratify_photons(&stage, choices[c], &photon, 0), 0);
         assert_int_equal(stage.result, PS_OK);
-        assert_int_equal(stratify(&stage, choices[c], &photon, 1), 1);
+        assert_int_equal(stratify_photons(&stage, choices[c], &photon, 1), 1);
         assert_int_equal(stage.result, PS_OK);
         assert_memory_equal(&photon, given, sizeof photon);
     }
@@ -140,7 +140,7 @@ static void test_converges_to_none(void **state)
     struct stage stage = stage_of(RADIUS);
     ps_photon *given = random_photons(N), *photons = random_photons(N);
     for (size_t c = 0; c < sizeof fine / sizeof fine[0]; c++) {
-        assert_int_equal(stratify(&stage, fine[c], photons, N), N);
+        assert_int_equal(stratify_photons(&stage, fine[c], photons, N), N);
         assert_memory_equal(photons, given, N * sizeof *given);
     }
     free(given);
@@ -162,7 +162,7 @@ static void test_hostile_input(void **state)
             photons[3].position = (ps_vec3){-INFINITY, 1e38f, -1e38f};
             photons[4].power = (ps_rgb){0, 0, 0};
             struct total before = total_of(photons, N);
-            size_t left = stratify(&stage, choices[c], photons, N);
+            size_t left = stratify_photons(&stage, choices[c], photons, N);
             expect_same_total(choices[c], before, total_of(photons, left));
             free(photons);
         }
@@ -178,7 +178,7 @@ static void test_out_of_memory(void **state)
     ps_photon *given = random_photons(10), *photons = random_photons(10);
     static const char *const names[] = {"grid", "cascade", "octree"};
     for (int i = 0; i < 3; i++) {
-        assert_int_equal(stratify(&stage, names[i], photons, 10), 10);
+        assert_int_equal(stratify_photons(&stage, names[i], photons, 10), 10);
         assert_int_equal(stage.result, PS_ERROR_MEMORY);
         assert_memory_equal(photons, given, 10 * sizeof *given);
     }
@@ -197,7 +197,7 @@ static void test_memory_goes_by_photons(void **state)
     struct stage stage = stage_of(RADIUS);
     for (int i = 0; i < 5; i++) {
         ps_photon *photons = random_photons(N);
-        stratify(&stage, many[i], photons, N);
+        stratify_photons(&stage, many[i], photons, N);
         double bytes = statistics_bytes(&stage.statistics, "strata");
         print_message("%s: %.0f bytes\n", many[i], bytes);
         assert_true(bytes > 0 && bytes <= 40.0 * N + 64);
@@ -214,12 +214,12 @@ static void test_choices_repeat(void **state)
     enum { N = 2000 };
     struct stage stage = stage_of(RADIUS);
     ps_photon *first = random_photons(N);
-    size_t left = stratify(&stage, "grid:resolution=8", first, N);
+    size_t left = stratify_photons(&stage, "grid:resolution=8", first, N);
     for (int i = 0; i < 3; i++) {
         ps_photon *again = random_photons(N);
         stage.pass = i == 1;
         stage.seed = i == 2 ? 2 : 1;
-        assert_int_equal(stratify(&stage, "grid:resolution=8", again, N), left);
+        assert_int_equal(stratify_photons(&stage, "grid:resolution=8", again, N), left);
         assert_int_equal(memcmp(first, again, left * sizeof *first) == 0, i == 0);
         free(again);
     }
@@ -235,14 +235,14 @@ static void expect_cells(struct stage *stage, const char *choice, size_t n)
     assert_non_null(numbers);
     assert_true(stratify_cells(stage, choice, given, n, numbers));
     assert_int_equal(stage->result, PS_OK);
-    size_t count = stratify(stage, choice, left, n);
+    size_t count = stratify_photons(stage, choice, left, n);
     print_message("%s: %zu of %zu\n", choice, count, n);
     for (size_t i = 0; i < count; i++) {
         uint64_t number = numbers[left[i].path];
         size_t alike = 0;
         for (size_t j = 0; j < n; j++)
             alike += numbers[j] == number;
-        assert_true(left[i].merged == (number == PS_NO_CELL ? 1.0f : (float)alike));
+        assert_true(left[i].merged == (number == PS_NO_STRATUM ? 1.0f : (float)alike));
     }
     free(numbers);
     free(left);

@@ -1,7 +1,9 @@
-#include "pipeline/photons.h"
+#include "render/photons.h"
 
 #include "base/clock.h"
 #include "base/parallel.h"
+#include "render/state.h"
+#include "stratify/stratify.h"
 #include <math.h>
 #include <psplat/math.h>
 #include <stdlib.h>
@@ -34,15 +36,11 @@ static ps_result append(void *core, const ps_photon *photons, size_t n)
     return PS_OK;
 }
 
-ps_result photon_stream_create(struct photon_stream *stream, const struct render_settings *settings,
-                               const ps_host *host, const ps_pass *pass,
-                               struct statistics *statistics, struct error *error)
+ps_result photon_stream_create(struct render *render, struct photon_stream *stream,
+                               struct error *error)
 {
     *stream = (struct photon_stream){
-        .settings = settings,
-        .host = host,
-        .pass = pass,
-        .statistics = statistics,
+        .render = render,
         .chunks = calloc(BATCH_CHUNKS, sizeof *stream->chunks),
     };
     if (!stream->chunks)
@@ -71,7 +69,37 @@ void photon_stream_rewind(struct photon_stream *stream)
 struct injection {
     struct photon_stream *stream;
     ps_result *results; /* of each chunk */
+    uint64_t *refused;
 };
+
+static bool is_finite(ps_vec3 v)
+{
+    return isfinite(v.x + v.y + v.z);
+}
+
+/* A photon that Embree and the sums over pixels can bear. */
+static bool makes_sense(const ps_photon *photon)
+{
+    return is_finite(photon->position) && is_finite(photon->normal) &&
+           fabsf(ps_dot(photon->direction, photon->direction) - 1.0f) < 0.01f &&
+           photon->power.r >= 0.0f && photon->power.g >= 0.0f && photon->power.b >= 0.0f &&
+           isfinite(photon->power.r + photon->power.g + photon->power.b) && photon->merged > 0.0f &&
+           isfinite(photon->merged);
+}
+
+/* Drops the photons that do not; how many. */
+static uint64_t drop_senseless(ps_photon *photons, size_t *n)
+{
+    size_t kept = 0, before = *n;
+    for (size_t i = 0; i < before; i++)
+        if (makes_sense(&photons[i])) {
+            if (kept != i)
+                photons[kept] = photons[i];
+            kept++;
+        }
+    *n = kept;
+    return before - kept;
+}
 
 static void inject_chunk(void *user, uint64_t index, uint32_t worker)
 {
@@ -86,28 +114,33 @@ static void inject_chunk(void *user, uint64_t index, uint32_t worker)
         return;
     uint64_t left = stream->path_count - first;
     size_t n = left < PS_PATH_CHUNK ? (size_t)left : PS_PATH_CHUNK;
-    const struct strategy *strategy = &stream->settings->strategies[PS_INJECTION];
-    const ps_injection_vtable *vtable = strategy->descriptor->vtable;
+    const struct render *render = stream->render;
+    const struct strategy *strategy = strategy_in(render, PS_INJECTION);
     ps_photon_sink sink = {list, append};
-    injection->results[index] =
-        vtable->emit(strategy->state, stream->host, stream->pass, first, n, &sink);
+    injection->results[index] = strategy->type->table.injection.emit(
+        strategy->state, strategy->host, &render->pass, first, n, &sink);
+    injection->refused[index] = drop_senseless(list->items, &list->count);
 }
 
 /* Fills the chunks with the photons of the next paths, if they don't hold them yet. */
 static ps_result fill_chunks(struct photon_stream *stream, struct error *error)
 {
-    ps_result results[BATCH_CHUNKS];
-    struct injection injection = {stream, results};
+    ps_result results[BATCH_CHUNKS], result = PS_OK;
+    uint64_t refused[BATCH_CHUNKS] = {0};
+    struct injection injection = {stream, results, refused};
+    struct render *render = stream->render;
     if (stream->filled)
         return PS_OK;
     double start = clock_seconds();
-    parallel_for(stream->settings->threads, BATCH_CHUNKS, inject_chunk, &injection);
-    statistics_add_seconds(stream->statistics, "inject", clock_seconds() - start);
-    for (int i = 0; i < BATCH_CHUNKS; i++)
-        if (results[i] != PS_OK)
-            return error_set(error, results[i], "injection failed");
-    stream->filled = true;
-    return PS_OK;
+    parallel_for(render->settings->threads, BATCH_CHUNKS, inject_chunk, &injection);
+    statistics_add_seconds(render->statistics, "inject", clock_seconds() - start);
+    for (int i = 0; i < BATCH_CHUNKS; i++) {
+        result = result == PS_OK ? results[i] : result;
+        render->refused.photons[0] += refused[i];
+    }
+    result = render_judge(render, PS_INJECTION, result, error);
+    stream->filled = result == PS_OK;
+    return result;
 }
 
 /* Flux, and first and second moments of where it lands. */
@@ -146,20 +179,18 @@ static float find_spread(const struct photon_stream *stream)
 
 static ps_result prepare_injection(struct photon_stream *stream, struct error *error)
 {
-    const struct strategy *injection = &stream->settings->strategies[PS_INJECTION];
-    const ps_injection_vtable *vtable = injection->descriptor->vtable;
+    struct render *render = stream->render;
+    struct strategy *injection = strategy_in(render, PS_INJECTION);
+    const ps_injection_vtable *table = &injection->type->table.injection;
     ps_result result = PS_OK;
     double start = clock_seconds();
-    if (vtable->prepare)
-        result = vtable->prepare(injection->state, stream->host, stream->pass);
-    statistics_add_seconds(stream->statistics, "inject", clock_seconds() - start);
-    if (result == PS_CANCELLED)
-        return result;
-    if (result != PS_OK)
-        return error_set(error, result, "injection %s failed%s", injection->descriptor->name,
-                         result == PS_ERROR_MEMORY ? ": out of memory" : "");
-    stream->path_count = vtable->path_count(injection->state);
-    return PS_OK;
+    if (table->prepare)
+        result = table->prepare(injection->state, injection->host, &render->pass);
+    statistics_add_seconds(render->statistics, "inject", clock_seconds() - start);
+    result = render_judge(render, PS_INJECTION, result, error);
+    if (result == PS_OK)
+        stream->path_count = table->path_count(injection->state);
+    return result;
 }
 
 /* Not before photons are asked for: not all estimators do. */
@@ -193,20 +224,19 @@ static ps_result inject(struct photon_stream *stream, struct error *error)
     return PS_OK;
 }
 
-static ps_result stratify(struct photon_stream *stream, struct error *error)
+static ps_result stratify_batch(struct photon_stream *stream, struct error *error)
 {
-    const struct strategy *strategy = &stream->settings->strategies[PS_STRATIFICATION];
-    const ps_stratification_vtable *vtable = strategy->descriptor->vtable;
+    struct render *render = stream->render;
+    const struct strategy *strategy = strategy_in(render, PS_STRATIFICATION);
     double start = clock_seconds();
-    statistics_count(stream->statistics, "photons injected", (double)stream->batch.count);
-    size_t before = stream->batch.count;
-    ps_result result = vtable->combine(strategy->state, stream->host, stream->pass,
-                                       stream->batch.items, &stream->batch.count);
-    statistics_add_seconds(stream->statistics, "stratify", clock_seconds() - start);
-    statistics_count(stream->statistics, "photons", (double)stream->batch.count);
-    if (result == PS_OK && stream->batch.count > before)
-        return error_set(error, PS_ERROR_INVALID, "stratification made more photons than it got");
-    return result == PS_OK ? PS_OK : error_set(error, result, "stratification failed");
+    statistics_count(render->statistics, "photons injected", (double)stream->batch.count);
+    ps_result result = stratify(strategy, strategy->host, &render->pass, stream->batch.items,
+                                &stream->batch.count);
+    if (strategy->type->table.stratification.stratify)
+        render->refused.photons[1] += drop_senseless(stream->batch.items, &stream->batch.count);
+    statistics_add_seconds(render->statistics, "stratify", clock_seconds() - start);
+    statistics_count(render->statistics, "photons", (double)stream->batch.count);
+    return render_judge(render, PS_STRATIFICATION, result, error);
 }
 
 static void measure(const struct photon_stream *stream)
@@ -214,16 +244,19 @@ static void measure(const struct photon_stream *stream)
     size_t capacity = stream->batch.capacity;
     for (int i = 0; i < BATCH_CHUNKS; i++)
         capacity += stream->chunks[i].capacity;
-    statistics_set_bytes(stream->statistics, "photons", (double)(capacity * sizeof(ps_photon)));
+    statistics_set_bytes(stream->render->statistics, "photons",
+                         (double)(capacity * sizeof(ps_photon)));
 }
 
 /* Adds the next paths' photons to the batch. */
 static ps_result inject_more(struct photon_stream *stream, struct error *error)
 {
-    return stream->host->cancelled(stream->host) ? PS_CANCELLED : inject(stream, error);
+    const struct render_callbacks *callbacks = stream->render->callbacks;
+    bool cancelled = callbacks->cancelled && callbacks->cancelled(callbacks->user);
+    return cancelled ? PS_CANCELLED : inject(stream, error);
 }
 
-ps_result photon_stream_injected(struct photon_stream *stream, const ps_photon **photons, size_t *n,
+ps_result photon_stream_injected(struct photon_stream *stream, ps_photon **photons, size_t *n,
                                  struct error *error)
 {
     ps_result result = photon_stream_prepare(stream, error);
@@ -238,17 +271,16 @@ ps_result photon_stream_injected(struct photon_stream *stream, const ps_photon *
 ps_result photon_stream_next(struct photon_stream *stream, const ps_photon **photons, size_t *n,
                              struct error *error)
 {
-    const ps_stratification_vtable *stratification =
-        stream->settings->strategies[PS_STRATIFICATION].descriptor->vtable;
+    bool whole_pass =
+        strategy_in(stream->render, PS_STRATIFICATION)->type->table.stratification.whole_pass;
     ps_result result = photon_stream_prepare(stream, error);
     stream->batch.count = 0;
     while (stream->next_path < stream->path_count && stream->batch.count == 0 && result == PS_OK) {
         do
             result = inject_more(stream, error);
-        while (stratification->whole_pass && stream->next_path < stream->path_count &&
-               result == PS_OK);
+        while (whole_pass && stream->next_path < stream->path_count && result == PS_OK);
         if (result == PS_OK && stream->batch.count > 0)
-            result = stratify(stream, error);
+            result = stratify_batch(stream, error);
     }
     measure(stream);
     *photons = stream->batch.items;

@@ -1,5 +1,5 @@
 /* choice.c: choices of strategies as the command line writes them. */
-#include "pipeline/settings.h"
+#include "render/settings.h"
 
 #include <stdlib.h>
 #include <string.h>

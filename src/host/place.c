@@ -1,4 +1,5 @@
-#include "pipeline/host_place.h"
+/* place.c: carries photons to the surfaces that they light, and puts the footprints of splats there. */
+#include "host/place.h"
 
 #include "base/clock.h"
 #include "base/parallel.h"
@@ -14,21 +15,21 @@
 #define ENOUGH_UNSEEN 0.125
 
 /* What lies past the first hit counts, since part of a bundle may pass beside it. */
-static void drop_unseen(struct render *render, ps_splat *splats, size_t n)
+static void drop_unseen(struct render *render, struct splat *splats, size_t n)
 {
     uint64_t unseen = 0;
     for (size_t i = 0; i < n; i++) {
-        ps_splat open = splats[i];
-        open.far_depth = INFINITY;
+        struct splat open = splats[i];
+        open.bundle.far_depth = INFINITY;
         if (splatter_touches(&render->splatter, &open))
             continue;
-        splats[i].half_width = 0.0f;
+        splats[i].bundle.radius = 0.0f;
         unseen++;
     }
     atomic_fetch_add(&render->unseen.in_batch, unseen);
 }
 
-void host_begin_placing(struct render *render)
+void place_begin(struct render *render)
 {
     render->unseen.many = false;
     render->unseen.batches = 0;
@@ -49,7 +50,7 @@ static void end_batch(struct render *render, size_t n)
         unseen->many = (double)atomic_load(&unseen->in_batch) > ENOUGH_UNSEEN * (double)n;
 }
 
-struct footprint_scene host_footprint_scene(const struct render *render)
+struct footprint_scene place_scene(const struct render *render)
 {
     float radius = render->scene->radius, spread = render->photons.spread;
     uint64_t paths = render->photons.path_count;
@@ -69,21 +70,21 @@ struct footprint_scene host_footprint_scene(const struct render *render)
 struct placing {
     struct render *render;
     struct footprint_scene scene;
-    const ps_footprint_settings *settings;
+    const struct footprint_params *settings;
     const ps_photon *photons;
     size_t n;
     ps_hit *hits;
     float *half_widths; /* 0: no box */
 };
 
-static void place(const struct placing *placing, ps_splat *splats)
+static void place(const struct placing *placing, struct splat *splats)
 {
     footprint_place(&placing->scene, placing->settings, placing->photons, placing->hits,
                     placing->half_widths, placing->n, splats);
 }
 
 /* The widest that bundles may be shows whether they are seen at all. */
-static void drop_unseen_full(const struct placing *placing, ps_splat *splats)
+static void drop_unseen_full(const struct placing *placing, struct splat *splats)
 {
     ps_hit stand_ins[PS_PATH_CHUNK];
     memcpy(stand_ins, placing->hits, placing->n * sizeof *stand_ins);
@@ -94,13 +95,13 @@ static void drop_unseen_full(const struct placing *placing, ps_splat *splats)
                     placing->half_widths, placing->n, splats);
     drop_unseen(placing->render, splats, placing->n);
     for (size_t i = 0; i < placing->n; i++)
-        placing->half_widths[i] = splats[i].half_width;
+        placing->half_widths[i] = splats[i].bundle.radius;
 }
 
 /* Bundles that start at their photons. */
-static void place_full(const struct placing *placing, ps_splat *splats)
+static void place_full(const struct placing *placing, struct splat *splats)
 {
-    const ps_host *host = &placing->render->host;
+    const ps_host *host = own_host(placing->render);
     for (size_t i = 0; i < placing->n; i++)
         placing->half_widths[i] =
             footprint_widest(&placing->scene, placing->settings, &placing->photons[i]);
@@ -113,7 +114,7 @@ static void place_full(const struct placing *placing, ps_splat *splats)
         boundary_find(host, placing->scene.surface_offset, placing->photons, placing->n, splats);
 }
 
-static void place_others(const struct placing *placing, ps_splat *splats)
+static void place_others(const struct placing *placing, struct splat *splats)
 {
     for (size_t i = 0; i < placing->n; i++)
         placing->half_widths[i] = footprint_half_width(
@@ -123,37 +124,32 @@ static void place_others(const struct placing *placing, ps_splat *splats)
         drop_unseen(placing->render, splats, placing->n);
 }
 
-/* At most PS_PATH_CHUNK. */
-static void place_some(struct render *render, const ps_footprint_settings *settings,
-                       const ps_photon *photons, const ps_hit *hits, size_t n, ps_splat *splats)
+/* At most PS_PATH_CHUNK. Uses up the hits. */
+static void place_some(struct render *render, const ps_photon *photons, ps_hit *hits, size_t n,
+                       struct splat *splats)
 {
-    ps_hit met[PS_PATH_CHUNK];
     float half_widths[PS_PATH_CHUNK];
+    const struct strategy *visibility = strategy_in(render, PS_VISIBILITY);
+    const ps_visibility_vtable *table = &visibility->type->table.visibility;
+    const struct footprint_params *settings = strategy_shared(visibility);
     const struct placing placing = {
-        render, host_footprint_scene(render), settings, photons, n, met, half_widths,
+        render, place_scene(render), settings, photons, n, hits, half_widths,
     };
-    memcpy(met, hits, n * sizeof *hits);
-    if (settings->step_back_rule == 1)
+    if (settings->step_back.choice == STEP_BACK_FULL)
         place_full(&placing, splats);
     else
         place_others(&placing, splats);
-}
-
-static void host_place_footprints(const ps_host *host, const ps_footprint_settings *settings,
-                                  const ps_photon *photons, const ps_hit *hits, size_t n,
-                                  ps_splat *splats)
-{
-    for (size_t first = 0; first < n; first += PS_PATH_CHUNK) {
-        size_t some = n - first < PS_PATH_CHUNK ? n - first : PS_PATH_CHUNK;
-        place_some(render_of(host), settings, photons + first, hits + first, some, splats + first);
-    }
+    if (table->depth_maps || table->visible)
+        footprint_open(settings, splats, n);
+    if (table->depth_maps)
+        footprint_set_bias(settings, splats, n);
 }
 
 struct placement {
     struct render *render;
     const ps_photon *photons;
     size_t n;
-    ps_splat *splats;
+    struct splat *splats;
 };
 
 static void place_chunk(void *user, uint64_t index, uint32_t worker)
@@ -161,7 +157,7 @@ static void place_chunk(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct placement *placement = user;
     struct render *render = placement->render;
-    ps_ray rays[PS_PATH_CHUNK];
+    ps_ray rays[PS_PATH_CHUNK] = {{.tnear = 0.0f}};
     ps_hit hits[PS_PATH_CHUNK];
     size_t first = index * PS_PATH_CHUNK, left = placement->n - first;
     size_t n = left < PS_PATH_CHUNK ? left : PS_PATH_CHUNK;
@@ -170,15 +166,11 @@ static void place_chunk(void *user, uint64_t index, uint32_t worker)
         rays[i] = ps_leave_surface(photons[i].position, photons[i].normal, photons[i].direction,
                                    render->scene->surface_offset);
     trace_intersect(render->trace, RAYS_INCOHERENT, rays, n, hits);
-    const struct strategy *visibility = &render->settings->strategies[PS_VISIBILITY];
-    const ps_visibility_vtable *vtable = visibility->descriptor->vtable;
-    vtable->place(visibility->state, &render->host, photons, hits, n, placement->splats + first);
+    place_some(render, photons, hits, n, placement->splats + first);
 }
 
-static ps_result host_place_splats(const ps_host *host, const ps_photon *photons, size_t n,
-                                   ps_splat *splats)
+void place_splats(struct render *render, const ps_photon *photons, size_t n, struct splat *splats)
 {
-    struct render *render = render_of(host);
     struct placement placement = {render, photons, n, splats};
     double start = clock_seconds();
     uint64_t chunks = (n + PS_PATH_CHUNK - 1) / PS_PATH_CHUNK;
@@ -186,11 +178,4 @@ static ps_result host_place_splats(const ps_host *host, const ps_photon *photons
     parallel_for(render->settings->threads, chunks, place_chunk, &placement);
     end_batch(render, n);
     statistics_add_seconds(render->statistics, "place", clock_seconds() - start);
-    return PS_OK;
-}
-
-void host_add_placing(ps_host *host)
-{
-    host->place_footprints = host_place_footprints;
-    host->place_splats = host_place_splats;
 }

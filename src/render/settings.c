@@ -1,4 +1,4 @@
-#include "pipeline/settings.h"
+#include "render/settings.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -22,28 +22,28 @@ static void report_unknown(struct resolution *resolution, const struct strategy 
                            const struct parameter_text *parameter)
 {
     char message[512];
-    const ps_descriptor *descriptor = strategy->descriptor;
-    struct param_table table = strategy_params(descriptor);
+    const struct strategy_type *type = strategy->type;
+    struct param_table table = strategy_type_params(type);
     struct suggestion suggestion = param_suggest(&table, parameter->key);
     char hint[SUGGESTION_TEXT];
     suggestion_text(&suggestion, hint);
     snprintf(message, sizeof message, "unknown parameter '%.80s' of %s %s%s", parameter->key,
-             kinds[descriptor->kind].name, descriptor->name, hint);
+             kinds[type->kind].name, type->name, hint);
     fail(resolution, &parameter->key_origin, message);
 }
 
 static void set_parameter(struct resolution *resolution, struct strategy *strategy,
                           const struct parameter_text *parameter)
 {
-    struct param_table table = strategy_params(strategy->descriptor);
+    struct param_table table = strategy_type_params(strategy->type);
     const ps_param *row = param_find(&table, parameter->key);
     struct error error;
     if (!row) {
         report_unknown(resolution, strategy, parameter);
     } else if (param_set(row, strategy->state, parameter->value, &error) != PS_OK) {
         char message[sizeof error.text + 128];
-        snprintf(message, sizeof message, "%s %s: %s: %s", kinds[strategy->descriptor->kind].name,
-                 strategy->descriptor->name, row->name, error.text);
+        snprintf(message, sizeof message, "%s %s: %s: %s", kinds[strategy->type->kind].name,
+                 strategy->type->name, row->name, error.text);
         fail(resolution, &parameter->value_origin, message);
     }
 }
@@ -59,14 +59,14 @@ static bool was_given(const struct strategy_choice *choice, const char *key)
 static void check_required(struct resolution *resolution, const struct strategy *strategy,
                            const struct strategy_choice *choice)
 {
-    struct param_table table = strategy_params(strategy->descriptor);
+    struct param_table table = strategy_type_params(strategy->type);
     for (size_t i = 0; i < table.count; i++) {
         const ps_param *row = param_row(&table, i);
         if (row->default_value || was_given(choice, row->name))
             continue;
         char message[256];
         snprintf(message, sizeof message, "%s %s needs its parameter '%s'",
-                 kinds[strategy->descriptor->kind].name, strategy->descriptor->name, row->name);
+                 kinds[strategy->type->kind].name, strategy->type->name, row->name);
         fail(resolution, &choice->origin, message);
     }
 }

@@ -1,14 +1,16 @@
-/* photons.h: the stream of a pass's indirect light sources: injected, stratified, in the
- * order of emission.
+/* photons.h: the stream of a pass's photons: injected, stratified, in the order of emission.
  *
  * Paths go through in batches, so memory does not grow with their number, unless the stratification
  * wants to see all photons of a pass at once.
  */
-#ifndef PIPELINE_SOURCES_H
-#define PIPELINE_SOURCES_H
+#ifndef RENDER_PHOTONS_H
+#define RENDER_PHOTONS_H
 
-#include "base/statistics.h"
-#include "pipeline/settings.h"
+#include "base/error.h"
+#include <psplat/strategy.h>
+#include <stdbool.h>
+
+struct render;
 
 struct photon_list {
     ps_photon *items; /* owned */
@@ -16,10 +18,7 @@ struct photon_list {
 };
 
 struct photon_stream {
-    const struct render_settings *settings;
-    const ps_host *host;
-    const ps_pass *pass;
-    struct statistics *statistics;
+    struct render *render;      /* that it serves */
     struct photon_list *chunks; /* one for each chunk of a batch of paths; owned */
     struct photon_list batch;   /* what was handed out last */
     uint64_t next_path, path_count;
@@ -30,12 +29,11 @@ struct photon_stream {
     bool filled;   /* the chunks, with the next paths' photons */
 };
 
-ps_result photon_stream_create(struct photon_stream *stream, const struct render_settings *settings,
-                               const ps_host *host, const ps_pass *pass,
-                               struct statistics *statistics, struct error *error);
+ps_result photon_stream_create(struct render *render, struct photon_stream *stream,
+                               struct error *error);
 void photon_stream_release(struct photon_stream *stream);
 
-/* Starts over with the pass that `pass` now describes. */
+/* Starts over, with the pass that the render now describes. */
 void photon_stream_rewind(struct photon_stream *stream);
 
 /* Makes the injection ready for the pass and injects its first paths, which tells path_count and spread; does
@@ -48,7 +46,7 @@ ps_result photon_stream_next(struct photon_stream *stream, const ps_photon **pho
 
 /* All photons of the pass as they are injected, before stratification; uses up the stream. Valid until
  * it is rewound. */
-ps_result photon_stream_injected(struct photon_stream *stream, const ps_photon **photons, size_t *n,
+ps_result photon_stream_injected(struct photon_stream *stream, ps_photon **photons, size_t *n,
                                  struct error *error);
 
 /* Share of the pass's paths that were injected, 0..1. */

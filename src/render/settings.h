@@ -4,8 +4,8 @@
  * loaded plugins and its texts values. Every problem is reported with where it was written, several
  * in one go.
  */
-#ifndef PIPELINE_SETTINGS_H
-#define PIPELINE_SETTINGS_H
+#ifndef RENDER_SETTINGS_H
+#define RENDER_SETTINGS_H
 
 #include "plugin/strategy.h"
 #include "scene/description.h"

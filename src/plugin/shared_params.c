@@ -1,0 +1,75 @@
+#include "plugin/shared_params.h"
+
+static const char *const automatic[] = {"auto", NULL};
+static const char *const step_back_choices[] = {"auto", "full", NULL};
+static const char *const bias_choices[] = {"slope", NULL};
+static const char *const representatives[] = {"random", "nearest_mean", "dominant", NULL};
+
+/* The rows of the footprint, by what two of the defaults are. */
+#define FOOTPRINT_ROWS(step_back_default, boundary_correction_default)                             \
+    PS_NUMBER_OR(                                                                                  \
+        struct footprint_params, radius, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, automatic,        \
+        "scene units",                                                                             \
+        "radius of a splat; auto: by the scene, its light and the number of light paths"),         \
+        PS_NUMBER(struct footprint_params, bandwidth_scale, "0.6", 0, INFINITY, PS_PARAM_EXPERT,   \
+                  "",                                                                              \
+                  "limit of the radius, down to a part of it or to the interleaved pixels, as a "  \
+                  "fraction of the distance travelled; 0: none"),                                  \
+        PS_NUMBER_OR(struct footprint_params, depth, "auto", 0, INFINITY,                          \
+                     PS_PARAM_OPEN_MIN | PS_PARAM_EXPERT, automatic, "scene units",                \
+                     "reach of the box past the first hit; auto: what the hit's slope needs"),     \
+        PS_NUMBER_OR(                                                                              \
+            struct footprint_params, step_back, step_back_default, 0, INFINITY, PS_PARAM_EXPERT,   \
+            step_back_choices, "scene units",                                                      \
+            "start of the box before the first hit; auto: by its slope, full: the photon"),        \
+        PS_NUMBER(struct footprint_params, max_merge_scale, "1.5", 1, INFINITY, PS_PARAM_EXPERT,   \
+                  "",                                                                              \
+                  "limit of the growth of the radius, sqrt(photons merged into one); 1: none"),    \
+        PS_ROW(struct footprint_params, boundary_correction, PS_PARAM_BOOL,                        \
+               boundary_correction_default, 0, 1, PS_PARAM_EXPERT, NULL, "",                       \
+               "full bundles make up for the part that walls beside their photon keep back")
+
+/* Without a test of what is in the way, light leaks through a whole bundle: a footprint is kept short. */
+static const ps_param short_footprint[] = {FOOTPRINT_ROWS("auto", "no")};
+
+/* The last two are of depth maps. */
+static const ps_param footprint[] = {
+    FOOTPRINT_ROWS("full", "yes"),
+    PS_INT(struct footprint_params, resolution, "8", 1, PS_MOST_TEXELS, "texels",
+           "side of a depth map"),
+    PS_NUMBER_OR(struct footprint_params, bias, "slope", 0, INFINITY, PS_PARAM_EXPERT, bias_choices,
+                 "scene units", "depth tolerance; slope: 0.75 texels times the receiver's slope"),
+};
+enum { FOOTPRINT_ROW_COUNT = sizeof footprint / sizeof footprint[0], MAP_ROWS = 2 };
+
+static const ps_param merging[] = {
+    PS_ROW(struct merge_params, representative, PS_PARAM_CHOICE, "random", 0, 0, PS_PARAM_EXPERT,
+           representatives, "",
+           "the photon that stays; random by power has no bias, the others have"),
+    PS_NUMBER(struct merge_params, normal_angle, "60", 5, 180, PS_PARAM_EXPERT, "degrees",
+              "largest angle between the normal of a stratum's first photon and the others; "
+              "180: any"),
+};
+
+static struct param_table rows(const ps_param *first, size_t count)
+{
+    return (struct param_table){first, count, sizeof *first};
+}
+
+struct param_table shared_params(ps_kind kind, const void *table, size_t *struct_size)
+{
+    const ps_visibility_vtable *visibility = table;
+    const ps_stratification_vtable *stratification = table;
+    if (kind == PS_STRATIFICATION && stratification->stratify) {
+        *struct_size = sizeof(struct merge_params);
+        return rows(merging, sizeof merging / sizeof merging[0]);
+    }
+    *struct_size = kind == PS_VISIBILITY ? sizeof(struct footprint_params) : 0;
+    if (kind != PS_VISIBILITY)
+        return rows(NULL, 0);
+    if (visibility->depth_maps)
+        return rows(footprint, FOOTPRINT_ROW_COUNT);
+    if (visibility->visible)
+        return rows(footprint, FOOTPRINT_ROW_COUNT - MAP_ROWS);
+    return rows(short_footprint, sizeof short_footprint / sizeof short_footprint[0]);
+}

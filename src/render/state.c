@@ -1,0 +1,94 @@
+#include "render/state.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* The first one counts. */
+static void take_reason(struct render *render, ps_result result, const char *why, bool named)
+{
+    struct failure *failure = &render->failure;
+    if (atomic_flag_test_and_set(&failure->taken))
+        return;
+    failure->result = result;
+    failure->named = named;
+    snprintf(failure->why, sizeof failure->why, "%.1000s", why);
+    atomic_store(&failure->there, true);
+}
+
+ps_result render_fail(struct render *render, ps_result result, const char *why)
+{
+    result = result == PS_OK ? PS_ERROR_INVALID : result;
+    take_reason(render, result, why, false);
+    return result;
+}
+
+ps_result render_pass_on(struct render *render, ps_result result, const struct error *error)
+{
+    if (result != PS_OK && result != PS_CANCELLED)
+        take_reason(render, result, error->text, true);
+    return result;
+}
+
+ps_result render_judge(struct render *render, ps_kind kind, ps_result result, struct error *error)
+{
+    struct failure *failure = &render->failure;
+    const char *name = strategy_in(render, kind)->type->name;
+    if (atomic_load(&failure->there)) {
+        result = failure->named ? error_set(error, failure->result, "%s", failure->why)
+                                : error_set(error, failure->result, "%s %s: %s", kinds[kind].name,
+                                            name, failure->why);
+        atomic_store(&failure->there, false);
+        atomic_flag_clear(&failure->taken);
+        return result;
+    }
+    if (result == PS_OK || result == PS_CANCELLED)
+        return result;
+    return error_set(error, result, "%s %s failed%s", kinds[kind].name, name,
+                     result == PS_ERROR_MEMORY ? ": out of memory" : "");
+}
+
+void render_report_splatter(struct render *render)
+{
+    if (!render->has_splatter)
+        return;
+    struct statistics *statistics = render->statistics;
+    const struct splatter *splatter = &render->splatter;
+    statistics_add_seconds(statistics, "maps", splatter->map_seconds);
+    statistics_add_seconds(statistics, "bin", splatter->bin_seconds);
+    statistics_add_seconds(statistics, "splat", splatter->kernel_seconds);
+    statistics_add_seconds(statistics, "join", splatter->join_seconds);
+    statistics_set_bytes(statistics, "splatted pixels",
+                         (double)interleaved_bytes(&splatter->pixels));
+    statistics_count(statistics, "splats", (double)splatter->splats);
+    statistics_count(statistics, "map rays", (double)splatter->map_rays);
+    statistics_count(statistics, "visibility rays", (double)splatter->exact_tests);
+    statistics_count(statistics, "pixel-splat tests", (double)splatter->tests);
+    statistics_count(statistics, "pixel-splat tests with weight", (double)splatter->useful_tests);
+}
+
+static void report(const struct render *render, ps_kind kind, uint64_t count, const char *what)
+{
+    char line[300];
+    if (count == 0)
+        return;
+    snprintf(line, sizeof line, "%s %s made %llu %s", kinds[kind].name,
+             strategy_in(render, kind)->type->name, (unsigned long long)count, what);
+    statistics_count(render->statistics, "refused", (double)count);
+    own_host(render)->log(own_host(render), PS_LOG_WARNING, line);
+}
+
+void render_report_refused(const struct render *render)
+{
+    static const char photons[] =
+        "photons that are no numbers or have negative power; they are left out";
+    static const char pixels[] = "values of pixels that are no numbers or negative; they are 0";
+    const struct refused *refused = &render->refused;
+    report(render, PS_INJECTION, refused->photons[0], photons);
+    report(render, PS_STRATIFICATION, refused->photons[1], photons);
+    report(render, PS_ESTIMATOR, refused->pixels[0], pixels);
+    report(render, PS_NORMALIZATION, refused->pixels[1], pixels);
+    report(render, PS_DENOISER, refused->pixels[2], pixels);
+    for (int kind = 0; kind < PS_KINDS; kind++)
+        report(render, (ps_kind)kind, atomic_load(&refused->rays[kind]),
+               "rays that are no numbers; they meet nothing");
+}

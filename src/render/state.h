@@ -1,0 +1,121 @@
+/* state.h: a render in progress: what the driver, the services to plugins and the debug views share. */
+#ifndef RENDER_STATE_H
+#define RENDER_STATE_H
+
+#include "base/statistics.h"
+#include "direct/shadow_maps.h"
+#include "film/film.h"
+#include "gather/gathered_light.h"
+#include "render/callbacks.h"
+#include "render/photons.h"
+#include "render/settings.h"
+#include "splat/splatter.h"
+#include "view/view.h"
+#include <stdatomic.h>
+
+/* Whether it pays to ask which splats light nothing in view (host/place.c). */
+struct unseen {
+    uint64_t batches; /* placed so far in the pass */
+    bool asked;       /* in this batch */
+    bool many;        /* of those that were last asked */
+    _Atomic(uint64_t) in_batch;
+};
+
+/* The services as one strategy has them. */
+struct strategy_host {
+    ps_host host;
+    struct render *render;
+    ps_kind kind; /* PS_KINDS: psplat itself */
+};
+
+/* Why the callback under way fails; the first reason counts. */
+struct failure {
+    bool named;        /* whose fault it is stands in `why` */
+    atomic_flag taken; /* set by whoever writes the reason */
+    _Atomic(bool) there;
+    ps_result result;
+    char why[1024];
+};
+
+/* What strategies made that is no number, or negative, and was left out. */
+struct refused {
+    _Atomic(uint64_t) rays[PS_KINDS + 1]; /* by who asked for them */
+    uint64_t photons[2];                  /* of the injection, and of the stratification */
+    uint64_t pixels[3];                   /* of the estimator, the normalization, the denoiser */
+};
+
+struct render {
+    const struct scene *scene;
+    struct render_settings *settings;
+    const struct render_callbacks *callbacks;
+    struct statistics *statistics;
+    struct trace *trace;
+    struct shadow_maps *shadow_maps; /* for the direct light of the picture; NULL: shadow rays */
+    struct gbuffer gbuffer;
+    struct film film;
+    bool *edges; /* pixels that take several samples (edges.h), owned; NULL: none does */
+    struct photon_stream photons;
+    struct kernel_variant kernel;
+    struct splatter splatter; /* made when an estimator first splats */
+    struct splat *placed;     /* room for a batch of splats; owned, as the splatter */
+    bool has_splatter;
+    bool splatting; /* in this pass */
+    struct unseen unseen;
+    struct gathered_light gathered_light;
+    uint32_t gather_interleave; /* over so many pixels across and down it is averaged */
+    bool
+        counts_splats; /* in place of the filter: tiles' weights count the splats that light them */
+    ps_pass pass;
+    float jitter[2]; /* where in its pixels the pass looks */
+    struct strategy_host hosts[PS_KINDS + 1];
+    ps_tile nowhere; /* what a plugin gets in place of a tile that is not there */
+    float nowhere_radiance[3][PS_TILE_PIXELS];
+    /* Which services are in place. */
+    bool has_tiles, estimating;
+    _Atomic(bool) looping; /* in a parallel_for */
+    bool has_begun;        /* the estimator */
+    struct failure failure;
+    struct refused refused;
+};
+
+/* The render that a host serves. */
+static inline struct render *render_of(const ps_host *host)
+{
+    return ((const struct strategy_host *)host->core)->render;
+}
+
+static inline ps_kind kind_of(const ps_host *host)
+{
+    return ((const struct strategy_host *)host->core)->kind;
+}
+
+/* psplat's own. */
+static inline const ps_host *own_host(const struct render *render)
+{
+    return &render->hosts[PS_KINDS].host;
+}
+
+static inline struct strategy *strategy_in(const struct render *render, ps_kind kind)
+{
+    return &render->settings->strategies[kind];
+}
+
+/* Takes the first reason why the callback under way fails; any thread. Returns `result`, or PS_ERROR_INVALID in
+ * place of PS_OK. */
+ps_result render_fail(struct render *render, ps_result result, const char *why);
+
+/* The same where a service that the callback uses fails, as the error tells; user's wish to stop is none. Returns
+ * `result`. */
+ps_result render_pass_on(struct render *render, ps_result result, const struct error *error);
+
+/* What became of a callback of a strategy: its result, unless it failed all the same. The error then names the
+ * strategy. */
+ps_result render_judge(struct render *render, ps_kind kind, ps_result result, struct error *error);
+
+/* Adds the splatter's counters to the statistics. */
+void render_report_splatter(struct render *render);
+
+/* Says what strategies made that had to be left out. */
+void render_report_refused(const struct render *render);
+
+#endif
