@@ -1,13 +1,18 @@
 /* command_plugins.c: psplat plugins: which strategies there are, and their parameters. */
 #include "base/param.h"
 #include "cli/command.h"
+#include "cli/plugin_test.h"
 #include "plugin/strategy.h"
 
 #include <stdio.h>
 #include <string.h>
 
+enum { OPTION_EXPERT, OPTION_TEST };
+
 static const struct option options[] = {
-    {0, "expert", NULL, "show the parameters for experts too"},
+    [OPTION_EXPERT] = {0, "expert", NULL, "show the parameters for experts too"},
+    [OPTION_TEST] = {0, "test", "FILE[:KEY=VALUE,...]",
+                     "try the strategies of a module; may be repeated"},
 };
 
 static void print_kind(const struct kind *kind)
@@ -128,20 +133,13 @@ static int print_one(struct loader *loader, const char *operand, bool experts)
     return name ? describe(loader, kind, name, experts) : list_kind(loader, kind);
 }
 
-static int run(const struct argument *arguments, size_t count)
+static int print_all(struct loader *loader, const struct argument *arguments, size_t count)
 {
-    struct loader *loader;
-    struct error error;
-    ps_result created = loader_create(&loader, &error);
-    if (created != PS_OK) {
-        print_error(error.text);
-        return created == PS_ERROR_INVALID ? STATUS_USAGE : STATUS_FAILED;
-    }
     int status = STATUS_OK;
     size_t operands = 0;
     bool experts = false;
     for (size_t i = 0; i < count; i++) {
-        experts |= arguments[i].option != NULL;
+        experts |= argument_is(&arguments[i], "expert");
         operands += arguments[i].option == NULL;
     }
     for (size_t i = 0; i < count && status == STATUS_OK; i++)
@@ -149,6 +147,36 @@ static int run(const struct argument *arguments, size_t count)
             status = print_one(loader, arguments[i].value, experts);
     for (int kind = 0; kind < PS_KINDS && operands == 0 && status == STATUS_OK; kind++)
         status = list_kind(loader, (ps_kind)kind);
+    return status;
+}
+
+/* All that are asked for, whether one fails or not. */
+static int test_modules(struct loader *loader, const struct argument *arguments, size_t count)
+{
+    int worst = STATUS_OK;
+    for (size_t i = 0; i < count; i++) {
+        if (!argument_is(&arguments[i], "test"))
+            continue;
+        int status = plugin_test(loader, arguments[i].value);
+        worst = status > worst ? status : worst;
+    }
+    return worst;
+}
+
+static int run(const struct argument *arguments, size_t count)
+{
+    struct loader *loader;
+    struct error error;
+    bool tests = false;
+    ps_result created = loader_create(&loader, &error);
+    if (created != PS_OK) {
+        print_error(error.text);
+        return created == PS_ERROR_INVALID ? STATUS_USAGE : STATUS_FAILED;
+    }
+    for (size_t i = 0; i < count; i++)
+        tests |= argument_is(&arguments[i], "test");
+    int status =
+        tests ? test_modules(loader, arguments, count) : print_all(loader, arguments, count);
     loader_destroy(loader);
     return status;
 }

@@ -16,6 +16,11 @@ struct allocation {
     const char *what;
 };
 
+static struct strategy_host *own_of(const ps_host *host)
+{
+    return host->core;
+}
+
 static void *host_allocate(const ps_host *host, size_t bytes, const char *what)
 {
     size_t header = sizeof(struct allocation);
@@ -26,6 +31,7 @@ static void *host_allocate(const ps_host *host, size_t bytes, const char *what)
     if (!allocation)
         return NULL;
     *allocation = (struct allocation){whole, what};
+    atomic_fetch_add(&own_of(host)->blocks, 1);
     statistics_add_bytes(render_of(host)->statistics, what, (double)whole);
     return allocation + 1;
 }
@@ -35,6 +41,7 @@ static void host_release(const ps_host *host, void *memory)
     if (!memory)
         return;
     struct allocation *allocation = (struct allocation *)memory - 1;
+    atomic_fetch_sub(&own_of(host)->blocks, 1);
     statistics_add_bytes(render_of(host)->statistics, allocation->what, -(double)allocation->bytes);
     free(allocation);
 }
@@ -150,7 +157,7 @@ void host_create(struct render *render)
     empty_nowhere(render);
     for (int kind = 0; kind <= PS_KINDS; kind++) {
         struct strategy_host *own = &render->hosts[kind];
-        *own = (struct strategy_host){.render = render, .kind = (ps_kind)kind};
+        *own = (struct strategy_host){.render = render, .kind = (ps_kind)kind, .blocks = 0};
         own->host = (ps_host){
             .size = sizeof(ps_host),
             .abi_minor = PS_ABI_MINOR,

@@ -110,6 +110,7 @@ void render_destroy(struct render *render)
     photon_stream_release(&render->photons);
     for (int kind = 0; kind < PS_KINDS; kind++)
         strategy_stop(&render->settings->strategies[kind]);
+    render_report_kept(render);
     free(render->edges);
     film_release(&render->film);
     gbuffer_release(&render->gbuffer);

@@ -180,6 +180,14 @@ static ps_result load_file(const char *path, ps_kind kind, const char *name,
     return PS_ERROR_INVALID;
 }
 
+ps_result loader_look(const char *path, bool held[PS_KINDS], struct error *error)
+{
+    const ps_module *module = load_module(path, error);
+    for (int kind = 0; kind < PS_KINDS && module; kind++)
+        held[kind] = pick(module, (ps_kind)kind, NULL) != NULL;
+    return module ? PS_OK : PS_ERROR_INVALID;
+}
+
 /* What a search came by. */
 struct trail {
     char attempts[LONGEST_ATTEMPTS]; /* "; tried PATH: REASON" for each miss */

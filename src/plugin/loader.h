@@ -23,6 +23,9 @@ void loader_destroy(struct loader *loader);
 ps_result loader_find(struct loader *loader, ps_kind kind, const char *name,
                       struct strategy_type **found, struct error *error);
 
+/* Which kinds of strategy the module in a file holds. PS_ERROR_INVALID: it can't be used. */
+ps_result loader_look(const char *path, bool held[PS_KINDS], struct error *error);
+
 /* A strategy that loader_list found, or a name under which none could be loaded. */
 struct listed_strategy {
     const char *name;

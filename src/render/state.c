@@ -77,6 +77,20 @@ static void report(const struct render *render, ps_kind kind, uint64_t count, co
     own_host(render)->log(own_host(render), PS_LOG_WARNING, line);
 }
 
+void render_report_kept(const struct render *render)
+{
+    for (int kind = 0; kind < PS_KINDS; kind++) {
+        char line[300];
+        int64_t blocks = atomic_load(&render->hosts[kind].blocks);
+        if (blocks == 0)
+            continue;
+        snprintf(line, sizeof line, "%s %s kept %lld blocks of memory", kinds[kind].name,
+                 strategy_in(render, (ps_kind)kind)->type->name, (long long)blocks);
+        statistics_count(render->statistics, "kept blocks", (double)blocks);
+        own_host(render)->log(own_host(render), PS_LOG_WARNING, line);
+    }
+}
+
 void render_report_refused(const struct render *render)
 {
     static const char photons[] =

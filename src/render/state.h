@@ -25,7 +25,8 @@ struct unseen {
 struct strategy_host {
     ps_host host;
     struct render *render;
-    ps_kind kind; /* PS_KINDS: psplat itself */
+    ps_kind kind;            /* PS_KINDS: psplat itself */
+    _Atomic(int64_t) blocks; /* of memory that it has now */
 };
 
 /* Why the callback under way fails; the first reason counts. */
@@ -117,5 +118,8 @@ void render_report_splatter(struct render *render);
 
 /* Says what strategies made that had to be left out. */
 void render_report_refused(const struct render *render);
+
+/* Says which strategies kept memory; after they were stopped. */
+void render_report_kept(const struct render *render);
 
 #endif

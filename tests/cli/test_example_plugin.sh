@@ -9,7 +9,7 @@ cmake --install "$PSPLAT_BUILD" --prefix "$PWD/prefix" >install.log 2>&1 || {
 }
 [ -f prefix/include/psplat/plugin.h ] || fail "no header was installed"
 mkdir -p mine/filter
-compile_module prefix/include "$PSPLAT_SOURCE/tests/plugins/cosine.c" "$PWD/mine/filter/cosine.so"
+compile_module prefix/include "$PSPLAT_SOURCE/plugins/examples/filter.c" "$PWD/mine/filter/cosine.so"
 run 0 -q $small -p filter=box -o box.exr "$cornell"
 
 # The shell's own way to make a picture's pixels comparable: PNG files differ by their texts, so they
@@ -66,7 +66,7 @@ expect_same repeated.exr sharp.exr
 
 # A row whose type is not that of its member does not compile.
 for row in 'PS_INT(struct state, sharpness, "1", 0, 16, "", "")' 'PS_BOOL(struct state, sharpness, "yes", "")'; do
-    sed "s/^    PS_NUMBER(.*/    $row,/" "$PSPLAT_SOURCE/tests/plugins/cosine.c" >wrong.c
+    sed "s/^    PS_NUMBER(.*/    $row,/" "$PSPLAT_SOURCE/plugins/examples/filter.c" >wrong.c
     last=$row
     ! "$CC" -std=c11 -fsyntax-only -I "$PSPLAT_SOURCE/include" wrong.c 2>compiler || fail "it compiles"
     grep -q "sharpness" wrong.c && grep -q "PS_TYPE_OF_MEMBER" compiler || fail "another error: $(cat compiler)"
@@ -95,7 +95,7 @@ cp mine/filter/cosine.so mine/filter/tent.so
 run 0 plugins filter
 expect_match out '^  tent +[a-z]'
 if ! is_on PSPLAT_STATIC_PLUGINS; then
-    sed 's/"cosine"/"tent"/' "$PSPLAT_SOURCE/tests/plugins/cosine.c" >tent.c
+    sed 's/"cosine"/"tent"/' "$PSPLAT_SOURCE/plugins/examples/filter.c" >tent.c
     compile_module prefix/include tent.c "$PWD/mine/filter/tent.so"
     run 0 plugins filter=tent
     expect_text out "a raised cosine"
@@ -122,15 +122,52 @@ for page in man1/psplat.1 man5/psd.5 man7/psplat-plugins.7; do
     [ -f "moved/share/man/$page" ] || fail "no page $page"
 done
 
-# The flags that pkg-config gives are enough, and its folder holds the plugins.
+# The flags that pkg-config gives are enough, and its folders hold the plugins and the examples.
 if command -v pkg-config >/dev/null; then
     PKG_CONFIG_PATH=$(dirname "$(find "$PWD/moved" -name psplat.pc)")
     export PKG_CONFIG_PATH
     last="pkg-config psplat"
-    include=$(pkg-config --cflags-only-I psplat | sed 's/^-I//; s/ *$//')
-    [ -f "$include/psplat/plugin.h" ] || fail "no headers in '$include'"
     folder=$(pkg-config --variable=plugindir psplat)
     is_on PSPLAT_STATIC_PLUGINS || [ -f "$folder/filter/box.so" ] || fail "no plugins in '$folder'"
+    examples=$(pkg-config --variable=exampledir psplat)
+    flags="$(pkg-config --variable=pluginflags psplat) $(pkg-config --cflags psplat)"
+    is_on PSPLAT_SANITIZE && flags="$flags -fsanitize=address,undefined"
+    for example in injection stratification visibility filter estimator normalization denoiser; do
+        last="$CC $flags $examples/$example.c"
+        # shellcheck disable=SC2086
+        "$CC" $flags -o "$example.so" "$examples/$example.c" -lm 2>compiler || fail "$(cat compiler)"
+        run 0 plugins --test "./$example.so"
+        expect_match out "^$example ./$example.so$"
+        expect_text out "ok      makes it with three threads"
+        # shellcheck disable=SC2086
+        run 0 -q $small -p "$example=./$example.so" -o "$example.exr" "$cornell"
+        expect_picture "$example.exr"
+    done
+    # The example of a visibility traces what psplat's own does, ray by ray.
+    # shellcheck disable=SC2086
+    run 0 -q $small -o usual.exr "$cornell"
+    run 0 compare --fail 'rel_rmse>0.05' visibility.exr usual.exr
 fi
+
+# --- trials ---
+
+run 0 plugins --test ./filter.so:sharpness=3 --test ./stratification.so:width=50
+expect_text out "filter ./filter.so:sharpness=3"
+expect_text out "ok      keeps the power"
+run 1 plugins --test ./filter.so:sharpness=99
+expect_text out "FAILED  makes a picture: filter cosine: sharpness: expected number 0..16, got '99'"
+run 2 plugins --test filter.so
+expect_text err "--test: expected the path of a file, with a slash"
+run 2 plugins --test ./nowhere.so
+expect_text err "plugin ./nowhere.so: no such file"
+abusive=$PSPLAT_SOURCE/tests/plugins/abusive.c
+for what in nan emit:infinite; do
+    compile_module "$PSPLAT_SOURCE/include" "$abusive" "$PWD/abusive.so" "-DABUSE=\"$what\""
+    run 1 plugins --test ./abusive.so
+    expect_match out "FAILED +makes numbers"
+done
+compile_module "$PSPLAT_SOURCE/include" "$abusive" "$PWD/abusive.so" '-DABUSE="init:tile"'
+run 1 plugins --test ./abusive.so
+expect_text out "FAILED  makes a picture: estimator abusive: it called tile where that is not there"
 
 finish

@@ -79,8 +79,8 @@ done
 # The example in the page is the one that the tests build.
 part "$plugins" ".Sh EXAMPLES" | sed -n '/^\.Bd/,/^\.Ed/{/^\.Bd/d; /^\.Ed/d; s/\\e/\\/g; s/^\\&//; p;}' \
     >example.c
-cmp -s example.c "$PSPLAT_SOURCE/tests/plugins/cosine.c" ||
-    fail "the example of psplat-plugins(7) is not tests/plugins/cosine.c"
+cmp -s example.c "$PSPLAT_SOURCE/plugins/examples/filter.c" ||
+    fail "the example of psplat-plugins(7) is not plugins/examples/filter.c"
 
 # --- statistics, layers and attributes ---
 
@@ -98,6 +98,10 @@ gather_statistics $photon --set render.aa_samples=2
 for choice in stratification=cascade estimator=splat estimator=photonmap estimator=vpl:lights=8 estimator=ssao \
     denoiser=gaussian visibility=imperfect:points=1000; do
     gather_statistics $photon -p $choice --direct shadowmap --direct-resolution 8
+done
+for abuse in negative keep; do
+    compile_module "$PSPLAT_SOURCE/include" "$PSPLAT_SOURCE/tests/plugins/abusive.c" "$PWD/abusive.so" "-DABUSE=\"$abuse\""
+    gather_statistics $photon -p estimator=./abusive.so
 done
 sort -u statistics >program
 for table in seconds counters bytes; do

@@ -102,6 +102,87 @@ static void test_larger_structs_are_good(void **state)
     accept(it);
 }
 
+/* The bytes of a struct up to the end of its last member in version 1.0 of the interface. */
+#define FIRST_SIZE(type, last) (offsetof(type, last) + sizeof(((type *)NULL)->last))
+
+static const struct {
+    ps_kind kind;
+    size_t first_size;
+} tables[] = {
+    {PS_INJECTION, FIRST_SIZE(ps_injection_vtable, prepare)},
+    {PS_STRATIFICATION, FIRST_SIZE(ps_stratification_vtable, find_strata)},
+    {PS_VISIBILITY, FIRST_SIZE(ps_visibility_vtable, visible)},
+    {PS_FILTER, FIRST_SIZE(ps_filter_vtable, weigh)},
+    {PS_ESTIMATOR, FIRST_SIZE(ps_estimator_vtable, end)},
+    {PS_NORMALIZATION, FIRST_SIZE(ps_normalization_vtable, resolve)},
+    {PS_DENOISER, FIRST_SIZE(ps_denoiser_vtable, filter)},
+};
+
+/* Structs of 1.0 are good for ever, whatever lies behind them; a byte less is not. */
+static void test_the_first_sizes_are_good(void **state)
+{
+    (void)state;
+    static union {
+        uint32_t size;
+        void (*members[32])(void);
+    } table;
+    for (int i = 0; i < PS_KINDS; i++) {
+        struct specimen *it = make();
+        for (int k = 0; k < 32; k++)
+            table.members[k] = (void (*)(void))weigh;
+        it->module.size = FIRST_SIZE(ps_module, descriptors);
+        it->descriptor.size = FIRST_SIZE(ps_descriptor, vtable);
+        it->descriptor.kind = tables[i].kind;
+        it->descriptor.vtable = &table;
+        table.members[0] = NULL;
+        table.size = (uint32_t)tables[i].first_size;
+        accept(it);
+        table.size--;
+        refuse(it, "table of functions is too small");
+    }
+}
+
+/* What a module does not know is 0 to the core, not what happens to lie behind its structs. */
+static void test_unknown_members_are_zero(void **state)
+{
+    (void)state;
+    struct specimen *it = make();
+    struct strategy_type *type;
+    struct error error;
+    it->vtable.size = offsetof(ps_filter_vtable, weigh);
+    assert_int_equal(strategy_type_create(&it->descriptor, NULL, &type, &error), PS_OK);
+    assert_null(type->table.filter.weigh);
+    assert_int_equal(type->row_count, 2);
+    strategy_type_destroy(type);
+}
+
+/* Parameters that psplat gives to a kind come first, and their names are taken. */
+static void test_shared_parameters(void **state)
+{
+    (void)state;
+    struct specimen *it = make();
+    struct strategy_type *type;
+    struct error error;
+    static const ps_visibility_vtable visibility = {.size = sizeof visibility};
+    it->descriptor.kind = PS_VISIBILITY;
+    it->descriptor.vtable = &visibility;
+    accept(it);
+    assert_int_equal(strategy_type_create(&it->descriptor, NULL, &type, &error), PS_OK);
+    assert_int_equal(type->row_count, 6 + 2);
+    assert_string_equal(type->rows[0].name, "radius");
+    assert_string_equal(type->rows[6].name, "sharpness");
+    assert_true(type->rows[0].offset >= type->shared_offset);
+    assert_true(type->shared_offset >= sizeof(struct values));
+    strategy_type_destroy(type);
+    it->params[0].name = "radius";
+    assert_int_equal(strategy_type_create(&it->descriptor, NULL, &type, &error), PS_ERROR_INVALID);
+    assert_non_null(strstr(error.text, "its parameter 'radius' is one that psplat gives to every"));
+    it->params[0].name = "sharpness";
+    it->params[0].default_value = "11";
+    assert_int_equal(strategy_type_create(&it->descriptor, NULL, &type, &error), PS_ERROR_INVALID);
+    assert_non_null(strstr(error.text, "it has a bad default: expected number 0..10, got '11'"));
+}
+
 static void test_header(void **state)
 {
     (void)state;
@@ -156,7 +237,7 @@ static void test_descriptor(void **state)
     it->descriptors[0] = NULL;
     refuse(it, "descriptor is too small");
     it = make();
-    it->descriptor.size = sizeof(ps_descriptor) - 1;
+    it->descriptor.size = FIRST_SIZE(ps_descriptor, vtable) - 1;
     refuse(it, "descriptor is too small");
     it = make();
     it->descriptor.kind = PS_KINDS;
@@ -185,8 +266,8 @@ static void test_functions(void **state)
     it->descriptor.vtable = NULL;
     refuse(it, "table of functions is too small");
     it = make();
-    it->vtable.size--;
-    refuse(it, "table of functions is too small");
+    it->vtable.weigh = NULL;
+    refuse(it, "table of functions lacks one");
     it = make();
     it->descriptor.kind = PS_VISIBILITY; /* whose table is larger than a filter's */
     refuse(it, "table of functions is too small");
@@ -196,7 +277,7 @@ static void test_parameter_rows(void **state)
 {
     (void)state;
     struct specimen *it = make();
-    it->descriptor.param_size = sizeof(ps_param) - 1;
+    it->descriptor.param_size = FIRST_SIZE(ps_param, help) - 1;
     refuse(it, "rows are too small");
     it = make();
     it->params[0].name = NULL;
@@ -270,6 +351,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_good_modules),
         cmocka_unit_test(test_larger_structs_are_good),
+        cmocka_unit_test(test_the_first_sizes_are_good),
+        cmocka_unit_test(test_unknown_members_are_zero),
+        cmocka_unit_test(test_shared_parameters),
         cmocka_unit_test(test_header),
         cmocka_unit_test(test_first_defect_counts),
         cmocka_unit_test(test_no_strategy),

@@ -1,4 +1,4 @@
-/* cosine.c: weight ((1 + cos(pi r)) / 2) ^ sharpness, a raised cosine over the disc. */
+/* filter.c: an example: weight ((1 + cos(pi r)) / 2) ^ sharpness, a raised cosine over the disc. */
 #include <psplat/plugin.h>
 
 struct state {

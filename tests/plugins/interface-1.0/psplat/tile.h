@@ -1,0 +1,68 @@
+/* tile.h: the pixels of a tile as lists, for estimators that work point by point. */
+#ifndef PSPLAT_TILE_H
+#define PSPLAT_TILE_H
+
+#include <psplat/math.h>
+
+/* Where a pixel of a tile looks, and its normal there. */
+static inline ps_vec3 ps_tile_position(const ps_tile *tile, uint32_t lane)
+{
+    return (ps_vec3){tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
+}
+
+static inline ps_vec3 ps_tile_normal(const ps_tile *tile, uint32_t lane)
+{
+    return (ps_vec3){tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
+}
+
+/* The pixels of a tile that see a surface. */
+typedef struct ps_points {
+    size_t count;
+    ps_vec3 positions[PS_TILE_PIXELS], normals[PS_TILE_PIXELS];
+    uint32_t lanes[PS_TILE_PIXELS]; /* where in the tile each point is */
+} ps_points;
+
+static inline void ps_collect_points(const ps_tile *tile, ps_points *points)
+{
+    points->count = 0;
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        if (tile->object[lane] == PS_NO_OBJECT)
+            continue;
+        size_t i = points->count++;
+        points->positions[i] = ps_tile_position(tile, lane);
+        points->normals[i] = ps_tile_normal(tile, lane);
+        points->lanes[i] = lane;
+    }
+}
+
+/* Forgets the hits of rays that left points by a smoothed or bent normal, but into their own surface:
+ * nothing shines on a point of its plane. Ray i left point targets[i]. `offset`: that of the rays
+ * (ps_pass.surface_offset). */
+static inline void ps_forget_own_surface(const ps_points *points, const uint32_t *targets, size_t n,
+                                         float offset, ps_hit *hits)
+{
+    for (size_t i = 0; i < n; i++) {
+        ps_vec3 from_hit = ps_subtract(points->positions[targets[i]], hits[i].position);
+        if (hits[i].distance < INFINITY &&
+            fabsf(ps_dot(from_hit, hits[i].geometric_normal)) < 2.0f * offset)
+            hits[i].distance = INFINITY;
+    }
+}
+
+/* Where a pixel's own block of a sample sequence begins: 2^24 aligned indices, so that its first 2^k
+ * samples are stratified. */
+static inline uint64_t ps_sample_block(uint64_t tile, uint32_t lane)
+{
+    return (tile * PS_TILE_PIXELS + lane) << 24;
+}
+
+/* Adds irradiance (W/m^2), and weight 1, to a pixel of a tile. */
+static inline void ps_add_irradiance(ps_tile *tile, uint32_t lane, ps_rgb irradiance)
+{
+    tile->irradiance_r[lane] += irradiance.r;
+    tile->irradiance_g[lane] += irradiance.g;
+    tile->irradiance_b[lane] += irradiance.b;
+    tile->weight[lane] += 1.0f;
+}
+
+#endif
