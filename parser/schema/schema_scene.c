@@ -1,6 +1,7 @@
 /* schema_scene.c: the tables of the whole file, cameras, picture and settings; see schema.h. */
 #include "parser/schema/schema_language.h"
 #include "parser/schema/schema_rows.h"
+#include "settings/kinds.h"
 
 #define LARGEST_SEED 9007199254740992.0 /* 2^53: any double counts up to it in ones */
 
@@ -68,24 +69,17 @@ static const struct schema_row image_rows[] = {
                     "how the surroundings of a pixel's middle count in it")),
 };
 
-#define STRATEGY_ROW(kind_, name_, help_)                                                          \
+#define STRATEGY_ROW(kind_, name_, summary_, default_)                                             \
     ROW(SCHEMA_STRATEGY, name_, offsetof(struct render_description, strategies[kind_]),            \
-        PS_PARAM_STRING, "", help_, ANY, .absent = "psplat's default")
+        PS_PARAM_STRING, "", "plugin: " summary_, ANY, .absent = "psplat's default"),
 
 static const char *const all_bounces[] = {"all", NULL};
 
 static const char *const direct_ways[] = {"rays", "shadowmap", NULL};
 
 static const struct schema_row render_rows[] = {
-    STRATEGY_ROW(0, "injection", "plugin that makes indirect light sources"),
-    STRATEGY_ROW(1, "stratification", "plugin that merges neighbouring photons"),
-    STRATEGY_ROW(2, "visibility", "plugin that decides what a photon lights"),
-    STRATEGY_ROW(3, "filter", "plugin that weighs a splat by distance from its axis"),
-    STRATEGY_ROW(4, "estimator", "plugin that turns photons into light on the picture"),
-    STRATEGY_ROW(5, "normalization", "plugin that turns what was gathered into radiance"),
-    STRATEGY_ROW(6, "denoiser", "plugin that smooths the indirect light"),
-    VALUE(PS_INT(struct render_description, passes, "1", 1, 1e6, "",
-                 "how many independent passes are added up")),
+    STRATEGY_KINDS(STRATEGY_ROW) VALUE(PS_INT(struct render_description, passes, "1", 1, 1e6, "",
+                                              "how many independent passes are added up")),
     VALUE(PS_NUMBER_OR(struct render_description, bounces, "all", 1, 1000, 0, all_bounces,
                        "bounces",
                        "how many surfaces indirect light may meet before the one that is seen")),

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Cosine between normals of what counts as flat: 3.6 degrees. */
-#define LEAST_COSINE 0.998f
+#define SAME_NORMAL_COSINE 0.998f
 
 #define SIDE PS_TILE_SIZE
 
@@ -74,7 +74,7 @@ static void find_alike(const struct geometry_filter *mean, const struct apron *a
                        int dx, int dy, int *alike)
 {
     int here = APRON_MARGIN + row, there = here + dy;
-    apron_find_same(&apron->at, row, dx, dy, LEAST_COSINE, alike);
+    apron_find_same(&apron->at, row, dx, dy, SAME_NORMAL_COSINE, alike);
     for (int i = 0; i < SIDE && mean->occlusion; i++)
         alike[i] &= gbuffer_occlusion_alike(apron->occlusion[here][APRON_MARGIN + i],
                                             apron->occlusion[there][APRON_MARGIN + i + dx]);

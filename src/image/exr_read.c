@@ -44,13 +44,11 @@ static void keep_first_message(exr_const_context_t context, exr_result_t code, c
 {
     void *user_data = NULL;
     (void)code;
-    if (!context || exr_get_user_data(context, &user_data) != EXR_ERR_SUCCESS || !user_data) {
+    if (!context || exr_get_user_data(context, &user_data) != EXR_ERR_SUCCESS || !user_data)
         return;
-    }
     struct exr_source *source = user_data;
-    if (source->message[0] == '\0') {
+    if (source->message[0] == '\0')
         snprintf(source->message, sizeof source->message, "%s", message);
-    }
 }
 
 /* How a message of a picture's file starts. */
@@ -66,9 +64,8 @@ static const char *after_path(const struct exr_source *source)
 
 static ps_result explain(const struct exr_source *source, exr_result_t code)
 {
-    if (code == EXR_ERR_SUCCESS) {
+    if (code == EXR_ERR_SUCCESS)
         return PS_OK;
-    }
     return error_set(source->error, code == EXR_ERR_OUT_OF_MEMORY ? PS_ERROR_MEMORY : PS_ERROR_IO,
                      "%s%s%s%s", before_path(source), source->path, after_path(source),
                      source->message[0] ? source->message : exr_get_default_error_message(code));
@@ -99,16 +96,13 @@ static ps_result check_expansion(const struct exr_source *source)
     exr_compression_t compression = EXR_COMPRESSION_NONE;
     const exr_attr_chlist_t *list = NULL;
     exr_result_t code = exr_get_compression(source->context, PART, &compression);
-    if (code == EXR_ERR_SUCCESS) {
+    if (code == EXR_ERR_SUCCESS)
         code = exr_get_channels(source->context, PART, &list);
-    }
-    if (code != EXR_ERR_SUCCESS) {
+    if (code != EXR_ERR_SUCCESS)
         return explain(source, code);
-    }
     uint64_t pixel_bytes = 0;
-    for (int i = 0; i < list->num_channels; i++) {
+    for (int i = 0; i < list->num_channels; i++)
         pixel_bytes += list->entries[i].pixel_type == EXR_PIXEL_HALF ? 2 : 4;
-    }
     bool blocks = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
     return raster_check_expansion(
         source->memory, (uint64_t)source->image.width * source->image.height * pixel_bytes,
@@ -119,27 +113,22 @@ static ps_result check_form(const struct exr_source *source, exr_storage_t *stor
 {
     int parts = 0;
     exr_result_t code = exr_get_count(source->context, &parts);
-    if (code == EXR_ERR_SUCCESS && parts != 1) {
+    if (code == EXR_ERR_SUCCESS && parts != 1)
         return refuse(source, "it has several parts (only one can be read)");
-    }
-    if (code == EXR_ERR_SUCCESS) {
+    if (code == EXR_ERR_SUCCESS)
         code = exr_get_storage(source->context, PART, storage);
-    }
-    if (code != EXR_ERR_SUCCESS) {
+    if (code != EXR_ERR_SUCCESS)
         return explain(source, code);
-    }
-    if (*storage != EXR_STORAGE_SCANLINE && *storage != EXR_STORAGE_TILED) {
+    if (*storage != EXR_STORAGE_SCANLINE && *storage != EXR_STORAGE_TILED)
         return refuse(source, "it holds deep pixels (only flat ones can be read)");
-    }
     return check_compression(source);
 }
 
 static ps_result read_size(struct exr_source *source)
 {
     exr_result_t code = exr_get_data_window(source->context, PART, &source->window);
-    if (code != EXR_ERR_SUCCESS) {
+    if (code != EXR_ERR_SUCCESS)
         return explain(source, code);
-    }
     const exr_attr_box2i_t *window = &source->window;
     int64_t width = (int64_t)window->max.x - window->min.x + 1;
     int64_t height = (int64_t)window->max.y - window->min.y + 1;
@@ -152,9 +141,8 @@ static ps_result read_size(struct exr_source *source)
     if (source->memory) {
         ps_result result =
             raster_check_size(source->path, width, height, 4 * sizeof(float), source->error);
-        if (result != PS_OK) {
+        if (result != PS_OK)
             return result;
-        }
     }
     source->image.width = (size_t)width;
     source->image.height = (size_t)height;
@@ -164,9 +152,8 @@ static ps_result read_size(struct exr_source *source)
 static bool is_wanted(const struct exr_source *source, const char *name)
 {
     const char *const *wanted = source->channels;
-    while (wanted && *wanted && strcmp(*wanted, name) != 0) {
+    while (wanted && *wanted && strcmp(*wanted, name) != 0)
         wanted++;
-    }
     return !wanted || *wanted;
 }
 
@@ -174,23 +161,18 @@ static ps_result add_channels(struct exr_source *source)
 {
     const exr_attr_chlist_t *list = NULL;
     exr_result_t code = exr_get_channels(source->context, PART, &list);
-    if (code != EXR_ERR_SUCCESS) {
+    if (code != EXR_ERR_SUCCESS)
         return explain(source, code);
-    }
-    if (list->num_channels <= 0 || list->num_channels > CHANNEL_LIMIT) {
+    if (list->num_channels <= 0 || list->num_channels > CHANNEL_LIMIT)
         return refuse(source, "it has no channels, or too many");
-    }
     for (int i = 0; i < list->num_channels; i++) {
         const exr_attr_chlist_entry_t *entry = &list->entries[i];
-        if (entry->x_sampling != 1 || entry->y_sampling != 1) {
+        if (entry->x_sampling != 1 || entry->y_sampling != 1)
             return refuse(source, "it has subsampled channels");
-        }
-        if (image_channel(&source->image, entry->name.str)) {
+        if (image_channel(&source->image, entry->name.str))
             return refuse(source, "it has two channels of one name");
-        }
-        if (!is_wanted(source, entry->name.str)) {
+        if (!is_wanted(source, entry->name.str))
             continue;
-        }
         if (!image_add_channel(&source->image, entry->name.str)) {
             return error_set(source->error, PS_ERROR_MEMORY,
                              "%s%s%sout of memory for %zu x %zu pixels of %d channels",
@@ -217,9 +199,8 @@ static ps_result add_attributes(struct exr_source *source)
         const char *value = attribute->string->str;
         ps_result result =
             image_set_attribute(&source->image, attribute->name, value ? value : "", source->error);
-        if (result != PS_OK) {
+        if (result != PS_OK)
             return result;
-        }
     }
     return explain(source, code);
 }
@@ -227,9 +208,8 @@ static ps_result add_attributes(struct exr_source *source)
 static exr_result_t provide_spare(struct exr_source *source, const exr_chunk_info_t *chunk)
 {
     size_t count = (size_t)chunk->width * (size_t)chunk->height;
-    if (!source->channels || count <= source->spare_count) {
+    if (!source->channels || count <= source->spare_count)
         return EXR_ERR_SUCCESS;
-    }
     free(source->spare);
     source->spare = malloc(count * sizeof *source->spare);
     source->spare_count = source->spare ? count : 0;
@@ -278,13 +258,11 @@ static exr_result_t decode_chunk(struct exr_source *source, const exr_chunk_info
         source->decoding = true;
         code = provide_spare(source, chunk);
     }
-    if (code != EXR_ERR_SUCCESS) {
+    if (code != EXR_ERR_SUCCESS)
         return code;
-    }
     direct_channels(source, chunk, column, line);
-    if (first) {
+    if (first)
         code = exr_decoding_choose_default_routines(source->context, PART, decoder);
-    }
     return code == EXR_ERR_SUCCESS ? exr_decoding_run(source->context, PART, decoder) : code;
 }
 
@@ -297,9 +275,8 @@ static ps_result read_lines(struct exr_source *source)
         exr_chunk_info_t chunk;
         int row = (int)(source->window.min.y + (int64_t)line);
         code = exr_read_scanline_chunk_info(source->context, PART, row, &chunk);
-        if (code == EXR_ERR_SUCCESS) {
+        if (code == EXR_ERR_SUCCESS)
             code = decode_chunk(source, &chunk, 0, line);
-        }
     }
     return explain(source, code);
 }
@@ -311,21 +288,18 @@ static ps_result read_tiles(struct exr_source *source)
     exr_tile_round_mode_t rounding;
     exr_result_t code =
         exr_get_tile_descriptor(source->context, PART, &width, &height, &levels, &rounding);
-    if (code == EXR_ERR_SUCCESS && levels != EXR_TILE_ONE_LEVEL) {
+    if (code == EXR_ERR_SUCCESS && levels != EXR_TILE_ONE_LEVEL)
         return refuse(source, "it is mip-mapped (only one level can be read)");
-    }
-    if (code == EXR_ERR_SUCCESS && (width == 0 || height == 0)) {
+    if (code == EXR_ERR_SUCCESS && (width == 0 || height == 0))
         return refuse(source, "its tiles have no size");
-    }
     for (size_t line = 0; line < source->image.height && code == EXR_ERR_SUCCESS; line += height) {
         for (size_t column = 0; column < source->image.width && code == EXR_ERR_SUCCESS;
              column += width) {
             exr_chunk_info_t chunk;
             code = exr_read_tile_chunk_info(source->context, PART, (int)(column / width),
                                             (int)(line / height), 0, 0, &chunk);
-            if (code == EXR_ERR_SUCCESS) {
+            if (code == EXR_ERR_SUCCESS)
                 code = decode_chunk(source, &chunk, column, line);
-            }
         }
     }
     return explain(source, code);
@@ -335,25 +309,19 @@ static ps_result read_picture(struct exr_source *source)
 {
     exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
     ps_result result = check_form(source, &storage);
-    if (result == PS_OK) {
+    if (result == PS_OK)
         result = read_size(source);
-    }
-    if (result == PS_OK && source->memory) {
+    if (result == PS_OK && source->memory)
         result = check_expansion(source);
-    }
-    if (result == PS_OK) {
+    if (result == PS_OK)
         result = add_channels(source);
-    }
-    if (result == PS_OK) {
+    if (result == PS_OK)
         result = add_attributes(source);
-    }
-    if (result != PS_OK || source->image.channel_count == 0) {
+    if (result != PS_OK || source->image.channel_count == 0)
         return result;
-    }
     result = storage == EXR_STORAGE_TILED ? read_tiles(source) : read_lines(source);
-    if (source->decoding) {
+    if (source->decoding)
         exr_decoding_destroy(source->context, &source->decoder);
-    }
     free(source->spare);
     return result;
 }
@@ -372,9 +340,8 @@ static int64_t memory_read(exr_const_context_t context, void *user_data, void *b
     const struct raster_source *memory = ((const struct exr_source *)user_data)->memory;
     (void)context;
     (void)report;
-    if (offset >= memory->size) {
+    if (offset >= memory->size)
         return 0;
-    }
     uint64_t left = memory->size - offset;
     memcpy(buffer, memory->bytes + offset, size < left ? size : left);
     return (int64_t)(size < left ? size : left);
@@ -391,9 +358,8 @@ static ps_result read_source(struct exr_source *source, struct image *image)
         setup.read_fn = memory_read;
     }
     ps_result result = explain(source, exr_start_read(&source->context, source->path, &setup));
-    if (result != PS_OK) {
+    if (result != PS_OK)
         return result;
-    }
     result = read_picture(source);
     exr_finish(&source->context);
     if (result != PS_OK) {

@@ -79,12 +79,10 @@ static int64_t write_bytes(exr_const_context_t context, void *user_data, const v
 static ps_result explain(const struct exr_sink *sink, exr_result_t code, const char *kind,
                          const char *name)
 {
-    if (code == EXR_ERR_SUCCESS) {
+    if (code == EXR_ERR_SUCCESS)
         return PS_OK;
-    }
-    if (sink->failed) {
+    if (sink->failed)
         return PS_ERROR_IO;
-    }
     return error_set(sink->error,
                      code == EXR_ERR_OUT_OF_MEMORY ? PS_ERROR_MEMORY : PS_ERROR_INVALID,
                      "cannot write '%s' (%s %s): %s", sink->file.path, kind, name,
@@ -94,9 +92,8 @@ static ps_result explain(const struct exr_sink *sink, exr_result_t code, const c
 /* What the format, or the library's 32-bit sizes, cannot hold. */
 static ps_result check_picture(const struct image *image, const char *path, struct error *error)
 {
-    if (image->width == 0 || image->height == 0 || image->channel_count == 0) {
+    if (image->width == 0 || image->height == 0 || image->channel_count == 0)
         return error_set(error, PS_ERROR_INVALID, "cannot write '%s': the picture is empty", path);
-    }
     size_t bytes_per_column = image->channel_count * MOST_LINES * sizeof(float);
     if (image->height > INT32_MAX || image->channel_count > INT16_MAX ||
         image->width > INT32_MAX / bytes_per_column) {
@@ -118,12 +115,10 @@ static ps_result check_picture(const struct image *image, const char *path, stru
 static bool needs_long_names(const struct image *image)
 {
     bool needed = false;
-    for (size_t i = 0; i < image->channel_count; i++) {
+    for (size_t i = 0; i < image->channel_count; i++)
         needed = needed || strlen(image->channels[i].name) > SHORT_NAME_LENGTH;
-    }
-    for (size_t i = 0; i < image->attribute_count; i++) {
+    for (size_t i = 0; i < image->attribute_count; i++)
         needed = needed || strlen(image->attributes[i].name) > SHORT_NAME_LENGTH;
-    }
     return needed;
 }
 
@@ -131,20 +126,17 @@ static ps_result write_header(exr_context_t context, const struct image *image,
                               enum image_compression compression, const struct exr_sink *sink)
 {
     exr_result_t code = exr_set_longname_support(context, needs_long_names(image));
-    if (code == EXR_ERR_SUCCESS) {
+    if (code == EXR_ERR_SUCCESS)
         code = exr_add_part(context, NULL, EXR_STORAGE_SCANLINE, NULL);
-    }
     if (code == EXR_ERR_SUCCESS) {
         code = exr_initialize_required_attr_simple(context, PART, (int32_t)image->width,
                                                    (int32_t)image->height,
                                                    compressions[compression].code);
     }
-    if (code == EXR_ERR_SUCCESS) {
+    if (code == EXR_ERR_SUCCESS)
         code = exr_set_zip_compression_level(context, PART, ZIP_LEVEL);
-    }
-    if (code == EXR_ERR_SUCCESS) {
+    if (code == EXR_ERR_SUCCESS)
         code = exr_attr_set_chromaticities(context, PART, "chromaticities", &rec709);
-    }
     ps_result result = explain(sink, code, "the", "header");
     for (size_t i = 0; i < image->channel_count && result == PS_OK; i++) {
         const char *name = image->channels[i].name;
@@ -157,9 +149,8 @@ static ps_result write_header(exr_context_t context, const struct image *image,
         code = exr_attr_set_string(context, PART, attribute->name, attribute->value);
         result = explain(sink, code, "attribute", attribute->name);
     }
-    if (result != PS_OK) {
+    if (result != PS_OK)
         return result;
-    }
     return explain(sink, exr_write_header(context), "the", "header");
 }
 
@@ -202,9 +193,8 @@ static bool take_chunk(struct chunk_queue *queue, size_t *line)
 static void give_up(struct chunk_queue *queue, exr_result_t code)
 {
     pthread_mutex_lock(&queue->lock);
-    if (queue->code == EXR_ERR_SUCCESS) {
+    if (queue->code == EXR_ERR_SUCCESS)
         queue->code = code;
-    }
     pthread_cond_broadcast(&queue->moved);
     pthread_mutex_unlock(&queue->lock);
 }
@@ -214,9 +204,8 @@ static exr_result_t await_turn(exr_encode_pipeline_t *encoder)
 {
     struct chunk_queue *queue = encoder->encoding_user_data;
     pthread_mutex_lock(&queue->lock);
-    while (queue->code == EXR_ERR_SUCCESS && queue->written != (size_t)encoder->chunk.start_y) {
+    while (queue->code == EXR_ERR_SUCCESS && queue->written != (size_t)encoder->chunk.start_y)
         pthread_cond_wait(&queue->moved, &queue->lock);
-    }
     exr_result_t code = queue->code;
     pthread_mutex_unlock(&queue->lock);
     return code;
@@ -242,9 +231,8 @@ static exr_result_t write_shorter(exr_encode_pipeline_t *encoder)
                             : encoder->packed_buffer;
     exr_result_t code = exr_write_scanline_chunk(queue->context, PART, encoder->chunk.start_y,
                                                  bytes, encoder->compressed_bytes);
-    if (code == EXR_ERR_SUCCESS) {
+    if (code == EXR_ERR_SUCCESS)
         end_turn(queue);
-    }
     return code;
 }
 
@@ -259,9 +247,8 @@ static exr_result_t write_chunk(struct chunk_queue *queue, exr_encode_pipeline_t
         code = first ? exr_encoding_initialize(context, PART, &chunk, encoder)
                      : exr_encoding_update(context, PART, &chunk, encoder);
     }
-    if (code != EXR_ERR_SUCCESS) {
+    if (code != EXR_ERR_SUCCESS)
         return code;
-    }
     point_at_line(encoder, queue->image, line);
     if (first) {
         code = exr_encoding_choose_default_routines(context, PART, encoder);
@@ -279,12 +266,10 @@ static void work_off_chunks(void *user, uint64_t index, uint32_t worker)
     struct chunk_queue *queue = user;
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_result_t code = EXR_ERR_SUCCESS;
-    for (size_t line; code == EXR_ERR_SUCCESS && take_chunk(queue, &line);) {
+    for (size_t line; code == EXR_ERR_SUCCESS && take_chunk(queue, &line);)
         code = write_chunk(queue, &encoder, line);
-    }
-    if (code != EXR_ERR_SUCCESS) {
+    if (code != EXR_ERR_SUCCESS)
         give_up(queue, code);
-    }
     exr_encoding_destroy(queue->context, &encoder);
 }
 
@@ -314,13 +299,11 @@ static ps_result write_picture(const struct image *image, enum image_compression
     ps_result result =
         explain(sink, exr_start_write(&context, sink->file.path, EXR_WRITE_FILE_DIRECTLY, &setup),
                 "the", "start");
-    if (result != PS_OK) {
+    if (result != PS_OK)
         return result;
-    }
     result = write_header(context, image, compression, sink);
-    if (result == PS_OK) {
+    if (result == PS_OK)
         result = write_chunks(context, image, compressions[compression].lines, threads, sink);
-    }
     exr_result_t code = exr_finish(&context);
     return result == PS_OK ? explain(sink, code, "the", "end") : result;
 }
@@ -340,12 +323,10 @@ ps_result image_write_exr(const struct image *image, const char *path,
 {
     struct exr_sink sink = {.error = error};
     ps_result result = check_picture(image, path, error);
-    if (result == PS_OK) {
+    if (result == PS_OK)
         result = output_file_open(&sink.file, path, error);
-    }
-    if (result != PS_OK) {
+    if (result != PS_OK)
         return result;
-    }
     result = write_picture(image, compression, threads, &sink);
     if (result != PS_OK) {
         output_file_discard(&sink.file);

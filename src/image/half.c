@@ -38,9 +38,8 @@ bool half_from_exact(float value, uint16_t *half)
         return (mantissa & 0x1fff) == 0;
     }
     float steps = fabsf(value) * 0x1p24f; /* of numbers too small to be normal */
-    if (!(steps < MANTISSA_ONE)) {
+    if (!(steps < MANTISSA_ONE))
         return false;
-    }
     *half = (uint16_t)(sign | (uint32_t)steps);
     return (float)(uint32_t)steps == steps;
 }

@@ -24,27 +24,23 @@ static bool append_channel(struct image *image, const char *name, float *samples
 {
     struct image_channel *channels =
         realloc(image->channels, (image->channel_count + 1) * sizeof *channels);
-    if (!channels) {
+    if (!channels)
         return false;
-    }
     image->channels = channels;
     struct image_channel channel = {.name = strdup(name), .samples = samples};
-    if (!channel.name) {
+    if (!channel.name)
         return false;
-    }
     channels[image->channel_count++] = channel;
     return true;
 }
 
 float *image_add_channel(struct image *image, const char *name)
 {
-    if (image->width == 0 || image->height == 0 || image->width > SIZE_MAX / image->height) {
+    if (image->width == 0 || image->height == 0 || image->width > SIZE_MAX / image->height)
         return NULL;
-    }
     float *samples = calloc(image->width * image->height, sizeof *samples);
-    if (samples && append_channel(image, name, samples)) {
+    if (samples && append_channel(image, name, samples))
         return samples;
-    }
     free(samples);
     return NULL;
 }
@@ -52,9 +48,8 @@ float *image_add_channel(struct image *image, const char *name)
 ps_result image_adopt_channel(struct image *image, const char *name, float *samples,
                               struct error *error)
 {
-    if (append_channel(image, name, samples)) {
+    if (append_channel(image, name, samples))
         return PS_OK;
-    }
     return error_memory(error, (image->channel_count + 1) * sizeof *image->channels,
                         "a channel of a picture");
 }
@@ -78,9 +73,8 @@ void image_keep_channels(struct image *image, bool (*keeps)(const void *user, co
 static struct image_attribute *find_attribute(const struct image *image, const char *name)
 {
     for (size_t i = 0; i < image->attribute_count; i++) {
-        if (strcmp(image->attributes[i].name, name) == 0) {
+        if (strcmp(image->attributes[i].name, name) == 0)
             return &image->attributes[i];
-        }
     }
     return NULL;
 }
@@ -89,15 +83,13 @@ static struct image_attribute *append_attribute(struct image *image, const char 
 {
     struct image_attribute *attributes =
         realloc(image->attributes, (image->attribute_count + 1) * sizeof *attributes);
-    if (!attributes) {
+    if (!attributes)
         return NULL;
-    }
     image->attributes = attributes;
     struct image_attribute *attribute = &attributes[image->attribute_count];
     *attribute = (struct image_attribute){.name = strdup(name)};
-    if (!attribute->name) {
+    if (!attribute->name)
         return NULL;
-    }
     image->attribute_count++;
     return attribute;
 }
@@ -107,9 +99,8 @@ ps_result image_set_attribute(struct image *image, const char *name, const char 
 {
     char *copy = strdup(value);
     struct image_attribute *attribute = copy ? find_attribute(image, name) : NULL;
-    if (copy && !attribute) {
+    if (copy && !attribute)
         attribute = append_attribute(image, name);
-    }
     if (!attribute) {
         free(copy);
         return error_memory(error, strlen(name) + strlen(value) + 2, "an attribute of a picture");
@@ -122,9 +113,8 @@ ps_result image_set_attribute(struct image *image, const char *name, const char 
 const float *image_channel(const struct image *image, const char *name)
 {
     for (size_t i = 0; i < image->channel_count; i++) {
-        if (strcmp(image->channels[i].name, name) == 0) {
+        if (strcmp(image->channels[i].name, name) == 0)
             return image->channels[i].samples;
-        }
     }
     return NULL;
 }

@@ -50,9 +50,8 @@ static void write_bytes(png_structp png, png_bytep bytes, size_t size)
 {
     struct png_job *job = png_get_io_ptr(png);
     job->result = output_file_write(&job->file, job->offset, bytes, size, job->error);
-    if (job->result != PS_OK) {
+    if (job->result != PS_OK)
         png_longjmp(png, 1);
-    }
     job->offset += size;
 }
 
@@ -65,9 +64,8 @@ static void flush_nothing(png_structp png)
 static void set_text(struct png_job *job, const struct image_attribute *text)
 {
     bool ascii = true;
-    for (const char *c = text->value; *c; c++) {
+    for (const char *c = text->value; *c; c++)
         ascii = ascii && (unsigned char)*c < 128;
-    }
     png_text chunk = {
         .compression = ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE,
         .key = text->name,
@@ -79,9 +77,8 @@ static void set_text(struct png_job *job, const struct image_attribute *text)
 
 static void write_chunks(struct png_job *job)
 {
-    if (setjmp(png_jmpbuf(job->png))) {
+    if (setjmp(png_jmpbuf(job->png)))
         return;
-    }
     png_set_write_fn(job->png, job, write_bytes, flush_nothing);
     png_set_IHDR(job->png, job->info, (png_uint_32)job->width, (png_uint_32)job->height, 8,
                  PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
@@ -89,13 +86,11 @@ static void write_chunks(struct png_job *job)
     png_set_compression_strategy(job->png, Z_RLE);
     png_set_filter(job->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
     png_set_sRGB(job->png, job->info, PNG_sRGB_INTENT_PERCEPTUAL);
-    for (size_t i = 0; i < job->text_count; i++) {
+    for (size_t i = 0; i < job->text_count; i++)
         set_text(job, &job->texts[i]);
-    }
     png_write_info(job->png, job->info);
-    for (size_t y = 0; y < job->height; y++) {
+    for (size_t y = 0; y < job->height; y++)
         png_write_row(job->png, job->rgb + 3 * y * job->width);
-    }
     png_write_end(job->png, job->info);
 }
 
@@ -103,9 +98,8 @@ static void write_chunks(struct png_job *job)
 static bool is_key(const char *key)
 {
     size_t length = 0;
-    while (key[length] >= ' ' && key[length] <= '~') {
+    while (key[length] >= ' ' && key[length] <= '~')
         length++;
-    }
     return key[length] == '\0' && length > 0 && length <= KEY_LIMIT;
 }
 
@@ -154,12 +148,10 @@ ps_result image_write_png(const char *path, size_t width, size_t height, const u
                           .texts = texts,
                           .text_count = texts ? text_count : 0};
     ps_result result = check_arguments(&job, path);
-    if (result == PS_OK) {
+    if (result == PS_OK)
         result = output_file_open(&job.file, path, error);
-    }
-    if (result != PS_OK) {
+    if (result != PS_OK)
         return result;
-    }
     result = write_picture(&job);
     if (result != PS_OK) {
         output_file_discard(&job.file);

@@ -68,9 +68,8 @@ ps_result raster_check_size(const char *path, int64_t width, int64_t height, siz
 ps_result raster_check_expansion(const struct raster_source *source, uint64_t decoded,
                                  uint64_t expansion, struct error *error)
 {
-    if (decoded / expansion <= source->size) {
+    if (decoded / expansion <= source->size)
         return PS_OK;
-    }
     return error_set(error, PS_ERROR_IO,
                      "%s: it ends too early: %zu bytes cannot hold the picture that it states",
                      source->path, source->size);
@@ -80,9 +79,8 @@ ps_result raster_allocate(const char *path, struct raster *raster, struct error 
 {
     ps_result result =
         raster_check_size(path, raster->width, raster->height, bytes_per_pixel(raster), error);
-    if (result != PS_OK) {
+    if (result != PS_OK)
         return result;
-    }
     raster->samples = malloc(raster_bytes(raster));
     if (!raster->samples) {
         return error_set(error, PS_ERROR_MEMORY,
@@ -95,9 +93,8 @@ ps_result raster_allocate(const char *path, struct raster *raster, struct error 
 static ps_result decode(const struct raster_source *source, struct raster *raster,
                         struct error *error)
 {
-    if (source->size == 0) {
+    if (source->size == 0)
         return error_set(error, PS_ERROR_INVALID, "%s: it is empty", source->path);
-    }
     for (size_t i = 0; i < FORMAT_COUNT; i++) {
         const struct format *format = &formats[i];
         if (source->size >= format->length &&
@@ -129,9 +126,8 @@ static ps_result read_file(const char *path, const struct input_file *file, stru
     size_t size = (size_t)file->size;
     struct error reason;
     unsigned char *bytes = malloc(size + 1);
-    if (!bytes) {
+    if (!bytes)
         return error_set(error, PS_ERROR_MEMORY, "%s: out of memory: wanted %zu bytes", path, size);
-    }
     ps_result result = input_file_read(file, bytes, &size, &reason);
     if (result != PS_OK) {
         error_set(error, result, "%s: %.1000s", path, reason.text);
@@ -151,9 +147,8 @@ ps_result raster_read(const char *path, const char *folder, struct raster *raste
     struct input_file file;
     struct error reason;
     ps_result result = input_file_open(path, folder, &file, &reason);
-    if (result != PS_OK) {
+    if (result != PS_OK)
         return error_set(error, result, "%s: %.1000s", path, reason.text);
-    }
     result = read_file(path, &file, raster, error);
     close(file.descriptor);
     return result;

@@ -20,9 +20,8 @@ struct planes {
 
 static void add_plane(struct planes *planes, const float *samples)
 {
-    if (samples) {
+    if (samples)
         planes->samples[planes->count++] = samples;
-    }
 }
 
 static bool choose_planes(const struct image *image, struct planes *planes)
@@ -46,9 +45,8 @@ static bool choose_planes(const struct image *image, struct planes *planes)
 
 static float finite_sample(float sample)
 {
-    if (isnan(sample)) {
+    if (isnan(sample))
         return 0.0f;
-    }
     return isinf(sample) ? copysignf(HALF_LARGEST, sample) : sample;
 }
 
@@ -57,9 +55,8 @@ static bool fits_halves(const struct planes *planes, size_t pixels)
     for (uint32_t channel = 0; channel < planes->count; channel++) {
         for (size_t i = 0; i < pixels; i++) {
             uint16_t half;
-            if (!half_from_exact(finite_sample(planes->samples[channel][i]), &half)) {
+            if (!half_from_exact(finite_sample(planes->samples[channel][i]), &half))
                 return false;
-            }
         }
     }
     return true;
@@ -78,9 +75,8 @@ static void store_halves(const struct planes *planes, size_t pixels, uint16_t *h
 static void store_floats(const struct planes *planes, size_t pixels, float *floats)
 {
     for (uint32_t channel = 0; channel < planes->count; channel++) {
-        for (size_t i = 0; i < pixels; i++) {
+        for (size_t i = 0; i < pixels; i++)
             floats[i * planes->count + channel] = finite_sample(planes->samples[channel][i]);
-        }
     }
 }
 
@@ -98,9 +94,8 @@ static ps_result interleave(const char *path, const struct image *image, struct 
     raster->channels = planes.count;
     raster->sample = fits_halves(&planes, pixels) ? RASTER_HALF : RASTER_FLOAT;
     ps_result result = raster_allocate(path, raster, error);
-    if (result != PS_OK) {
+    if (result != PS_OK)
         return result;
-    }
     if (raster->sample == RASTER_HALF) {
         store_halves(&planes, pixels, raster->samples);
     } else {

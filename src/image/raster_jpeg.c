@@ -73,9 +73,8 @@ static void judge_message(j_common_ptr decoder, int level)
 {
     struct jpeg_job *job = decoder->client_data;
     int code = decoder->err->msg_code;
-    if (level >= 0 || leaves_pixels_whole(code)) {
+    if (level >= 0 || leaves_pixels_whole(code))
         return;
-    }
     if (code == JWRN_JPEG_EOF) {
         leave(job, error_set(job->error, PS_ERROR_IO, "%s: it ends too early (a truncated JPEG)",
                              job->source->path));
@@ -91,16 +90,14 @@ static void print_nothing(j_common_ptr decoder)
 static void limit_scans(j_common_ptr decoder)
 {
     struct jpeg_job *job = decoder->client_data;
-    if (job->decoder.input_scan_number > SCAN_LIMIT) {
+    if (job->decoder.input_scan_number > SCAN_LIMIT)
         leave(job, refuse(job, "a JPEG of so many scans cannot be read"));
-    }
 }
 
 static void expect(struct jpeg_job *job, ps_result result)
 {
-    if (result != PS_OK) {
+    if (result != PS_OK)
         leave(job, result);
-    }
 }
 
 static ps_result choose_colors(struct jpeg_job *job)
@@ -143,9 +140,8 @@ static void read_header(struct jpeg_job *job)
 
 static void read_picture(struct jpeg_job *job)
 {
-    if (setjmp(job->jump)) {
+    if (setjmp(job->jump))
         return;
-    }
     jpeg_create_decompress(&job->decoder);
     job->decoder.progress = &job->progress;
     jpeg_mem_src(&job->decoder, job->source->bytes, job->source->size);

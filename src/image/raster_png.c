@@ -97,17 +97,15 @@ static void read_rows(struct png_job *job)
                      ? 1
                      : PNG_INTERLACE_ADAM7_PASSES;
     for (int pass = 0; pass < passes; pass++) {
-        for (size_t row = 0; row < job->raster->height; row++) {
+        for (size_t row = 0; row < job->raster->height; row++)
             png_read_row(job->png, raster_row(job->raster, row), NULL);
-        }
     }
 }
 
 static void read_picture(struct png_job *job)
 {
-    if (setjmp(png_jmpbuf(job->png))) {
+    if (setjmp(png_jmpbuf(job->png)))
         return;
-    }
     png_set_read_fn(job->png, job, read_bytes);
     png_set_user_limits(job->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_keep_unknown_chunks(job->png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);

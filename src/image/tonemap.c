@@ -18,9 +18,8 @@ static double srgb_from_linear(double linear)
     if (!(linear > 0.0)) { /* NaN too */
         return 0.0;
     }
-    if (linear >= 1.0) {
+    if (linear >= 1.0)
         return 1.0;
-    }
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
 }
 
@@ -40,18 +39,16 @@ double tonemap_linear(double display)
  * and slope 1 on both sides of a, rising towards 1. */
 static double filmic_curve(double linear)
 {
-    if (!(linear > SHOULDER)) {
+    if (!(linear > SHOULDER))
         return linear;
-    }
     return 1.0 - (1.0 - SHOULDER) * exp(-(linear - SHOULDER) / (1.0 - SHOULDER));
 }
 
 static uint8_t display_byte(float linear, double factor, enum tone_curve curve)
 {
     double exposed = linear * factor;
-    if (curve == TONE_FILMIC) {
+    if (curve == TONE_FILMIC)
         exposed = filmic_curve(exposed);
-    }
     return (uint8_t)(255.0 * srgb_from_linear(exposed) + 0.5);
 }
 

@@ -1,16 +1,10 @@
 #include "plugin/kind.h"
 
+#include "settings/kinds.h"
 #include <string.h>
 
-const struct kind kinds[PS_KINDS] = {
-    [PS_INJECTION] = {"injection", "makes the indirect light sources", "photon"},
-    [PS_STRATIFICATION] = {"stratification", "combines neighbouring photons into fewer", "none"},
-    [PS_VISIBILITY] = {"visibility", "decides what a bundled light ray lights", "shadowmap"},
-    [PS_FILTER] = {"filter", "radial weight of a splat", "gaussian"},
-    [PS_ESTIMATOR] = {"estimator", "turns photons into light on the picture", "splat"},
-    [PS_NORMALIZATION] = {"normalization", "turns accumulated light into radiance", "density"},
-    [PS_DENOISER] = {"denoiser", "smooths the indirect light", "none"},
-};
+#define KIND_ROW(kind_, name_, summary_, default_) [kind_] = {name_, summary_, default_},
+const struct kind kinds[PS_KINDS] = {STRATEGY_KINDS(KIND_ROW)};
 
 ps_kind kind_parse(const char *text, const char **rest)
 {

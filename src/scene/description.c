@@ -3,17 +3,6 @@
 
 #include <stdlib.h>
 
-void strategy_choice_release(struct strategy_choice *choice)
-{
-    for (size_t i = 0; i < choice->parameter_count; i++) {
-        free(choice->parameters[i].key);
-        free(choice->parameters[i].value);
-    }
-    free(choice->parameters);
-    free(choice->name);
-    *choice = (struct strategy_choice){0};
-}
-
 void object_description_release(struct object_description *object)
 {
     free(object->vertices);
@@ -72,8 +61,7 @@ void scene_description_release(struct scene_description *description)
     release_materials(description);
     free(description->lights);
     release_geometry(description);
-    for (size_t i = 0; i < STRATEGY_KINDS; i++)
-        strategy_choice_release(&description->render.strategies[i]);
+    render_description_release(&description->render);
     for (size_t i = 0; i < description->file_count; i++)
         free(description->files[i]);
     free(description->files);

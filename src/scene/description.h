@@ -10,6 +10,7 @@
 
 #include "base/origin.h"
 #include "scene/affine.h"
+#include "settings/render_description.h"
 #include <psplat/param.h>
 #include <stdbool.h>
 
@@ -218,43 +219,6 @@ struct group_description {
 
 /* --- rendering -------------------------------------------------------------------------------- */
 
-/* The seven kinds of strategy, in pipeline order, named as ps_kind in psplat/module.h. A choice is
- * a plugin's name (or path) with parameters, still as text: only the plugin's table can check them.
- */
-struct parameter_text {
-    char *key, *value; /* owned; vectors are written "[x, y, z]" */
-    struct origin key_origin, value_origin;
-};
-
-struct strategy_choice {
-    char *name; /* NULL: not stated, the default applies; owned */
-    struct parameter_text *parameters;
-    size_t parameter_count;
-    struct origin origin;
-};
-
-#define STRATEGY_KINDS 7
-
-/* How it is found what the lights reach. */
-enum direct_light { DIRECT_RAYS, DIRECT_SHADOWMAP };
-
-#define MOST_AA_SAMPLES 1024
-
-struct render_description {
-    struct strategy_choice strategies[STRATEGY_KINDS];
-    int64_t passes;
-    ps_number_or_choice bounces; /* a whole number, or all */
-    int64_t seed;
-    int64_t light_samples; /* shadow rays for each area light, pixel and pass */
-    int32_t
-        discontinuity_buffer; /* 1: pixels take in what shadow rays of those around them found */
-    int64_t aa_samples; /* camera samples of a pixel at an edge, in each pass; 1: as everywhere */
-    int32_t direct;     /* enum direct_light */
-    int64_t direct_resolution;
-    double indirect_exposure; /* factor on the indirect light when it joins the direct light */
-    ps_rgb ambient;           /* radiance of pixels that no indirect light reached */
-};
-
 struct scene_description {
     char *path;   /* of the main file */
     char *folder; /* the only one to read meshes and pictures from (input_file.h), or NULL */
@@ -283,8 +247,5 @@ void scene_description_release(struct scene_description *description);
 
 /* Frees what an object owns. */
 void object_description_release(struct object_description *object);
-
-/* Frees what a choice owns, and zeroes it. */
-void strategy_choice_release(struct strategy_choice *choice);
 
 #endif

@@ -77,7 +77,7 @@ void scene_release(struct scene *scene)
         free(scene->owned[i]);
     free(scene->owned);
     free(scene->lights);
-    free(scene->light_cdf);
+    distribution_release(&scene->light_choice);
     free(scene->object_lights);
     free(scene->shapes);
     free(scene->groups);

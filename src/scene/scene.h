@@ -46,7 +46,7 @@ struct scene {
     size_t material_count;
     struct microfacet_table *microfacets; /* NULL where no material mirrors */
     struct light *lights;
-    float *light_cdf; /* cumulative share of power, light_count entries, last 1 */
+    struct distribution light_choice; /* by power */
     size_t light_count;
     void **owned; /* arrays that lights borrow: owned_count entries */
     size_t owned_count;

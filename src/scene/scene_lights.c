@@ -241,19 +241,25 @@ static ps_result add_emissive(struct assembly *assembly)
 
 /* --- choosing --------------------------------------------------------------------------------- */
 
-/* Lights share the light paths by power; a scene whose lights are all dark shares them evenly. */
-static void share_paths(struct scene *scene)
+/* Lights share the light paths by power, the sum of its red, green and blue; a scene whose lights are all dark
+ * shares them evenly. */
+static ps_result share_paths(struct assembly *assembly)
 {
-    float total = 0.0f;
+    struct scene *scene = assembly->scene;
+    if (scene->light_count == 0)
+        return PS_OK;
+    float *powers = assembly_allocate(assembly, scene->light_count, sizeof *powers);
+    if (!powers)
+        return PS_ERROR_MEMORY;
     for (size_t i = 0; i < scene->light_count; i++) {
         ps_rgb power = light_power(&scene->lights[i]);
-        total += power.r + power.g + power.b;
-        scene->light_cdf[i] = total;
+        powers[i] = power.r + power.g + power.b;
         scene->has_area_lights = scene->has_area_lights || !light_is_delta(&scene->lights[i]);
     }
-    for (size_t i = 0; i < scene->light_count; i++)
-        scene->light_cdf[i] =
-            total > 0.0f ? scene->light_cdf[i] / total : (float)(i + 1) / (float)scene->light_count;
+    ps_result result =
+        distribution_create(powers, scene->light_count, &scene->light_choice, assembly->error);
+    free(powers);
+    return result;
 }
 
 ps_result assembly_add_lights(struct assembly *assembly)
@@ -262,10 +268,9 @@ ps_result assembly_add_lights(struct assembly *assembly)
     struct scene *scene = assembly->scene;
     size_t most = description->light_count + scene->object_count;
     scene->lights = assembly_allocate(assembly, most, sizeof *scene->lights);
-    scene->light_cdf = assembly_allocate(assembly, most, sizeof *scene->light_cdf);
     scene->object_lights =
         assembly_allocate(assembly, scene->object_count, sizeof *scene->object_lights);
-    if (!scene->lights || !scene->light_cdf || !scene->object_lights)
+    if (!scene->lights || !scene->object_lights)
         return PS_ERROR_MEMORY;
     ps_result result = PS_OK;
     for (size_t i = 0; i < description->light_count && result == PS_OK; i++)
@@ -273,18 +278,12 @@ ps_result assembly_add_lights(struct assembly *assembly)
             result = add_described(assembly, &description->lights[i]);
     if (result == PS_OK)
         result = add_emissive(assembly);
-    share_paths(scene);
-    return result;
+    return result == PS_OK ? share_paths(assembly) : result;
 }
 
 size_t scene_choose_light(const struct scene *scene, float *u, float *probability)
 {
-    size_t i = 0;
-    while (i + 1 < scene->light_count && *u >= scene->light_cdf[i])
-        i++;
-    float before = i ? scene->light_cdf[i - 1] : 0.0f;
-    *probability = scene->light_cdf[i] - before;
-    if (*probability > 0.0f)
-        *u = fminf(fmaxf((*u - before) / *probability, 0.0f), 0x1.fffffep-1f);
-    return i;
+    size_t light = distribution_choose(&scene->light_choice, *u, u);
+    *probability = distribution_probability(&scene->light_choice, light);
+    return light;
 }

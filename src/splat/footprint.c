@@ -79,11 +79,11 @@ float footprint_clearance(float surface_offset, float half_width, bool hollow)
     return ps_max(surface_offset, (hollow ? HOLLOW_CLEARANCE : CLEARANCE) * half_width);
 }
 
-#define LEAST_COSINE 0.015625f
+#define GRAZING_COSINE 0.015625f
 
 float footprint_cosine(const ps_photon *photon)
 {
-    return ps_max(ps_dot(photon->normal, photon->direction), LEAST_COSINE);
+    return ps_max(ps_dot(photon->normal, photon->direction), GRAZING_COSINE);
 }
 
 void footprint_start(const ps_photon *photon, float clearance, struct splat *splat)

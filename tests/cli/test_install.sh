@@ -59,6 +59,10 @@ check_contents() {
     done
     for source in "$PSPLAT_SOURCE"/plugins/*/*.c; do
         kind=$(basename "$(dirname "$source")")
+        [ "$kind" != examples ] || {
+            check_file "$prefix/share/psplat/examples/$(basename "$source")"
+            continue
+        }
         check_file "$prefix/$libdir/psplat/plugins-1/$kind/$(basename "$source" .c).so"
     done
     for scene in "$PSPLAT_SOURCE"/scenes/*.psd; do

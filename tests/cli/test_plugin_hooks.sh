@@ -41,7 +41,7 @@ expect_same one.exr three.exr
 # --- what lies in front of a strategy, or behind it ---
 
 mkdir -p front/filter back/filter
-compile_module "$PSPLAT_SOURCE/include" "$PSPLAT_SOURCE/tests/plugins/cosine.c" "$PWD/back/filter/cosine.so"
+compile_module "$PSPLAT_SOURCE/include" "$PSPLAT_SOURCE/plugins/examples/filter.c" "$PWD/back/filter/cosine.so"
 echo "this is text" >front/filter/cosine.so
 PSPLAT_PLUGIN_PATH=$PWD/front:$PWD/back
 export PSPLAT_PLUGIN_PATH

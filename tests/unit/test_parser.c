@@ -72,7 +72,7 @@ static void test_defaults(void **state)
     assert_int_equal(d.render.passes, 1);
     assert_int_equal(d.render.seed, 0);
     assert_true(d.render.indirect_exposure == 1 && d.render.ambient.g == 0);
-    for (size_t i = 0; i < STRATEGY_KINDS; i++)
+    for (size_t i = 0; i < PS_KINDS; i++)
         assert_null(d.render.strategies[i].name);
     scene_description_release(&d);
 }
