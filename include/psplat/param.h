@@ -40,6 +40,7 @@ typedef struct ps_number_or_choice {
 #define PS_PARAM_OPEN_MAX 2u
 #define PS_PARAM_EXPERT                                                                            \
     4u /* its default is right for all but experiments: lists show it on request */
+#define PS_PARAM_WHOLE 8u /* of numbers: whole ones alone */
 
 typedef struct ps_param {
     const char *name;

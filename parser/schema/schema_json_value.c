@@ -25,7 +25,9 @@ static void write_range(struct emitter *emitter, const ps_param *param)
 static void write_number(struct emitter *emitter, const ps_param *param)
 {
     emit_open(emitter, '{');
-    emit_text_of(emitter, "type", param->type == PS_PARAM_INT ? "integer" : "number");
+    emit_text_of(emitter, "type",
+                 param->type == PS_PARAM_INT || param->flags & PS_PARAM_WHOLE ? "integer"
+                                                                              : "number");
     write_range(emitter, param);
     emit_close(emitter, '{');
 }

@@ -80,8 +80,8 @@ static const char *const direct_ways[] = {"rays", "shadowmap", NULL};
 static const struct schema_row render_rows[] = {
     STRATEGY_KINDS(STRATEGY_ROW) VALUE(PS_INT(struct render_description, passes, "1", 1, 1e6, "",
                                               "how many independent passes are added up")),
-    VALUE(PS_NUMBER_OR(struct render_description, bounces, "all", 1, 1000, 0, all_bounces,
-                       "bounces",
+    VALUE(PS_NUMBER_OR(struct render_description, bounces, "all", 1, 1000, PS_PARAM_WHOLE,
+                       all_bounces, "bounces",
                        "how many surfaces indirect light may meet before the one that is seen")),
     VALUE(PS_INT(struct render_description, seed, "0", 0, LARGEST_SEED, "",
                  "start of the random numbers")),

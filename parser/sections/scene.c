@@ -72,15 +72,6 @@ static void warn_dark(const struct reader *reader, const struct node *root)
                            "the scene has no lights");
 }
 
-static void read_render(struct reader *reader, const struct node *root)
-{
-    struct render_description *render = &reader->description->render;
-    read_map(reader, root, "render", render, NULL);
-    if (render->bounces.choice < 0 && render->bounces.number != floor(render->bounces.number))
-        reader_error(reader, node_find(node_find(root, "render")->value, "bounces")->value,
-                     "bounces in render: expected a whole number or all");
-}
-
 static void read_sections(struct reader *reader, const struct node *root)
 {
     struct scene_description *description = reader->description;
@@ -90,7 +81,7 @@ static void read_sections(struct reader *reader, const struct node *root)
     lights_read(reader, root);
     groups_read(reader, root);
     read_objects(reader, root);
-    read_render(reader, root);
+    read_map(reader, root, "render", &description->render, NULL);
     warn_dark(reader, root);
 }
 

@@ -309,14 +309,6 @@ static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pa
     return result;
 }
 
-static ps_result init(void *opaque, const ps_host *host)
-{
-    const struct state *state = opaque;
-    if (state->split.choice < 0 && state->split.number != floor(state->split.number))
-        return host->fail(host, PS_ERROR_INVALID, "split: expected a whole number");
-    return PS_OK;
-}
-
 static const char *const split_choices[] = {"auto", NULL};
 
 static const ps_param params[] = {
@@ -324,7 +316,8 @@ static const ps_param params[] = {
     PS_ROW(struct state, roulette, PS_PARAM_INT, "2", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),
     PS_NUMBER_OR(
-        struct state, split, "auto", 1, MOST_SPLIT, PS_PARAM_EXPERT, split_choices, "paths",
+        struct state, split, "auto", 1, MOST_SPLIT, PS_PARAM_EXPERT | PS_PARAM_WHOLE, split_choices,
+        "paths",
         "light paths that share a walk, and leave its surfaces in so many directions; auto: 4 for "
         "estimators that splat where nothing mirrors, else 1"),
 };
@@ -346,7 +339,6 @@ static const ps_descriptor descriptor = {
     .param_count = sizeof params / sizeof params[0],
     .param_size = sizeof params[0],
     .state_size = sizeof(struct state),
-    .init = init,
     .vtable = &vtable,
 };
 

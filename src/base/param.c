@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include <ctype.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,8 +41,16 @@ static ps_result reject(const ps_param *row, const char *text, struct error *err
     return error_set(error, PS_ERROR_INVALID, "expected %s, got '%.80s'", domain, text);
 }
 
+/* Whether the row's numbers are whole ones. */
+static bool is_whole(const ps_param *row)
+{
+    return row->type == PS_PARAM_INT || row->flags & PS_PARAM_WHOLE;
+}
+
 static bool in_range(const ps_param *row, double value)
 {
+    if (is_whole(row) && value != floor(value))
+        return false;
     if (row->flags & PS_PARAM_OPEN_MIN ? value <= row->minimum : value < row->minimum)
         return false;
     return row->flags & PS_PARAM_OPEN_MAX ? value < row->maximum : value <= row->maximum;
@@ -59,10 +68,7 @@ static bool parse_integer(const ps_param *row, const char *text, int64_t *value)
     if (!parse_number(row, text, &number) || number < -9007199254740992.0 ||
         number > 9007199254740992.0)
         return false;
-    int64_t whole = (int64_t)number;
-    if ((double)whole != number)
-        return false;
-    *value = whole;
+    *value = (int64_t)number;
     return true;
 }
 
@@ -266,7 +272,7 @@ static void describe_range(const ps_param *row, const char *noun, char *text, si
     bool open_min = row->flags & PS_PARAM_OPEN_MIN, open_max = row->flags & PS_PARAM_OPEN_MAX;
     bool has_min = isfinite(row->minimum), has_max = isfinite(row->maximum);
     char low[32], high[32];
-    if (row->type == PS_PARAM_INT) {
+    if (is_whole(row)) {
         snprintf(low, sizeof low, "%.0f", row->minimum);
         snprintf(high, sizeof high, "%.0f", row->maximum);
     } else {
@@ -305,7 +311,7 @@ void param_describe_domain(const ps_param *row, char *text, size_t size)
         describe_range(row, "integer", text, size);
         break;
     case PS_PARAM_NUMBER:
-        describe_range(row, "number", text, size);
+        describe_range(row, is_whole(row) ? "integer" : "number", text, size);
         break;
     case PS_PARAM_VEC3:
         describe_range(row, "[x, y, z] of number", text, size);
@@ -323,7 +329,7 @@ void param_describe_domain(const ps_param *row, char *text, size_t size)
         used = describe_choices(row, text, size);
         used += (size_t)snprintf(text + used, size - used, " | ");
         if (used < size)
-            describe_range(row, "number", text + used, size - used);
+            describe_range(row, is_whole(row) ? "integer" : "number", text + used, size - used);
         break;
     }
 }

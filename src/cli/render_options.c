@@ -1,9 +1,10 @@
 #include "cli/render_options.h"
 
 #include "base/parallel.h"
+#include "base/param.h"
 #include "base/text.h"
 #include "cli/preview.h"
-#include <math.h>
+#include "parser/schema/schema.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -87,21 +88,15 @@ static bool override_exposure(const char *text, double *exposure)
     return true;
 }
 
-static bool override_bounces(const char *text, ps_number_or_choice *bounces)
+/* As the render section of a file reads it. */
+static bool override_bounces(const char *text, struct render_description *render)
 {
-    double number;
-    if (strcmp(text, "all") == 0) {
-        *bounces = (ps_number_or_choice){.choice = 0};
+    struct error error;
+    struct param_table table = schema_table(schema_only("render"));
+    if (param_set(param_find(&table, "bounces"), render, text, &error) == PS_OK)
         return true;
-    }
-    if (!text_to_number(text, &number) || number != floor(number) || number < 1 || number > 1000) {
-        fprintf(stderr,
-                "psplat: error: --bounces: expected all or a whole number 1..1000, got '%s'\n",
-                text);
-        return false;
-    }
-    *bounces = (ps_number_or_choice){.number = number, .choice = -1};
-    return true;
+    fprintf(stderr, "psplat: error: --bounces: %s\n", error.text);
+    return false;
 }
 
 static bool override_direct(const char *text, int32_t *direct)
@@ -133,8 +128,7 @@ static bool override(const struct render_options *options, struct scene_input *i
     return (!options->size || override_size(options->size, &description->image)) &&
            (!options->exposure ||
             override_exposure(options->exposure, &description->image.exposure)) &&
-           (!options->bounces ||
-            override_bounces(options->bounces, &description->render.bounces)) &&
+           (!options->bounces || override_bounces(options->bounces, &description->render)) &&
            (!options->direct || override_direct(options->direct, &description->render.direct));
 }
 

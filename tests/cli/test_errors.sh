@@ -132,15 +132,15 @@ expect_text err "psplat: error: the scene's radius is"
 # --- settings that only a plugin can judge ---
 
 run 2 $small -p injection=photon:split=1.5 -o init.exr "$cornell"
-expect_text err "psplat: error: injection photon: split: expected a whole number"
+expect_text err "injection photon: split: expected auto | integer 1..64, got '1.5'"
 for bounces in 0 1001 1.5 none ''; do
     run 2 $small --bounces "$bounces" -o init.exr "$cornell"
-    expect_text err "psplat: error: --bounces: expected all or a whole number 1..1000, got '$bounces'"
+    expect_text err "psplat: error: --bounces: expected all | integer 1..1000, got '$bounces'"
 done
 run 2 $small --set render.bounces=1.5 -o init.exr "$cornell"
-expect_text err "--set:1:16: error: bounces in render: expected a whole number or all"
+expect_text err "--set:1:16: error: bounces in render: expected all | integer 1..1000, got '"
 run 2 $small --set render.bounces=0 -o init.exr "$cornell"
-expect_text err "bounces in render: expected all | number 1..1000, got '0'"
+expect_text err "bounces in render: expected all | integer 1..1000, got '0'"
 [ ! -e init.exr ] || fail "a picture in spite of the error"
 
 finish
