@@ -6,7 +6,6 @@
 
 #include "parser/sections/fill.h"
 #include "parser/sections/object.h"
-#include <math.h>
 
 /* Fills a section of the top level; without its key, the state takes the defaults. */
 static bool read_map(struct reader *reader, const struct node *root, const char *name, void *state,

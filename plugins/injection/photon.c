@@ -18,7 +18,6 @@
  * place are looked for, once for all. Each path keeps its own share Phi / N, so the mean is the same
  * whatever `split` is. Where surfaces mirror, caustics want walks of their own.
  */
-#include <math.h>
 #include <psplat/plugin.h>
 #include <string.h>
 

@@ -120,8 +120,7 @@ static void end_splats(struct render *render)
     gathered_light_end(&render->gathered_light, &render->gbuffer, render->settings->threads);
 }
 
-/* Makes what is no number, or negative, 0; returns how many values there were. */
-static uint64_t mend_plane(float *plane, size_t n)
+uint64_t mend_plane(float *plane, size_t n)
 {
     uint64_t bad = 0;
     for (size_t i = 0; i < n; i++)

@@ -50,7 +50,8 @@ static ps_result add_rgb(struct image *image, const char *const names[3], struct
     planes->b = image_add_channel(image, names[2]);
     if (planes->r && planes->g && planes->b)
         return PS_OK;
-    return error_memory(error, 3 * image->width * image->height * sizeof(float), "the picture");
+    error_memory(error, 3 * image->width * image->height * sizeof(float), "the picture");
+    return PS_ERROR_MEMORY;
 }
 
 /* The planes change hands: copies would take as much time as all that is computed here. */
@@ -94,16 +95,11 @@ static ps_result leave_out(struct render *render, ps_kind kind, ps_result result
     return result;
 }
 
-/* Makes what is no number, or negative, 0, and counts it. */
 static void mend(struct render *render, struct rgb_planes planes, uint64_t *refused)
 {
-    float *const channels[3] = {planes.r, planes.g, planes.b};
-    for (int c = 0; c < 3; c++)
-        for (size_t i = 0; i < pixels_of(render); i++)
-            if (!(channels[c][i] >= 0.0f && channels[c][i] < INFINITY)) {
-                channels[c][i] = 0.0f;
-                ++*refused;
-            }
+    size_t pixels = pixels_of(render);
+    *refused +=
+        mend_plane(planes.r, pixels) + mend_plane(planes.g, pixels) + mend_plane(planes.b, pixels);
 }
 
 /* The accumulated light as it stands (plugins/normalization/density.c). */
@@ -214,27 +210,34 @@ static void subtract_odd(const struct film *film, float *sums, struct film *even
     }
 }
 
-static ps_result make_halves(struct render *render, struct halves *halves, struct error *error)
+/* Normalizes both halves; `sums` is room for five planes. */
+static ps_result normalize_halves(struct render *render, float *sums, struct halves *halves,
+                                  struct error *error)
 {
     const struct film *film = &render->film;
     size_t pixels = pixels_of(render);
+    struct film even;
+    subtract_odd(film, sums, &even);
+    halves->even = planes_at(halves->light, pixels);
+    halves->odd = planes_at(halves->light + 3 * pixels, pixels);
+    ps_result result = normalize_film(render, &even, halves->even, error);
+    return result == PS_OK ? normalize_film(render, film->odd, halves->odd, error) : result;
+}
+
+static ps_result make_halves(struct render *render, struct halves *halves, struct error *error)
+{
+    const struct film *film = &render->film;
+    size_t plane = pixels_of(render) * sizeof(float);
+    ps_result result = PS_OK;
     *halves = (struct halves){.light = NULL};
     if (!film->odd || film->odd->passes == 0)
         return PS_OK;
-    float *sums = malloc(5 * pixels * sizeof *sums);
-    halves->light = malloc(6 * pixels * sizeof *sums);
-    ps_result result = sums && halves->light
-                           ? PS_OK
-                           : error_memory(error, 11 * pixels * sizeof *sums, "half the film");
-    if (result == PS_OK) {
-        struct film even;
-        subtract_odd(film, sums, &even);
-        halves->even = planes_at(halves->light, pixels);
-        halves->odd = planes_at(halves->light + 3 * pixels, pixels);
-        result = normalize_film(render, &even, halves->even, error);
-        if (result == PS_OK)
-            result = normalize_film(render, film->odd, halves->odd, error);
-    }
+    float *sums = malloc(5 * plane);
+    halves->light = malloc(6 * plane);
+    if (sums && halves->light)
+        result = normalize_halves(render, sums, halves, error);
+    else
+        result = error_memory(error, 11 * plane, "half the film");
     free(sums);
     return result;
 }

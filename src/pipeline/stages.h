@@ -13,6 +13,9 @@ void render_destroy(struct render *render);
 /* Starts all strategies; destroying the render stops them. */
 ps_result render_start_strategies(struct render *render, struct error *error);
 
+/* Makes what is no number, or negative, 0; returns how many values there were. */
+uint64_t mend_plane(float *plane, size_t n);
+
 /* Of a picture, less the planes that it takes over from the film. */
 size_t picture_bytes(size_t width, size_t height);
 

@@ -2,8 +2,8 @@
 
 #include <psplat/math.h>
 
-#define SEGMENTS 32 /* around a sphere's axis */
-#define RINGS (PS_SPHERE_TRIANGLES / (2 * SEGMENTS) + 1)
+#define SEGMENTS 32                                                     /* around a sphere's axis */
+static const uint32_t rings = PS_SPHERE_TRIANGLES / (2 * SEGMENTS) + 1; /* and the poles */
 
 /* A shape of the world, or of an instance's group. */
 struct placed_shape {
@@ -54,7 +54,8 @@ uint64_t triangles_count(const struct scene *scene)
 /* Of the unit sphere: ring 0 is the pole at -y. */
 static ps_vec3 on_sphere(uint32_t ring, uint32_t segment)
 {
-    float polar = PS_PI * (float)ring / RINGS, around = 2.0f * PS_PI * (float)segment / SEGMENTS;
+    float polar = PS_PI * (float)ring / (float)rings,
+          around = 2.0f * PS_PI * (float)segment / SEGMENTS;
     return (ps_vec3){sinf(polar) * cosf(around), -cosf(polar), -sinf(polar) * sinf(around)};
 }
 
@@ -65,7 +66,7 @@ static void sphere_triangle(uint32_t index, ps_vec3 corners[3])
     uint32_t strip = (index + SEGMENTS) / (2 * SEGMENTS); /* the ring below it */
     uint32_t place = (index + SEGMENTS) % (2 * SEGMENTS), segment = place / 2;
     bool upper = place % 2;
-    if (strip == 0 || strip == RINGS - 1) { /* a fan has one triangle where others have two */
+    if (strip == 0 || strip == rings - 1) { /* a fan has one triangle where others have two */
         segment = strip == 0 ? index : index - (PS_SPHERE_TRIANGLES - SEGMENTS);
         upper = strip == 0;
     }

@@ -86,6 +86,13 @@ static void test_crease(void **state)
                 0.03);
 }
 
+/* As users have it, with nothing set: splats by themselves would be off by more than a quarter. */
+static void test_the_defaults(void **state)
+{
+    (void)state;
+    assert_true(worst_column("visibility=shadowmap", "estimator=splat") < 0.06);
+}
+
 /* Pixels that share rays with those around them, along the wall. */
 static void test_interleaved(void **state)
 {
@@ -181,6 +188,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_crease),
+        cmocka_unit_test(test_the_defaults),
         cmocka_unit_test(test_interleaved),
         cmocka_unit_test(test_small_things),
         cmocka_unit_test(test_boxes_leave_nothing),

@@ -91,9 +91,9 @@ static void test_interleaving_keeps_the_brightness(void **state)
 {
     (void)state;
     struct mean all = indirect(cornell, PHOTONS, 1);
-    expect_as_bright("interleave 2", indirect(cornell, PHOTONS, 2), all, 0.03);
-    expect_as_bright("interleave 4", indirect(cornell, PHOTONS, 4), all, 0.03);
-    expect_as_bright("interleave 8", indirect(cornell, PHOTONS, 8), all, 0.03);
+    expect_as_bright("interleave 2", indirect(cornell, PHOTONS, 2), all, 0.01);
+    expect_as_bright("interleave 4", indirect(cornell, PHOTONS, 4), all, 0.015);
+    expect_as_bright("interleave 8", indirect(cornell, PHOTONS, 8), all, 0.025);
 }
 
 /* Each pass gives the subsets other paths. */
@@ -101,7 +101,7 @@ static void test_two_passes_keep_the_brightness(void **state)
 {
     (void)state;
     struct mean all = indirect(cornell_in_passes, PHOTONS, 1);
-    expect_as_bright("two passes", indirect(cornell_in_passes, PHOTONS, 4), all, 0.03);
+    expect_as_bright("two passes", indirect(cornell_in_passes, PHOTONS, 4), all, 0.015);
 }
 
 /* Their photons are ordered like pixels and voxels are, so that a subset's might lie all in one
@@ -112,7 +112,7 @@ static void test_other_injections_keep_the_brightness(void **state)
     static const char *const injections[] = {"injection=voxel", "injection=rsm"};
     for (size_t i = 0; i < 2; i++)
         expect_as_bright(injections[i], indirect(cornell, injections[i], 4),
-                         indirect(cornell, injections[i], 1), 0.04);
+                         indirect(cornell, injections[i], 1), 0.015);
 }
 
 /* It does interleave: a splat lights the sixteenth part of its pixels, and fewer are tested. Of one size
@@ -157,8 +157,7 @@ static void test_pictures_smaller_than_the_pattern(void **state)
     (void)state;
     char *text = cornell_text(5, 3);
     struct mean all = indirect(text, PHOTONS, 1), some = indirect(text, PHOTONS, 8);
-    print_message("5x3 pixels: %g, %g\n", all.r, some.r);
-    assert_true(some.r > 0 && some.g > 0 && some.b > 0);
+    expect_as_bright("5x3 pixels", some, all, 0.2); /* a 64th of the photons lights each */
     free(text);
 }
 
