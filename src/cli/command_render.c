@@ -19,7 +19,7 @@ static const struct option options[] = {
     {'o', "output", "FILE", "write FILE (.exr or .png); may be given several times"},
     {0, "layers", "NAME,...", "layers of EXR files beside the picture; or all (default), none"},
     {0, "compression", "NAME",
-     "of EXR files, none with loss: " IMAGE_COMPRESSIONS "; default: zip"},
+     "compression of EXR files, all lossless: " IMAGE_COMPRESSIONS "; default: zip"},
     RENDER_OPTIONS,
     {0, "preview", NULL, "a quick look: small, few light paths, coarse shadows"},
     {0, "passes", "N", "number of passes; more smooth edges and lessen noise"},

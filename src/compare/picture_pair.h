@@ -25,7 +25,7 @@ void picture_pair_release(struct picture_pair *pair);
 ps_result picture_pair_crop(struct picture_pair *pair, struct rectangle crop, struct error *error);
 
 /* Leaves out the pixels where a channel of the reference is `bound` or more, and the eight beside
- * each: a light in the picture, with its smooth edge, would else rule the error of all that it
+ * each: a light in the picture, with its smooth edge, would otherwise dominate the error of all that it
  * lights. Fails where nothing is left. The pictures must be finite. */
 ps_result picture_pair_leave_out(struct picture_pair *pair, double bound, struct error *error);
 

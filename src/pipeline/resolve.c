@@ -230,7 +230,7 @@ static ps_result make_halves(struct render *render, struct halves *halves, struc
     size_t plane = pixels_of(render) * sizeof(float);
     ps_result result = PS_OK;
     *halves = (struct halves){.light = NULL};
-    if (!film->odd || film->odd->passes == 0)
+    if (plane == 0 || !film->odd || film->odd->passes == 0)
         return PS_OK;
     float *sums = malloc(5 * plane);
     halves->light = malloc(6 * plane);

@@ -21,7 +21,7 @@
 #define LEAST_BY_SPREAD 0.4
 
 /* A size that follows the distance stops at this fraction of `size`. Without a floor, light that
- * crosses a corner from very near makes splats so small and bright that they rule the error: at a fifth,
+ * crosses a corner from very near makes splats so small and bright that they dominate the error: at a fifth,
  * a tenth of the Cornell box's pixels hold two thirds of its variance. What lights shine on has the sharp
  * edges of their shadows, which wide splats blur; what other surfaces light has none. Where light from close
  * by is not splatted, these blur less, and the size may stop at what it is at that distance. */

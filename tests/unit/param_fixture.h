@@ -23,7 +23,7 @@ struct state {
     ps_rgb tint;
     const char *label;
     int32_t mode;
-    ps_number_or_choice size;
+    ps_number_or_choice size, parts;
 };
 
 static const ps_param rows[] = {
@@ -38,6 +38,8 @@ static const ps_param rows[] = {
     PS_STRING(struct state, label, "none", "a text"),
     PS_CHOICE(struct state, mode, "slow", modes, "a choice"),
     PS_NUMBER_OR(struct state, size, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, sizes, "", "either"),
+    PS_NUMBER_OR(struct state, parts, "auto", 1, 8, PS_PARAM_WHOLE, sizes, "",
+                 "a whole one or a word"),
 };
 
 static const struct param_table table = {rows, sizeof rows / sizeof rows[0], sizeof rows[0]};

@@ -122,14 +122,6 @@ static void test_bumps(void **state)
                  mean_power(text, "photon:count=400000,split=1 bounces=3", 2), 0.01);
 }
 
-static void test_refusals(void **state)
-{
-    (void)state;
-    char *message = injection_refusal(floor_text, "photon:split=2.5");
-    assert_non_null(strstr(message, "split"));
-    free(message);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -139,7 +131,6 @@ int main(void)
         cmocka_unit_test(test_a_mirror_leaves_one_photon),
         SLOW_TEST(test_power_does_not_depend_on_it),
         cmocka_unit_test(test_bumps),
-        cmocka_unit_test(test_refusals),
     };
     return RUN_TESTS(tests);
 }

@@ -154,6 +154,9 @@ static void test_choices(void **state)
     assert_int_equal(values.size.choice, 0);
     refuse("size", "0", "auto | full | number > 0");
     refuse("size", "automatic", "auto | full | number > 0");
+    accept(&values, "parts", "3.0");
+    assert_true(values.parts.choice < 0 && values.parts.number == 3);
+    refuse("parts", "2.5", "auto | full | integer 1..8");
 }
 
 /* With a choice, the number is 0: strategy.h's PS_FOOTPRINT_SETTINGS relies on it. */
