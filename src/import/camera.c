@@ -4,7 +4,8 @@
  * glTF's views take no scale from nodes. assimp's other readers give location, direction and up in
  * the node's space, and the whole horizontal angle.
  */
-#include "import/job.h"
+#include "import/steps.h"
+
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* files.c: reads whole files, from the disk or from a list.
  *
- * Whole, since OBJ and glTF are looked at before assimp gets them, and so that a pipe or a device
- * under the name of a mesh is refused before anything waits for it.
+ * Whole, since OBJ and glTF are read here too, and so that a pipe or a device under the name of a mesh is
+ * refused before anything waits for it.
  */
 #include "import/files.h"
 

@@ -1,4 +1,4 @@
-/* format.h: which mesh files are read, and what is looked at before assimp gets them.
+/* format.h: which mesh files are read.
  *
  * assimp knows forty formats; only these are let through. Each extension leads to one reader of
  * assimp, and never to its guessing by content, which would try them all.
@@ -21,25 +21,5 @@ enum mesh_format {
 
 /* From the extension; PS_ERROR_INVALID, with all that are allowed, for any other. */
 ps_result mesh_format_of(const char *path, enum mesh_format *format, struct error *error);
-
-/* --- what is looked at before assimp gets a file ----------------------------------------------------
- *
- * Its readers of COLLADA and FBX call themselves for what is nested, to any depth, and take room for as
- * many numbers as the file announces; a file of a few kilobytes could use up the stack or the memory.
- */
-
-#define MESH_NESTING 256
-
-/* PS_ERROR_INVALID where elements are nested deeper than MESH_NESTING, or an array announces more
- * numbers than the file has bytes. */
-ps_result dae_check(const struct mesh_file *file, struct error *error);
-
-/* The same for FBX, as text or binary; a binary file's records must lie inside each other. */
-ps_result fbx_check(const struct mesh_file *file, struct error *error);
-
-/* assimp takes a PLY header at its word, and waits for ever where its end is missing: here every line
- * of it must be one of the format's, its counts possible in a file of this length, and no element may
- * come twice. */
-ps_result ply_check_header(const struct mesh_file *file, struct error *error);
 
 #endif

@@ -1,5 +1,6 @@
 /* geometry.c: the triangles of one of assimp's meshes that are any good. */
-#include "import/job.h"
+#include "import/geometry.h"
+
 #include <stdlib.h>
 #include <string.h>
 

@@ -6,24 +6,11 @@
 #define GLB_HEADER 12
 #define CHUNK_HEADER 8
 #define CHUNK_JSON 0x4e4f534au
-#define CHUNK_BINARY 0x004e4942u
 
 static uint32_t little_endian(const char *bytes)
 {
     const unsigned char *b = (const unsigned char *)bytes;
     return (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
-}
-
-static ps_result check_chunk(const struct mesh_file *file, size_t offset, uint32_t type,
-                             struct error *error)
-{
-    if (file->length - offset < CHUNK_HEADER ||
-        little_endian(file->bytes + offset) > file->length - offset - CHUNK_HEADER)
-        return error_set(error, PS_ERROR_INVALID, "%s: the file is cut short", file->path);
-    if (little_endian(file->bytes + offset + 4) != type)
-        return error_set(error, PS_ERROR_INVALID, "%s: binary glTF with chunks in a wrong order",
-                         file->path);
-    return PS_OK;
 }
 
 /* Where the JSON lies in a .glb file. */
@@ -40,16 +27,66 @@ static ps_result find_json(const struct mesh_file *file, struct json_text *text,
         return error_set(error, PS_ERROR_INVALID,
                          "%s: the file is cut short: %zu bytes of %zu are there", file->path,
                          file->length, length);
-    ps_result result = check_chunk(file, GLB_HEADER, CHUNK_JSON, error);
-    if (result != PS_OK)
-        return result;
+    if (file->length < GLB_HEADER + CHUNK_HEADER ||
+        little_endian(file->bytes + GLB_HEADER + 4) != CHUNK_JSON)
+        return error_set(error, PS_ERROR_INVALID, "%s: binary glTF that does not start with JSON",
+                         file->path);
     text->start = file->bytes + GLB_HEADER + CHUNK_HEADER;
     text->length = little_endian(file->bytes + GLB_HEADER);
-    size_t next = GLB_HEADER + CHUNK_HEADER + (text->length + 3) / 4 * 4;
-    if (length >= next + CHUNK_HEADER)
-        result = check_chunk(file, next, CHUNK_BINARY, error);
-    return result;
+    if (text->length > file->length - GLB_HEADER - CHUNK_HEADER)
+        return error_set(error, PS_ERROR_INVALID, "%s: the file is cut short", file->path);
+    return PS_OK;
 }
+
+static ps_result complain(struct error *error, const char *what)
+{
+    return error_set(error, PS_ERROR_INVALID, "glTF: %s", what);
+}
+
+/* --- the document ------------------------------------------------------------------------------ */
+
+static const char *const known_extensions[] = {
+    "KHR_lights_punctual",  "KHR_materials_emissive_strength",
+    "KHR_materials_ior",    "KHR_materials_transmission",
+    "KHR_materials_volume", "KHR_texture_transform",
+};
+
+static bool is_known_extension(const struct json *name)
+{
+    if (name->kind != JSON_STRING)
+        return false;
+    for (size_t i = 0; i < sizeof known_extensions / sizeof known_extensions[0]; i++)
+        if (json_is(&name->text, known_extensions[i]))
+            return true;
+    return false;
+}
+
+static ps_result check_required_extensions(const struct gltf *gltf, struct error *error)
+{
+    const struct json *required = json_member(gltf->root, "extensionsRequired");
+    for (size_t i = 0; required && i < required->count; i++) {
+        const struct json *name = json_element(required, i);
+        if (!name)
+            return complain(error, "extensionsRequired is no array");
+        if (!is_known_extension(name))
+            return error_set(error, PS_ERROR_INVALID,
+                             "glTF: the file requires the extension %.*s, which psplat lacks",
+                             name->text.length < 100 ? (int)name->text.length : 100,
+                             name->text.start ? name->text.start : "");
+    }
+    return PS_OK;
+}
+
+static ps_result check_document(const struct gltf *gltf, struct error *error)
+{
+    const struct json *version = json_member(json_member(gltf->root, "asset"), "version");
+    if (!version || version->kind != JSON_STRING || version->text.length < 2 ||
+        memcmp(version->text.start, "2.", 2) != 0)
+        return complain(error, "the file does not say that it is of version 2");
+    return check_required_extensions(gltf, error);
+}
+
+/* --- the walk ---------------------------------------------------------------------------------- */
 
 /* A walk through the nodes in assimp's order. */
 struct walk {
@@ -64,22 +101,33 @@ static size_t count_of(const struct gltf *gltf, const char *name)
     return array && array->kind == JSON_ARRAY ? array->count : 0;
 }
 
-static ps_result complain(const struct walk *walk, const char *what)
+/* As the file says; assimp leaves out those of vertices that are not there. */
+static size_t count_triangles(const struct gltf *gltf, const struct json *primitive)
 {
-    return error_set(walk->error, PS_ERROR_INVALID, "glTF: %s", what);
+    size_t mode, accessor, corners;
+    const struct json *attributes = json_member(primitive, "attributes");
+    bool has_indices = json_member(primitive, "indices") != NULL;
+    if (!json_size(primitive, "mode", 4, &mode) || mode < 4 ||
+        !json_size(has_indices ? primitive : attributes, has_indices ? "indices" : "POSITION",
+                   SIZE_MAX, &accessor) ||
+        !json_size(json_element(json_member(gltf->root, "accessors"), accessor), "count", 0,
+                   &corners))
+        return 0;
+    return mode == 4 ? corners / 3 : corners > 2 ? corners - 2 : 0;
 }
 
 static ps_result meet_materials(struct walk *walk, const struct json *mesh)
 {
     struct gltf *gltf = walk->gltf;
     const struct json *primitives = json_member(mesh, "primitives");
-    for (size_t i = 0; i < primitives->count; i++) {
+    for (size_t i = 0; primitives && i < primitives->count; i++) {
         const struct json *primitive = json_element(primitives, i);
         size_t index;
+        gltf->triangle_count += count_triangles(gltf, primitive);
         if (!json_member(primitive, "material"))
             continue;
         if (!json_size(primitive, "material", 0, &index) || index >= count_of(gltf, "materials"))
-            return complain(walk, "a mesh has a material that the file lacks");
+            return complain(walk->error, "a mesh has a material that the file lacks");
         if (!walk->seen_materials[index])
             gltf->materials[gltf->material_count++] =
                 json_element(json_member(gltf->root, "materials"), index);
@@ -94,14 +142,11 @@ static ps_result visit_mesh(struct walk *walk, const struct json *node)
     if (!json_member(node, "mesh"))
         return PS_OK;
     if (!json_size(node, "mesh", 0, &index) || index >= count_of(walk->gltf, "meshes"))
-        return complain(walk, "a node has a mesh that the file lacks");
+        return complain(walk->error, "a node has a mesh that the file lacks");
     if (walk->seen_meshes[index])
         return PS_OK;
     walk->seen_meshes[index] = true;
-    ps_result result = gltf_check_mesh(walk->gltf, index, walk->error);
-    if (result == PS_OK)
-        result = meet_materials(walk, json_element(json_member(walk->gltf->root, "meshes"), index));
-    return result;
+    return meet_materials(walk, json_element(json_member(walk->gltf->root, "meshes"), index));
 }
 
 static ps_result visit_nodes(struct walk *walk, const struct json *indices, int depth);
@@ -112,14 +157,12 @@ static ps_result visit_node(struct walk *walk, const struct json *reference, int
     if (reference->kind != JSON_NUMBER || reference->number < 0 ||
         reference->number >= (double)count_of(gltf, "nodes") ||
         reference->number != (double)(size_t)reference->number)
-        return complain(walk, "a node that the file lacks is named");
+        return complain(walk->error, "a node that the file lacks is named");
     size_t index = (size_t)reference->number;
     if (walk->seen_nodes[index])
-        return complain(walk, "a node has two parents, or is its own");
+        return complain(walk->error, "a node has two parents, or is its own");
     if (depth > GLTF_DEPTH)
-        return complain(walk, "nodes are nested more than 256 deep");
-    if (gltf->node_count == GLTF_NODES)
-        return complain(walk, "more than 1000000 nodes");
+        return complain(walk->error, "nodes are nested more than 256 deep");
     walk->seen_nodes[index] = true;
     const struct json *node = json_element(json_member(gltf->root, "nodes"), index);
     gltf->nodes[gltf->node_count++] = node;
@@ -133,7 +176,7 @@ static ps_result visit_nodes(struct walk *walk, const struct json *indices, int 
     for (size_t i = 0; result == PS_OK && indices && i < indices->count; i++) {
         const struct json *reference = json_element(indices, i);
         result = reference ? visit_node(walk, reference, depth)
-                           : complain(walk, "a list of nodes is no array");
+                           : complain(walk->error, "a list of nodes is no array");
     }
     return result;
 }
@@ -154,37 +197,11 @@ static ps_result walk_scene(struct gltf *gltf, struct error *error)
         !gltf->materials)
         return error_memory(error, nodes, "the nodes of a mesh file");
     if (!json_size(gltf->root, "scene", 0, &scene) || scene >= count_of(gltf, "scenes"))
-        return complain(&walk, "there is no scene");
+        return complain(error, "there is no scene");
     const struct json *roots =
         json_member(json_element(json_member(gltf->root, "scenes"), scene), "nodes");
     gltf->single_root = roots && roots->count == 1;
     return visit_nodes(&walk, roots, 1);
-}
-
-ps_result gltf_open(struct gltf *gltf, struct mesh_file *file, bool binary, struct error *error)
-{
-    struct json_text text = {file->bytes, file->length};
-    struct error inner;
-    ps_result result = binary ? find_json(file, &text, error) : PS_OK;
-    if (result != PS_OK)
-        return result;
-    gltf->text = file->bytes + (text.start - file->bytes);
-    result = json_read(&gltf->arena, gltf->text, text.length, &gltf->root, &inner);
-    if (result == PS_OK)
-        result = gltf_check_document(gltf, &inner);
-    if (result == PS_OK)
-        result = walk_scene(gltf, &inner);
-    if (result == PS_OK)
-        gltf_hide_rest(gltf);
-    else
-        error_set(error, result, "%s: %.3000s", file->path, inner.text);
-    return result;
-}
-
-void gltf_release(struct gltf *gltf)
-{
-    arena_release(&gltf->arena);
-    *gltf = (struct gltf){0};
 }
 
 /* --- hidden from assimp ---------------------------------------------------------------------- */
@@ -228,7 +245,7 @@ static void hide_in_mesh(const struct gltf *gltf, const struct json *mesh)
     }
 }
 
-void gltf_hide_rest(struct gltf *gltf)
+static void hide_rest(struct gltf *gltf)
 {
     static const char *const of_root[] = {"animations", "skins", "cameras", "extensions", NULL};
     static const char *const of_node[] = {"skin", "camera", "extensions", "extras", NULL};
@@ -242,4 +259,32 @@ void gltf_hide_rest(struct gltf *gltf)
         hide_in_mesh(gltf, json_element(meshes, i));
     }
     hide_all(gltf, gltf->root, of_root);
+}
+
+/* --- both ---------------------------------------------------------------------------------------- */
+
+ps_result gltf_open(struct gltf *gltf, struct mesh_file *file, bool binary, struct error *error)
+{
+    struct json_text text = {file->bytes, file->length};
+    struct error inner;
+    ps_result result = binary ? find_json(file, &text, error) : PS_OK;
+    if (result != PS_OK)
+        return result;
+    gltf->text = file->bytes + (text.start - file->bytes);
+    result = json_read(&gltf->arena, gltf->text, text.length, &gltf->root, &inner);
+    if (result == PS_OK)
+        result = check_document(gltf, &inner);
+    if (result == PS_OK)
+        result = walk_scene(gltf, &inner);
+    if (result == PS_OK)
+        hide_rest(gltf);
+    else
+        error_set(error, result, "%s: %.3000s", file->path, inner.text);
+    return result;
+}
+
+void gltf_release(struct gltf *gltf)
+{
+    arena_release(&gltf->arena);
+    *gltf = (struct gltf){0};
 }

@@ -1,11 +1,10 @@
-/* gltf.h: looks at a glTF 2 file before assimp does.
+/* gltf.h: a glTF 2 file's JSON, for what assimp does not give.
  *
- * What assimp 5.2.5 does not check (offsets of accessors, cycles and sharing among nodes, depth),
- * is checked here; what psplat does not use (skins, animations, morph targets, colours, further
- * sets of texture coordinates) or reads itself (cameras, lights) is hidden from assimp by changing
- * the first letter of its key in the text. Cameras and lights are read here since assimp gives a
- * light or camera that several nodes share to one of them only, and a field of view that is wrong
- * for wide pictures; emission strength since assimp does not know it.
+ * Cameras and lights are read from it since assimp gives a light or camera that several nodes share to
+ * one of them only, and a field of view that is wrong for wide pictures; emission strength since assimp
+ * does not know it. What psplat does not use (skins, animations, morph targets, colours, further sets of
+ * texture coordinates) or reads itself is hidden from assimp by changing the first letter of its key in
+ * the text.
  */
 #ifndef IMPORT_GLTF_H
 #define IMPORT_GLTF_H
@@ -14,7 +13,6 @@
 #include "import/json.h"
 
 #define GLTF_DEPTH 256
-#define GLTF_NODES 1000000
 
 struct gltf {
     struct arena arena;
@@ -28,15 +26,9 @@ struct gltf {
     size_t triangle_count; /* of all meshes, each once */
 };
 
-/* Checks the file and changes its text. PS_ERROR_INVALID or _MEMORY with a message; released in any
+/* Reads the file's JSON and changes its text. PS_ERROR_INVALID or _MEMORY with a message; released in any
  * case. */
 ps_result gltf_open(struct gltf *gltf, struct mesh_file *file, bool binary, struct error *error);
 void gltf_release(struct gltf *gltf);
-
-/* Steps of gltf_open, on the tree. */
-ps_result gltf_check_document(const struct gltf *gltf, struct error *error);
-/* Also counts its triangles. */
-ps_result gltf_check_mesh(struct gltf *gltf, size_t index, struct error *error);
-void gltf_hide_rest(struct gltf *gltf);
 
 #endif

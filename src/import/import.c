@@ -1,129 +1,85 @@
-/* import.c: the steps of an import, and what they share. */
+/* import.c: a mesh file's content by way of a child process.
+ *
+ * assimp crashes, hangs or takes all memory on many broken files, in ways that change with its version.
+ * Checks of each format before assimp sees it would be a second reader of each. So assimp and all that
+ * follows its pointers run in a child with limits, and what was made of the file comes back through a file
+ * in memory.
+ */
 #include "import/import.h"
 
+#include "base/machine.h"
+#include "import/child.h"
 #include "import/job.h"
-#include <assimp/cimport.h>
-#include <stdarg.h>
-#include <stdio.h>
+#include "import/transfer.h"
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-void mesh_note(struct mesh_job *job, const char *format, ...)
-{
-    size_t size = sizeof job->report->notes, length = strlen(job->report->notes);
-    va_list arguments;
-    if (length > 0 && length + 2 < size)
-        length += (size_t)snprintf(job->report->notes + length, size - length, "; ");
-    va_start(arguments, format);
-    vsnprintf(job->report->notes + length, size - length, format, arguments);
-    va_end(arguments);
-}
+/* Of the machine's memory: a file's content is there twice at the end, with the child's own work. */
+#define SHARE_OF_MEMORY 0.5
 
-ps_result mesh_out_of_memory(struct mesh_job *job, size_t bytes)
-{
-    return error_memory(job->error, bytes, "a mesh file");
-}
+#define SECONDS 20 /* of processor time, and one for each MiB of the files (source.c) */
 
-struct affine mesh_node_placement(const struct mesh_job *job, const struct mesh_node *node)
-{
-    return affine_compose(&job->to_scene, &node->to_file);
-}
+struct task {
+    const struct mesh_request *request;
+    struct mesh_files files;
+    struct mesh_outcome *outcome;
+    int transfer;
+};
 
-const struct mesh_node *mesh_node_named(const struct mesh_job *job, const char *name, size_t n)
+static void work(void *context)
 {
-    const struct mesh_node *last = NULL;
-    for (size_t i = 0; i < job->node_count; i++) {
-        if (strcmp(job->nodes[i].node->mName.data, name) != 0)
-            continue;
-        last = &job->nodes[i];
-        if (n-- == 0)
-            break;
-    }
-    return last;
-}
-
-const struct json *mesh_gltf_node(const struct mesh_job *job, size_t index)
-{
-    size_t made_by_assimp = job->gltf.single_root ? 0 : 1;
-    return index < made_by_assimp ? NULL : job->gltf.nodes[index - made_by_assimp];
-}
-
-/* The rotation that brings the axis to y, right-handed: z to y and y to -z as from Blender; x to y
- * and y to -x. Then the unit, then the request's placement. */
-static struct affine map_of_request(const struct mesh_request *request)
-{
-    const float s = (float)request->unit;
-    struct affine map = {{s, 0, 0}, {0, s, 0}, {0, 0, s}, {0, 0, 0}};
-    if (request->up == 0) {
-        map.x = (ps_vec3){0, s, 0};
-        map.y = (ps_vec3){-s, 0, 0};
-    } else if (request->up == 2) {
-        map.y = (ps_vec3){0, 0, -s};
-        map.z = (ps_vec3){0, s, 0};
-    }
-    return affine_compose(&request->placement, &map);
-}
-
-static ps_result prepare(struct mesh_job *job)
-{
-    const struct mesh_request *request = job->request;
-    if (!(request->unit > 0) || !isfinite(request->unit) || request->up < 0 || request->up > 2)
-        return error_set(job->error, PS_ERROR_INVALID, "%s: a unit above 0 and an axis are needed",
-                         request->path);
-    job->to_scene = map_of_request(request);
-    double volume = fabs((double)affine_determinant(&job->to_scene));
-    if (!(volume > 0) || !isfinite(volume))
-        return error_set(job->error, PS_ERROR_INVALID,
-                         "%s: placed with a scale of 0, or without end", request->path);
-    job->scale = cbrt(volume);
-    return mesh_format_of(request->path, &job->format, job->error);
-}
-
-static ps_result convert(struct mesh_job *job)
-{
-    ps_result result = mesh_check_scene(job);
-    if (result == PS_OK)
-        result = mesh_read_materials(job);
-    if (result == PS_OK && job->request->geometry)
-        result = mesh_read_objects(job);
-    if (result == PS_OK && job->request->camera)
-        result = mesh_read_cameras(job);
-    if (result == PS_OK && job->request->lights)
-        result = mesh_read_lights(job);
-    return result;
-}
-
-static void release(struct mesh_job *job)
-{
-    if (job->scene)
-        aiReleaseImport(job->scene);
-    gltf_release(&job->gltf);
-    mesh_files_release(&job->files);
-    free(job->nodes);
-    free(job->materials);
-}
-
-static ps_result import(const struct mesh_request *request, struct mesh_files files,
-                        struct scene_description *fragment, struct mesh_report *report,
-                        struct error *error)
-{
+    struct task *task = context;
     struct mesh_job job = {
-        .request = request,
-        .fragment = fragment,
-        .report = report,
-        .error = error,
-        .files = files,
+        .request = task->request,
+        .fragment = &task->outcome->fragment,
+        .report = &task->outcome->report,
+        .error = &task->outcome->error,
+        .files = task->files,
     };
+    task->outcome->result = mesh_job_run(&job);
+    mesh_outcome_send(task->outcome, task->transfer);
+}
+
+static ps_result import(struct task *task, struct error *error)
+{
+    const struct mesh_request *request = task->request;
+    const struct child_limits limits = {SHARE_OF_MEMORY * machine_memory(),
+                                        request->seconds > 0 ? request->seconds : SECONDS};
+    struct error reason;
+    ps_result result = child_run(work, task, &limits, &reason);
+    if (result == PS_ERROR_INVALID)
+        return error_set(error, result, "%s: assimp, which reads mesh files, %.1000s",
+                         request->path, reason.text);
+    if (result != PS_OK)
+        return error_set(error, result, "%s: %.1000s", request->path, reason.text);
+    if (!mesh_outcome_receive(task->outcome, task->transfer))
+        return error_set(error, PS_ERROR_MEMORY, "%s: out of memory", request->path);
+    if (task->outcome->result != PS_OK)
+        *error = task->outcome->error;
+    return task->outcome->result;
+}
+
+static ps_result import_files(const struct mesh_request *request, struct mesh_files files,
+                              struct scene_description *fragment, struct mesh_report *report,
+                              struct error *error)
+{
+    struct mesh_outcome *outcome = calloc(1, sizeof *outcome);
     *fragment = (struct scene_description){0};
     *report = (struct mesh_report){0};
-    ps_result result = prepare(&job);
-    if (result == PS_OK)
-        result = mesh_source_open(&job);
-    if (result == PS_OK)
-        result = convert(&job);
-    release(&job);
-    if (result != PS_OK)
-        scene_description_release(fragment);
+    if (!outcome)
+        return error_memory(error, sizeof *outcome, "a mesh file");
+    struct task task = {request, files, outcome, mesh_transfer_open()};
+    ps_result result = task.transfer < 0
+                           ? error_set(error, PS_ERROR_IO, "%s: no file in memory: %s",
+                                       request->path, strerror(errno))
+                           : import(&task, error);
+    if (task.transfer >= 0)
+        close(task.transfer);
+    *fragment = outcome->fragment;
+    *report = outcome->report;
+    free(outcome);
     return result;
 }
 
@@ -131,7 +87,7 @@ ps_result mesh_import(const struct mesh_request *request, struct scene_descripti
                       struct mesh_report *report, struct error *error)
 {
     const struct mesh_files disk = {.folder = request->folder};
-    return import(request, disk, fragment, report, error);
+    return import_files(request, disk, fragment, report, error);
 }
 
 ps_result mesh_import_memory(const struct mesh_request *request,
@@ -139,6 +95,6 @@ ps_result mesh_import_memory(const struct mesh_request *request,
                              struct scene_description *fragment, struct mesh_report *report,
                              struct error *error)
 {
-    struct mesh_files memory = {.memory = files, .memory_count = file_count};
-    return import(request, memory, fragment, report, error);
+    const struct mesh_files memory = {.memory = files, .memory_count = file_count};
+    return import_files(request, memory, fragment, report, error);
 }

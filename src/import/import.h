@@ -1,12 +1,12 @@
 /* import.h: takes geometry, materials, cameras and lights from a mesh file.
  *
- * assimp reads the file (OBJ with MTL, glTF 2, PLY, STL and a few more; format.h lists them);
- * what it returns is not trusted, and some files are checked before assimp sees them, since its
- * readers fall over hostile ones. Texture coordinates come with v upwards; normals are the file's,
- * or those of its smoothing groups, or none. Cameras and lights are carried into the scene. Where
- * request maps change lengths by a factor s, intensities change by s^2, so that the picture stays
- * the same; radiances and a sun's irradiance stay. Colours are linear, those of textures as their
- * encoding says. No state outside of the arguments; may run in several threads at once.
+ * assimp reads the file (OBJ with MTL, glTF 2, PLY, STL and a few more; format.h lists them) in a child
+ * process: a file on which it crashes, or takes too long, is an error like any other. Texture coordinates
+ * come with v upwards; normals are the file's, or those of its smoothing groups, or none. Cameras and
+ * lights are carried into the scene. Where request maps change lengths by a factor s, intensities change
+ * by s^2, so that the picture stays the same; radiances and a sun's irradiance stay. Colours are linear,
+ * those of textures as their encoding says. No state outside of the arguments; may run in several threads
+ * at once.
  */
 #ifndef IMPORT_IMPORT_H
 #define IMPORT_IMPORT_H
@@ -23,6 +23,8 @@ struct mesh_request {
     int32_t up;              /* which axis of the file points upwards: 0 x, 1 y, 2 z */
     bool diffuse_only;       /* leave out the gloss of the file's materials */
     struct affine placement; /* applied last */
+    unsigned
+        seconds; /* of processor time beyond what the files' size allows; 0: as many as usual */
     struct origin origin;
 };
 

@@ -1,6 +1,6 @@
 /* json.h: reads JSON (RFC 8259) into a tree that refers to the text.
  *
- * For glTF, which must be looked at before assimp reads it. Strict: no comments, no trailing
+ * For what assimp does not give of glTF. Strict: no comments, no trailing
  * commas. Nesting up to JSON_DEPTH, values up to JSON_VALUES. Strings and keys stay as they are in
  * the text, escapes included, and point into it.
  */

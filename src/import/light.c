@@ -10,7 +10,8 @@
  * s^2, and the picture stays the same. Scales of nodes do not count, as glTF says. A sun's irradiance
  * stays.
  */
-#include "import/job.h"
+#include "import/steps.h"
+
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,7 @@
 /* material.c: which of assimp's materials count, and what all kinds share. */
 #include "import/material.h"
 
+#include "import/steps.h"
 #include "import/text.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,7 +3,8 @@
  * Where a placement mirrors, shapes keep the front in front (src/scene/shape.h), as glTF 2 wants it
  * (3.7.4, "negative determinant").
  */
-#include "import/job.h"
+#include "import/geometry.h"
+#include "import/steps.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -5,7 +5,7 @@
  * the faces that share its vertex and group, weighted by area. Group 0, or "off", is flat. That the
  * two orders agree is checked: by the number of corners, and by each `v` having one place only.
  */
-#include "import/job.h"
+#include "import/geometry.h"
 #include "import/text.h"
 #include <stdlib.h>
 #include <string.h>

@@ -3,8 +3,9 @@
  * Every file that assimp opens comes from mesh_files, as a block of memory: the one that was looked
  * at before is the one that is read. aiImportFileFromMemory could not find an MTL or .bin file.
  */
-#include "import/format.h"
-#include "import/job.h"
+#include "import/source.h"
+
+#include "import/child.h"
 #include "import/text.h"
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
@@ -91,14 +92,24 @@ static bool clean_path(const char *path, char *clean)
     return true;
 }
 
+/* A larger file takes longer, by at most a second for each MiB. */
+static ps_result read_file(struct mesh_job *job, const char *path, struct mesh_file **file,
+                           struct error *error)
+{
+    ps_result result = mesh_files_read(&job->files, path, file, error);
+    if (result == PS_OK)
+        child_extend_time((unsigned)((*file)->length >> 20));
+    return result;
+}
+
 static struct mesh_file *find_companion(struct mesh_job *job, char *path)
 {
     struct error ignored;
     struct mesh_file *file = NULL;
-    if (mesh_files_read(&job->files, path, &file, &ignored) == PS_OK)
+    if (read_file(job, path, &file, &ignored) == PS_OK)
         return file;
     mesh_decode_percent(path);
-    return mesh_files_read(&job->files, path, &file, &ignored) == PS_OK ? file : NULL;
+    return read_file(job, path, &file, &ignored) == PS_OK ? file : NULL;
 }
 
 static struct mesh_file *find_file(struct mesh_job *job, const char *path)
@@ -109,25 +120,16 @@ static struct mesh_file *find_file(struct mesh_job *job, const char *path)
     return clean_path(path, clean) ? find_companion(job, clean) : NULL;
 }
 
-/* What assimp opens while it reads an OBJ is a library of materials. False for the OBJ itself:
- * assimp would write through a null pointer at the first property without a material. */
-static bool admit_library(struct mesh_job *job, struct mesh_file *file)
-{
-    if (file == job->main_file)
-        return false;
-    mtl_blank_preamble(file);
-    job->library = file;
-    return true;
-}
-
 static struct aiFile *open_stream(struct aiFileIO *io, const char *path, const char *mode)
 {
     struct mesh_job *job = (struct mesh_job *)(void *)io->UserData;
     struct mesh_file *file = mode[0] == 'r' ? find_file(job, path) : NULL;
     if (!file)
         return NULL;
-    if (job->format == FORMAT_OBJ && job->main_is_open && !admit_library(job, file))
-        return NULL;
+    if (job->format == FORMAT_OBJ && file != job->main_file) {
+        mtl_blank_preamble(file);
+        job->library = file;
+    }
     struct stream *stream = calloc(1, sizeof *stream);
     if (!stream)
         return NULL;
@@ -141,15 +143,12 @@ static struct aiFile *open_stream(struct aiFileIO *io, const char *path, const c
                       .UserData = (aiUserData)(void *)stream},
         .file = file,
     };
-    job->main_is_open = job->main_is_open || file == job->main_file;
     return &stream->functions;
 }
 
 static void close_stream(struct aiFileIO *io, struct aiFile *file)
 {
-    struct mesh_job *job = (struct mesh_job *)(void *)io->UserData;
-    if (stream_of(file)->file == job->main_file)
-        job->main_is_open = false;
+    (void)io;
     free(stream_of(file));
 }
 
@@ -160,37 +159,24 @@ static ps_result report_assimp(struct mesh_job *job)
     size_t length = text ? strlen(text) : 0;
     while (length > 0 && strchr(" \r\n", text[length - 1]))
         length--;
+    if (text && strstr(text, "bad_alloc"))
+        return error_set(job->error, PS_ERROR_INVALID,
+                         "%s: the file is broken, or too large for this machine's memory",
+                         job->request->path);
     return error_set(job->error, PS_ERROR_INVALID, "%s: %.*s", job->request->path,
                      length < 1000 ? (int)length : 1000,
                      length > 0 ? text : "the file cannot be read as a mesh");
 }
 
-static ps_result check_before_assimp(struct mesh_job *job)
-{
-    if (job->main_file->length == 0)
-        return error_set(job->error, PS_ERROR_INVALID, "%s: the file is empty", job->request->path);
-    switch (job->format) {
-    case FORMAT_GLTF:
-    case FORMAT_GLB:
-        return gltf_open(&job->gltf, job->main_file, job->format == FORMAT_GLB, job->error);
-    case FORMAT_PLY:
-        return ply_check_header(job->main_file, job->error);
-    case FORMAT_COLLADA:
-        return dae_check(job->main_file, job->error);
-    case FORMAT_FBX:
-        return fbx_check(job->main_file, job->error);
-    default:
-        return PS_OK;
-    }
-}
-
 ps_result mesh_source_open(struct mesh_job *job)
 {
     struct aiFileIO io = {open_stream, close_stream, (aiUserData)(void *)job};
-    ps_result result =
-        mesh_files_read(&job->files, job->request->path, &job->main_file, job->error);
-    if (result == PS_OK)
-        result = check_before_assimp(job);
+    ps_result result = read_file(job, job->request->path, &job->main_file, job->error);
+    if (result == PS_OK && job->main_file->length == 0)
+        result =
+            error_set(job->error, PS_ERROR_INVALID, "%s: the file is empty", job->request->path);
+    if (result == PS_OK && (job->format == FORMAT_GLTF || job->format == FORMAT_GLB))
+        result = gltf_open(&job->gltf, job->main_file, job->format == FORMAT_GLB, job->error);
     if (result != PS_OK)
         return result;
     job->scene = aiImportFileEx(job->request->path, 0, &io);

@@ -5,11 +5,10 @@
  * the picture itself, which are there together at the end) is compared with the machine's physical memory beforehand. What
  * else the system runs is not known, and not asked for.
  */
+#include "base/machine.h"
 #include "film/film.h"
 #include "pipeline/render.h"
 #include "pipeline/stages.h"
-
-#include <unistd.h>
 
 #define GIB 0x1p30
 
@@ -22,16 +21,9 @@ double render_bytes(size_t width, size_t height)
            (double)picture_bytes(width, height);
 }
 
-/* Infinite where the system does not tell. */
-static double physical_memory(void)
-{
-    long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-    return pages > 0 && page > 0 ? (double)pages * (double)page : INFINITY;
-}
-
 ps_result render_check_memory(size_t width, size_t height, struct error *error)
 {
-    double wanted = render_bytes(width, height), there = physical_memory();
+    double wanted = render_bytes(width, height), there = machine_memory();
     if (wanted <= there)
         return PS_OK;
     return error_set(

@@ -234,18 +234,6 @@ static void statements_before_the_first_material_are_harmless(void **state)
 }
 
 /* Here too. */
-static void a_mesh_is_not_its_own_library(void **state)
-{
-    (void)state;
-    struct mesh_request request = request_all("m.obj");
-    const struct mesh_memory_file file = text_file(
-        "m.obj", "mtllib m.obj\nv 0 0 0\nv 1 0 0\nv 0 1 0\nmap_Kd a.png\nusemtl m\nf 1 2 3\n");
-    struct imported imported = import_files(&request, &file, 1);
-    expect_success(&imported);
-    assert_non_null(strstr(imported.report.notes, "no library"));
-    release_imported(&imported);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -262,7 +250,6 @@ int main(void)
         cmocka_unit_test(missing_texture_is_reported),
         cmocka_unit_test(absent_material_has_but_a_name),
         cmocka_unit_test(statements_before_the_first_material_are_harmless),
-        cmocka_unit_test(a_mesh_is_not_its_own_library),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

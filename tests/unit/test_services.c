@@ -19,7 +19,7 @@
 
 #define FLOORS                                                                                     \
     "  gloss2: {glossy: {diffuse: [0.5, 0.3, 0.1], specular: [0.2, 0.3, 0.5], roughness: 0.5}}\n"  \
-    "  metal: {metal: {color: [0.9, 0.7, 0.5], roughness: 0.6}}\n"                              \
+    "  metal: {metal: {color: [0.9, 0.7, 0.5], roughness: 0.6}}\n"                                 \
     "  mix2: {mix: [{material: gloss2, weight: 0.6}, {material: mirror, weight: 0.4}]}\n"
 
 #define HEMISPHERE 40000

@@ -1,0 +1,30 @@
+/* transfer.h: a mesh file's content by way of a file in memory, from the child that read it.
+ *
+ * One walk over the description serves both ends: structs go as they are, each array that a pointer owns
+ * after the struct that holds the pointer. Both ends are one program, so layouts are the same, and pointers
+ * to what the caller had before the fork (names in origins) hold on both sides.
+ */
+#ifndef IMPORT_TRANSFER_H
+#define IMPORT_TRANSFER_H
+
+#include "import/import.h"
+
+/* What an import gives. */
+struct mesh_outcome {
+    ps_result result;
+    struct error error;
+    struct mesh_report report;
+    struct scene_description fragment;
+};
+
+/* An open file without a name, in memory where the system has such; -1: none. */
+int mesh_transfer_open(void);
+
+/* Writes all of it; false: not all could be written. */
+bool mesh_outcome_send(struct mesh_outcome *outcome, int file);
+
+/* Reads it from the file's start. False where not all is there, or there is no memory for it; `outcome` then
+ * holds no fragment. */
+bool mesh_outcome_receive(struct mesh_outcome *outcome, int file);
+
+#endif
