@@ -5,7 +5,7 @@
  * noisy that they dominate the error. So what lights throw onto surfaces nearby is found by short rays, cosine-
  * distributed (after Kollig and Keller 2006, "Illumination in the presence of weak singularities", who make up
  * for the clamped light of near virtual lights), and splats leave it out, all of it at no distance, and less
- * and less of it further away (splat/gather_share.h). The shares add up to 1, so nothing counts twice. Light that
+ * and less of it further away (placement/gather_share.h). The shares add up to 1, so nothing counts twice. Light that
  * other surfaces threw there is smooth, and caustics are found by light paths alone: both are splatted all the
  * way.
  *

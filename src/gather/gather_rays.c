@@ -1,6 +1,6 @@
 #include "gather/gather_rays.h"
 
-#include "splat/gather_share.h"
+#include "placement/gather_share.h"
 #include <math.h>
 
 #define TILES_AT_A_TIME 256 /* until the user may stop */

@@ -5,6 +5,7 @@
 #include "gather/gather.h"
 #include "host/host.h"
 #include "host/place.h"
+#include "placement/radius.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -173,8 +174,8 @@ static ps_result host_next_photons(const ps_host *host, const ps_photon **photon
 static float gather_distance(const struct render *render)
 {
     const struct footprint_params *settings = strategy_shared(strategy_in(render, PS_VISIBILITY));
-    struct footprint_scene scene = place_scene(render);
-    return footprint_gather_distance(&scene, settings, render->photons.path_count);
+    struct placement_scene scene = place_scene(render);
+    return radius_gather_distance(&scene, settings, render->photons.path_count);
 }
 
 static ps_result host_gather_short_range(const ps_host *host, double rays)

@@ -9,7 +9,7 @@
 #include "base/param.h"
 #include <psplat/plugin.h>
 
-/* Of visibilities: the footprints of splats (splat/footprint.h), and depth maps where there are any. Scene
+/* Of visibilities: the footprints of splats (placement/footprint.h), and depth maps where there are any. Scene
  * units. */
 struct footprint_params {
     ps_number_or_choice radius;

@@ -110,13 +110,13 @@ static struct bandwidth prepare_width(const struct splat *splat)
 {
     float inverse = 1.0f / splat->bundle.radius;
     float narrowest = ps_max(splat->narrowest * inverse, LEAST_WIDTH);
-    if (!(splat->follow > 0.0f))
+    if (!(splat->bandwidth_scale > 0.0f))
         return (struct bandwidth){.narrowest = 1.0f, .widest = 1.0f};
     return (struct bandwidth){
-        .by_distance = splat->follow * inverse,
-        .spread = splat->follow * splat->bundle.radius,
-        .tilt_u = splat->follow * splat->bundle.start_slope_u,
-        .tilt_v = splat->follow * splat->bundle.start_slope_v,
+        .by_distance = splat->bandwidth_scale * inverse,
+        .spread = splat->bandwidth_scale * splat->bundle.radius,
+        .tilt_u = splat->bandwidth_scale * splat->bundle.start_slope_u,
+        .tilt_v = splat->bandwidth_scale * splat->bundle.start_slope_v,
         .narrowest = narrowest,
         .widest = ps_max(splat->widest * inverse, narrowest),
     };
@@ -136,11 +136,12 @@ struct kernel_splat kernel_prepare(const struct splat *splat, const struct kerne
         .far_depth = splat->bundle.far_depth,
         .start_u = splat->bundle.start_slope_u * splat->bundle.radius,
         .start_v = splat->bundle.start_slope_v * splat->bundle.radius,
-        .photon_depth = splat->follow > 0.0f ? splat->photon_depth : splat->bundle.start_depth,
-        .clearance = splat->follow > 0.0f
+        .photon_depth =
+            splat->bandwidth_scale > 0.0f ? splat->photon_depth : splat->bundle.start_depth,
+        .clearance = splat->bandwidth_scale > 0.0f
                          ? ps_max(splat->bundle.start_depth - splat->photon_depth, 0.0f)
                          : 0.0f,
-        .near = gather_share_until(splat->follow > 0.0f ? splat->blend_distance : 0.0f),
+        .near = gather_share_until(splat->bandwidth_scale > 0.0f ? splat->blend_distance : 0.0f),
         .width = prepare_width(splat),
         .bias_constant = splat->bias_constant,
         .bias_slope = splat->bias_slope,

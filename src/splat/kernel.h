@@ -31,10 +31,10 @@
 #ifndef SPLAT_KERNEL_H
 #define SPLAT_KERNEL_H
 
-#include "splat/bandwidth.h"
-#include "splat/gather_share.h"
+#include "placement/bandwidth.h"
+#include "placement/gather_share.h"
 #include "splat/interleaved.h"
-#include "splat/splat.h"
+#include "placement/splat.h"
 #include <stdbool.h>
 
 #define KERNEL_PROFILE_SIZE 1024

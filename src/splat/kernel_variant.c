@@ -7,7 +7,7 @@
  * Splats are taken a few at a time: first each is tried on the sixteen blocks' bounds, which gives
  * every block a list; then block after block runs through its list, so that its pixels stay at hand.
  */
-#include "splat/footprint.h"
+#include "placement/footprint.h"
 #include "splat/kernel.h"
 #include "splat/lanes.h"
 

@@ -2,8 +2,8 @@
 
 #include "base/clock.h"
 #include "base/parallel.h"
+#include "placement/footprint.h"
 #include "splat/exact.h"
-#include "splat/footprint.h"
 #include <math.h>
 #include <stdlib.h>
 

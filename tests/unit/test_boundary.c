@@ -1,6 +1,6 @@
-/* test_wall.c: walls that short rays find beside a photon. The ray tracer is one of planes, written
+/* test_boundary.c: walls that short rays find beside a photon. The ray tracer is one of planes, written
  * here. */
-#include "splat/boundary.h"
+#include "placement/boundary.h"
 
 #include <psplat/math.h>
 #include <setjmp.h>

@@ -69,7 +69,7 @@ static struct bench *make_bench(void)
             .bundle.far_depth = 0.7f,
             .bundle.start_depth = -0.6f,
             .photon_depth = -0.7f,
-            .follow = s % 2 ? 0.6f : 0.0f,
+            .bandwidth_scale = s % 2 ? 0.6f : 0.0f,
             .narrowest = 0.1f,
             .widest = 0.5f,
             .blend_distance = s % 4 == 1 ? 0.8f : 0.0f,

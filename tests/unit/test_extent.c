@@ -1,6 +1,7 @@
-/* test_reach.c: how wide the boxes of full bundles must be. The ray tracer is one of a single upright board,
+/* test_extent.c: how large the footprints of full bundles must be. The ray tracer is one of a single upright board,
  * written here. */
-#include "splat/extent.h"
+#include "placement/extent.h"
+#include "placement/radius.h"
 
 #include <psplat/math.h>
 #include <setjmp.h>
@@ -31,20 +32,21 @@ static void trace(const ps_host *host, ps_ray_packet *packets, size_t n, int coh
 }
 
 static const struct camera camera = {.orthographic = true};
-static const struct footprint_scene scene = {.radius = 100, .camera = &camera, .interleave = 1};
+static const struct placement_scene scene = {.radius = 100, .camera = &camera, .interleave = 1};
 
 /* A bundle from the origin of a floor, a slope of 1 upwards to the right. */
 struct bundle {
     ps_hit hit;
-    float half_width;
+    float radius;
 };
 
 static struct bundle find(struct board *board, struct footprint_params settings, ps_hit hit)
 {
     const ps_photon photon = {.normal = {0, 1, 0}, .direction = {0.70710678f, 0.70710678f, 0}};
     ps_host host = {.core = board, .intersect_packets = trace};
-    struct bundle bundle = {hit, footprint_widest(&scene, &settings, &photon)};
-    extent_find(&host, &scene, &settings, &photon, 1, &bundle.hit, &bundle.half_width);
+    const struct placement placement = {.scene = scene, .settings = &settings, .host = &host};
+    struct bundle bundle = {hit, radius_largest(&scene, &settings, &photon)};
+    extent_find(&placement, &photon, 1, &bundle.hit, &bundle.radius);
     return bundle;
 }
 
@@ -56,7 +58,7 @@ static void test_a_board_beside_the_axis(void **state)
     (void)state;
     struct board board = {.distance = 10, .top = 9};
     struct bundle bundle = find(&board, (struct footprint_params){.radius.number = 2}, nothing);
-    assert_true(bundle.half_width == 2);
+    assert_true(bundle.radius == 2);
     assert_true(bundle.hit.distance > 12 && bundle.hit.distance < 14.2f);
     assert_true(fabsf(bundle.hit.position.x - bundle.hit.distance * 0.70710678f) < 1e-4f);
     assert_true(fabsf(bundle.hit.position.y - bundle.hit.distance * 0.70710678f) < 1e-4f);
@@ -69,7 +71,7 @@ static void test_a_board_too_far_from_the_axis(void **state)
     (void)state;
     struct board board = {.distance = 10, .top = 6};
     struct bundle bundle = find(&board, (struct footprint_params){.radius.number = 2}, nothing);
-    assert_true(bundle.half_width == 2 && bundle.hit.distance == 2);
+    assert_true(bundle.radius == 2 && bundle.hit.distance == 2);
     assert_true(board.packets == 1);
 }
 
@@ -83,10 +85,10 @@ static void test_something_near_before_something_far(void **state)
     const struct footprint_params wide = {.radius.number = 2, .bandwidth_scale = 0.2},
                                   narrow = {.radius.number = 2, .bandwidth_scale = 0.05};
     struct bundle bundle = find(&board, wide, near);
-    assert_true(bundle.half_width == 2);
+    assert_true(bundle.radius == 2);
     assert_true(bundle.hit.distance == 3 && ps_same(bundle.hit.position, near.position));
     bundle = find(&board, narrow, near);
-    assert_true(bundle.half_width >= 0.4f && bundle.half_width < 1.0f);
+    assert_true(bundle.radius >= 0.4f && bundle.radius < 1.0f);
 }
 
 /* One that meets something far away needs no rays, nor one that was left out. */
@@ -96,15 +98,16 @@ static void test_leaves_wide_beams_and_none(void **state)
     struct board board = {.distance = 10, .top = 9};
     const ps_hit far = {.distance = 30};
     const struct footprint_params settings = {.radius.number = 2, .bandwidth_scale = 0.2};
-    assert_true(find(&board, settings, far).half_width == 2);
+    assert_true(find(&board, settings, far).radius == 2);
     assert_true(
         find(&board, (struct footprint_params){.radius.number = 2}, (ps_hit){.distance = 0.1f})
-            .half_width == 2);
+            .radius == 2);
     ps_host host = {.core = &board, .intersect_packets = trace};
     const ps_photon photon = {.normal = {0, 1, 0}, .direction = {0, 1, 0}};
     ps_hit hit = nothing;
     float none = 0;
-    extent_find(&host, &scene, &settings, &photon, 1, &hit, &none);
+    const struct placement placement = {.scene = scene, .settings = &settings, .host = &host};
+    extent_find(&placement, &photon, 1, &hit, &none);
     assert_true(none == 0 && board.packets == 0);
 }
 

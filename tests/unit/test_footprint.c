@@ -1,5 +1,6 @@
-/* test_box.c: the boxes around first hits, against values worked out by hand. */
-#include "splat/footprint.h"
+/* test_footprint.c: radii, and the boxes around first hits, against values worked out by hand. */
+#include "placement/footprint.h"
+#include "placement/radius.h"
 
 #include "support/random.h"
 #include <psplat/math.h>
@@ -14,10 +15,10 @@
 /* Pixels of no size, unless a test says otherwise. */
 static struct camera camera = {.orthographic = true, .location = {0, 0, -99}, .forward = {0, 0, 1}};
 
-static const struct footprint_scene scene = {.radius = RADIUS,
+static const struct placement_scene scene = {.radius = RADIUS,
                                              .surface_offset = 0.001f,
-                                             .automatic_size = 2,
-                                             .automatic_near = 2,
+                                             .automatic_radius = 2,
+                                             .automatic_gather_distance = 2,
                                              .seed = 7,
                                              .camera = &camera,
                                              .interleave = 4};
@@ -28,14 +29,12 @@ static void expect_near(double value, double expected)
         fail_msg("%.7g, expected %.7g", value, expected);
 }
 
-static struct splat place_one(const struct footprint_scene *own,
+static struct splat place_one(const struct placement_scene *own,
                               const struct footprint_params *settings, const ps_photon *photon,
                               const ps_hit *hit)
 {
-    struct splat splat;
-    float half_width = footprint_half_width(own, settings, photon, hit->distance);
-    footprint_place(own, settings, photon, hit, &half_width, 1, &splat);
-    return splat;
+    float radius = radius_at(own, settings, photon, hit->distance);
+    return footprint_place(own, settings, photon, hit, radius);
 }
 
 /* A photon at the origin on a surface that faces up, whose light goes along w and arrives after
@@ -80,15 +79,14 @@ static void test_size(void **state)
 static void test_automatic_size(void **state)
 {
     (void)state;
-    float size = footprint_automatic_size(RADIUS, 0, 100000, 0);
+    float size = radius_automatic(RADIUS, 0, 100000, 0);
     assert_true(size > 0.13f * RADIUS && size < 0.15f * RADIUS);
-    expect_near(footprint_automatic_size(2 * RADIUS, 0, 100000, 0), 2 * (double)size);
-    expect_near(footprint_automatic_size(RADIUS, 0, 6250, 0),
-                fmin(2 * (double)size, 0.25 * RADIUS));
-    expect_near(footprint_automatic_size(RADIUS, 0, 3200000, 0), (double)size / 2);
-    expect_near(footprint_automatic_size(RADIUS, 0, 100000, 63), (double)size / 2);
-    expect_near(footprint_automatic_size(RADIUS, 0, 1, 0), 0.25 * RADIUS);
-    expect_near(footprint_automatic_size(RADIUS, 0, 0, 0), 0.25 * RADIUS);
+    expect_near(radius_automatic(2 * RADIUS, 0, 100000, 0), 2 * (double)size);
+    expect_near(radius_automatic(RADIUS, 0, 6250, 0), fmin(2 * (double)size, 0.25 * RADIUS));
+    expect_near(radius_automatic(RADIUS, 0, 3200000, 0), (double)size / 2);
+    expect_near(radius_automatic(RADIUS, 0, 100000, 63), (double)size / 2);
+    expect_near(radius_automatic(RADIUS, 0, 1, 0), 0.25 * RADIUS);
+    expect_near(radius_automatic(RADIUS, 0, 0, 0), 0.25 * RADIUS);
 }
 
 /* Light that lands close together makes smaller splats, in proportion; but not without end, and wide light
@@ -96,13 +94,13 @@ static void test_automatic_size(void **state)
 static void test_size_by_the_spread_of_light(void **state)
 {
     (void)state;
-    float size = footprint_automatic_size(RADIUS, 0, 100000, 0);
-    float narrow = footprint_automatic_size(RADIUS, 0.2f * RADIUS, 100000, 0);
+    float size = radius_automatic(RADIUS, 0, 100000, 0);
+    float narrow = radius_automatic(RADIUS, 0.2f * RADIUS, 100000, 0);
     assert_true(narrow < 0.9f * size);
-    expect_near(footprint_automatic_size(RADIUS, 0.16f * RADIUS, 100000, 0), 0.8 * (double)narrow);
-    expect_near(footprint_automatic_size(RADIUS, 0.2f * RADIUS, 3200000, 0), (double)narrow / 2);
-    expect_near(footprint_automatic_size(RADIUS, RADIUS, 100000, 0), size);
-    expect_near(footprint_automatic_size(RADIUS, 1e-6f, 100000, 0), 0.4 * (double)size);
+    expect_near(radius_automatic(RADIUS, 0.16f * RADIUS, 100000, 0), 0.8 * (double)narrow);
+    expect_near(radius_automatic(RADIUS, 0.2f * RADIUS, 3200000, 0), (double)narrow / 2);
+    expect_near(radius_automatic(RADIUS, RADIUS, 100000, 0), size);
+    expect_near(radius_automatic(RADIUS, 1e-6f, 100000, 0), 0.4 * (double)size);
 }
 
 /* R = min(size, follow * d), but no less than three tenths of size. */
@@ -139,8 +137,8 @@ static void test_size_follows_less_far_after_the_first_bounce(void **state)
 
 static struct splat place_near(struct footprint_params settings, uint16_t bounce, uint8_t specular)
 {
-    struct footprint_scene own = scene;
-    own.gather_distance = footprint_gather_distance(&own, &settings, 100000);
+    struct placement_scene own = scene;
+    own.gather_distance = radius_gather_distance(&own, &settings, 100000);
     ps_photon photon = {
         .normal = {0, 1, 0}, .direction = {0, 1, 0}, .bounce = bounce, .specular = specular};
     ps_hit hit = {.position = {0, 0.01f, 0}, .distance = 0.01f, .normal = {0, -1, 0}};
@@ -153,13 +151,13 @@ static void test_short_range_light_stays_as_near(void **state)
     (void)state;
     const struct footprint_params by_hand = {
         .radius.number = 3, .bandwidth_scale = 0.25, .step_back.choice = 1};
-    expect_near(footprint_gather_distance(&scene, &by_hand, 6250), 2.5 * 3);
-    expect_near(footprint_gather_distance(&scene, &by_hand, 3200000), 2.5 * 6);
-    double size = footprint_automatic_size(RADIUS, 0, 100000, 0);
-    expect_near(footprint_automatic_near(RADIUS, 0, 100000), 2.5 * size);
-    expect_near(footprint_automatic_near(RADIUS, 0, 3200000), 2.5 * size);
-    double large = footprint_automatic_size(RADIUS, 0, 50000, 0);
-    expect_near(footprint_automatic_near(RADIUS, 0, 50000), 2.5 * large);
+    expect_near(radius_gather_distance(&scene, &by_hand, 6250), 2.5 * 3);
+    expect_near(radius_gather_distance(&scene, &by_hand, 3200000), 2.5 * 6);
+    double size = radius_automatic(RADIUS, 0, 100000, 0);
+    expect_near(radius_automatic_gather_distance(RADIUS, 0, 100000), 2.5 * size);
+    expect_near(radius_automatic_gather_distance(RADIUS, 0, 3200000), 2.5 * size);
+    double large = radius_automatic(RADIUS, 0, 50000, 0);
+    expect_near(radius_automatic_gather_distance(RADIUS, 0, 50000), 2.5 * large);
 }
 
 /* As far as splats are wide, and more, where the light was reflected once, and diffusely; splats may be wide then. */
@@ -323,7 +321,7 @@ static void test_a_miss_lights_nothing(void **state)
 
 static struct splat frame_of(uint64_t seed, uint64_t path, uint32_t bounce, ps_vec3 w)
 {
-    const struct footprint_scene own = {
+    const struct placement_scene own = {
         .radius = RADIUS, .surface_offset = 0.001f, .seed = seed, .camera = &camera};
     const struct footprint_params settings = {.radius.number = 2};
     ps_photon photon = {.normal = w, .direction = w, .bounce = bounce, .path = path};

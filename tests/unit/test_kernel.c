@@ -95,7 +95,7 @@ static void add_width(struct splat *splat, struct random *random)
     if (random_unit(random) < 0.5f)
         return;
     splat->photon_depth = splat->bundle.start_depth - random_between(random, 0.01f, 0.3f);
-    splat->follow = random_between(random, 0.2f, 2.0f);
+    splat->bandwidth_scale = random_between(random, 0.2f, 2.0f);
     splat->narrowest = random_between(random, 0.1f, 0.5f) * splat->bundle.radius;
     splat->widest = random_between(random, 0.5f, 1.5f) * splat->bundle.radius;
     splat->blend_distance = random_between(random, -0.3f, 0.6f);
@@ -163,11 +163,11 @@ static size_t texel(double across, uint32_t resolution, bool *borderline)
  * `above`: its distance from the photon's plane. */
 static double width_of(const struct splat *splat, const double n[3], double cosine, double above)
 {
-    if (!(splat->follow > 0))
+    if (!(splat->bandwidth_scale > 0))
         return 1;
     double across = dot(splat->bundle.axis_u, n) / cosine - splat->bundle.start_slope_u;
     double down = dot(splat->bundle.axis_v, n) / cosine - splat->bundle.start_slope_v;
-    double h = splat->follow * above / (1 + splat->follow * hypot(across, down));
+    double h = splat->bandwidth_scale * above / (1 + splat->bandwidth_scale * hypot(across, down));
     return fmax(splat->narrowest, fmin(h, splat->widest)) / splat->bundle.radius;
 }
 
@@ -221,7 +221,7 @@ static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel,
     inside = below(0, cosine, 1e-6, &borderline) && inside;
     inside = below(splat->near_depth, t, 1e-5, &borderline) && inside;
     inside = below(t, splat->bundle.far_depth, 1e-5, &borderline) && inside;
-    double before = splat->follow > 0 ? splat->photon_depth : splat->bundle.start_depth;
+    double before = splat->bandwidth_scale > 0 ? splat->photon_depth : splat->bundle.start_depth;
     double above =
         t - before -
         splat->bundle.radius * (u * splat->bundle.start_slope_u + v * splat->bundle.start_slope_v);
@@ -249,7 +249,7 @@ static void add_reference(const struct bench *bench, uint32_t s, uint32_t pixel,
     sums->borderline |= fabs(entry - floor(entry + 0.5)) < 2e-3;
     sums->weight += k;
     sums->lit++;
-    if (splat->follow > 0 && splat->blend_distance > 0)
+    if (splat->bandwidth_scale > 0 && splat->blend_distance > 0)
         k *= smooth_step(above / (double)splat->blend_distance);
     sums->r += splat->power.r * k * cosine;
     sums->g += splat->power.g * k * cosine;

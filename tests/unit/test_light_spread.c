@@ -1,8 +1,8 @@
 /* test_light_spread.c: how far apart light lands that comes straight from the lights, and that splats of
  * automatic size follow it. */
 #include "host/place.h"
+#include "placement/radius.h"
 #include "render/state.h"
-#include "splat/footprint.h"
 #include "support/inject.h"
 #include "support/lit_room.h"
 #include "support/render_scene.h"
@@ -73,8 +73,8 @@ static ps_result check_size(void *user, struct render *render, struct error *err
     assert_true(n > 0);
     place_splats(render, photons, 1, &splat);
     float radius = render->scene->radius;
-    float expected = footprint_automatic_size(radius, (float)spread_of_pool(), 4096, 0);
-    assert_true(expected < 0.8f * footprint_automatic_size(radius, 0, 4096, 0));
+    float expected = radius_automatic(radius, (float)spread_of_pool(), 4096, 0);
+    assert_true(expected < 0.8f * radius_automatic(radius, 0, 4096, 0));
     assert_true(fabsf(splat.bundle.radius - expected) < 0.01f * expected);
     return PS_OK;
 }

@@ -1,4 +1,5 @@
-/* gather_share.h: how much of the light from nearby splats give, and how much is left to gather rays.
+/* gather_share.h: how much of the light from nearby splats give, and how much is left to gather rays
+ * (step 6 of placement.h).
  *
  * Splats blur light; rays that are shot from pixels find it as it is, with more noise, and only so far
  * (gather/gather.h). At distance t from the photon's plane splats give the share
@@ -11,8 +12,8 @@
  * that stays, and rays reach further for their noise. A straight line does as well, but for contacts, where
  * splats then keep more than twice as much of their blur.
  */
-#ifndef SPLAT_GATHER_SHARE_H
-#define SPLAT_GATHER_SHARE_H
+#ifndef PLACEMENT_GATHER_SHARE_H
+#define PLACEMENT_GATHER_SHARE_H
 
 #include <psplat/math.h>
 #include <stdbool.h>

@@ -4,8 +4,8 @@
  * met (footprint.h). A point p lies at depth t = (p - centre).axis_w, and is inside where
  * |(p - centre).axis_u|, |(p - centre).axis_v| <= radius and near_depth <= t <= far_depth.
  */
-#ifndef SPLAT_SPLAT_H
-#define SPLAT_SPLAT_H
+#ifndef PLACEMENT_SPLAT_H
+#define PLACEMENT_SPLAT_H
 
 #include <psplat/types.h>
 
@@ -13,12 +13,11 @@ struct splat {
     ps_bundle
         bundle; /* a splat whose radius is 0 lights nothing; far_depth >= 0 until cut to a map */
     float near_depth; /* relative to the centre; <= 0 */
-    /* Of full bundles: where the photon's tangent plane, parallel to the start plane, crosses the axis. At
-     * distance t from it a pixel takes the part of the disc around its own ray of half-width follow * t /
-     * (1 + follow * s), s the change of t across the bundle over its surface, between `narrowest` > 0
-     * and `widest`; and where that is less than the box's, the bundle starts as much nearer to the
-     * photon's plane. follow 0: all pixels take all of it, and photon_depth says nothing. */
-    float photon_depth, follow, narrowest, widest;
+    /* Of full bundles: where the photon's tangent plane, parallel to the start plane, crosses the axis; each pixel
+     * takes as much of the disc around its own ray as bandwidth.h says, between `narrowest` > 0 and `widest`;
+     * and where that is less than the footprint's, the bundle starts as much nearer to the photon's plane.
+     * bandwidth_scale 0: all pixels take all of it, and photon_depth says nothing. */
+    float photon_depth, bandwidth_scale, narrowest, widest;
     /* Of full bundles that follow the distance: what lies this far from the photon's plane, or farther, gets all
      * of the light; what lies nearer, the less of it, the nearer. The rest is gathered otherwise
      * (gather/gather.h). 0: all gets all. */

@@ -1,15 +1,16 @@
-#include "splat/boundary.h"
+/* boundary.c: short rays around a photon, and the straight walls that they tell of. */
+#include "placement/boundary.h"
 
-#include "splat/footprint.h"
+#include "placement/footprint.h"
 #include <psplat/math.h>
 #include <stdbool.h>
 #include <string.h>
 
 #define AZIMUTHS 16
 
-/* How far walls are looked for, in half-widths: a pixel whose ray starts at the rim has half of its disc
+/* How far walls are looked for, in radii: a pixel whose ray starts at the rim has half of its disc
  * beyond it. */
-#define REACH 2.0f
+#define LOOK 2.0f
 
 /* How many times as long the way along the surface may be as that across a bundle. */
 #define MOST_SLOPE 8.0f
@@ -17,7 +18,7 @@
 /* Of the rays along a surface, so many are stopped near the ground where it is hollow, and get half as far
  * again or more where they run higher. */
 #define MOST_AZIMUTHS 12
-#define HIGHER_REACH 1.5f
+#define HIGHER_LENGTH 1.5f
 
 /* Cosine and sine of an odd number of sixteenths of pi. */
 #define C1 0.98078528f
@@ -39,18 +40,18 @@ struct star {
 /* The same across a splat's bundle: where they run, and how far in parts of the way to look; 1: all of it. */
 struct free_way {
     float cosine[AZIMUTHS], sine[AZIMUTHS];
-    float reach[AZIMUTHS];
+    float length[AZIMUTHS];
 };
 
-/* A wall: points (u, v) with u a + v b = 1, so that 1 / reach = a cosine + b sine. */
-struct wall {
+/* A wall: points (u, v) with u a + v b = 1, so that 1 / length = a cosine + b sine. */
+struct border {
     float a, b;
 };
 
 /* How far to look for the walls of a splat: across a bundle that leaves at a slope the way is shorter. */
 static float length_for(const ps_photon *photon, const struct splat *splat)
 {
-    return REACH * splat->bundle.radius * ps_min(1.0f / footprint_cosine(photon), MOST_SLOPE);
+    return LOOK * splat->bundle.radius * ps_min(1.0f / footprint_cosine(photon), MOST_SLOPE);
 }
 
 /* `height` above the surface, so far as `length`. */
@@ -80,7 +81,7 @@ static struct free_way way_across(const struct star *star, const struct splat *s
 {
     struct free_way way;
     ps_vec3 axis_u = splat->bundle.axis_u, axis_v = splat->bundle.axis_v;
-    float nearer = 1.0f / (REACH * splat->bundle.radius);
+    float nearer = 1.0f / (LOOK * splat->bundle.radius);
 #pragma omp simd
     for (int i = 0; i < AZIMUTHS; i++) {
         ps_vec3 direction = {star->x[i], star->y[i], star->z[i]};
@@ -88,7 +89,7 @@ static struct free_way way_across(const struct star *star, const struct splat *s
         float across = ps_max(sqrtf(u * u + v * v), 1e-6f);
         way.cosine[i] = u / across;
         way.sine[i] = v / across;
-        way.reach[i] = ps_min(ps_max(star->distances[i] * across * nearer, 1e-3f), 1.0f);
+        way.length[i] = ps_min(ps_max(star->distances[i] * across * nearer, 1e-3f), 1.0f);
     }
     return way;
 }
@@ -99,26 +100,26 @@ static int count_stopped(const struct free_way *way, const struct free_way *othe
     int count = 0;
 #pragma omp simd reduction(+ : count)
     for (int i = 0; i < AZIMUTHS; i++)
-        count += (way->reach[i] < 1.0f) & (way->reach[i] <= part * other->reach[i]);
+        count += (way->length[i] < 1.0f) & (way->length[i] <= part * other->length[i]);
     return count;
 }
 
-static inline float reach_of(const struct wall *wall, const struct free_way *way, int i)
+static inline float free_to(const struct border *border, const struct free_way *way, int i)
 {
-    float inverse = wall->a * way->cosine[i] + wall->b * way->sine[i];
+    float inverse = border->a * way->cosine[i] + border->b * way->sine[i];
     return inverse > 1.0f ? 1.0f / inverse : 1.0f;
 }
 
 /* The wall through the hit of ray i and the nearer one of its neighbours'. */
-static struct wall through(const struct free_way *way, int i)
+static struct border through(const struct free_way *way, int i)
 {
     int left = (i + AZIMUTHS - 1) % AZIMUTHS, right = (i + 1) % AZIMUTHS;
-    int j = way->reach[left] < way->reach[right] ? left : right;
-    float at_i = 1.0f / way->reach[i], at_j = 1.0f / way->reach[j];
-    if (!(way->reach[j] < 1.0f))
-        return (struct wall){way->cosine[i] * at_i, way->sine[i] * at_i};
+    int j = way->length[left] < way->length[right] ? left : right;
+    float at_i = 1.0f / way->length[i], at_j = 1.0f / way->length[j];
+    if (!(way->length[j] < 1.0f))
+        return (struct border){way->cosine[i] * at_i, way->sine[i] * at_i};
     float determinant = way->cosine[i] * way->sine[j] - way->cosine[j] * way->sine[i];
-    return (struct wall){
+    return (struct border){
         (at_i * way->sine[j] - at_j * way->sine[i]) / determinant,
         (at_j * way->cosine[i] - at_i * way->cosine[j]) / determinant,
     };
@@ -126,24 +127,24 @@ static struct wall through(const struct free_way *way, int i)
 
 /* Whether the rays that a wall there would stop were stopped: a pole or a table's leg is none. Far out,
  * where a wall stops one ray or two, a pole counts as one; there it makes up for next to nothing. */
-static bool stands(const struct wall *wall, const struct free_way *way)
+static bool stands(const struct border *border, const struct free_way *way)
 {
     int expected = 0, met = 0;
 #pragma omp simd reduction(+ : expected, met)
     for (int i = 0; i < AZIMUTHS; i++) {
-        float reach = reach_of(wall, way, i);
-        expected += reach < 0.9f;
-        met += (reach < 0.9f) & (way->reach[i] < 1.1f * reach);
+        float length = free_to(border, way, i);
+        expected += length < 0.9f;
+        met += (length < 0.9f) & (way->length[i] < 1.1f * length);
     }
     return 4 * met >= 3 * expected;
 }
 
 /* Forgets the rays that a wall stops: how far the others get stays in `left`, 1 for those. */
-static void explain(const struct wall *wall, const struct free_way *way, float left[AZIMUTHS])
+static void explain(const struct border *border, const struct free_way *way, float left[AZIMUTHS])
 {
 #pragma omp simd
     for (int i = 0; i < AZIMUTHS; i++)
-        left[i] = way->reach[i] > 0.9f * reach_of(wall, way, i) ? 1.0f : left[i];
+        left[i] = way->length[i] > 0.9f * free_to(border, way, i) ? 1.0f : left[i];
 }
 
 /* The ray that is stopped first of those left; -1: none. */
@@ -159,26 +160,26 @@ static int first_stopped(const float left[AZIMUTHS])
     return nearest;
 }
 
-static void add_wall(const struct wall *wall, struct splat *splat)
+static void add_boundary(const struct border *border, struct splat *splat)
 {
-    float inverse = sqrtf(wall->a * wall->a + wall->b * wall->b);
+    float inverse = sqrtf(border->a * border->a + border->b * border->b);
     ps_boundary *added = &splat->bundle.boundaries[splat->bundle.boundary_count++];
-    *added = (ps_boundary){wall->a / inverse, wall->b / inverse, REACH / inverse};
+    *added = (ps_boundary){border->a / inverse, border->b / inverse, LOOK / inverse};
 }
 
 static void find(const struct free_way *way, struct splat *splat)
 {
     float left[AZIMUTHS];
-    memcpy(left, way->reach, sizeof left);
+    memcpy(left, way->length, sizeof left);
     for (uint32_t n = 0; n < PS_MOST_BOUNDARIES; n++) {
         int nearest = first_stopped(left);
         if (nearest < 0)
             return;
-        struct wall wall = through(way, nearest);
-        if (!stands(&wall, way))
+        struct border border = through(way, nearest);
+        if (!stands(&border, way))
             return;
-        add_wall(&wall, splat);
-        explain(&wall, way, left);
+        add_boundary(&border, splat);
+        explain(&border, way, left);
     }
 }
 
@@ -192,7 +193,7 @@ static struct free_way look(const ps_host *host, float surface_offset, const ps_
         float clearance = footprint_clearance(surface_offset, splat->bundle.radius, true);
         struct star above = look_around(host, photon, clearance, length_for(photon, splat));
         struct free_way high = way_across(&above, splat);
-        if (count_stopped(&low, &high, 1.0f / HIGHER_REACH) >= MOST_AZIMUTHS)
+        if (count_stopped(&low, &high, 1.0f / HIGHER_LENGTH) >= MOST_AZIMUTHS)
             return high;
     }
     footprint_start(photon, footprint_clearance(surface_offset, splat->bundle.radius, false),

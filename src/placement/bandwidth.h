@@ -1,4 +1,4 @@
-/* bandwidth.h: how much of a full bundle's disc a pixel takes.
+/* bandwidth.h: how much of a full bundle's disc a pixel takes (step 3 of placement.h).
  *
  * Light from close by changes over short ways, so the disc should be small near the photon and may be
  * large far from it. If each splat had one size for all of its pixels, by how far its own axis runs, the
@@ -7,28 +7,28 @@
  * Silverman 1986, "Density estimation", section 5.3). So the pixel chooses. Along direction w it lies at
  * distance t from the plane of the photon, and the photons that it sees around that place count within
  *
- *     h = follow * t / (1 + follow * s)        and  narrowest <= h <= widest
+ *     h = c t / (1 + c s)        and  narrowest <= h <= widest
  *
- * with s the change of t across the beam, over the pixel's own surface. All photons of that plane then
- * agree about h (but for the limits, which go by the splat), and even light comes out even. As `follow`
+ * with c the bandwidth scale and s the change of t across the bundle, over the pixel's own surface. All photons of that plane then
+ * agree about h (but for the limits, which go by the splat), and even light comes out even. As c
  * grows h tends to t / s: a disc that just touches the crease where both planes meet. A box of
- * half-width follow * d around a hit at distance d holds all pixels of a plane that take in the axis,
- * since from t = d + s |x| and |x| < h follows |x| < follow * d.
+ * half-width c d around a hit at distance d holds all pixels of a plane that take in the axis,
+ * since from t = d + s |x| and |x| < h follows |x| < c d.
  */
-#ifndef SPLAT_BANDWIDTH_H
-#define SPLAT_BANDWIDTH_H
+#ifndef PLACEMENT_BANDWIDTH_H
+#define PLACEMENT_BANDWIDTH_H
 
 #include <math.h>
 #include <psplat/types.h>
 
 /* Steeper surfaces are taken to be no steeper; those that face away are not lit, whatever comes out. */
-#define BANDBANDWIDTH_LEAST_FACING 1e-3f
+#define BANDWIDTH_LEAST_FACING 1e-3f
 
 /* h in half-widths of the box, with all that can be worked out once for all pixels. */
 struct bandwidth {
-    float by_distance;    /* follow / R */
-    float spread;         /* follow * R: u and v are axes divided by R */
-    float tilt_u, tilt_v; /* follow times the slope of the photon's plane */
+    float by_distance;    /* c / R */
+    float spread;         /* c R: u and v are axes divided by R */
+    float tilt_u, tilt_v; /* c times the slope of the photon's plane */
     float narrowest, widest;
 };
 
@@ -37,7 +37,7 @@ struct bandwidth {
 static inline float bandwidth_at(const struct bandwidth *width, float distance, float facing,
                                  float normal_u, float normal_v)
 {
-    facing = facing > BANDBANDWIDTH_LEAST_FACING ? facing : BANDBANDWIDTH_LEAST_FACING;
+    facing = facing > BANDWIDTH_LEAST_FACING ? facing : BANDWIDTH_LEAST_FACING;
     float a = normal_u * width->spread - width->tilt_u * facing;
     float b = normal_v * width->spread - width->tilt_v * facing;
     float h = width->by_distance * distance * facing / (facing + sqrtf(a * a + b * b));
