@@ -2,13 +2,13 @@
 #ifndef PARSER_SCHEMA_SCHEMA_JSON_VALUE_H
 #define PARSER_SCHEMA_SCHEMA_JSON_VALUE_H
 
-#include "parser/schema/emit.h"
+#include "base/json_writer.h"
 #include "parser/schema/schema.h"
 
 /* {"$ref": "#/$defs/NAME"} */
-void schema_json_reference(struct emitter *emitter, const char *name);
+void schema_json_reference(struct json_writer *writer, const char *name);
 
 /* The schemas of which the row's value fits one, but for formulas and lists with loops. */
-void schema_json_alternatives(struct emitter *emitter, const struct schema_row *row);
+void schema_json_alternatives(struct json_writer *writer, const struct schema_row *row);
 
 #endif

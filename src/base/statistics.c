@@ -1,7 +1,7 @@
 #include "base/statistics.h"
 
+#include "base/json_writer.h"
 #include "base/output_file.h"
-#include "base/text.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -93,25 +93,24 @@ double statistics_bytes(const struct statistics *statistics, const char *purpose
     return row ? row->largest : 0;
 }
 
-static void write_table(FILE *stream, const char *name, const struct statistic_table *table,
-                        const char *end)
+static void write_table(struct json_writer *writer, const char *name,
+                        const struct statistic_table *table)
 {
-    fprintf(stream, "  \"%s\": {", name);
-    for (size_t i = 0; i < table->count; i++) {
-        char value[64];
-        text_from_number(table->rows[i].largest, value, sizeof value);
-        fprintf(stream, "%s\n    \"%s\": %s", i ? "," : "", table->rows[i].name, value);
-    }
-    fprintf(stream, "%s}%s\n", table->count ? "\n  " : "", end);
+    json_writer_open_of(writer, name, '{');
+    for (size_t i = 0; i < table->count; i++)
+        json_writer_number_of(writer, table->rows[i].name, table->rows[i].largest);
+    json_writer_close(writer, '{');
 }
 
 static void write_json(const struct statistics *statistics, FILE *stream)
 {
-    fprintf(stream, "{\n");
-    write_table(stream, "seconds", &statistics->stages, ",");
-    write_table(stream, "counters", &statistics->counters, ",");
-    write_table(stream, "bytes", &statistics->memory, "");
-    fprintf(stream, "}\n");
+    struct json_writer writer = {.stream = stream};
+    json_writer_open(&writer, '{');
+    write_table(&writer, "seconds", &statistics->stages);
+    write_table(&writer, "counters", &statistics->counters);
+    write_table(&writer, "bytes", &statistics->memory);
+    json_writer_close(&writer, '{');
+    fputc('\n', stream);
 }
 
 ps_result statistics_write(const struct statistics *statistics, const char *path,
