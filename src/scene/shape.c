@@ -3,14 +3,34 @@
 #include "scene/shape_build.h"
 #include <stdlib.h>
 
-static shape_builder *const builders[] = {
-    [OBJECT_QUAD] = shape_quad,           [OBJECT_BOX] = shape_box,
-    [OBJECT_TRIANGLES] = shape_triangles, [OBJECT_SPHERE] = shape_ellipsoid,
-    [OBJECT_CYLINDER] = shape_cylinder,   [OBJECT_CONE] = shape_cone,
-    [OBJECT_DISC] = shape_disc,           [OBJECT_PLANE] = shape_plane,
-    [OBJECT_TORUS] = shape_torus,         [OBJECT_HEIGHT_FIELD] = shape_height_field,
-    [OBJECT_MESH] = shape_mesh,
+static const struct {
+    const char *name;
+    shape_builder *build;
+} kinds[] = {
+    [OBJECT_QUAD] = {"quad", shape_quad},
+    [OBJECT_BOX] = {"box", shape_box},
+    [OBJECT_TRIANGLES] = {"triangles", shape_triangles},
+    [OBJECT_SPHERE] = {"sphere", shape_sphere},
+    [OBJECT_CYLINDER] = {"cylinder", shape_cylinder},
+    [OBJECT_CONE] = {"cone", shape_cone},
+    [OBJECT_DISC] = {"disc", shape_disc},
+    [OBJECT_PLANE] = {"plane", shape_plane},
+    [OBJECT_TORUS] = {"torus", shape_torus},
+    [OBJECT_HEIGHT_FIELD] = {"height_field", shape_height_field},
+    [OBJECT_MESH] = {"mesh", shape_mesh},
 };
+
+static bool is_shape(const struct object_description *object)
+{
+    return (size_t)object->kind < sizeof kinds / sizeof kinds[0];
+}
+
+ps_result shape_invalid(const struct object_description *object, struct error *error,
+                        const char *message)
+{
+    return error_set(error, PS_ERROR_INVALID, "%s: %s",
+                     is_shape(object) ? kinds[object->kind].name : "object", message);
+}
 
 /* Lists of triangles may come empty, or be of nothing but slivers; a shape with a name may not. */
 static bool may_be_empty(const struct object_description *object)
@@ -22,14 +42,18 @@ static ps_result create(const struct object_description *object,
                         const struct shape_surroundings *surroundings, struct shape *shape,
                         struct error *error)
 {
-    ps_result result = shape_check(object, surroundings, error);
-    if (result != PS_OK)
+    double determinant = affine_determinant(&object->placement);
+    if (!is_shape(object))
+        return shape_invalid(object, error,
+                             object->kind == OBJECT_INSTANCE
+                                 ? "an instance of a group is no shape by itself"
+                                 : "unknown kind of object");
+    if (!(fabs(determinant) > 0.0 && isfinite(determinant)))
+        return shape_invalid(object, error, "its placement makes it flat, or is out of range");
+    ps_result result = kinds[object->kind].build(object, surroundings, shape, error);
+    if (result != PS_OK || shape->kind != SHAPE_MESH)
         return result;
-    if (object->kind == OBJECT_SPHERE && affine_is_similarity(&object->placement))
-        return shape_exact_sphere(object, shape, error);
-    result = builders[object->kind](object, surroundings, shape, error);
-    if (result == PS_OK)
-        result = shape_place(object, shape, error);
+    result = shape_place(object, shape, error);
     if (result == PS_OK && shape->triangle_count == 0 && !may_be_empty(object))
         return shape_invalid(object, error, "it has no area");
     return result;

@@ -8,28 +8,22 @@
 #define SCENE_SHAPE_BUILD_H
 
 #include "scene/shape.h"
+#include <float.h>
 #include <psplat/math.h>
 
 typedef ps_result shape_builder(const struct object_description *object,
                                 const struct shape_surroundings *surroundings, struct shape *shape,
                                 struct error *error);
 
-/* These need an object that shape_check let pass. After an error the caller releases the shape. */
+/* PS_ERROR_INVALID where an object's numbers, taken together, make no shape: single ones were bounded as they were
+ * read. Meshes are placed by the caller, which also releases the shape after an error. */
 shape_builder shape_quad, shape_box, shape_triangles, shape_mesh;  /* shape_flat.c */
 shape_builder shape_plane;                                         /* shape_plane.c */
 shape_builder shape_cylinder, shape_cone, shape_disc, shape_torus; /* shape_round.c */
-shape_builder shape_ellipsoid;                                     /* shape_sphere.c */
+shape_builder shape_sphere;                                        /* shape_sphere.c */
 shape_builder shape_height_field;                                  /* shape_height_field.c */
 
-/* The exact sphere, placed; for a placement that is a similarity. */
-ps_result shape_exact_sphere(const struct object_description *object, struct shape *shape,
-                             struct error *error);
-
-/* PS_ERROR_INVALID where the object has no shape, by its own numbers. */
-ps_result shape_check(const struct object_description *object,
-                      const struct shape_surroundings *surroundings, struct error *error);
-
-/* PS_ERROR_INVALID, with the message behind the object's origin and kind. */
+/* PS_ERROR_INVALID, with the message behind the object's kind. */
 ps_result shape_invalid(const struct object_description *object, struct error *error,
                         const char *message);
 
@@ -66,6 +60,22 @@ static inline ps_vec3 unit_or_zero(ps_vec3 v)
     if (!(largest > 0.0f) || !isfinite(v.x) || !isfinite(v.y) || !isfinite(v.z))
         return (ps_vec3){0.0f, 0.0f, 0.0f};
     return ps_normalize((ps_vec3){v.x / largest, v.y / largest, v.z / largest});
+}
+
+/* A length above 0 that single precision can hold. */
+static inline bool is_length(double value)
+{
+    return value >= (double)FLT_MIN && value <= (double)FLT_MAX;
+}
+
+static inline bool is_length_or_zero(double value)
+{
+    return value == 0.0 || is_length(value);
+}
+
+static inline bool has_direction(ps_vec3 v)
+{
+    return ps_length(unit_or_zero(v)) > 0.0f;
 }
 
 /* Unit vectors that complete unit vector n to a right-handed frame. -0 counts as 0, which ps_frame

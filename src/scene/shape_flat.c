@@ -50,11 +50,23 @@ static void set_face(struct shape *shape, size_t i, ps_vec3 low, ps_vec3 high)
     set_square(&shape->triangles[2 * i], (uint32_t)(4 * i));
 }
 
+/* NULL: nothing is wrong. */
+static const char *check_box(const struct object_description *object)
+{
+    ps_vec3 size = ps_subtract(object->vertices[1], object->vertices[0]);
+    return size.x != 0.0f && size.y != 0.0f && size.z != 0.0f
+               ? NULL
+               : "its corners agree in a coordinate, so it has no volume; a quad is flat";
+}
+
 ps_result shape_box(const struct object_description *object,
                     const struct shape_surroundings *surroundings, struct shape *shape,
                     struct error *error)
 {
     (void)surroundings;
+    const char *wrong = check_box(object);
+    if (wrong)
+        return shape_invalid(object, error, wrong);
     ps_result result = shape_allocate(shape, 24, 12, MESH_UV, error);
     if (result != PS_OK)
         return result;
@@ -103,5 +115,7 @@ ps_result shape_mesh(const struct object_description *object,
                      const struct shape_surroundings *surroundings, struct shape *shape,
                      struct error *error)
 {
+    if (!surroundings->meshes)
+        return shape_invalid(object, error, "there are no meshes");
     return copy_mesh(&surroundings->meshes[object->mesh], shape, error);
 }

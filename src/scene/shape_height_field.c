@@ -35,10 +35,27 @@ static void set_triangles(size_t across, size_t along, struct shape *shape)
 }
 
 /* Smooth normals are left at zero: shape_place fills in the mean of the faces around. */
+static const char *check_heights(const struct height_samples *heights)
+{
+    if (!heights || !heights->samples)
+        return "it has no picture";
+    if (heights->width < 2 || heights->height < 2)
+        return "its picture must be of 2 pixels or more each way";
+    if (heights->width > SHAPE_HEIGHT_SAMPLES_MAX / heights->height)
+        return "its picture has more than 2^27 pixels";
+    for (size_t i = 0; i < heights->width * heights->height; i++)
+        if (!isfinite(heights->samples[i]))
+            return "its picture holds a value that is no number";
+    return NULL;
+}
+
 ps_result shape_height_field(const struct object_description *object,
                              const struct shape_surroundings *surroundings, struct shape *shape,
                              struct error *error)
 {
+    const char *wrong = check_heights(surroundings->heights);
+    if (wrong)
+        return shape_invalid(object, error, wrong);
     const struct height_samples *heights = surroundings->heights;
     size_t across = heights->width, along = heights->height;
     unsigned parts = MESH_UV | (object->smooth ? MESH_NORMALS : 0u);

@@ -56,10 +56,22 @@ static void automatic_corners(const struct sheet *sheet, const struct affine *pl
     }
 }
 
+static const char *check_plane(const struct object_description *object)
+{
+    if (!has_direction(object->normal))
+        return "normal has no direction";
+    if (!(fabs(object->distance) <= (double)FLT_MAX))
+        return "distance is out of range";
+    return is_length_or_zero(object->extent) ? NULL : "extent must be 0 or above";
+}
+
 ps_result shape_plane(const struct object_description *object,
                       const struct shape_surroundings *surroundings, struct shape *shape,
                       struct error *error)
 {
+    const char *wrong = check_plane(object);
+    if (wrong)
+        return shape_invalid(object, error, wrong);
     ps_result result = shape_allocate(shape, 4, 2, MESH_UV, error);
     if (result != PS_OK)
         return result;

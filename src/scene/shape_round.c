@@ -8,6 +8,63 @@
 #define PI 3.14159265358979323846
 
 /* A cylinder is a cone whose ends are alike. */
+/* --- what makes no shape: NULL where nothing is wrong ---------------------------------------------- */
+
+static const char *check_segments(const struct object_description *object)
+{
+    _Static_assert(SHAPE_SEGMENTS_MIN == 3 && SHAPE_SEGMENTS_MAX == 8192, "stated in the message");
+    return object->segments == 0 || (object->segments >= SHAPE_SEGMENTS_MIN &&
+                                     object->segments <= SHAPE_SEGMENTS_MAX)
+               ? NULL
+               : "segments must be within 3..8192, or 0 for the default";
+}
+
+static const char *check_points(const struct object_description *object)
+{
+    if (!has_direction(ps_subtract(object->points[1], object->points[0])))
+        return "its two points are one, or too far away: it has no axis";
+    return check_segments(object);
+}
+
+static const char *check_cylinder(const struct object_description *object)
+{
+    if (!is_length(object->radius))
+        return "radius must be above 0";
+    return check_points(object);
+}
+
+static const char *check_cone(const struct object_description *object)
+{
+    double largest = fmax(object->radius, object->to_radius);
+    if (!is_length_or_zero(object->radius) || !is_length_or_zero(object->to_radius))
+        return "radius and to_radius must be 0 or above";
+    return largest > 0.0 ? check_points(object) : "one of radius and to_radius must be above 0";
+}
+
+static const char *check_disc(const struct object_description *object)
+{
+    if (!has_direction(object->normal))
+        return "normal has no direction";
+    if (!is_length(object->radius))
+        return "radius must be above 0";
+    if (!is_length_or_zero(object->hole_radius) ||
+        !((float)object->hole_radius < (float)object->radius))
+        return "hole_radius must be 0 or above, and below radius";
+    return check_segments(object);
+}
+
+/* The tube may not reach the axis: there it would meet itself, and its inside would be outside. */
+static const char *check_torus(const struct object_description *object)
+{
+    if (!is_length(object->radius) || !is_length(object->minor_radius))
+        return "radius and minor_radius must be above 0";
+    if (!((float)object->minor_radius < (float)object->radius))
+        return "minor_radius must be below radius";
+    return check_segments(object);
+}
+
+/* --- shapes ------------------------------------------------------------------------------------ */
+
 static ps_result build_cone(const struct object_description *object, float radius, float to_radius,
                             struct shape *shape, struct error *error)
 {
@@ -41,6 +98,9 @@ ps_result shape_cylinder(const struct object_description *object,
                          struct error *error)
 {
     (void)surroundings;
+    const char *wrong = check_cylinder(object);
+    if (wrong)
+        return shape_invalid(object, error, wrong);
     return build_cone(object, (float)object->radius, (float)object->radius, shape, error);
 }
 
@@ -49,6 +109,9 @@ ps_result shape_cone(const struct object_description *object,
                      struct error *error)
 {
     (void)surroundings;
+    const char *wrong = check_cone(object);
+    if (wrong)
+        return shape_invalid(object, error, wrong);
     return build_cone(object, (float)object->radius, (float)object->to_radius, shape, error);
 }
 
@@ -57,6 +120,9 @@ ps_result shape_disc(const struct object_description *object,
                      struct error *error)
 {
     (void)surroundings;
+    const char *wrong = check_disc(object);
+    if (wrong)
+        return shape_invalid(object, error, wrong);
     size_t n = shape_segments(object);
     float hole = (float)object->hole_radius;
     ps_result result = shape_allocate(shape, lathe_disc_vertices(n, hole),
@@ -87,6 +153,9 @@ ps_result shape_torus(const struct object_description *object,
                       struct error *error)
 {
     (void)surroundings;
+    const char *wrong = check_torus(object);
+    if (wrong)
+        return shape_invalid(object, error, wrong);
     size_t n = shape_segments(object), m = n / 2 > 3 ? n / 2 : 3;
     ps_result result =
         shape_allocate(shape, (m + 1) * (n + 1), 2 * m * n, MESH_NORMALS | MESH_UV, error);

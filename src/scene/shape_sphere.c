@@ -14,8 +14,8 @@
 /* Least sin theta in the derivative by u. */
 #define POLE_SINE 1e-3f
 
-ps_result shape_exact_sphere(const struct object_description *object, struct shape *shape,
-                             struct error *error)
+static ps_result make_exact(const struct object_description *object, struct shape *shape,
+                            struct error *error)
 {
     const struct affine *placement = &object->placement;
     shape->kind = SHAPE_SPHERE;
@@ -43,11 +43,9 @@ static struct profile_point sphere_point(float radius, size_t i)
     };
 }
 
-ps_result shape_ellipsoid(const struct object_description *object,
-                          const struct shape_surroundings *surroundings, struct shape *shape,
-                          struct error *error)
+static ps_result make_ellipsoid(const struct object_description *object, struct shape *shape,
+                                struct error *error)
 {
-    (void)surroundings;
     size_t n = SEGMENTS_AROUND, m = SEGMENTS_UP;
     float radius = (float)object->radius;
     ps_result result = shape_allocate(shape, (m - 1) * (n + 1) + 2 * n, 2 * (m - 1) * n,
@@ -62,6 +60,17 @@ ps_result shape_ellipsoid(const struct object_description *object,
         lathe_join(&lathe, &point);
     }
     return PS_OK;
+}
+
+ps_result shape_sphere(const struct object_description *object,
+                       const struct shape_surroundings *surroundings, struct shape *shape,
+                       struct error *error)
+{
+    (void)surroundings;
+    if (!is_length(object->radius))
+        return shape_invalid(object, error, "radius must be above 0");
+    return affine_is_similarity(&object->placement) ? make_exact(object, shape, error)
+                                                    : make_ellipsoid(object, shape, error);
 }
 
 /* `outward` in the sphere's own axes. */
