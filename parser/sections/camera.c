@@ -4,6 +4,7 @@
 #include "parser/schema/keys.h"
 #include "parser/sections/check.h"
 #include "parser/sections/fill.h"
+#include <psplat/math.h>
 #include <string.h>
 
 /* POV-Ray's default: as wide as a picture of 4/3 at distance 1. */
@@ -30,6 +31,34 @@ bool camera_exists(const struct reader *reader, const char *name)
         if (description->cameras[i].name && strcmp(description->cameras[i].name, name) == 0)
             return true;
     return false;
+}
+
+static bool check_projection(const struct reader *reader, const struct node *at,
+                             const struct node *map, const struct camera_description *camera)
+{
+    if (camera->kind == CAMERA_PERSPECTIVE)
+        return check_expect(reader, camera->width == 0, check_value(map, at, "width"),
+                            "width is of an orthographic camera; a perspective one has an angle");
+    bool good = check_expect(reader, camera->width > 0, at,
+                             "missing key 'width' in camera, which an orthographic one requires");
+    const char *angle = camera->angle > 0 ? "angle" : "vertical_angle";
+    return check_expect(reader, camera->angle == 0 && camera->vertical_angle == 0,
+                        check_value(map, at, angle),
+                        "an orthographic camera has no angle; it has a width") &&
+           good;
+}
+
+static bool check_camera(const struct reader *reader, const struct node *at, const struct node *map,
+                         const struct camera_description *camera)
+{
+    bool good = check_projection(reader, at, map, camera);
+    if (ps_same(camera->location, camera->look_at))
+        return check_expect(reader, false, check_value(map, at, "look_at"),
+                            "look_at is the camera's location; it must be another point");
+    return check_expect(reader, !check_up_along(camera->location, camera->look_at, camera->up),
+                        check_value(map, at, "up"),
+                        "up is along the direction of view; the camera's roll is undefined") &&
+           good;
 }
 
 static void read_camera(struct reader *reader, const struct item *item, const char *name)

@@ -75,6 +75,42 @@ static void set_sky(struct reader *reader, const struct light_keys *keys,
         light->texture = texture_add(reader, &texture);
 }
 
+static bool check_spotlight(const struct reader *reader, const struct node *at,
+                            const struct node *map, const struct light_description *light)
+{
+    bool good = check_expect(reader, !ps_same(light->location, light->point_at),
+                             check_value(map, at, "point_at"),
+                             "point_at is the spotlight's location; it must be another point");
+    if (light->radius <= light->falloff)
+        return good;
+    const struct node *radius =
+        node_find(map, "radius") ? check_value(map, at, "radius") : check_value(map, at, "falloff");
+    reader_error(reader, radius, "radius %g%s is larger than falloff %g%s in spotlight",
+                 light->radius, node_find(map, "radius") ? "" : " (the default)", light->falloff,
+                 node_find(map, "falloff") ? "" : " (the default)");
+    return false;
+}
+
+static bool check_light(const struct reader *reader, const struct node *at, const struct node *map,
+                        const struct light_description *light)
+{
+    bool directed = light->kind == LIGHT_SUN || light->kind == LIGHT_DISC;
+    bool good = check_expect(reader, !directed || !check_zero(light->direction),
+                             check_value(map, at, "direction"), "the length of direction is 0");
+    if (light->kind == LIGHT_SPOT)
+        return check_spotlight(reader, at, map, light);
+    if (light->kind == LIGHT_SUN)
+        return check_expect(
+                   reader, light->unit != UNIT_RADIANCE || light->angle > 0,
+                   check_value(map, at, "radiance"),
+                   "a sun of angle 0 is a point, which has no radiance; give irradiance") &&
+               good;
+    if (light->kind == LIGHT_SKY)
+        return check_expect(reader, node_find(map, "radiance") || node_find(map, "file"), at,
+                            "sky needs one of radiance, file");
+    return good;
+}
+
 static void read_light(struct reader *reader, const struct schema_section *section,
                        const struct item *item, struct light_description *light)
 {

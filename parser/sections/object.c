@@ -4,6 +4,7 @@
 #include "parser/sections/check.h"
 #include "parser/sections/fill.h"
 #include "parser/sections/sections.h"
+#include <psplat/math.h>
 #include <stdlib.h>
 
 bool object_place(struct reader *reader, const struct item *item, const struct object_keys *keys,
@@ -96,6 +97,75 @@ static bool finish_shape(struct reader *reader, struct object_keys *keys,
     keys->vertices.items = NULL;
     keys->triangles.items = NULL;
     return true;
+}
+
+static bool check_cone(const struct reader *reader, const struct node *at, const struct node *map,
+                       const struct object_description *object)
+{
+    bool good = check_expect(reader, !ps_same(object->points[0], object->points[1]),
+                             check_value(map, at, "to"), "its two ends are at the same point");
+    return check_expect(reader,
+                        object->kind == OBJECT_CYLINDER || object->radius > 0 ||
+                            object->to_radius > 0,
+                        check_value(map, at, "to_radius"), "both radii of the cone are 0") &&
+           good;
+}
+
+static bool check_disc(const struct reader *reader, const struct node *at, const struct node *map,
+                       const struct object_description *object)
+{
+    return check_expect(reader, object->kind != OBJECT_DISC || object->hole_radius < object->radius,
+                        check_value(map, at, "hole"), "the hole is as large as the disc");
+}
+
+static bool check_count(const struct reader *reader, const struct node *map, const char *key,
+                        size_t count, size_t vertex_count)
+{
+    const struct item *item = node_find(map, key);
+    if (!item || count == vertex_count)
+        return true;
+    reader_error(reader, item->value,
+                 "%s in triangles: expected one for each of %zu vertices, got %zu", key,
+                 vertex_count, count);
+    return false;
+}
+
+static bool check_triangles(const struct reader *reader, const struct node *map,
+                            const struct object_keys *keys)
+{
+    bool good = check_count(reader, map, "normals", keys->normals.count, keys->vertices.count);
+    good = check_count(reader, map, "uv", keys->uv.count, keys->vertices.count) && good;
+    const struct item *item = node_find(map, "normals");
+    const ps_vec3 *normal = keys->normals.items;
+    for (const struct item *each = item ? item->value->first : NULL; each; each = each->next)
+        good = check_expect(reader, !check_zero(*normal++), each->value,
+                            "the length of this normal is 0") &&
+               good;
+    return good;
+}
+
+static bool check_object(const struct reader *reader, const struct node *at, const struct node *map,
+                         const struct object_keys *keys)
+{
+    const struct object_description *object = &keys->object;
+    bool facing = object->kind == OBJECT_DISC || object->kind == OBJECT_PLANE;
+    bool good = check_expect(reader, !facing || !check_zero(object->normal),
+                             check_value(map, at, "normal"), "the length of normal is 0");
+    switch (object->kind) {
+    case OBJECT_TRIANGLES:
+        return check_triangles(reader, map, keys);
+    case OBJECT_CYLINDER:
+    case OBJECT_CONE:
+        return check_cone(reader, at, map, object);
+    case OBJECT_DISC:
+        return check_disc(reader, at, map, object) && good;
+    case OBJECT_TORUS:
+        return check_expect(reader, object->minor_radius < object->radius,
+                            check_value(map, at, "minor_radius"),
+                            "minor_radius must be smaller than radius");
+    default:
+        return good;
+    }
 }
 
 static void read_shape(struct reader *reader, const struct item *item, struct object_keys *keys,

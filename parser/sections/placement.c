@@ -45,6 +45,17 @@ static struct affine from_matrix(const double m[12])
     };
 }
 
+static bool check_look_at(const struct reader *reader, const struct item *item,
+                          const struct look_at_keys *keys)
+{
+    if (ps_same(keys->from, keys->to))
+        return check_expect(reader, false, check_value(item->value, item->key, "to"),
+                            "to in look_at is the same as from; it must be another point");
+    return check_expect(reader, !check_up_along(keys->from, keys->to, keys->up),
+                        check_value(item->value, item->key, "up"),
+                        "up in look_at is along the way from 'from' to 'to'");
+}
+
 static bool read_look_at(struct reader *reader, const struct item *item, struct affine *placement)
 {
     struct look_at_keys keys = {.up = {0, 0, 0}};

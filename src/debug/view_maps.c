@@ -12,9 +12,10 @@
 #include "debug/project.h"
 #include "debug/selection.h"
 #include "host/photons.h"
-#include "host/place.h"
+#include "host/splats.h"
 #include "image/magnify.h"
 #include "image/tonemap.h"
+#include "placement/placement.h"
 #include <psplat/math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,7 +31,7 @@ static void offer_splats(struct render *render, const ps_photon *photons, size_t
 {
     for (size_t first = 0; first < n; first += BATCH) {
         size_t count = n - first < BATCH ? n - first : BATCH;
-        place_splats(render, photons + first, count, placed);
+        photons_place(render, photons + first, count, placed);
         for (size_t i = 0; i < count; i++) {
             float x, y;
             const ps_bundle *bundle = &placed[i].bundle;
@@ -210,7 +211,7 @@ static ps_result draw_picture(struct render *render, struct splat *splats, size_
                               double exposure, struct canvas *canvas, struct error *error)
 {
     render->counts_splats = true;
-    ps_result result = photons_begin_splats(render, 1, error);
+    ps_result result = splats_begin(render, 1, error);
     if (result == PS_OK)
         result = photons_add_splats(render, splats, n, error);
     if (result != PS_OK)

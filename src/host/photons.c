@@ -1,111 +1,110 @@
-/* photons.c: the services for photons and splats. */
+/* photons.c: the services for photons: they are handed out, placed and splatted in batches. */
 #include "host/photons.h"
 
 #include "base/clock.h"
+#include "base/parallel.h"
 #include "gather/gather.h"
 #include "host/host.h"
-#include "host/place.h"
+#include "host/splats.h"
 #include "placement/radius.h"
-#include <math.h>
-#include <stdlib.h>
+#include <psplat/math.h>
 
-static ps_result tabulate_filter(struct render *render, struct kernel_profile *profile,
-                                 struct error *error)
+/* --- placing ---------------------------------------------------------------------------------------- */
+
+/* Splats that can light nothing in view are dropped before more is done for them: of a large scene little is in
+ * view. Where few are dropped, asking takes longer than what it saves; then one batch in so many is asked. */
+#define ASK_EVERY 16
+#define ENOUGH_UNSEEN 0.125
+
+static void begin_batch(struct render *render)
 {
-    const struct strategy *filter = strategy_in(render, PS_FILTER);
-    float radius2[KERNEL_PROFILE_SIZE];
-    for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++)
-        radius2[i] = kernel_profile_radius2(i);
-    filter->type->table.filter.weigh(filter->state, radius2, profile->weights, KERNEL_PROFILE_SIZE);
-    if (kernel_profile_normalize(profile))
-        return PS_OK;
-    return error_set(error, PS_ERROR_INVALID,
-                     "filter %s: weights must not be negative, nor zero everywhere",
-                     filter->type->name);
+    struct unseen *unseen = &render->unseen;
+    unseen->asked = render->splatting && (unseen->many || unseen->batches % ASK_EVERY == 0);
+    unseen->batches++;
+    atomic_store(&unseen->in_batch, 0);
 }
 
-/* Photons placed, and their splats added, at a time. */
-#define PLACED 4096
+static void end_batch(struct render *render, size_t n)
+{
+    struct unseen *unseen = &render->unseen;
+    if (unseen->asked)
+        unseen->many = (double)atomic_load(&unseen->in_batch) > ENOUGH_UNSEEN * (double)n;
+}
 
-static ps_result create_splatter(struct render *render, uint32_t interleave, struct error *error)
+struct placement_scene place_scene(const struct render *render)
+{
+    float radius = render->scene->radius, spread = render->photons.spread;
+    uint64_t paths = render->photons.path_count;
+    return (struct placement_scene){
+        .radius = radius,
+        .surface_offset = render->scene->surface_offset,
+        .automatic_radius = radius_automatic(radius, spread, paths, render->pass.number),
+        .automatic_gather_distance = radius_automatic_gather_distance(radius, spread, paths),
+        .seed = render->settings->seed,
+        .camera = &render->scene->camera,
+        .interleave = render->has_splatter ? render->splatter.settings.interleave : 1,
+        .gather_distance = render->gathered_light.distance,
+    };
+}
+
+static bool may_light(const void *splatter, const struct splat *splat)
+{
+    return splatter_touches(splatter, splat);
+}
+
+static struct placement placement_of(struct render *render)
 {
     const struct strategy *visibility = strategy_in(render, PS_VISIBILITY);
-    const struct footprint_params *footprint = strategy_shared(visibility);
     const ps_visibility_vtable *table = &visibility->type->table.visibility;
-    struct splatter_settings settings = {
-        .host = visibility->host,
-        .visibility = table,
-        .visibility_state = visibility->state,
-        .resolution = table->depth_maps ? (uint32_t)footprint->resolution : 0,
-        .surface_offset = render->scene->surface_offset,
-        .kernel = render->kernel,
-        .interleave = render->counts_splats ? 1 : interleave,
-        .threads = render->settings->threads,
-        .batch = render->settings->batch,
+    return (struct placement){
+        .scene = place_scene(render),
+        .settings = strategy_shared(visibility),
+        .host = own_host(render),
+        .follows_rays = table->depth_maps || table->visible,
+        .has_maps = table->depth_maps,
+        .may_light = render->unseen.asked ? may_light : NULL,
+        .user = &render->splatter,
     };
-    ps_result result = PS_OK;
-    render->placed = malloc(PLACED * sizeof *render->placed);
-    if (!render->placed)
-        return error_memory(error, PLACED * sizeof *render->placed, "splats placed");
-    statistics_set_bytes(render->statistics, "splats placed",
-                         (double)(PLACED * sizeof *render->placed));
-    if (render->counts_splats)
-        kernel_profile_count(&settings.profile);
-    else
-        result = tabulate_filter(render, &settings.profile, error);
-    if (result == PS_OK)
-        result = splatter_create(&render->splatter, &render->gbuffer, &settings, error);
-    render->has_splatter = result == PS_OK;
-    return result;
 }
 
-/* Interleaving pays where n pixels are little beside a splat; in small pictures, or small parts of them, it
- * blurs edges and adds noise, and splats shrink as paths become more. (Under the light, 1600x900, 6.4 million
- * paths have 2.1 % of error with 8, and 1.7 % with 4, in the same time; 400,000 take a third less time
- * with 8.) Subsets by powers of two share out paths most evenly. */
-#define SIDE_PER_STEP 150.0 /* pixels of the picture's side for each step of n */
-#define MANY_PATHS 3000000
-#define MOST_FOR_MANY 4
+struct batch {
+    struct render *render;
+    struct placement placement;
+    const ps_photon *photons;
+    size_t n;
+    struct splat *splats;
+};
 
-static uint32_t automatic_interleave(const struct render *render, uint32_t most)
+static void place_chunk(void *user, uint64_t index, uint32_t worker)
 {
-    double side = PS_TILE_SIZE * sqrt((double)render->gbuffer.tile_count);
-    uint32_t n = 1;
-    while (2 * n <= most && 2 * n * SIDE_PER_STEP <= side)
-        n *= 2;
-    return n;
+    (void)worker;
+    const struct batch *batch = user;
+    struct render *render = batch->render;
+    ps_ray rays[PS_PATH_CHUNK] = {{.tnear = 0.0f}};
+    ps_hit hits[PS_PATH_CHUNK];
+    size_t first = index * PS_PATH_CHUNK, left = batch->n - first;
+    size_t n = left < PS_PATH_CHUNK ? left : PS_PATH_CHUNK;
+    const ps_photon *photons = batch->photons + first;
+    for (size_t i = 0; i < n; i++)
+        rays[i] = ps_leave_surface(photons[i].position, photons[i].normal, photons[i].direction,
+                                   render->scene->surface_offset);
+    trace_intersect(render->trace, RAYS_INCOHERENT, rays, n, hits);
+    uint32_t unseen = placement_place(&batch->placement, photons, hits, n, batch->splats + first);
+    atomic_fetch_add(&render->unseen.in_batch, unseen);
 }
 
-static uint32_t interleave_of(const struct render *render, uint32_t n, uint32_t most)
+void photons_place(struct render *render, const ps_photon *photons, size_t n, struct splat *splats)
 {
-    if (n == 0)
-        return automatic_interleave(render, most);
-    return n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
+    double start = clock_seconds();
+    uint64_t chunks = (n + PS_PATH_CHUNK - 1) / PS_PATH_CHUNK;
+    begin_batch(render);
+    struct batch batch = {render, placement_of(render), photons, n, splats};
+    parallel_for(render->settings->threads, chunks, place_chunk, &batch);
+    end_batch(render, n);
+    statistics_add_seconds(render->statistics, "place", clock_seconds() - start);
 }
 
-/* Short-range light stays as noisy when splats become small, and is averaged as widely. */
-static ps_result begin_interleaved(struct render *render, uint32_t n, struct error *error)
-{
-    bool many = render->photons.path_count > MANY_PATHS;
-    uint32_t most = many ? MOST_FOR_MANY : PS_MOST_INTERLEAVE;
-    render->gather_interleave = interleave_of(render, n, PS_MOST_INTERLEAVE);
-    return create_splatter(render, interleave_of(render, n, most), error);
-}
-
-ps_result photons_begin_splats(struct render *render, uint32_t n, struct error *error)
-{
-    ps_result result = photon_stream_prepare(&render->photons, error);
-    if (result == PS_OK && !render->has_splatter)
-        result = begin_interleaved(render, n, error);
-    if (result != PS_OK)
-        return result;
-    struct splatter_pass pass = {render->pass.number, render->photons.path_count};
-    splatter_begin_pass(&render->splatter, &render->gbuffer, pass);
-    render->gathered_light.distance = 0.0f;
-    place_begin(render);
-    render->splatting = true;
-    return PS_OK;
-}
+/* --- services --------------------------------------------------------------------------------------- */
 
 static ps_result host_begin_splats(const ps_host *host, uint32_t n)
 {
@@ -113,7 +112,7 @@ static ps_result host_begin_splats(const ps_host *host, uint32_t n)
     struct error error;
     if (!host_in_place(host, render->estimating, "begin_splats"))
         return PS_ERROR_INVALID;
-    return render_pass_on(render, photons_begin_splats(render, n, &error), &error);
+    return render_pass_on(render, splats_begin(render, n, &error), &error);
 }
 
 ps_result photons_add_splats(struct render *render, struct splat *splats, size_t n,
@@ -133,11 +132,11 @@ static ps_result host_splat(const ps_host *host, const ps_photon *photons, size_
     ps_result result = PS_OK;
     if (!host_in_place(host, render->estimating && render->splatting, "splat"))
         return PS_ERROR_INVALID;
-    for (size_t first = 0; first < n && result == PS_OK; first += PLACED) {
-        size_t count = n - first < PLACED ? n - first : PLACED;
+    for (size_t first = 0; first < n && result == PS_OK; first += SPLATS_PLACED) {
+        size_t count = n - first < SPLATS_PLACED ? n - first : SPLATS_PLACED;
         if (host_is_cancelled(render))
             return PS_CANCELLED;
-        place_splats(render, photons + first, count, render->placed);
+        photons_place(render, photons + first, count, render->placed);
         result = photons_add_splats(render, render->placed, count, &error);
     }
     return render_pass_on(render, result, &error);

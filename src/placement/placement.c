@@ -2,7 +2,6 @@
 #include "placement/placement.h"
 
 #include "placement/boundary.h"
-#include "placement/extent.h"
 #include "placement/footprint.h"
 #include "placement/radius.h"
 #include <math.h>
@@ -67,7 +66,7 @@ static uint32_t place_full(struct placing *placing, struct splat *splats)
             radius_largest(&placement->scene, placement->settings, &placing->photons[i]);
     if (placement->may_light)
         dropped = drop_unseen_full(placing, splats);
-    extent_find(placement, placing->photons, placing->n, placing->hits, placing->radii);
+    footprint_find_extents(placement, placing->photons, placing->n, placing->hits, placing->radii);
     place_footprints(placing, placing->hits, splats);
     if (placement->settings->boundary_correction)
         boundary_find(placement->host, placement->scene.surface_offset, placing->photons,

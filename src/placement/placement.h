@@ -27,7 +27,7 @@
  *    where bundles start at their photons (bandwidth.h), else one for the splat, at its first hit.
  *
  * 4. The footprint is an orthographic box around the bundle (footprint.h). Where pixels choose their own
- *    radius, it holds the largest that any of them may take (extent.h).
+ *    radius, it holds the largest that any of them may take (footprint_find_extents).
  *
  * 5. It starts `step_back` before the first hit, or, at `full`, at the photon's own tangent plane, so that
  *    each ray of the bundle lights what it meets first (Herzog et al. 2007). Where a wall stands on that plane,

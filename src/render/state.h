@@ -13,7 +13,7 @@
 #include "view/view.h"
 #include <stdatomic.h>
 
-/* Whether it pays to ask which splats light nothing in view (host/place.c). */
+/* Whether it pays to ask which splats light nothing in view (host/photons.c). */
 struct unseen {
     uint64_t batches; /* placed so far in the pass */
     bool asked;       /* in this batch */

@@ -4,7 +4,7 @@
 #include "debug/id_colour.h"
 #include "debug/legend.h"
 #include "debug/project.h"
-#include "host/place.h"
+#include "host/photons.h"
 #include "support/render_scene.h"
 
 #include <psplat/math.h>
@@ -135,7 +135,7 @@ static ps_result count_by_hand(void *user, struct render *render, struct error *
         assert_int_equal(photon_stream_next(&render->photons, &photons, &n, error), PS_OK);
         struct splat *splats = malloc((n + 1) * sizeof *splats);
         assert_non_null(splats);
-        place_splats(render, photons, n, splats);
+        photons_place(render, photons, n, splats);
         for (size_t i = 0; i < n; i++)
             for (size_t pixel = 0; pixel < PIXELS && splats[i].bundle.radius > 0; pixel++)
                 if (render->film.planes[FILM_COVERAGE][pixel] > 0)

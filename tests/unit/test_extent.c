@@ -1,6 +1,6 @@
 /* test_extent.c: how large the footprints of full bundles must be. The ray tracer is one of a single upright board,
  * written here. */
-#include "placement/extent.h"
+#include "placement/footprint.h"
 #include "placement/radius.h"
 
 #include <psplat/math.h>
@@ -46,7 +46,7 @@ static struct bundle find(struct board *board, struct footprint_params settings,
     ps_host host = {.core = board, .intersect_packets = trace};
     const struct placement placement = {.scene = scene, .settings = &settings, .host = &host};
     struct bundle bundle = {hit, radius_largest(&scene, &settings, &photon)};
-    extent_find(&placement, &photon, 1, &bundle.hit, &bundle.radius);
+    footprint_find_extents(&placement, &photon, 1, &bundle.hit, &bundle.radius);
     return bundle;
 }
 
@@ -107,7 +107,7 @@ static void test_leaves_wide_beams_and_none(void **state)
     ps_hit hit = nothing;
     float none = 0;
     const struct placement placement = {.scene = scene, .settings = &settings, .host = &host};
-    extent_find(&placement, &photon, 1, &hit, &none);
+    footprint_find_extents(&placement, &photon, 1, &hit, &none);
     assert_true(none == 0 && board.packets == 0);
 }
 

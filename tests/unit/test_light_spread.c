@@ -1,6 +1,6 @@
 /* test_light_spread.c: how far apart light lands that comes straight from the lights, and that splats of
  * automatic size follow it. */
-#include "host/place.h"
+#include "host/photons.h"
 #include "placement/radius.h"
 #include "render/state.h"
 #include "support/inject.h"
@@ -71,7 +71,7 @@ static ps_result check_size(void *user, struct render *render, struct error *err
     (void)user;
     assert_int_equal(photon_stream_next(&render->photons, &photons, &n, error), PS_OK);
     assert_true(n > 0);
-    place_splats(render, photons, 1, &splat);
+    photons_place(render, photons, 1, &splat);
     float radius = render->scene->radius;
     float expected = radius_automatic(radius, (float)spread_of_pool(), 4096, 0);
     assert_true(expected < 0.8f * radius_automatic(radius, 0, 4096, 0));

@@ -1,0 +1,103 @@
+/* splats.c: the filter's profile, the interleaving and the splatter, made when splats are first wanted. */
+#include "host/splats.h"
+
+#include "placement/placement.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static ps_result tabulate_filter(struct render *render, struct kernel_profile *profile,
+                                 struct error *error)
+{
+    const struct strategy *filter = strategy_in(render, PS_FILTER);
+    float radius2[KERNEL_PROFILE_SIZE];
+    for (size_t i = 0; i < KERNEL_PROFILE_SIZE; i++)
+        radius2[i] = kernel_profile_radius2(i);
+    filter->type->table.filter.weigh(filter->state, radius2, profile->weights, KERNEL_PROFILE_SIZE);
+    if (kernel_profile_normalize(profile))
+        return PS_OK;
+    return error_set(error, PS_ERROR_INVALID,
+                     "filter %s: weights must not be negative, nor zero everywhere",
+                     filter->type->name);
+}
+
+static ps_result create_splatter(struct render *render, uint32_t interleave, struct error *error)
+{
+    const struct strategy *visibility = strategy_in(render, PS_VISIBILITY);
+    const struct footprint_params *footprint = strategy_shared(visibility);
+    const ps_visibility_vtable *table = &visibility->type->table.visibility;
+    struct splatter_settings settings = {
+        .host = visibility->host,
+        .visibility = table,
+        .visibility_state = visibility->state,
+        .resolution = table->depth_maps ? (uint32_t)footprint->resolution : 0,
+        .surface_offset = render->scene->surface_offset,
+        .kernel = render->kernel,
+        .interleave = render->counts_splats ? 1 : interleave,
+        .threads = render->settings->threads,
+        .batch = render->settings->batch,
+    };
+    ps_result result = PS_OK;
+    render->placed = malloc(SPLATS_PLACED * sizeof *render->placed);
+    if (!render->placed)
+        return error_memory(error, SPLATS_PLACED * sizeof *render->placed, "splats placed");
+    statistics_set_bytes(render->statistics, "splats placed",
+                         (double)(SPLATS_PLACED * sizeof *render->placed));
+    if (render->counts_splats)
+        kernel_profile_count(&settings.profile);
+    else
+        result = tabulate_filter(render, &settings.profile, error);
+    if (result == PS_OK)
+        result = splatter_create(&render->splatter, &render->gbuffer, &settings, error);
+    render->has_splatter = result == PS_OK;
+    return result;
+}
+
+/* Interleaving pays where n pixels are little beside a splat; in small pictures, or small parts of them, it
+ * blurs edges and adds noise, and splats shrink as paths become more. (Under the light, 1600x900, 6.4 million
+ * paths have 2.1 % of error with 8, and 1.7 % with 4, in the same time; 400,000 take a third less time
+ * with 8.) Subsets by powers of two share out paths most evenly. */
+#define SIDE_PER_STEP 150.0 /* pixels of the picture's side for each step of n */
+#define MANY_PATHS 3000000
+#define MOST_FOR_MANY 4
+
+static uint32_t automatic_interleave(const struct render *render, uint32_t most)
+{
+    double side = PS_TILE_SIZE * sqrt((double)render->gbuffer.tile_count);
+    uint32_t n = 1;
+    while (2 * n <= most && 2 * n * SIDE_PER_STEP <= side)
+        n *= 2;
+    return n;
+}
+
+static uint32_t interleave_of(const struct render *render, uint32_t n, uint32_t most)
+{
+    if (n == 0)
+        return automatic_interleave(render, most);
+    return n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
+}
+
+/* Short-range light stays as noisy when splats become small, and is averaged as widely. */
+static ps_result begin_interleaved(struct render *render, uint32_t n, struct error *error)
+{
+    bool many = render->photons.path_count > MANY_PATHS;
+    uint32_t most = many ? MOST_FOR_MANY : PS_MOST_INTERLEAVE;
+    render->gather_interleave = interleave_of(render, n, PS_MOST_INTERLEAVE);
+    return create_splatter(render, interleave_of(render, n, most), error);
+}
+
+ps_result splats_begin(struct render *render, uint32_t n, struct error *error)
+{
+    ps_result result = photon_stream_prepare(&render->photons, error);
+    if (result == PS_OK && !render->has_splatter)
+        result = begin_interleaved(render, n, error);
+    if (result != PS_OK)
+        return result;
+    struct splatter_pass pass = {render->pass.number, render->photons.path_count};
+    splatter_begin_pass(&render->splatter, &render->gbuffer, pass);
+    render->gathered_light.distance = 0.0f;
+    render->unseen.many = false;
+    render->unseen.batches = 0;
+    render->splatting = true;
+    return PS_OK;
+}
