@@ -1,10 +1,12 @@
 #include "base/error.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 
 ps_result error_set(struct error *error, ps_result code, const char *format, ...)
 {
+    assert(code != PS_OK);
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(error->text, sizeof error->text, format, arguments);

@@ -2,6 +2,7 @@
 #include "base/json_writer.h"
 
 #include "base/text.h"
+#include <assert.h>
 
 static void start_item(struct json_writer *writer)
 {
@@ -37,6 +38,7 @@ void json_writer_open(struct json_writer *writer, char bracket)
 
 void json_writer_close(struct json_writer *writer, char bracket)
 {
+    assert(writer->depth > 0 && !writer->keyed);
     writer->depth--;
     if (writer->follows)
         fprintf(writer->stream, "\n%*s", 2 * writer->depth, "");
@@ -46,6 +48,7 @@ void json_writer_close(struct json_writer *writer, char bracket)
 
 void json_writer_key(struct json_writer *writer, const char *key)
 {
+    assert(writer->depth > 0 && !writer->keyed);
     start_item(writer);
     put_text(writer, key);
     fputs(": ", writer->stream);

@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 
+#include <assert.h>
 #include <omp.h>
 
 #if defined(__SSE2__)
@@ -50,6 +51,7 @@ uint32_t parallel_processor_count(void)
 
 void parallel_for(uint32_t threads, uint64_t count, parallel_body body, void *user)
 {
+    assert(threads > 0);
     /* nowait: the end of the region is barrier enough. */
 #pragma omp parallel num_threads((int)threads)
     {

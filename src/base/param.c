@@ -1,6 +1,7 @@
 #include "base/param.h"
 
 #include "base/text.h"
+#include <assert.h>
 #include <ctype.h>
 #include <inttypes.h>
 #include <math.h>
@@ -13,6 +14,7 @@
 
 const ps_param *param_row(const struct param_table *table, size_t index)
 {
+    assert(index < table->count);
     return (const ps_param *)(const void *)((const char *)table->rows + index * table->stride);
 }
 

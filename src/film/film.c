@@ -1,5 +1,6 @@
 #include "film/film.h"
 
+#include <assert.h>
 #include <psplat/math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -229,6 +230,7 @@ static size_t at_most_a_tile(size_t pixels)
 void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t index,
                    const bool left_out[PS_TILE_PIXELS])
 {
+    assert(index < gbuffer->tile_count);
     size_t x = (size_t)(index % gbuffer->tiles_across) * PS_TILE_SIZE;
     size_t y = (size_t)(index / gbuffer->tiles_across) * PS_TILE_SIZE;
     size_t rows = at_most_a_tile(film->height - y), columns = at_most_a_tile(film->width - x);

@@ -1,5 +1,6 @@
 #include "film/gbuffer.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,6 +106,7 @@ bool gbuffer_sees_nothing(const ps_tile *tile)
 void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throughput,
                    float travelled)
 {
+    assert(lane < PS_TILE_PIXELS);
     tile->position_x[lane] = hit->position.x;
     tile->position_y[lane] = hit->position.y;
     tile->position_z[lane] = hit->position.z;
@@ -136,6 +138,7 @@ static void clear_radiance(struct gbuffer *gbuffer, uint32_t index)
 
 void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t index)
 {
+    assert(index < gbuffer->tile_count);
     ps_tile *tile = &gbuffer->tiles[index];
     memset(tile, 0, sizeof *tile);
     clear_radiance(gbuffer, index);

@@ -4,6 +4,7 @@
  * entries, at a logarithmic search for each choice.
  */
 #include "host/alias.h"
+#include <assert.h>
 
 static double build(const float *weights, uint32_t n, ps_alias *table, uint32_t *order)
 {
@@ -44,6 +45,7 @@ static double build(const float *weights, uint32_t n, ps_alias *table, uint32_t 
 
 static uint32_t choose(const ps_alias *table, uint32_t n, double place, float number)
 {
+    assert(n > 0 && place >= 0.0 && place <= (double)n);
     uint32_t i = (uint32_t)place;
     i = i < n ? i : n - 1;
     return number < table[i].own ? i : table[i].other;

@@ -1,6 +1,7 @@
 /* transfer.c: the walk over what a mesh file can hold. */
 #include "import/transfer.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,6 +46,7 @@ static void move_bytes(struct transfer *transfer, void *bytes, size_t size)
 /* The array that *member, a pointer to any kind of object, owns; NULL stays NULL. */
 static void move_array(struct transfer *transfer, void *member, size_t count, size_t size)
 {
+    assert(size > 0);
     void *items;
     memcpy(&items, member, sizeof items);
     if (!items)

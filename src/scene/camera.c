@@ -1,5 +1,6 @@
 #include "scene/camera.h"
 
+#include <assert.h>
 #include <psplat/math.h>
 
 static double half_tangent(double degrees)
@@ -20,6 +21,7 @@ static double half_width_of(const struct camera_description *description, double
 struct camera camera_from_description(const struct camera_description *description, size_t width,
                                       size_t height)
 {
+    assert(width > 0 && height > 0);
     double aspect = (double)width / (double)height;
     double half_width = half_width_of(description, aspect);
     double half_height = half_width / aspect;

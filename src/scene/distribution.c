@@ -1,5 +1,6 @@
 #include "scene/distribution.h"
 
+#include <assert.h>
 #include <psplat/math.h>
 #include <stdlib.h>
 
@@ -56,6 +57,7 @@ static size_t choose(const float *cumulative, size_t count, float u, float *rest
 ps_result distribution_create(const float *weights, size_t count, struct distribution *distribution,
                               struct error *error)
 {
+    assert(count > 0);
     *distribution = (struct distribution){.count = count};
     distribution->cumulative = calloc(count, sizeof *distribution->cumulative);
     if (!distribution->cumulative)
@@ -72,17 +74,20 @@ void distribution_release(struct distribution *distribution)
 
 size_t distribution_choose(const struct distribution *distribution, float u, float *rest)
 {
+    assert(u >= 0.0f && u <= 1.0f);
     return choose(distribution->cumulative, distribution->count, u, rest);
 }
 
 float distribution_probability(const struct distribution *distribution, size_t entry)
 {
+    assert(entry < distribution->count);
     return share(distribution->cumulative, entry);
 }
 
 ps_result distribution_2d_create(const float *weights, size_t width, size_t height,
                                  struct distribution_2d *distribution, struct error *error)
 {
+    assert(width > 0 && height > 0);
     ps_result result;
     float *totals = calloc(height, sizeof *totals);
     float *cumulative = calloc(width * height, sizeof *cumulative);

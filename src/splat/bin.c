@@ -1,6 +1,7 @@
 #include "splat/bin.h"
 
 #include "base/parallel.h"
+#include <assert.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -77,6 +78,7 @@ static void add_pair(struct bin_chunk *chunk, uint32_t tile, uint32_t splat)
         chunk->failed = true;
         return;
     }
+    assert(chunk->count < chunk->capacity);
     chunk->tiles[chunk->count] = tile;
     chunk->splats[chunk->count++] = splat;
     chunk->counts[tile]++;

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "film/apron.h"
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,6 +27,7 @@ struct interleaved interleaved_layout(const struct gbuffer *gbuffer, uint32_t in
 ps_result interleaved_create(const struct gbuffer *gbuffer, uint32_t interleave,
                              struct interleaved *field, struct error *error)
 {
+    assert(interleave >= 1 && interleave <= PS_MOST_INTERLEAVE);
     *field = interleaved_layout(gbuffer, interleave);
     field->tiles = aligned_alloc(64, interleaved_bytes(field));
     return field->tiles

@@ -1,5 +1,6 @@
 #include "stratify/merge.h"
 
+#include <assert.h>
 #include <psplat/math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -125,6 +126,7 @@ static void merge_into_one(struct merging *merging, const ps_key_entry *entries,
 /* Deals the entries evenly, as they stand, among as many photons as the strata ask for. */
 static void merge_parts(struct merging *merging, const ps_key_entry *entries, size_t n)
 {
+    assert(n > 0);
     uint64_t most = merging->strata->most, wanted = merging->strata->per_stratum;
     size_t parts = wanted > 1 ? (size_t)wanted : 1;
     parts = parts < n ? parts : n;

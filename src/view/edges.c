@@ -3,6 +3,7 @@
 #include "base/sample.h"
 #include "view/pixel_filter.h"
 #include "view/view.h"
+#include <assert.h>
 #include <psplat/host.h>
 #include <psplat/tile.h>
 #include <string.h>
@@ -237,6 +238,7 @@ static void look_again(const struct edge_pass *pass, uint32_t tile, const bool *
 
 void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *film)
 {
+    assert(tile < pass->gbuffer->tile_count);
     bool *edges = &pass->edges[(size_t)tile * PS_TILE_PIXELS];
     if (pass->number == 0)
         edges_find(pass->gbuffer, tile, edges);

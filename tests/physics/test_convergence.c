@@ -78,15 +78,18 @@ static void test_stratifications_converge_to_none(void **state)
         {{"stratification=none", PHOTONS, EVEN},
          {"stratification=grid:resolution=32", "stratification=grid:resolution=128",
           "stratification=grid:resolution=512", "stratification=grid:resolution=2048"},
-         0.03, 0.003},
+         0.03,
+         0.003},
         {{"stratification=none", PHOTONS, EVEN},
          {"stratification=cascade:resolution=64", "stratification=cascade:resolution=256",
           "stratification=cascade:resolution=1024", "stratification=cascade:resolution=4096"},
-         0.03, 0.003},
+         0.03,
+         0.003},
         {{"stratification=none", PHOTONS, EVEN},
          {"stratification=octree:capacity=64", "stratification=octree:capacity=16",
           "stratification=octree:capacity=4", "stratification=octree:capacity=1"},
-         0.03, 0.003},
+         0.03,
+         0.003},
     };
     for (size_t i = 0; i < sizeof approximations / sizeof approximations[0]; i++)
         expect_convergence(&approximations[i]);
@@ -100,12 +103,14 @@ static void test_visibilities_converge_to_raycast(void **state)
          {"visibility=shadowmap:radius=30,boundary_correction=no,resolution=2",
           "visibility=shadowmap:radius=30,boundary_correction=no,resolution=8",
           "visibility=shadowmap:radius=30,boundary_correction=no,resolution=32"},
-         0.02, 0.005},
+         0.02,
+         0.005},
         {{"visibility=raycast:radius=30,boundary_correction=no", PHOTONS, "stratification=none"},
          {"visibility=imperfect:radius=30,boundary_correction=no,points=1000,resolution=4",
           "visibility=imperfect:radius=30,boundary_correction=no,points=20000,resolution=8",
           "visibility=imperfect:radius=30,boundary_correction=no,points=200000,resolution=16"},
-         0.05, 0.01},
+         0.05,
+         0.01},
     };
     for (size_t i = 0; i < sizeof approximations / sizeof approximations[0]; i++)
         expect_convergence(&approximations[i]);
@@ -118,11 +123,13 @@ static void test_injections_converge_to_photon(void **state)
         {{"injection=photon:count=60000", "visibility=none:radius=50", "stratification=none"},
          {"injection=rsm:count=60000,resolution=2", "injection=rsm:count=60000,resolution=8",
           "injection=rsm:count=60000,resolution=128"},
-         0.15, 0.01},
+         0.15,
+         0.01},
         {{"injection=photon:count=60000", "visibility=none:radius=50", "stratification=none"},
          {"injection=voxel:resolution=8", "injection=voxel:resolution=32",
           "injection=voxel:resolution=128"},
-         0.35, 0.01},
+         0.35,
+         0.01},
     };
     for (size_t i = 0; i < sizeof approximations / sizeof approximations[0]; i++)
         expect_convergence(&approximations[i]);
