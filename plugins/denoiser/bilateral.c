@@ -237,9 +237,9 @@ static ps_result init(void *opaque, const ps_host *host)
 
 static const ps_param params[] = {
     PS_INT(struct state, size, "9", 3, LARGEST, "pixels",
-           "side of the square that a pixel's light is gathered from; odd"),
+           "side of the square of pixels that are averaged; odd"),
     PS_NUMBER_OR(struct state, sigma, "auto", 0.1, 100, PS_PARAM_EXPERT, automatic, "pixels",
-                 "standard deviation of the blur; auto: what fits the size"),
+                 "standard deviation of the blur; auto: by the size"),
     PS_NUMBER(struct state, normal, "30", 1, 90, PS_PARAM_EXPERT, "degrees",
               "angle between normals from which on nothing crosses"),
     PS_NUMBER_OR(struct state, distance, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN | PS_PARAM_EXPERT,

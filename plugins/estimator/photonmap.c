@@ -7,7 +7,7 @@
  *     W    = 2 * integral of w(s) s ds over 0..1
  *
  * No cosine: the photons' density in the surface already falls with the slope of the light, unlike
- * a splat's kernel, which lies across the beam. The k-th photon sets r and is not counted itself,
+ * a splat's kernel, which lies across the bundle. The k-th photon sets r and is not counted itself,
  * or the estimate would be k / (k - 1) too large. Neighbourhoods are discs: photons off the tangent
  * plane weigh less, and those that arrive from behind the surface nothing.
  *

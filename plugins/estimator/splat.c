@@ -1,11 +1,11 @@
 /* splat.c: photon splatting: every photon is carried to the surface it lights and splatted there.
  *
  * Hoet 2014, chapter 3. A photon carries power Phi along w. With a kernel K (1/m^2) that integrates
- * to 1 over the disc across the beam, and visibility V of the bundle,
+ * to 1 over the disc across the bundle, and visibility V of the bundle,
  *
  *     E(p) += Phi * K(p) * V(p) * max(0, -n.w)        irradiance, W/m^2
  *
- * The cosine belongs here since K lies across the beam; a photon map's gather, whose kernel lies in
+ * The cosine belongs here since K lies across the bundle; a photon map's gather, whose kernel lies in
  * the surface, has none. The driver multiplies by albedo / pi. Placing, depth maps, bins and the
  * inner loop are the core's (src/splat), shared by whatever splats.
  *
@@ -15,7 +15,7 @@
 #include <psplat/plugin.h>
 
 struct state {
-    int64_t interleave;
+    ps_number_or_choice interleave;
     ps_number_or_choice gather_rays;
 };
 
@@ -39,23 +39,24 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     (void)pass;
     const struct state *state = opaque;
     int automatic = state->gather_rays.choice >= 0;
-    ps_result result = host->begin_splats(host, (uint32_t)state->interleave);
+    uint32_t n = state->interleave.choice >= 0 ? 0 : (uint32_t)state->interleave.number;
+    ps_result result = host->begin_splats(host, n);
     if (result == PS_OK && (automatic || state->gather_rays.number > 0))
         result = host->gather_short_range(host, automatic ? 0.0 : state->gather_rays.number);
     return result == PS_OK ? splat_all(host) : result;
 }
 
-static const char *const gather_rays_choices[] = {"auto", NULL};
+static const char *const automatic_choice[] = {"auto", NULL};
 
 static const ps_param params[] = {
-    PS_ROW(struct state, interleave, PS_PARAM_INT, "0", 0, PS_MOST_INTERLEAVE, PS_PARAM_EXPERT,
-           NULL, "pixels",
-           "n: a splat lights every n-th pixel across and down, and neighbours are averaged; 0: by "
-           "the picture's size and the number of light paths"),
-    PS_NUMBER_OR(
-        struct state, gather_rays, "auto", 0, 65536, PS_PARAM_EXPERT, gather_rays_choices, "rays",
-        "short rays, of each pixel and those that it is averaged with, for light from nearby, "
-        "which splats would blur; 0: it is splatted, too; auto: by the number of light paths"),
+    PS_NUMBER_OR(struct state, interleave, "auto", 1, PS_MOST_INTERLEAVE,
+                 PS_PARAM_EXPERT | PS_PARAM_WHOLE, automatic_choice, "pixels",
+                 "n: a splat lights every n-th pixel across and down, and neighbours are averaged; "
+                 "auto: by the size of the picture and the number of light paths"),
+    PS_NUMBER_OR(struct state, gather_rays, "auto", 0, 65536, PS_PARAM_EXPERT, automatic_choice,
+                 "rays",
+                 "rays of the short-range final gather, for a pixel and those that it is averaged "
+                 "with; auto: by the number of light paths; 0: none"),
 };
 
 static const ps_estimator_vtable vtable = {

@@ -206,7 +206,7 @@ static const ps_param params[] = {
     PS_INT(struct state, samples, "16", 1, 65536, "pixels",
            "pixels looked at for each pixel and pass"),
     PS_NUMBER(struct state, intensity, "1", 0, 1000, 0, "",
-              "strength; 1: a right-angled crease keeps about half of its light, 0: ambient"),
+              "strength; 1: a right-angled crease keeps about half of its light; 0: as ambient"),
     PS_NUMBER(struct state, bias, "0.01", 0, 1, PS_PARAM_EXPERT, "radii",
               "height above the surface that does not yet occlude, as a fraction of radius"),
 };

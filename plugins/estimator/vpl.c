@@ -176,10 +176,10 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
 
 static const ps_param params[] = {
     PS_INT(struct state, lights, "256", 1, 10000000, "lights",
-           "photons used as point lights, drawn from all; they get the power of all"),
+           "photons used as point lights; they are drawn from all and get the power of all"),
     PS_BOOL(struct state, visibility, "yes", "whether shadow rays decide what a light reaches"),
     PS_NUMBER_OR(struct state, clamp, "auto", 0, INFINITY, 0, clamp_choices, "scene units",
-                 "shorter distances count as this; auto: 5 % of the scene's radius, 0: none"),
+                 "shorter distances count as this; auto: 5 % of the scene's radius; 0: none"),
 };
 
 static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};

@@ -16,7 +16,7 @@ static const ps_descriptor descriptor = {
     .kind = PS_FILTER,
     .name = "tent",
     .version = "1.0",
-    .summary = "weight falls linearly from the centre to the edge",
+    .summary = "a weight that falls linearly from the centre to the edge",
     .paper = "Hoet 2014, section 3.3, figure 6",
     .vtable = &vtable,
 };

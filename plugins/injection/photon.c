@@ -61,8 +61,8 @@ static uint64_t path_count(const void *state)
     return (uint64_t)((const struct state *)state)->count;
 }
 
-/* Where there is more than one bounce. Light that was reflected once gains more from the even spread of walks
- * of its own (spotlit Cornell box, 400,000 paths: 1.7 % of noise, and 2.0 % with 4 a walk) than it costs. */
+/* Where there is more than one bounce. Light of a single bounce gains more from the even spread of separate
+ * walks than they cost. */
 #define AUTOMATIC_SPLIT 4
 
 static uint32_t split_of(const struct state *state, const ps_pass *pass)
@@ -314,11 +314,10 @@ static const ps_param params[] = {
     PS_INT(struct state, count, "100000", 1, 2000000000, "paths", "light paths in each pass"),
     PS_ROW(struct state, roulette, PS_PARAM_INT, "2", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),
-    PS_NUMBER_OR(
-        struct state, split, "auto", 1, MOST_SPLIT, PS_PARAM_EXPERT | PS_PARAM_WHOLE, split_choices,
-        "paths",
-        "light paths that share a walk, and leave its surfaces in so many directions; auto: 4 for "
-        "estimators that splat where nothing mirrors, else 1"),
+    PS_NUMBER_OR(struct state, split, "auto", 1, MOST_SPLIT, PS_PARAM_EXPERT | PS_PARAM_WHOLE,
+                 split_choices, "paths",
+                 "light paths that share a walk and leave its surfaces in different directions; "
+                 "auto: 4, or 1 where that is noisy"),
 };
 
 static const ps_injection_vtable vtable = {
@@ -332,7 +331,7 @@ static const ps_descriptor descriptor = {
     .kind = PS_INJECTION,
     .name = "photon",
     .version = "1.0",
-    .summary = "traces photons from the lights; each diffuse surface they meet becomes a photon",
+    .summary = "traces light paths, which leave a photon at each diffuse surface that they meet",
     .paper = "Jensen 1996, Global illumination using photon maps; Hoet 2014, section 3.2",
     .params = params,
     .param_count = sizeof params / sizeof params[0],

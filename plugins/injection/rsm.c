@@ -397,7 +397,7 @@ static ps_result init(void *opaque, const ps_host *host)
 
 static const ps_param params[] = {
     PS_INT(struct state, count, "100000", 1, 2000000000, "photons",
-           "pixels that are chosen in each pass, each for a photon"),
+           "pixels chosen in each pass; each becomes a photon"),
     PS_INT(struct state, resolution, "256", 1, 8192, "pixels", "pixels along the side of each map"),
 };
 
@@ -413,7 +413,8 @@ static const ps_descriptor descriptor = {
     .kind = PS_INJECTION,
     .name = "rsm",
     .version = "1.0",
-    .summary = "looks from the lights; pixels of these maps become photons, chosen by flux",
+    .summary =
+        "reflective shadow maps: pixels of maps from the lights become photons, chosen by flux",
     .paper = "Dachsbacher and Stamminger 2005, Reflective shadow maps; Hoet 2014, section 4.2",
     .params = params,
     .param_count = sizeof params / sizeof params[0],

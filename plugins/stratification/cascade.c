@@ -153,7 +153,7 @@ static const ps_param params[] = {
               "side of the cells of a grid over that of the next one inside"),
     PS_ROW(struct state, beyond, PS_PARAM_CHOICE, "merge", 0, 0, PS_PARAM_EXPERT, beyond_choices,
            "",
-           "photons outside of all grids; merge: by cells of the outermost size, drop: lose them"),
+           "what becomes of photons outside of all grids; merge: by cells of the outermost size"),
 };
 
 static const ps_stratification_vtable vtable = {

@@ -136,13 +136,13 @@ static const ps_param params[] = {
     PS_ROW(struct state, centre, PS_PARAM_CHOICE, "scene", 0, 0, PS_PARAM_EXPERT, centre_choices,
            "", "where the middle of the grid lies"),
     PS_ROW(struct state, threshold, PS_PARAM_INT, "2", 1, 1000000000, PS_PARAM_EXPERT, NULL,
-           "photons", "a cell with fewer merges with its block of 2x2x2; 1: none does"),
+           "photons", "a cell of fewer photons merges with its block of 2x2x2 cells; 1: none does"),
     PS_ROW(struct state, levels, PS_PARAM_INT, "1", 0, 20, PS_PARAM_EXPERT, NULL, "levels",
            "how often blocks may merge"),
     PS_ROW(struct state, bucket, PS_PARAM_INT, "0", 0, 1000000000, PS_PARAM_EXPERT, NULL, "photons",
-           "how many photons may become one; 0: any number"),
+           "largest number of photons that become one; 0: any number"),
     PS_ROW(struct state, per_cell, PS_PARAM_INT, "1", 1, 1000000000, PS_PARAM_EXPERT, NULL,
-           "photons", "how many photons stay in a cell that holds as many"),
+           "photons", "photons that stay in a cell that holds as many"),
 };
 
 static const ps_stratification_vtable vtable = {

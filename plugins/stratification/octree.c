@@ -101,9 +101,9 @@ static ps_result init(void *opaque, const ps_host *host)
 
 static const ps_param params[] = {
     PS_INT(struct state, capacity, "8", 1, 1000000000, "photons",
-           "a node that holds more splits into eight"),
+           "a node of more photons is split into eight"),
     PS_ROW(struct state, depth, PS_PARAM_INT, "10", 0, 20, PS_PARAM_EXPERT, NULL, "levels",
-           "how often nodes split at most; the photons of a deepest node merge, however many"),
+           "how often nodes are split at most"),
 };
 
 static const ps_stratification_vtable vtable = {

@@ -291,7 +291,7 @@ struct walk {
     float centre[3], w[3];
     float across[2][3]; /* u and v */
     float extent[3];    /* of the bundle's cross-section */
-    float reach;        /* half-width of the bundle, with a disc's radius */
+    float reach;        /* radius of the bundle and of a disc */
     float start, end;   /* depths between which the bundle is walked */
 };
 
@@ -354,7 +354,7 @@ static struct range beam_along(const struct walk *walk, int i, struct range dept
     return (struct range){fminf(a, b) - walk->extent[i], fmaxf(a, b) + walk->extent[i]};
 }
 
-/* Cuts a row of cells, (slab, row, x) for x in `range`, to what lies between the bundle's walls. */
+/* Cuts a row of cells, (slab, row, x) for x in `range`, to what lies between the bundle's boundaries. */
 static struct range cut_row(const struct walk *walk, int slab, int row, struct range range)
 {
     for (int wall = 0; wall < 2; wall++) {

@@ -48,7 +48,7 @@ static const ps_descriptor descriptor = {
     .kind = PS_VISIBILITY,
     .name = "raycast",
     .version = "1.0",
-    .summary = "one ray a pixel-splat pair: the reference of visibility",
+    .summary = "one ray for every pair of pixel and splat: the reference of visibility",
     .paper = "Hoet 2014, section 3.3, at unlimited resolution; Whitted 1980 (shadow rays)",
     .vtable = &vtable,
 };

@@ -4,10 +4,9 @@
  * Back faces count: a map that starts inside of something must see its far side, or light leaks
  * through.
  *
- * Pixels take light from before the walls beside a photon alone (ps_bundle.boundaries), but a texel that such
+ * Pixels take light from before the boundaries beside a photon alone (ps_bundle.boundaries), but a texel that such
  * a wall cuts may have its centre behind it, from where a ray would start inside of a block, or in the next
- * room, and darken the texel's other part for nothing. With 4x4 texels that kept back 1 % of all light in
- * the Cornell box. So rays start before the walls, too.
+ * room, and darken the texel's other part for nothing. So rays start before the boundaries, too.
  */
 #include <psplat/plugin.h>
 #include <string.h>
@@ -15,10 +14,10 @@
 #define BLOCK 4 /* texels along the side of a packet */
 #define RAYS (BLOCK * BLOCK)
 
-/* How far before a wall rays start at least, in half-widths. */
+/* How far before a wall rays start at least, in radii. */
 #define BEFORE_WALLS 0.05f
 
-/* Where the centres of texels lie across a bundle of half-width 1; past the border the last repeats. */
+/* Where the centres of texels lie across a bundle of radius 1; past the border the last repeats. */
 struct centres {
     float at[PS_MOST_TEXELS + BLOCK - 1];
 };
@@ -50,7 +49,7 @@ static struct places places_of(const ps_bundle *bundle, const struct centres *ce
 }
 
 /* Twice, for corners: the way out of one wall may lead into the other. */
-static void move_before_walls(const ps_bundle *bundle, struct places *places)
+static void move_before_boundaries(const ps_bundle *bundle, struct places *places)
 {
     for (int turn = 0; turn < 2; turn++)
         for (uint32_t k = 0; k < bundle->boundary_count; k++) {
@@ -86,7 +85,7 @@ static void trace_block(const ps_host *host, const ps_bundle *bundle, struct pla
 {
     _Alignas(64) ps_ray_packet packet;
     float start[RAYS], lengths[RAYS];
-    move_before_walls(bundle, &places);
+    move_before_boundaries(bundle, &places);
     load_rays(bundle, &places, &packet, start);
     memcpy(lengths, packet.tfar, sizeof lengths);
     host->intersect_packets(host, &packet, 1, 1);

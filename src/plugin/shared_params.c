@@ -13,21 +13,22 @@ static const char *const representatives[] = {"random", "nearest_mean", "dominan
         "radius of a splat; auto: by the scene, its light and the number of light paths"),         \
         PS_NUMBER(struct footprint_params, bandwidth_scale, "0.6", 0, INFINITY, PS_PARAM_EXPERT,   \
                   "",                                                                              \
-                  "limit of the radius, down to a part of it or to the interleaved pixels, as a "  \
-                  "fraction of the distance travelled; 0: none"),                                  \
-        PS_NUMBER_OR(struct footprint_params, depth, "auto", 0, INFINITY,                          \
-                     PS_PARAM_OPEN_MIN | PS_PARAM_EXPERT, automatic, "scene units",                \
-                     "reach of the box past the first hit; auto: what the hit's slope needs"),     \
+                  "largest radius that a pixel uses, as a fraction of its distance from the "      \
+                  "photon; 0: no limit"),                                                          \
         PS_NUMBER_OR(                                                                              \
-            struct footprint_params, step_back, step_back_default, 0, INFINITY, PS_PARAM_EXPERT,   \
-            step_back_choices, "scene units",                                                      \
-            "start of the box before the first hit; auto: by its slope, full: the photon"),        \
+            struct footprint_params, depth, "auto", 0, INFINITY,                                   \
+            PS_PARAM_OPEN_MIN | PS_PARAM_EXPERT, automatic, "scene units",                         \
+            "how far the footprint reaches past the first hit; auto: as the slope there needs"),   \
+        PS_NUMBER_OR(struct footprint_params, step_back, step_back_default, 0, INFINITY,           \
+                     PS_PARAM_EXPERT, step_back_choices, "scene units",                            \
+                     "how far before the first hit the footprint starts; auto: as the slope "      \
+                     "there needs; full: at the photon"),                                          \
         PS_NUMBER(struct footprint_params, max_merge_scale, "1.5", 1, INFINITY, PS_PARAM_EXPERT,   \
-                  "",                                                                              \
-                  "limit of the growth of the radius, sqrt(photons merged into one); 1: none"),    \
-        PS_ROW(struct footprint_params, boundary_correction, PS_PARAM_BOOL,                        \
-               boundary_correction_default, 0, 1, PS_PARAM_EXPERT, NULL, "",                       \
-               "full bundles make up for the part that walls beside their photon keep back")
+                  "", "largest factor by which the radius grows where photons were merged"),       \
+        PS_ROW(                                                                                    \
+            struct footprint_params, boundary_correction, PS_PARAM_BOOL,                           \
+            boundary_correction_default, 0, 1, PS_PARAM_EXPERT, NULL, "",                          \
+            "divides a full bundle's kernel by the part that walls beside the photon leave of it")
 
 /* Without a test of what is in the way, light leaks through a whole bundle: a footprint is kept short. */
 static const ps_param short_footprint[] = {FOOTPRINT_ROWS("auto", "no")};
@@ -36,19 +37,20 @@ static const ps_param short_footprint[] = {FOOTPRINT_ROWS("auto", "no")};
 static const ps_param footprint[] = {
     FOOTPRINT_ROWS("full", "yes"),
     PS_INT(struct footprint_params, resolution, "8", 1, PS_MOST_TEXELS, "texels",
-           "side of a depth map"),
+           "texels along the side of a depth map"),
     PS_NUMBER_OR(struct footprint_params, bias, "slope", 0, INFINITY, PS_PARAM_EXPERT, bias_choices,
-                 "scene units", "depth tolerance; slope: 0.75 texels times the receiver's slope"),
+                 "scene units",
+                 "depth tolerance; slope: 0.75 texels times the slope of the receiver"),
 };
 enum { FOOTPRINT_ROW_COUNT = sizeof footprint / sizeof footprint[0], MAP_ROWS = 2 };
 
 static const ps_param merging[] = {
     PS_ROW(struct merge_params, representative, PS_PARAM_CHOICE, "random", 0, 0, PS_PARAM_EXPERT,
            representatives, "",
-           "the photon that stays; random by power has no bias, the others have"),
+           "the photon of a stratum that stays; random: by luminance, without bias"),
     PS_NUMBER(struct merge_params, normal_angle, "60", 5, 180, PS_PARAM_EXPERT, "degrees",
-              "largest angle between the normal of a stratum's first photon and the others; "
-              "180: any"),
+              "largest angle between the normal of a stratum's first photon and those of the "
+              "others; 180: any"),
 };
 
 static struct param_table rows(const ps_param *first, size_t count)

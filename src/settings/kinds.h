@@ -7,7 +7,7 @@
 #define SETTINGS_KINDS_H
 
 #define STRATEGY_KINDS(X)                                                                          \
-    X(PS_INJECTION, "injection", "makes the indirect light sources", "photon")                     \
+    X(PS_INJECTION, "injection", "makes photons: indirect light that leaves surfaces", "photon")   \
     X(PS_STRATIFICATION, "stratification", "combines neighbouring photons into fewer", "none")     \
     X(PS_VISIBILITY, "visibility", "decides what a bundled light ray lights", "shadowmap")         \
     X(PS_FILTER, "filter", "radial weight of a splat", "gaussian")                                 \

@@ -63,14 +63,24 @@ agree "kinds of psplat-plugins(7)"
 part "$plugins" ".Sh STRATEGIES" | grep '^\.Ss' >page
 agree "strategies of psplat-plugins(7)"
 cp program strategies
-# Those for experts stand behind a line of their own.
+# The text begins with the summary, and that of each parameter with its help. Those for experts stand behind a
+# line of their own.
 while read -r heading; do
     "$PSPLAT" plugins --expert "${heading#.Ss }" | awk '
+        function sentence(text) {
+            sub(/^ */, "", text)
+            return toupper(substr(text, 1, 1)) substr(text, 2) "."
+        }
+        NR == 2 { print sentence($0) }
         /^parameters for experts:/ { level = "expert " }
         /^  [^ ]/ { name = $1; line = 0; next }
-        /^      / { if (++line == 2) { sub(/^ */, ""); print level ".It Cm " name " : No " $0 } }' >program
-    part "$plugins" "$heading" | awk '/^For experts:/ { level = "expert " } /^\.It/ { print level $0 }' >page
-    agree "parameters of ${heading#.Ss }"
+        /^      / && ++line == 1 { help = sentence($0) }
+        /^      / && line == 2 { sub(/^ */, ""); print level ".It Cm " name " : No " $0 " " help }' >program
+    part "$plugins" "$heading" | awk '
+        NR == 1
+        /^For experts:/ { level = "expert " }
+        /^\.It/ { item = $0; getline; print level item " " $0 }' >page
+    agree "text of ${heading#.Ss }"
 done <strategies
 for row in $(sed 's/^\.Ss //' strategies); do
     [ -f "$PSPLAT_SOURCE/plugins/${row%=*}/${row#*=}.c" ] || fail "$row is no plugin of psplat's"
