@@ -71,7 +71,7 @@ static struct colour dim(struct colour colour)
 }
 
 /* Draws a map of resolution^2 depths, a pixel a texel. The range of greys is the depths', but no less
- * than the box's half-width, so that what is flat looks flat. */
+ * than the splat's radius, so that what is flat looks flat. */
 static void draw_texels(const float *depths, uint32_t resolution, float half_width, uint8_t *rgb)
 {
     static const struct colour nothing = {40, 70, 190};

@@ -1,6 +1,6 @@
-/* gather.h: finds the light from nearer than splats are wide, by short rays from the pixels.
+/* gather.h: finds the light from closer than splats are wide, by short rays from the pixels.
  *
- * A kernel blurs what is smaller than itself: light that comes from nearer than a half-width, along creases
+ * A kernel blurs what is smaller than itself: light that comes from nearer than a radius, along creases
  * and under what stands close to a wall. There splats would have to be as small as the gaps, and would be so
  * noisy that they dominate the error. So what lights throw onto surfaces nearby is found by short rays, cosine-
  * distributed (after Kollig and Keller 2006, "Illumination in the presence of weak singularities", who make up

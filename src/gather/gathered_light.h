@@ -8,8 +8,7 @@
  *     max(0, 1 - (2 s / D)^2)
  *
  * which is next to 1 where they surely differ, and 0 where that may be chance (the garrote of Gao 1998, "Wavelet
- * shrinkage denoising using the non-negative garrote"). Means over 9, 25 and 49 pixels in between gain nothing
- * more.
+ * shrinkage denoising using the non-negative garrote").
  */
 #ifndef GATHER_GATHERED_LIGHT_H
 #define GATHER_GATHERED_LIGHT_H

@@ -2,6 +2,7 @@
 #include "placement/boundary.h"
 
 #include "placement/footprint.h"
+#include <assert.h>
 #include <psplat/math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -162,6 +163,7 @@ static int first_stopped(const float left[AZIMUTHS])
 
 static void add_boundary(const struct border *border, struct splat *splat)
 {
+    assert(splat->bundle.boundary_count < PS_MOST_BOUNDARIES);
     float inverse = sqrtf(border->a * border->a + border->b * border->b);
     ps_boundary *added = &splat->bundle.boundaries[splat->bundle.boundary_count++];
     *added = (ps_boundary){border->a / inverse, border->b / inverse, LOOK / inverse};

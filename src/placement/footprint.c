@@ -3,6 +3,7 @@
 
 #include "base/sample.h"
 #include "placement/radius.h"
+#include <assert.h>
 #include <psplat/math.h>
 
 /* The axes u, v turn by an angle of their own for each photon, so that texel borders don't line up.
@@ -28,8 +29,8 @@ static float slope_of(float cosine)
 
 /* A full bundle starts this far above the photon's tangent plane, as a fraction of the radius: surfaces
  * are not quite flat, and hollow ones rise above their tangent plane, by R^2 / 2r at the bundle's edge, and
- * must not block their own light. The bundle passes what lies lower, so that a room full of chairs comes
- * out 3 % too bright where all surfaces are taken for hollow. */
+ * must not block their own light. The bundle passes what lies lower, which makes a furnished room too bright
+ * where all surfaces are taken for hollow. */
 #define CLEARANCE 0.03125f
 #define HOLLOW_CLEARANCE 0.125f
 
@@ -91,6 +92,7 @@ struct splat footprint_place(const struct placement_scene *scene,
                              const struct footprint_params *settings, const ps_photon *photon,
                              const ps_hit *hit, float radius)
 {
+    assert(radius >= 0.0f && isfinite(radius));
     struct splat splat = {.power = photon->power, .merged = photon->merged, .path = photon->path};
     if (!(radius > 0.0f && hit->distance < INFINITY))
         return splat;
@@ -112,6 +114,7 @@ struct splat footprint_place(const struct placement_scene *scene,
 
 void footprint_cut(struct splat *splat, const float *depths, uint32_t resolution)
 {
+    assert(resolution > 0);
     float farthest = -INFINITY;
     for (uint32_t i = 0; i < resolution * resolution; i++)
         farthest = ps_max(depths[i], farthest);

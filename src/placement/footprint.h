@@ -4,7 +4,7 @@
  * axis to R beyond it, across. Three rules say where it begins (Hoet 2014, section 3.3):
  *
  *   a number  The thesis: that far before y. Where light arrives at a slope the lit surface leaves
- *             the box or shadows itself; 7 to 10 % of a Cornell box's light is lost, at any R.
+ *             the box or shadows itself, and light is lost at any R.
  *   auto      b = min(d, R tan(theta) + R/2) and depth R tan(theta) + R: room for the slope theta
  *             at y.
  *   full      From the photon itself, whose tangent plane is where the bundle starts: each ray of
@@ -39,7 +39,7 @@ struct splat footprint_place(const struct placement_scene *scene,
  * as its distance from the photon allows (bandwidth.h), and the box must hold all these parts. Where the axis
  * meets something near, a part of the bundle may go by and light what lies far behind with the whole disc;
  * where the axis meets nothing, what stands beside it may be lit all the same. Rays over the largest disc find
- * both: without them the front of the Cornell box's ceiling is 6 % too dark with splats of 100 mm.
+ * both.
  *
  * A bundle that meets nothing gets a hit on its axis, as far away as the nearest thing beside it (but no nearer
  * than its radius), with a normal of 0, as its slope is anything. One whose disc meets nothing either stays as
@@ -65,8 +65,8 @@ void footprint_open(const struct footprint_params *settings, struct splat *splat
 /* Depth tolerance of splats with maps. A pixel is compared with the texel that it
  * falls into, so its depth may differ by the slope of its surface times its distance to the texel's
  * centre, half a diagonal at most. A bias by slope grants that and little more: 0.75 texels *
- * tan(theta), theta between the light and the pixel's normal. Twice as much gives back 0.3 % of the
- * light in creases, and loses the shadow of a plate 10 cm before a wall. A constant bias either shadows
+ * tan(theta), theta between the light and the pixel's normal. Twice as much gives back
+ * light in creases, and loses the shadow of what is close to a wall. A constant bias either shadows
  * slopes (acne, and energy lost) or leaks at contacts; it stays selectable, for comparison with the
  * thesis. */
 void footprint_set_bias(const struct footprint_params *settings, struct splat *splats, size_t n);

@@ -4,6 +4,7 @@
 #include "placement/boundary.h"
 #include "placement/footprint.h"
 #include "placement/radius.h"
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -87,6 +88,7 @@ static uint32_t place_others(struct placing *placing, struct splat *splats)
 uint32_t placement_place(const struct placement *placement, const ps_photon *photons, ps_hit *hits,
                          size_t n, struct splat *splats)
 {
+    assert(n <= PS_PATH_CHUNK);
     struct placing placing = {.placement = placement, .photons = photons, .hits = hits, .n = n};
     uint32_t dropped = placement->settings->step_back.choice == STEP_BACK_FULL
                            ? place_full(&placing, splats)

@@ -39,7 +39,7 @@
  *
  * 7. A depth map tells what the bundle meets first, with a bias by the receiver's slope (footprint.h).
  *
- * The constants are measured: the least error over the shipped scenes (docs/notes/performance.md).
+ * The constants are measured: the least error over the shipped scenes (docs/notes/method.md).
  */
 #ifndef PLACEMENT_PLACEMENT_H
 #define PLACEMENT_PLACEMENT_H

@@ -17,14 +17,13 @@
 #define LEAST_BY_SPREAD 0.4
 
 /* How far gather rays reach, in radii of that many paths. Farther, they are noisier, and lose more where a pool of
- * light begins at less than that distance and ends beyond: at 3 radii `plate` has 2.0 % of error for 1.7. */
+ * light begins at less than that distance and ends beyond. */
 #define GATHER_RADII 2.5f
 
 /* A radius that follows the distance stops at this fraction of the largest. Without a floor, light that crosses a
- * corner from very near makes splats so small and bright that they dominate the error: at a fifth, a tenth of
- * the Cornell box's pixels hold two thirds of its variance. What lights shine on has the sharp edges of their
- * shadows, which large splats blur; what other surfaces light has none. Where light from close by is not
- * splatted, these blur less, and the radius may stop at what it is at that distance. */
+ * corner from very near makes splats so small and bright that they dominate the error. What lights shine on has
+ * the sharp edges of their shadows, which large splats blur; what other surfaces light has none. Where light from
+ * close by is not splatted, these blur less, and the radius may stop at what it is at that distance. */
 #define SMALLEST_LIT_BY_LIGHTS 0.3f
 #define SMALLEST_LIT_BY_SURFACES 0.6f
 

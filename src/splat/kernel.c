@@ -1,5 +1,6 @@
 #include "splat/kernel.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -94,10 +95,11 @@ void kernel_profile_count(struct kernel_profile *profile)
 
 static float boundaries_likeness(const struct splat *splat)
 {
-    const ps_boundary *walls = splat->bundle.boundaries;
+    const ps_boundary *boundaries = splat->bundle.boundaries;
     if (splat->bundle.boundary_count < 2)
         return 0.0f;
-    float cosine = walls[0].normal_u * walls[1].normal_u + walls[0].normal_v * walls[1].normal_v;
+    float cosine = boundaries[0].normal_u * boundaries[1].normal_u +
+                   boundaries[0].normal_v * boundaries[1].normal_v;
     return 2.0f / PS_PI * asinf(ps_max(ps_min(cosine, 1.0f), -1.0f));
 }
 
@@ -125,6 +127,8 @@ static struct bandwidth prepare_width(const struct splat *splat)
 struct kernel_splat kernel_prepare(const struct splat *splat, const struct kernel_profile *profile,
                                    const float *depths)
 {
+    assert(splat->bundle.boundary_count <= PS_MOST_BOUNDARIES);
+    assert(splat->bundle.radius > 0.0f && isfinite(splat->bundle.radius));
     float inverse = 1.0f / splat->bundle.radius;
     float merged = profile->counting ? 1.0f : ps_max(splat->merged, 1.0f);
     return (struct kernel_splat){

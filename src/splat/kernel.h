@@ -11,19 +11,19 @@
  *     irradiance += power * k * max(0, -n.W), weight += merged * k
  *
  * A bundle starts a little above its photon's surface (footprint_clearance); for a pixel that takes less of the
- * disc, by as much less, so that where two walls meet light reaches the crease.
+ * disc, by as much less, so that where two surfaces meet light reaches the crease.
  *
  * Near to the photon's plane pixels get a part of the light only (gather_share.h): the rest is the estimator's.
  *
  * A splat that stands for several photons weighs as much as they would (Hoet 2014, section 3.2.1); the
  * loop has that as a larger k of a lesser power.
  *
- * Where the photon has walls beside it (boundary.h), k is divided by the part of the kernel that they leave.
+ * Where the photon has boundaries beside it (boundary.h), k is divided by the part of the kernel that they leave.
  *
- * The cosine is there because K lies in the plane across the beam. Blocks of 16 pixels whose bounds
+ * The cosine is there because K lies in the plane across the bundle. Blocks of 16 pixels whose bounds
  * the box does not touch are left out, and a block is left as soon as no pixel of it can be lit: after
  * they are placed, after they chose their widths, and after they are weighed. No branches from lane to
- * lane: masks and gathers (from the depth map, the profile, and what walls leave), so that compilers turn
+ * lane: masks and gathers (from the depth map, the profile, and what boundaries leave), so that compilers turn
  * the loops into 8 or 16 lanes. It is compiled
  * once for each instruction set (kernel_variant.c) and chosen at run time; a pixel's sum runs in
  * splat order.
@@ -33,13 +33,13 @@
 
 #include "placement/bandwidth.h"
 #include "placement/gather_share.h"
-#include "splat/interleaved.h"
 #include "placement/splat.h"
+#include "splat/interleaved.h"
 #include <stdbool.h>
 
 #define KERNEL_PROFILE_SIZE 1024
 #define KERNEL_BOUNDARY_SIZE 257
-#define KERNEL_LEAST_LEFT 0.0625f /* walls make no splat brighter than 16 times */
+#define KERNEL_LEAST_LEFT 0.0625f /* boundaries make no splat brighter than 16 times */
 
 /* A filter, tabulated over squared radius. */
 struct kernel_profile {
@@ -53,7 +53,7 @@ struct kernel_profile {
 /* A splat with all that can be worked out once for all pixels. */
 struct kernel_splat {
     ps_vec3 centre;
-    ps_vec3 u, v; /* axes divided by the half-width */
+    ps_vec3 u, v; /* axes divided by the radius */
     ps_vec3 w;
     float near_depth, far_depth;
     float photon_depth, start_u,
@@ -71,7 +71,7 @@ struct kernel_splat {
     const float *depths; /* resolution^2 */
     uint32_t boundary_count;
     ps_boundary boundaries[PS_MOST_BOUNDARIES];
-    float boundaries_likeness; /* of two walls: 2 / pi * asin of their normals' cosine */
+    float boundaries_likeness; /* of two boundaries: 2 / pi * asin of their normals' cosine */
 };
 
 /* How far past the photon's plane a point lies, along the bundle. */
@@ -140,7 +140,7 @@ void kernel_profile_count(struct kernel_profile *profile);
 /* Squared radius of entry i. */
 float kernel_profile_radius2(size_t i);
 
-/* What the inner loop needs of a splat of half-width > 0; `depths` must outlive it. */
+/* What the inner loop needs of a splat of radius > 0; `depths` must outlive it. */
 struct kernel_splat kernel_prepare(const struct splat *splat, const struct kernel_profile *profile,
                                    const float *depths);
 

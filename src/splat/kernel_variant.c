@@ -88,7 +88,7 @@ static inline void list_by_block(const struct bounds *blocks, const struct kerne
 
 /* Where the pixels of a block lie in a splat's box. */
 struct placed_block {
-    float u[LANES], v[LANES];     /* across it, in half-widths */
+    float u[LANES], v[LANES];     /* across it, in radii */
     float t[LANES], above[LANES]; /* along it, from the centre and from the photon's plane */
     float facing[LANES]; /* cosine under which the light meets the surface; negative from behind */
     float width[LANES], inverse_width[LANES]; /* h and 1 / h; set by choose_widths */
@@ -226,7 +226,7 @@ static inline void look_beyond(const struct placed_block *placed, const ps_bound
     }
 }
 
-/* Divides by the part of the kernel that the walls beside the photon leave; behind them there is no such
+/* Divides by the part of the kernel that the boundaries beside the photon leave; behind them there is no such
  * photon. */
 static inline void make_up(const struct placed_block *placed, const struct kernel_splat *splat,
                            const float *beyond, struct block_light *light)

@@ -13,7 +13,7 @@
 
 #define LANES 16
 
-/* Bit i: whether condition i holds, 0 or -1 as vectors compare (of 1 AVX2 takes another step, 4 % of the kernel).
+/* Bit i: whether condition i holds, 0 or -1 as vectors compare (1 would cost AVX2 another step).
  * Aligned to 64 bytes. */
 static inline uint32_t lanes_mask(const int32_t conditions[LANES])
 {
