@@ -66,7 +66,7 @@ static const struct schema_row image_rows[] = {
     VALUE(PS_NUMBER(struct image_description, exposure, "0", -20, 20, 0, "stops",
                     "brightness of the PNG preview: each stop doubles it")),
     VALUE(PS_CHOICE(struct image_description, filter, "box", pixel_filters,
-                    "how the surroundings of a pixel's middle count in it")),
+                    "filter over the camera samples of a pixel")),
 };
 
 #define STRATEGY_ROW(kind_, name_, summary_, default_)                                             \
@@ -87,14 +87,12 @@ static const struct schema_row render_rows[] = {
                  "start of the random numbers")),
     VALUE(PS_INT(struct render_description, light_samples, "4", 1, 65536, "",
                  "shadow rays to each area light, for a pixel and pass")),
-    BOOL(
-        "discontinuity_buffer", offsetof(struct render_description, discontinuity_buffer), "no",
-        "whether pixels take in what their neighbours' shadow rays found, where they met the same"),
-    VALUE(PS_INT(
-        struct render_description, aa_samples, "1", 1, MOST_AA_SAMPLES, "",
-        "how many points of a pixel that differs from its neighbours are looked at in each pass")),
+    BOOL("discontinuity_buffer", offsetof(struct render_description, discontinuity_buffer), "no",
+         "whether direct light is averaged over neighbouring pixels that see the lights alike"),
+    VALUE(PS_INT(struct render_description, aa_samples, "1", 1, MOST_AA_SAMPLES, "",
+                 "camera samples in each pass of a pixel that differs from its neighbours")),
     VALUE(PS_CHOICE(struct render_description, direct, "rays", direct_ways,
-                    "how it is found what lights reach; those that have a size: by rays alone")),
+                    "how direct light finds shadows; area lights: by rays alone")),
     VALUE(PS_INT(struct render_description, direct_resolution, "1024", 1, 8192, "pixels",
                  "pixels along the side of each map of direct: shadowmap")),
     VALUE(PS_NUMBER(struct render_description, indirect_exposure, "1", 0, INFINITY, 0, "",

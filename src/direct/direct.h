@@ -9,7 +9,7 @@
 #include "direct/shadow_maps.h"
 #include "film/gbuffer.h"
 
-/* The lights, and how it is found what they reach. */
+/* The lights, and how their shadows are found. */
 struct lighting {
     const struct scene *scene;
     const struct trace *trace;

@@ -15,8 +15,8 @@
 double render_bytes(size_t width, size_t height)
 {
     struct gbuffer gbuffer = gbuffer_layout(width, height);
-    struct interleaved field = interleaved_layout(&gbuffer, 1);
-    return (double)gbuffer_bytes(&gbuffer) + (double)interleaved_bytes(&field) +
+    struct interleaved interleaved = interleaved_layout(&gbuffer, 1);
+    return (double)gbuffer_bytes(&gbuffer) + (double)interleaved_bytes(&interleaved) +
            (double)gathered_light_bytes(&gbuffer) + (double)film_most_bytes(width, height) +
            (double)picture_bytes(width, height);
 }

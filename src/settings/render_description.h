@@ -21,7 +21,7 @@ struct strategy_choice {
     struct origin origin;
 };
 
-/* How it is found what the lights reach. */
+/* How direct light finds shadows. */
 enum direct_light { DIRECT_RAYS, DIRECT_SHADOWMAP };
 
 #define MOST_AA_SAMPLES 1024

@@ -12,7 +12,7 @@
 struct interleaved interleaved_layout(const struct gbuffer *gbuffer, uint32_t interleave)
 {
     uint32_t side = interleave * PS_TILE_SIZE;
-    struct interleaved field = {
+    struct interleaved interleaved = {
         .interleave = interleave,
         .subsets = interleave * interleave,
         .tiles_across = (uint32_t)((gbuffer->width + side - 1) / side),
@@ -20,30 +20,31 @@ struct interleaved interleaved_layout(const struct gbuffer *gbuffer, uint32_t in
         .width = gbuffer->width,
         .height = gbuffer->height,
     };
-    field.tile_count = field.subsets * field.tiles_across * field.tiles_down;
-    return field;
+    interleaved.tile_count =
+        interleaved.subsets * interleaved.tiles_across * interleaved.tiles_down;
+    return interleaved;
 }
 
 ps_result interleaved_create(const struct gbuffer *gbuffer, uint32_t interleave,
-                             struct interleaved *field, struct error *error)
+                             struct interleaved *interleaved, struct error *error)
 {
     assert(interleave >= 1 && interleave <= PS_MOST_INTERLEAVE);
-    *field = interleaved_layout(gbuffer, interleave);
-    field->tiles = aligned_alloc(64, interleaved_bytes(field));
-    return field->tiles
-               ? PS_OK
-               : error_memory(error, interleaved_bytes(field), "the pixels that splats light");
+    *interleaved = interleaved_layout(gbuffer, interleave);
+    interleaved->tiles = aligned_alloc(64, interleaved_bytes(interleaved));
+    return interleaved->tiles ? PS_OK
+                              : error_memory(error, interleaved_bytes(interleaved),
+                                             "the pixels that splats light");
 }
 
-void interleaved_release(struct interleaved *field)
+void interleaved_release(struct interleaved *interleaved)
 {
-    free(field->tiles);
-    *field = (struct interleaved){.tiles = NULL};
+    free(interleaved->tiles);
+    *interleaved = (struct interleaved){.tiles = NULL};
 }
 
-size_t interleaved_bytes(const struct interleaved *field)
+size_t interleaved_bytes(const struct interleaved *interleaved)
 {
-    return field->tile_count * sizeof(struct interleaved_tile);
+    return interleaved->tile_count * sizeof(struct interleaved_tile);
 }
 
 /* Lane of a tile's pixel (x, y), and back. */
@@ -65,34 +66,35 @@ struct corner {
     uint32_t x, y;
 };
 
-static struct corner corner_of(const struct interleaved *field, uint32_t tile)
+static struct corner corner_of(const struct interleaved *interleaved, uint32_t tile)
 {
-    uint32_t each = field->tiles_across * field->tiles_down;
-    uint32_t subset = tile / each, place = tile % each, side = PS_TILE_SIZE * field->interleave;
+    uint32_t each = interleaved->tiles_across * interleaved->tiles_down;
+    uint32_t subset = tile / each, place = tile % each,
+             side = PS_TILE_SIZE * interleaved->interleave;
     return (struct corner){
-        place % field->tiles_across * side + subset % field->interleave,
-        place / field->tiles_across * side + subset / field->interleave,
+        place % interleaved->tiles_across * side + subset % interleaved->interleave,
+        place / interleaved->tiles_across * side + subset / interleaved->interleave,
     };
 }
 
-static bool pixel_from(const struct interleaved *field, struct corner corner, uint32_t lane,
+static bool pixel_from(const struct interleaved *interleaved, struct corner corner, uint32_t lane,
                        uint32_t *x, uint32_t *y)
 {
     uint32_t column, row;
     lane_place(lane, &column, &row);
-    *x = corner.x + column * field->interleave;
-    *y = corner.y + row * field->interleave;
-    return *x < field->width && *y < field->height;
+    *x = corner.x + column * interleaved->interleave;
+    *y = corner.y + row * interleaved->interleave;
+    return *x < interleaved->width && *y < interleaved->height;
 }
 
-bool interleaved_pixel(const struct interleaved *field, uint32_t tile, uint32_t lane, uint32_t *x,
-                       uint32_t *y)
+bool interleaved_pixel(const struct interleaved *interleaved, uint32_t tile, uint32_t lane,
+                       uint32_t *x, uint32_t *y)
 {
-    return pixel_from(field, corner_of(field, tile), lane, x, y);
+    return pixel_from(interleaved, corner_of(interleaved, tile), lane, x, y);
 }
 
 struct work {
-    const struct interleaved *field;
+    const struct interleaved *interleaved;
     const struct gbuffer *gbuffer;
 };
 
@@ -131,11 +133,11 @@ static void fill_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct work *work = user;
     const struct gbuffer *gbuffer = work->gbuffer;
-    struct interleaved_tile *tile = &work->field->tiles[index];
-    struct corner corner = corner_of(work->field, (uint32_t)index);
+    struct interleaved_tile *tile = &work->interleaved->tiles[index];
+    struct corner corner = corner_of(work->interleaved, (uint32_t)index);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
         uint32_t x, y, photon;
-        if (pixel_from(work->field, corner, lane, &x, &y)) {
+        if (pixel_from(work->interleaved, corner, lane, &x, &y)) {
             uint32_t from = gbuffer_tile_of(gbuffer, x, y, &photon);
             fill_lane(tile, lane, &gbuffer->tiles[from], photon);
         } else {
@@ -150,10 +152,11 @@ static void fill_tile(void *user, uint64_t index, uint32_t worker)
         bound_block(tile, block);
 }
 
-void interleaved_fill(struct interleaved *field, const struct gbuffer *gbuffer, uint32_t threads)
+void interleaved_fill(struct interleaved *interleaved, const struct gbuffer *gbuffer,
+                      uint32_t threads)
 {
-    struct work work = {field, gbuffer};
-    parallel_for(threads, field->tile_count, fill_tile, &work);
+    struct work work = {interleaved, gbuffer};
+    parallel_for(threads, interleaved->tile_count, fill_tile, &work);
 }
 
 /* --- joining ------------------------------------------------------------------------------------ */
@@ -166,7 +169,7 @@ struct apron {
     float weight[APRON_SIDE][APRON_SIDE];
 };
 
-/* Where the field keeps a column or a row of the picture. */
+/* Where the subsets keep a column or a row of the picture. */
 struct line_place {
     uint32_t subset, tile, lane; /* lane: 0..PS_TILE_SIZE - 1 */
     bool there;                  /* within the picture */
@@ -180,16 +183,18 @@ static struct line_place place_line(int64_t line, size_t end, uint32_t n)
     return (struct line_place){(uint32_t)line % n, own / PS_TILE_SIZE, own % PS_TILE_SIZE, true};
 }
 
-static void load_pixel(const struct interleaved *field, const struct line_place *x,
+static void load_pixel(const struct interleaved *interleaved, const struct line_place *x,
                        const struct line_place *y, struct apron *apron, int column, int row)
 {
     static const struct interleaved_tile nothing = {.position_x = {BOUNDS_NOWHERE}};
     const struct interleaved_tile *tile = &nothing;
     uint32_t lane = 0;
     if (x->there && y->there) {
-        uint32_t subset = y->subset * field->interleave + x->subset;
+        uint32_t subset = y->subset * interleaved->interleave + x->subset;
         tile =
-            &field->tiles[(subset * field->tiles_down + y->tile) * field->tiles_across + x->tile];
+            &interleaved
+                 ->tiles[(subset * interleaved->tiles_down + y->tile) * interleaved->tiles_across +
+                         x->tile];
         lane = lane_of(x->lane, y->lane);
     }
     apron->at.position_x[row][column] = tile->position_x[lane];
@@ -205,18 +210,19 @@ static void load_pixel(const struct interleaved *field, const struct line_place 
 }
 
 /* The tile whose first pixel is (left, top), and `reach` pixels around it. */
-static void load_apron(const struct interleaved *field, int64_t left, int64_t top, int reach,
+static void load_apron(const struct interleaved *interleaved, int64_t left, int64_t top, int reach,
                        struct apron *apron)
 {
     struct line_place columns[APRON_SIDE], rows[APRON_SIDE];
     int first = APRON_MARGIN - reach, end = APRON_MARGIN + PS_TILE_SIZE + reach;
     for (int i = first; i < end; i++) {
-        columns[i] = place_line(left + i - APRON_MARGIN, field->width, field->interleave);
-        rows[i] = place_line(top + i - APRON_MARGIN, field->height, field->interleave);
+        columns[i] =
+            place_line(left + i - APRON_MARGIN, interleaved->width, interleaved->interleave);
+        rows[i] = place_line(top + i - APRON_MARGIN, interleaved->height, interleaved->interleave);
     }
     for (int row = first; row < end; row++)
         for (int column = first; column < end; column++)
-            load_pixel(field, &columns[column], &rows[row], apron, column, row);
+            load_pixel(interleaved, &columns[column], &rows[row], apron, column, row);
 }
 
 /* What a row of pixels has gathered from its windows. */
@@ -287,25 +293,26 @@ static void join_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
-    const struct interleaved *field = work->field;
+    const struct interleaved *interleaved = work->interleaved;
     const struct gbuffer *gbuffer = work->gbuffer;
     int64_t left = (int64_t)(index % gbuffer->tiles_across) * PS_TILE_SIZE;
     int64_t top = (int64_t)(index / gbuffer->tiles_across) * PS_TILE_SIZE;
-    int reach = (int)field->interleave / 2;
+    int reach = (int)interleaved->interleave / 2;
     if (gbuffer_sees_nothing(&gbuffer->tiles[index]))
         return;
     struct apron apron = {0};
-    load_apron(field, left, top, reach, &apron);
+    load_apron(interleaved, left, top, reach, &apron);
     if (reach > 0 && apron_is_flat(&apron.at, reach)) {
-        join_flat(&apron, field->interleave, &gbuffer->tiles[index]);
+        join_flat(&apron, interleaved->interleave, &gbuffer->tiles[index]);
         return;
     }
     for (int row = 0; row < PS_TILE_SIZE; row++)
-        join_row(&apron, field->interleave, row, &gbuffer->tiles[index]);
+        join_row(&apron, interleaved->interleave, row, &gbuffer->tiles[index]);
 }
 
-void interleaved_join(const struct interleaved *field, struct gbuffer *gbuffer, uint32_t threads)
+void interleaved_join(const struct interleaved *interleaved, struct gbuffer *gbuffer,
+                      uint32_t threads)
 {
-    struct work work = {field, gbuffer};
+    struct work work = {interleaved, gbuffer};
     parallel_for(threads, gbuffer->tile_count, join_tile, &work);
 }

@@ -35,25 +35,27 @@ struct interleaved {
     struct interleaved_tile *tiles;    /* owned */
 };
 
-/* A field for a G-buffer of this size, and no memory for it. */
+/* Interleaved pixels of a G-buffer of this size, and no memory for it. */
 struct interleaved interleaved_layout(const struct gbuffer *gbuffer, uint32_t interleave);
 
-/* A field for a G-buffer of this size; `interleave` 1..PS_MOST_INTERLEAVE. */
+/* Interleaved pixels of a G-buffer of this size; `interleave` 1..PS_MOST_INTERLEAVE. */
 ps_result interleaved_create(const struct gbuffer *gbuffer, uint32_t interleave,
-                             struct interleaved *field, struct error *error);
-void interleaved_release(struct interleaved *field);
-size_t interleaved_bytes(const struct interleaved *field);
+                             struct interleaved *interleaved, struct error *error);
+void interleaved_release(struct interleaved *interleaved);
+size_t interleaved_bytes(const struct interleaved *interleaved);
 
 /* Column and row of a lane; false if it lies outside of the picture. */
-bool interleaved_pixel(const struct interleaved *field, uint32_t tile, uint32_t lane, uint32_t *x,
-                       uint32_t *y);
+bool interleaved_pixel(const struct interleaved *interleaved, uint32_t tile, uint32_t lane,
+                       uint32_t *x, uint32_t *y);
 
 /* Takes the surfaces from the G-buffer and zeroes the sums. */
-void interleaved_fill(struct interleaved *field, const struct gbuffer *gbuffer, uint32_t threads);
+void interleaved_fill(struct interleaved *interleaved, const struct gbuffer *gbuffer,
+                      uint32_t threads);
 
 /* Gives each pixel of the G-buffer the mean of what the subsets learned around it: over a window of
  * n pixels across and down, or n + 1 whose border weighs half where n is even, so that each subset
  * weighs the same inside of a surface; pixels off the same plane do not count. */
-void interleaved_join(const struct interleaved *field, struct gbuffer *gbuffer, uint32_t threads);
+void interleaved_join(const struct interleaved *interleaved, struct gbuffer *gbuffer,
+                      uint32_t threads);
 
 #endif

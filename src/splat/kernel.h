@@ -64,10 +64,10 @@ struct kernel_splat {
     float bias_constant, bias_slope;
     float by_width;     /* 1: k goes by 1 / h^2; 0: it is the same for all pixels (counting) */
     float kernel_scale; /* with `merged` in it, by which the power is divided, and the number of
-                           subsets of the field; 0: the splat lights
+                           subsets of the pixels; 0: the splat lights
                            nothing, and has no other member set */
     ps_rgb power;
-    uint32_t subset;     /* of the field, whose pixels it lights */
+    uint32_t subset;     /* of the interleaved pixels, which it lights */
     const float *depths; /* resolution^2 */
     uint32_t boundary_count;
     ps_boundary boundaries[PS_MOST_BOUNDARIES];

@@ -11,15 +11,15 @@ size_t pyramid_bytes(const struct pyramid *pyramid)
     return pyramid->each * pyramid->subsets * sizeof *pyramid->nodes;
 }
 
-ps_result pyramid_create(const struct interleaved *field, struct pyramid *pyramid,
+ps_result pyramid_create(const struct interleaved *interleaved, struct pyramid *pyramid,
                          struct error *error)
 {
     *pyramid = (struct pyramid){
-        .subsets = field->subsets,
-        .tiles_across = field->tiles_across,
-        .tiles_down = field->tiles_down,
+        .subsets = interleaved->subsets,
+        .tiles_across = interleaved->tiles_across,
+        .tiles_down = interleaved->tiles_down,
     };
-    uint32_t across = field->tiles_across, down = field->tiles_down;
+    uint32_t across = interleaved->tiles_across, down = interleaved->tiles_down;
     do {
         across = (across + PYRAMID_GROUP - 1) / PYRAMID_GROUP;
         down = (down + PYRAMID_GROUP - 1) / PYRAMID_GROUP;
@@ -42,7 +42,7 @@ void pyramid_release(struct pyramid *pyramid)
 
 struct build {
     struct pyramid *pyramid;
-    const struct interleaved *field;
+    const struct interleaved *interleaved;
 };
 
 static void grow(const struct bounds *bounds, uint32_t i, struct bound *bound)
@@ -79,7 +79,7 @@ static const struct bounds *children_of(const struct build *build, uint32_t subs
         return NULL;
     size_t place = (size_t)row * across + column;
     if (level == 0)
-        return &build->field->tiles[(size_t)subset * across * down + place].blocks;
+        return &build->interleaved->tiles[(size_t)subset * across * down + place].blocks;
     return &pyramid->nodes[subset * pyramid->each + pyramid->first[level - 1] + place];
 }
 
@@ -109,10 +109,10 @@ static void build_subset(void *user, uint64_t subset, uint32_t worker)
                 build_node(build, (uint32_t)subset, level, column, row);
 }
 
-void pyramid_build(struct pyramid *pyramid, const struct interleaved *field, uint32_t threads)
+void pyramid_build(struct pyramid *pyramid, const struct interleaved *interleaved, uint32_t threads)
 {
-    struct build build = {pyramid, field};
-    parallel_for(threads, field->subsets, build_subset, &build);
+    struct build build = {pyramid, interleaved};
+    parallel_for(threads, interleaved->subsets, build_subset, &build);
 }
 
 struct walk {

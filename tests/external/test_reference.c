@@ -3,7 +3,7 @@
  *
  * $PSPLAT_SHARED/reference/cornell, 800x450, direct light, one bounce, all bounces: B_*.exr of the
  * spot-lit Cornell box, A_*.exr of the box under its lamp, whose pixels, as bright as it is, are left
- * out with those beside them. Path tracing's means must agree within half a per cent in each channel,
+ * out with those beside them. Path tracing's means must agree within a thousandth in each channel,
  * and no block of 25 x 25 pixels may be off by more than its noise and its anti-aliased edges explain.
  * Splatting's means must agree within its own bias.
  */
@@ -125,7 +125,7 @@ static void compare(const char *name, const char *scene, int passes, const char 
                     const char *bounces)
 {
     const char *const choices[] = {estimator, bounces, NULL};
-    compare_scene(name, scene, passes, choices, 0.005, 0.05);
+    compare_scene(name, scene, passes, choices, 0.001, 0.04);
 }
 
 static void test_spot_direct(void **state)
@@ -168,10 +168,9 @@ static void test_lamp_all_bounces(void **state)
 static void test_lamp_by_splatting(void **state)
 {
     (void)state;
-    static const char *const choices[] = {"estimator=splat", "injection=photon:count=200000",
-                                          "bounces=all",
-                                          "visibility=shadowmap:radius=10,resolution=8", NULL};
-    compare_scene("A_full.exr", "cornell-area.psd", 2, choices, 0.01, 0.25);
+    static const char *const choices[] = {"estimator=splat", "injection=photon:count=400000",
+                                          "bounces=all", NULL};
+    compare_scene("A_full.exr", "cornell-area.psd", 4, choices, 0.005, 0.06);
 }
 
 int main(void)

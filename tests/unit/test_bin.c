@@ -20,7 +20,7 @@
 
 struct bench {
     struct gbuffer gbuffer;
-    struct interleaved field;
+    struct interleaved interleaved;
     struct pyramid pyramid;
     struct kernel_variant kernel;
     struct splat splats[SPLATS];
@@ -94,11 +94,12 @@ static int open_bench(void **state)
     for (int i = 0; i < SPLATS; i++)
         bench->prepared[i] = prepare(&bench->splats[i], (uint32_t)i % (INTERLEAVE * INTERLEAVE));
     assert_true(kernel_choose(NULL, &bench->kernel));
-    assert_int_equal(interleaved_create(&bench->gbuffer, INTERLEAVE, &bench->field, &error), PS_OK);
-    assert_int_equal(bench->field.tile_count, 4 * 10 * 7);
-    interleaved_fill(&bench->field, &bench->gbuffer, 2);
-    assert_int_equal(pyramid_create(&bench->field, &bench->pyramid, &error), PS_OK);
-    pyramid_build(&bench->pyramid, &bench->field, 2);
+    assert_int_equal(interleaved_create(&bench->gbuffer, INTERLEAVE, &bench->interleaved, &error),
+                     PS_OK);
+    assert_int_equal(bench->interleaved.tile_count, 4 * 10 * 7);
+    interleaved_fill(&bench->interleaved, &bench->gbuffer, 2);
+    assert_int_equal(pyramid_create(&bench->interleaved, &bench->pyramid, &error), PS_OK);
+    pyramid_build(&bench->pyramid, &bench->interleaved, 2);
     *state = bench;
     return 0;
 }
@@ -107,7 +108,7 @@ static int close_bench(void **state)
 {
     struct bench *bench = *state;
     pyramid_release(&bench->pyramid);
-    interleaved_release(&bench->field);
+    interleaved_release(&bench->interleaved);
     gbuffer_release(&bench->gbuffer);
     free(bench);
     return 0;
@@ -138,7 +139,7 @@ static struct bins sort(const struct bench *bench, size_t n, uint32_t threads)
 {
     struct bins bins;
     struct error error;
-    assert_int_equal(bins_create(bench->field.tile_count, &bins, &error), PS_OK);
+    assert_int_equal(bins_create(bench->interleaved.tile_count, &bins, &error), PS_OK);
     assert_int_equal(
         bins_sort(&bins, &bench->pyramid, &bench->kernel, bench->prepared, n, threads, &error),
         PS_OK);
@@ -160,7 +161,7 @@ static void test_holds_every_lit_pair(void **state)
     size_t lit = 0, pairs = bins.offsets[bins.tile_count];
     for (uint32_t tile = 0; tile < bins.tile_count; tile++)
         for (uint32_t i = tile / (10 * 7); i < SPLATS; i += INTERLEAVE * INTERLEAVE)
-            if (lights(&bench->field.tiles[tile], &bench->splats[i], 0)) {
+            if (lights(&bench->interleaved.tiles[tile], &bench->splats[i], 0)) {
                 lit++;
                 assert_true(holds(&bins, tile, i));
             }
@@ -202,7 +203,7 @@ static void test_leaves_out_what_lights_nothing(void **state)
     for (uint32_t tile = 0; tile < bins.tile_count; tile++) {
         bool empty = true;
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
-            empty = empty && bench->field.tiles[tile].position_x[lane] >= BOUNDS_NOWHERE;
+            empty = empty && bench->interleaved.tiles[tile].position_x[lane] >= BOUNDS_NOWHERE;
         empty_tiles += empty;
         if (empty)
             assert_int_equal(bins.offsets[tile], bins.offsets[tile + 1]);
@@ -264,7 +265,7 @@ static void test_range_of_the_subsets(void **state)
     }
     struct bins bins;
     struct error error;
-    assert_int_equal(bins_create(bench->field.tile_count, &bins, &error), PS_OK);
+    assert_int_equal(bins_create(bench->interleaved.tile_count, &bins, &error), PS_OK);
     assert_int_equal(bins_sort(&bins, &bench->pyramid, &bench->kernel, splats, SPLATS, 2, &error),
                      PS_OK);
     assert_int_equal(bins.first_tile, 10 * 7);
@@ -332,13 +333,13 @@ static void test_smallest_picture(void **state)
     assert_int_equal(gbuffer_create(1, 1, &gbuffer, &error), PS_OK);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         fill_lane(&gbuffer.tiles[0], lane, lane ? WIDTH : 1, 0);
-    struct interleaved field;
+    struct interleaved interleaved;
     struct kernel_variant kernel;
     assert_true(kernel_choose("baseline", &kernel));
-    assert_int_equal(interleaved_create(&gbuffer, 1, &field, &error), PS_OK);
-    interleaved_fill(&field, &gbuffer, 1);
-    assert_int_equal(pyramid_create(&field, &pyramid, &error), PS_OK);
-    pyramid_build(&pyramid, &field, 1);
+    assert_int_equal(interleaved_create(&gbuffer, 1, &interleaved, &error), PS_OK);
+    interleaved_fill(&interleaved, &gbuffer, 1);
+    assert_int_equal(pyramid_create(&interleaved, &pyramid, &error), PS_OK);
+    pyramid_build(&pyramid, &interleaved, 1);
     assert_int_equal(bins_create(1, &bins, &error), PS_OK);
     struct splat splats[2] = {{.bundle.radius = 0.1f, .near_depth = -1, .bundle.far_depth = 1}};
     splats[0].bundle.axis_u = (ps_vec3){1, 0, 0};
@@ -353,7 +354,7 @@ static void test_smallest_picture(void **state)
     assert_int_equal(bins.indices[0], 1);
     bins_release(&bins);
     pyramid_release(&pyramid);
-    interleaved_release(&field);
+    interleaved_release(&interleaved);
     gbuffer_release(&gbuffer);
 }
 

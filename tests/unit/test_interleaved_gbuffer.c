@@ -20,7 +20,7 @@
 
 struct bench {
     struct gbuffer gbuffer;
-    struct interleaved field;
+    struct interleaved interleaved;
 };
 
 static void see(ps_tile *tile, uint32_t lane, uint32_t x, uint32_t y)
@@ -47,14 +47,15 @@ static struct bench open_bench(uint32_t interleave)
                 see(&bench.gbuffer.tiles[tile], lane, x, y);
         }
     }
-    assert_int_equal(interleaved_create(&bench.gbuffer, interleave, &bench.field, &error), PS_OK);
-    interleaved_fill(&bench.field, &bench.gbuffer, 2);
+    assert_int_equal(interleaved_create(&bench.gbuffer, interleave, &bench.interleaved, &error),
+                     PS_OK);
+    interleaved_fill(&bench.interleaved, &bench.gbuffer, 2);
     return bench;
 }
 
 static void close_bench(struct bench *bench)
 {
-    interleaved_release(&bench->field);
+    interleaved_release(&bench->interleaved);
     gbuffer_release(&bench->gbuffer);
 }
 
@@ -73,12 +74,12 @@ static void test_every_pixel_has_a_lane(void **state)
         struct bench bench = open_bench(n);
         static uint8_t met[HEIGHT][WIDTH];
         memset(met, 0, sizeof met);
-        uint32_t each = bench.field.tiles_across * bench.field.tiles_down;
-        for (uint32_t tile = 0; tile < bench.field.tile_count; tile++)
+        uint32_t each = bench.interleaved.tiles_across * bench.interleaved.tiles_down;
+        for (uint32_t tile = 0; tile < bench.interleaved.tile_count; tile++)
             for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
                 uint32_t x, y, there;
-                float position = bench.field.tiles[tile].position_x[lane];
-                if (!interleaved_pixel(&bench.field, tile, lane, &x, &y)) {
+                float position = bench.interleaved.tiles[tile].position_x[lane];
+                if (!interleaved_pixel(&bench.interleaved, tile, lane, &x, &y)) {
                     assert_true(position >= BOUNDS_NOWHERE);
                     continue;
                 }
@@ -93,16 +94,16 @@ static void test_every_pixel_has_a_lane(void **state)
 }
 
 /* Sums that tell the subset: s + 1; half of that as weight. */
-static void light_subsets(struct interleaved *field)
+static void light_subsets(struct interleaved *interleaved)
 {
-    uint32_t each = field->tiles_across * field->tiles_down;
-    for (uint32_t tile = 0; tile < field->tile_count; tile++)
+    uint32_t each = interleaved->tiles_across * interleaved->tiles_down;
+    for (uint32_t tile = 0; tile < interleaved->tile_count; tile++)
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
             float value = (float)(tile / each + 1);
-            field->tiles[tile].irradiance_r[lane] = value;
-            field->tiles[tile].irradiance_g[lane] = 2 * value;
-            field->tiles[tile].irradiance_b[lane] = 3 * value;
-            field->tiles[tile].weight[lane] = 0.5f * value;
+            interleaved->tiles[tile].irradiance_r[lane] = value;
+            interleaved->tiles[tile].irradiance_g[lane] = 2 * value;
+            interleaved->tiles[tile].irradiance_b[lane] = 3 * value;
+            interleaved->tiles[tile].weight[lane] = 0.5f * value;
         }
 }
 
@@ -118,8 +119,8 @@ static void test_joins_all_subsets_alike(void **state)
     (void)state;
     for (uint32_t n = 1; n <= PS_MOST_INTERLEAVE; n++) {
         struct bench bench = open_bench(n);
-        light_subsets(&bench.field);
-        interleaved_join(&bench.field, &bench.gbuffer, 2);
+        light_subsets(&bench.interleaved);
+        interleaved_join(&bench.interleaved, &bench.gbuffer, 2);
         double mean = 0.5 * (n * n + 1);
         for (uint32_t y = n / 2; y < HEIGHT - n / 2; y++)
             for (uint32_t x = n / 2; n > 1 && x < WALL - n / 2; x++) {
@@ -140,13 +141,13 @@ static void test_surfaces_do_not_mix(void **state)
 {
     (void)state;
     struct bench bench = open_bench(4);
-    for (uint32_t tile = 0; tile < bench.field.tile_count; tile++)
+    for (uint32_t tile = 0; tile < bench.interleaved.tile_count; tile++)
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
             uint32_t x, y;
-            interleaved_pixel(&bench.field, tile, lane, &x, &y);
-            bench.field.tiles[tile].irradiance_r[lane] = x < WALL ? 1 : x < STEP ? 2 : 4;
+            interleaved_pixel(&bench.interleaved, tile, lane, &x, &y);
+            bench.interleaved.tiles[tile].irradiance_r[lane] = x < WALL ? 1 : x < STEP ? 2 : 4;
         }
-    interleaved_join(&bench.field, &bench.gbuffer, 2);
+    interleaved_join(&bench.interleaved, &bench.gbuffer, 2);
     for (uint32_t y = 0; y < HEIGHT; y++)
         for (uint32_t x = 0; x < WIDTH; x++) {
             uint32_t lane;
@@ -164,16 +165,16 @@ static void test_one_subset_is_a_copy(void **state)
 {
     (void)state;
     struct bench bench = open_bench(1);
-    for (uint32_t tile = 0; tile < bench.field.tile_count; tile++)
+    for (uint32_t tile = 0; tile < bench.interleaved.tile_count; tile++)
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
-            bench.field.tiles[tile].irradiance_g[lane] = 0.1f * (float)(tile * 7 + lane);
-    interleaved_join(&bench.field, &bench.gbuffer, 1);
-    interleaved_join(&bench.field, &bench.gbuffer, 1);
-    for (uint32_t tile = 0; tile < bench.field.tile_count; tile++)
+            bench.interleaved.tiles[tile].irradiance_g[lane] = 0.1f * (float)(tile * 7 + lane);
+    interleaved_join(&bench.interleaved, &bench.gbuffer, 1);
+    interleaved_join(&bench.interleaved, &bench.gbuffer, 1);
+    for (uint32_t tile = 0; tile < bench.interleaved.tile_count; tile++)
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
             uint32_t x, y, there;
-            float value = bench.field.tiles[tile].irradiance_g[lane];
-            if (interleaved_pixel(&bench.field, tile, lane, &x, &y) && x < VOID)
+            float value = bench.interleaved.tiles[tile].irradiance_g[lane];
+            if (interleaved_pixel(&bench.interleaved, tile, lane, &x, &y) && x < VOID)
                 assert_true(tile_at(&bench, x, y, &there)->irradiance_g[there] == value + value);
         }
     close_bench(&bench);
@@ -185,9 +186,9 @@ static void test_blocks_are_bounded(void **state)
     (void)state;
     struct bench bench = open_bench(2);
     size_t empty = 0;
-    for (uint32_t tile = 0; tile < bench.field.tile_count; tile++)
+    for (uint32_t tile = 0; tile < bench.interleaved.tile_count; tile++)
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-            const struct interleaved_tile *pixels = &bench.field.tiles[tile];
+            const struct interleaved_tile *pixels = &bench.interleaved.tiles[tile];
             const struct bounds *blocks = &pixels->blocks;
             uint32_t block = lane / INTERLEAVED_BLOCK;
             float z = pixels->position_z[lane];
