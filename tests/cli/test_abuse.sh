@@ -87,14 +87,10 @@ warned "estimator abusive made 2 $numbers"
 abuse rays estimator
 warned 'estimator abusive made 5 rays that are no numbers; they meet nothing$'
 abuse keep estimator
-# What it keeps is a leak, on purpose.
-lsan_options=${LSAN_OPTIONS:-}
-export LSAN_OPTIONS="detect_leaks=0:$lsan_options"
 # shellcheck disable=SC2086
-run 0 --size 48x27 $words -o a.exr --stats a.json "$cornell"
+run_leaking 0 --size 48x27 $words -o a.exr --stats a.json "$cornell"
 expect_text err "psplat: warning: estimator abusive kept 2 blocks of memory"
 expect_match a.json '"kept blocks": 2,?$'
-export LSAN_OPTIONS="$lsan_options"
 photons='photons that are no numbers or have negative power; they are left out$'
 for what in nan direction negative infinite; do
     abuse emit:$what injection

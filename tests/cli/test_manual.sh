@@ -95,9 +95,9 @@ cmp -s example.c "$PSPLAT_SOURCE/plugins/examples/filter.c" ||
 # --- statistics, layers and attributes ---
 
 : >statistics
-# gather_statistics WORD...: what a render with these options counts.
+# gather_statistics WORD...: what a render with these options counts, of modules that keep memory too.
 gather_statistics() {
-    run 0 -q --size 16x9 "$@" -o a.exr --stats a.json "$cornell"
+    run_leaking 0 -q --size 16x9 "$@" -o a.exr --stats a.json "$cornell"
     awk '/^  "/ { split($0, part, "\""); table = part[2] }
          /^    "/ { split($0, key, "\""); print table ": " key[2] }' a.json >>statistics
 }
