@@ -168,7 +168,7 @@ typedef struct ps_image_view {
     uint32_t size;
     uint32_t width, height;
     uint32_t passes;
-    float *r, *g, *b; /* indirect radiance, to change in place */
+    float *r, *g, *b; /* indirect radiance, or direct (PS_DENOISER_DIRECT), to change in place */
     /* Diffuse reflectance times the throughput of mirrors and glass before it: what radiance is of
      * irradiance / pi. Not the colour of what mirrors. */
     const float *albedo_r, *albedo_g, *albedo_b;
@@ -179,13 +179,18 @@ typedef struct ps_image_view {
     const float *coverage; /* passes in which a surface was seen */
     /* Where the table asks for them, else NULL: object and material of the first pass, PS_NO_OBJECT where
      * nothing is seen; and the indirect radiance of the even and of the odd passes alone, whose
-     * difference tells the noise: NULL, too, where there is one pass. */
+     * difference tells the noise: NULL, too, where there is one pass. Of direct light in one pass they are by the
+     * first and by the second half of the shadow rays; see PS_DENOISER_DIRECT. */
     const uint32_t *object, *material;
     const float *even_r, *even_g, *even_b, *odd_r, *odd_g, *odd_b;
 } ps_image_view;
 
 #define PS_DENOISER_IDS 1u    /* ps_image_view.object and material are there */
 #define PS_DENOISER_HALVES 2u /* ps_image_view.even_r to odd_b are there */
+/* Since 1.1. filter() is called a second time, for the direct light that surfaces reflect, with halves of it: of the
+ * passes, or of the shadow rays of a single pass. Not where its lights have no size, nor where the scene asks for
+ * one shadow ray and one pass, or for the discontinuity buffer. */
+#define PS_DENOISER_DIRECT 4u
 
 typedef struct ps_denoiser_vtable {
     uint32_t size;

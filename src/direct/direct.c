@@ -231,17 +231,17 @@ static void draw_runs(const struct light_runs *runs, uint64_t seed, uint32_t sam
         memcpy(numbers[i], drawn[runs->of_lane[points->lanes[i]]], sizeof numbers[i]);
 }
 
-/* Sums over the points of a tile, `samples` shadow rays each. */
+/* Sums over the points of a tile, the shadow rays of number `from` to `end` each. */
 static void add_samples(const struct receivers *receivers, uint64_t seed,
-                        const struct light_runs *runs, const ps_points *points, uint32_t samples,
-                        ps_rgb *irradiance)
+                        const struct light_runs *runs, const ps_points *points, uint32_t from,
+                        uint32_t end, ps_rgb *irradiance)
 {
     if (points->count == 0)
         return;
     float numbers[PS_TILE_PIXELS][4];
     struct receivers to = *receivers;
     to.numbers = to.lighting->scene->has_area_lights ? numbers : NULL;
-    for (uint32_t sample = 0; sample < samples; sample++) {
+    for (uint32_t sample = from; sample < end; sample++) {
         if (to.numbers)
             draw_runs(runs, seed, sample, points, numbers);
         add_lights(&to, irradiance);
@@ -252,9 +252,10 @@ void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer,
                        uint64_t seed, const struct light_runs *runs, uint32_t samples)
 {
     ps_rgb *direct = &gbuffer->direct[(size_t)index * PS_TILE_PIXELS];
-    ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}};
+    ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}}, first_half[PS_TILE_PIXELS];
     uint64_t occlusion[PS_TILE_PIXELS] = {0};
     samples = lighting->scene->has_area_lights ? samples : 1;
+    uint32_t half = (samples + 1) / 2;
     ps_points points;
     ps_collect_points(&gbuffer->tiles[index], &points);
     const struct receivers to = {.lighting = lighting,
@@ -262,11 +263,17 @@ void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer,
                                  .positions = points.positions,
                                  .normals = points.normals,
                                  .occlusion = gbuffer->occlusion ? occlusion : NULL};
-    add_samples(&to, seed, runs, &points, samples, irradiance);
+    add_samples(&to, seed, runs, &points, 0, half, irradiance);
+    memcpy(first_half, irradiance, sizeof first_half);
+    add_samples(&to, seed, runs, &points, half, samples, irradiance);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         direct[lane] = (ps_rgb){0, 0, 0};
     for (size_t i = 0; i < points.count; i++)
         direct[points.lanes[i]] = ps_rgb_scale(irradiance[i], 1.0f / (float)samples);
+    for (size_t i = 0; i < points.count && gbuffer->direct_half && samples > half; i++)
+        gbuffer->direct_half[(size_t)index * PS_TILE_PIXELS + points.lanes[i]] =
+            ps_rgb_scale(ps_rgb_add(irradiance[i], ps_rgb_scale(first_half[i], -1.0f)),
+                         1.0f / (float)(samples - half));
     for (size_t i = 0; i < points.count && gbuffer->occlusion; i++)
         gbuffer->occlusion[(size_t)index * PS_TILE_PIXELS + points.lanes[i]] = occlusion[i];
 }

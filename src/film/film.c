@@ -26,7 +26,7 @@ ps_result film_create(size_t width, size_t height, bool surfaces, struct film *f
 {
     *film = (struct film){.width = width, .height = height};
     for (int plane = 0; plane < FILM_PLANES; plane++) {
-        if (is_of_surfaces(plane) && !surfaces)
+        if ((is_of_surfaces(plane) && !surfaces) || plane >= FILM_ON_REQUEST)
             continue;
         film->planes[plane] = plane_create(width, height);
         if (!film->planes[plane]) {
@@ -52,19 +52,47 @@ static bool is_of_halves(int plane)
     return (plane >= FILM_COLOR_R && plane <= FILM_WEIGHT) || plane == FILM_COVERAGE;
 }
 
+static ps_result add_planes(struct film *film, bool (*wanted)(int plane), struct error *error)
+{
+    for (int plane = 0; plane < FILM_PLANES; plane++) {
+        if (!wanted(plane))
+            continue;
+        film->planes[plane] = plane_create(film->width, film->height);
+        if (!film->planes[plane])
+            return error_memory(error, film->width * film->height * sizeof(float), "the film");
+    }
+    return PS_OK;
+}
+
+static ps_result add_odd(struct film *film, bool half_of_pass, struct error *error)
+{
+    if (film->odd)
+        return PS_OK;
+    film->odd = malloc(sizeof *film->odd);
+    if (!film->odd)
+        return error_memory(error, sizeof *film->odd, "half the film");
+    *film->odd =
+        (struct film){.width = film->width, .height = film->height, .half_of_pass = half_of_pass};
+    return PS_OK;
+}
+
 ps_result film_add_halves(struct film *film, struct error *error)
 {
-    film->odd = calloc(1, sizeof *film->odd);
-    if (film->odd)
-        *film->odd = (struct film){.width = film->width, .height = film->height};
-    for (int plane = 0; plane < FILM_PLANES && film->odd; plane++) {
-        if (!is_of_halves(plane))
-            continue;
-        film->odd->planes[plane] = plane_create(film->width, film->height);
-        if (!film->odd->planes[plane])
-            return error_memory(error, film->width * film->height * sizeof(float), "half the film");
-    }
-    return film->odd ? PS_OK : error_memory(error, sizeof *film->odd, "half the film");
+    ps_result result = add_odd(film, false, error);
+    return result == PS_OK ? add_planes(film->odd, is_of_halves, error) : result;
+}
+
+static bool is_reflected(int plane)
+{
+    return plane >= FILM_REFLECTED_R && plane <= FILM_REFLECTED_B;
+}
+
+ps_result film_add_reflected(struct film *film, bool single_pass, struct error *error)
+{
+    ps_result result = add_odd(film, single_pass, error);
+    if (result == PS_OK)
+        result = add_planes(film, is_reflected, error);
+    return result == PS_OK ? add_planes(film->odd, is_reflected, error) : result;
 }
 
 void film_release(struct film *film)
@@ -91,7 +119,7 @@ size_t film_bytes(const struct film *film)
 
 size_t film_most_bytes(size_t width, size_t height)
 {
-    return width * height * sizeof(float) * FILM_PLANES;
+    return width * height * sizeof(float) * FILM_ON_REQUEST;
 }
 
 /* A row of a tile's pixels that are in the picture. */
@@ -150,6 +178,7 @@ static void add_reflected(struct film *film, const struct tile_row *row, int cha
     for (size_t i = 0; from->radiance && i < row->count; i++)
         indirect[i] += from->throughput[i] * from->radiance[i];
     add_seen(film, FILM_DIRECT_R + channel, row, direct);
+    add_seen(film, FILM_REFLECTED_R + channel, row, direct);
     add_seen(film, FILM_COLOR_R + channel, row, indirect);
     add_seen(film, FILM_ALBEDO_R + channel, row, albedo);
 }
@@ -208,13 +237,14 @@ static void take_ids(struct film *film, const struct tile_row *row)
            row->count * sizeof *film->material);
 }
 
-static struct tile_row row_of(const struct gbuffer *gbuffer, uint32_t tile, size_t lane,
-                              size_t pixel, size_t count)
+static struct tile_row row_of(const struct film *film, const struct gbuffer *gbuffer, uint32_t tile,
+                              size_t lane, size_t pixel, size_t count)
 {
     size_t first = (size_t)tile * PS_TILE_PIXELS + lane;
+    bool half = film->half_of_pass && gbuffer->direct_half;
     return (struct tile_row){
         .tile = &gbuffer->tiles[tile],
-        .direct = &gbuffer->direct[first],
+        .direct = half ? &gbuffer->direct_half[first] : &gbuffer->direct[first],
         .emitted = &gbuffer->emitted[first],
         .lane = lane,
         .pixel = pixel,
@@ -227,6 +257,12 @@ static size_t at_most_a_tile(size_t pixels)
     return pixels < PS_TILE_SIZE ? pixels : PS_TILE_SIZE;
 }
 
+/* Whether the pass that is being added belongs to film->odd as well. */
+static bool belongs_to_odd(const struct film *film)
+{
+    return film->odd && (film->odd->half_of_pass || film->passes % 2 == 1);
+}
+
 void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t index,
                    const bool left_out[PS_TILE_PIXELS])
 {
@@ -236,7 +272,8 @@ void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t in
     size_t rows = at_most_a_tile(film->height - y), columns = at_most_a_tile(film->width - x);
     for (size_t i = 0; i < rows; i++) {
         size_t lane = i * PS_TILE_SIZE;
-        struct tile_row row = row_of(gbuffer, index, lane, (y + i) * film->width + x, columns);
+        struct tile_row row =
+            row_of(film, gbuffer, index, lane, (y + i) * film->width + x, columns);
         for (size_t k = 0; k < columns; k++)
             row.shares[k] = left_out && left_out[lane + k] ? 0.0f : 1.0f;
         add_light(film, &row);
@@ -244,7 +281,7 @@ void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t in
         if (film->object && film->passes == 0)
             take_ids(film, &row);
     }
-    if (film->odd && film->passes % 2 == 1)
+    if (belongs_to_odd(film))
         film_add_tile(film->odd, gbuffer, index, left_out);
 }
 
@@ -256,7 +293,8 @@ void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t
     for (int plane = 0; plane < FILM_PLANES; plane++)
         row_of_sums.planes[plane] = film->planes[plane] ? sums[plane] : NULL;
     for (uint32_t done = 0; done < count; done += PS_TILE_SIZE) {
-        struct tile_row row = row_of(gbuffer, 0, first + done, 0, at_most_a_tile(count - done));
+        struct tile_row row =
+            row_of(film, gbuffer, 0, first + done, 0, at_most_a_tile(count - done));
         for (size_t i = 0; i < row.count; i++)
             row.shares[i] = share;
         add_light(&row_of_sums, &row);
@@ -265,13 +303,13 @@ void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t
     for (int plane = 0; plane < FILM_PLANES; plane++)
         for (size_t i = 0; i < PS_TILE_SIZE && film->planes[plane]; i++)
             film->planes[plane][y * film->width + x] += sums[plane][i];
-    if (film->odd && film->passes % 2 == 1)
+    if (belongs_to_odd(film))
         film_add_samples(film->odd, gbuffer, first, count, share, x, y);
 }
 
 void film_count_pass(struct film *film)
 {
-    if (film->odd && film->passes % 2 == 1)
+    if (belongs_to_odd(film))
         film->odd->passes++;
     film->passes++;
 }
@@ -280,7 +318,7 @@ static void average_light(struct film *film, int plane)
 {
     float *sums = film->planes[plane];
     float per_pass = film->passes ? 1.0f / (float)film->passes : 0.0f;
-    for (size_t i = 0; i < film->width * film->height; i++)
+    for (size_t i = 0; sums && i < film->width * film->height; i++)
         sums[i] *= per_pass;
 }
 
@@ -294,8 +332,12 @@ static void average_geometry(struct film *film, int plane)
 
 void film_average(struct film *film)
 {
-    for (int plane = FILM_DIRECT_R; plane <= FILM_DIRECT_B; plane++)
-        average_light(film, plane);
+    for (int channel = 0; channel < 3; channel++) {
+        average_light(film, FILM_DIRECT_R + channel);
+        average_light(film, FILM_REFLECTED_R + channel);
+        if (film->odd)
+            average_light(film->odd, FILM_REFLECTED_R + channel);
+    }
     if (!film->planes[FILM_DEPTH])
         return;
     for (int plane = FILM_ALBEDO_R; plane <= FILM_DEPTH; plane++)

@@ -27,6 +27,11 @@ enum film_plane {
     FILM_POSITION_Z,
     FILM_DEPTH,
     FILM_COVERAGE, /* passes, or shares of them, in which the pixel saw a surface */
+    /* From here on NULL where nobody asks. */
+    FILM_ON_REQUEST,
+    FILM_REFLECTED_R = FILM_ON_REQUEST,
+    FILM_REFLECTED_G,
+    FILM_REFLECTED_B, /* direct light reflected, alone */
     FILM_PLANES
 };
 
@@ -36,8 +41,10 @@ struct film {
     float *planes[FILM_PLANES]; /* each width * height, owned */
     uint32_t *object,
         *material; /* what pixels see in the first pass; owned, NULL where nobody asks */
-    struct film *
-        odd; /* the indirect light, weight and coverage of odd passes alone; owned, or NULL likewise */
+    /* Light, weight and coverage of the odd passes alone; or of a single pass the direct light by the second half of
+     * the shadow rays, `half_of_pass`. Owned; NULL where nobody asks. */
+    struct film *odd;
+    bool half_of_pass; /* this is such an odd film */
 };
 
 /* A film without passes. Without `surfaces` it keeps the light alone: planes from FILM_ALBEDO_R to FILM_DEPTH
@@ -47,12 +54,16 @@ ps_result film_create(size_t width, size_t height, bool surfaces, struct film *f
 /* Makes room for objects and materials. */
 ps_result film_add_ids(struct film *film, struct error *error);
 
-/* Lets the film keep the light of its odd passes apart as well. */
+/* Lets the film keep the indirect light of its odd passes apart as well. */
 ps_result film_add_halves(struct film *film, struct error *error);
+
+/* Lets it keep the direct light that is reflected apart from what is emitted, and half of it: of the passes, or of
+ * its only pass. */
+ps_result film_add_reflected(struct film *film, bool single_pass, struct error *error);
 
 void film_release(struct film *film);
 size_t film_bytes(const struct film *film);
-/* With all planes. */
+/* With all planes but those on request. */
 size_t film_most_bytes(size_t width, size_t height);
 
 /* Adds what one tile of a finished pass gathered, but for the lanes that are `left_out` (NULL: none);

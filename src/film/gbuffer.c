@@ -43,6 +43,15 @@ ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error)
                         "direct light");
 }
 
+ps_result gbuffer_prepare_direct_half(struct gbuffer *gbuffer, struct error *error)
+{
+    size_t count = (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
+    gbuffer->direct_half = calloc(count, sizeof *gbuffer->direct_half);
+    return gbuffer->direct_half
+               ? PS_OK
+               : error_memory(error, count * sizeof *gbuffer->direct_half, "direct light");
+}
+
 ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error)
 {
     size_t count = 3 * (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
@@ -58,6 +67,7 @@ void gbuffer_release(struct gbuffer *gbuffer)
     free(gbuffer->radiance);
     free(gbuffer->tiles);
     free(gbuffer->direct);
+    free(gbuffer->direct_half);
     free(gbuffer->emitted);
     free(gbuffer->by_chance);
     *gbuffer = (struct gbuffer){.tiles = NULL};
@@ -67,9 +77,10 @@ size_t gbuffer_bytes(const struct gbuffer *gbuffer)
 {
     size_t join = gbuffer->occlusion ? sizeof *gbuffer->occlusion + sizeof *gbuffer->joined : 0;
     size_t radiance = gbuffer->radiance ? 3 * sizeof(float) : 0;
+    size_t half = gbuffer->direct_half ? sizeof *gbuffer->direct_half : 0;
     return gbuffer->tile_count *
            (sizeof(ps_tile) +
-            PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool) + join + radiance));
+            PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool) + join + radiance + half));
 }
 
 bool gbuffer_pixel(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane, uint32_t *x,

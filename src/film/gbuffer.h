@@ -16,8 +16,10 @@
 struct gbuffer {
     size_t width, height;
     uint32_t tiles_across, tiles_down, tile_count;
-    ps_tile *tiles;  /* 64-byte aligned, owned */
-    ps_rgb *direct;  /* direct irradiance, tile_count * PS_TILE_PIXELS, owned */
+    ps_tile *tiles; /* 64-byte aligned, owned */
+    ps_rgb *direct; /* direct irradiance, tile_count * PS_TILE_PIXELS, owned */
+    /* The same by the second half of the shadow rays, likewise; NULL where nobody asks. */
+    ps_rgb *direct_half;
     ps_rgb *emitted; /* radiance collected on the way there, of the same size, owned */
     bool *by_chance; /* whether another look would take another way (a lens, gloss), likewise */
     /* What shadow rays met (see gbuffer_occlusion_alike), and room for direct light that is joined; likewise,
@@ -36,6 +38,9 @@ void gbuffer_release(struct gbuffer *gbuffer);
 
 /* Makes room for what discontinuity_buffer.h needs. */
 ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error);
+
+/* Makes room for direct light by half of the shadow rays. */
+ps_result gbuffer_prepare_direct_half(struct gbuffer *gbuffer, struct error *error);
 
 /* Makes room for indirect radiance. */
 ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error);

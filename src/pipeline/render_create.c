@@ -53,6 +53,20 @@ static ps_result create_edges(struct render *render, struct error *error)
     return render->edges ? PS_OK : error_memory(error, count * sizeof *render->edges, "edges");
 }
 
+/* Where a denoiser may smooth it: it has noise, which halves of it tell, and nothing else smooths it. */
+static ps_result create_reflected(struct render *render, struct error *error)
+{
+    const struct scene *scene = render->scene;
+    bool single_pass = render->settings->passes == 1;
+    ps_result result = PS_OK;
+    if (!scene->has_area_lights || render->settings->discontinuity_buffer ||
+        (single_pass && scene->light_samples == 1))
+        return PS_OK;
+    if (single_pass)
+        result = gbuffer_prepare_direct_half(&render->gbuffer, error);
+    return result == PS_OK ? film_add_reflected(&render->film, single_pass, error) : result;
+}
+
 /* What the tables of some strategies ask for. */
 static ps_result create_for_strategies(struct render *render, struct error *error)
 {
@@ -65,6 +79,8 @@ static ps_result create_for_strategies(struct render *render, struct error *erro
         result = film_add_ids(&render->film, error);
     if (result == PS_OK && denoiser & PS_DENOISER_HALVES && render->settings->passes > 1)
         result = film_add_halves(&render->film, error);
+    if (result == PS_OK && denoiser & PS_DENOISER_DIRECT)
+        result = create_reflected(render, error);
     return result;
 }
 

@@ -230,7 +230,7 @@ static ps_result make_halves(struct render *render, struct halves *halves, struc
     size_t plane = pixels_of(render) * sizeof(float);
     ps_result result = PS_OK;
     *halves = (struct halves){.light = NULL};
-    if (plane == 0 || !film->odd || film->odd->passes == 0)
+    if (plane == 0 || !film->odd || !film->odd->planes[FILM_COLOR_R] || film->odd->passes == 0)
         return PS_OK;
     float *sums = malloc(5 * plane);
     halves->light = malloc(6 * plane);
@@ -300,6 +300,62 @@ static ps_result denoise(struct render *render, struct rgb_planes indirect, stru
     return leave_out(render, PS_DENOISER, result, "is not denoised", error);
 }
 
+static struct rgb_planes reflected_of(const struct film *film)
+{
+    return (struct rgb_planes){film->planes[FILM_REFLECTED_R], film->planes[FILM_REFLECTED_G],
+                               film->planes[FILM_REFLECTED_B]};
+}
+
+/* What the other half leaves of a mean over `all` passes, or two halves of one, of which `odd` are in that half. */
+static void mean_of_rest(const float *mean, const float *odd_mean, float all, float odd,
+                         size_t pixels, float *rest)
+{
+    for (size_t i = 0; i < pixels; i++)
+        rest[i] = fmaxf((all * mean[i] - odd * odd_mean[i]) / (all - odd), 0.0f);
+}
+
+static struct halves halves_of_reflected(const struct film *film, float *even)
+{
+    size_t pixels = film->width * film->height;
+    float all = film->odd->half_of_pass ? 2.0f : (float)film->passes;
+    float odd = film->odd->half_of_pass ? 1.0f : (float)film->odd->passes;
+    for (int c = 0; c < 3; c++)
+        mean_of_rest(film->planes[FILM_REFLECTED_R + c], film->odd->planes[FILM_REFLECTED_R + c],
+                     all, odd, pixels, even + (size_t)c * pixels);
+    return (struct halves){.even = planes_at(even, pixels), .odd = reflected_of(film->odd)};
+}
+
+static void replace(float *restrict sum, const float *restrict old, const float *restrict new,
+                    size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        sum[i] = fmaxf(sum[i] - old[i], 0.0f) + new[i];
+}
+
+/* The direct light that surfaces reflect, where the film has it apart; needs room for a copy of it. */
+static ps_result denoise_direct(struct render *render, struct rgb_planes copy, struct error *error)
+{
+    struct film *film = &render->film;
+    struct rgb_planes reflected = reflected_of(film);
+    size_t pixels = pixels_of(render);
+    if (!reflected.r || film->odd->passes == 0)
+        return PS_OK;
+    float *even = malloc(3 * pixels * sizeof *even);
+    if (!even)
+        return leave_out(render, PS_DENOISER,
+                         error_memory(error, 3 * pixels * sizeof *even, "half of the direct light"),
+                         "is not denoised", error);
+    const struct halves halves = halves_of_reflected(film, even);
+    ps_result result = denoise(render, reflected, copy, &halves, error);
+    free(even);
+    if (result != PS_OK)
+        return result;
+    replace(film->planes[FILM_DIRECT_R], copy.r, reflected.r, pixels);
+    replace(film->planes[FILM_DIRECT_G], copy.g, reflected.g, pixels);
+    replace(film->planes[FILM_DIRECT_B], copy.b, reflected.b, pixels);
+    return PS_OK;
+}
+
 static void combine(const struct render *render, struct rgb_planes indirect, struct rgb_planes out)
 {
     float *const *planes = render->film.planes;
@@ -334,6 +390,8 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
                              ? denoise(render, indirect, picture, &halves, error)
                              : leave_out(render, PS_DENOISER, halved, "is not denoised", error);
     free(halves.light);
+    if (denoised == PS_OK)
+        denoised = denoise_direct(render, picture, error);
     combine(render, indirect, picture);
     result = move_film_layers(&render->film, image, error);
     statistics_add_seconds(render->statistics, "resolve", clock_seconds() - start);

@@ -53,8 +53,9 @@ expect_picture whole.exr
 # --- the module ---
 
 broken "does not begin with the magic number" -DMAGIC=1
-broken "it was built for plugin interface 2.0, this psplat has 1." -DABI_MAJOR=2
-broken "it was built for plugin interface 0.0, this psplat has 1." -DABI_MAJOR=0
+minor=$(sed -n 's/^#define PS_ABI_MINOR \([0-9]*\)u$/\1/p' "$PSPLAT_SOURCE/include/psplat/module.h")
+broken "it was built for plugin interface 2.$minor, this psplat has 1.$minor" -DABI_MAJOR=2
+broken "it was built for plugin interface 0.$minor, this psplat has 1.$minor" -DABI_MAJOR=0
 broken "it was built for plugin interface 1.99, this psplat has 1." -DABI_MINOR=99
 broken "its structs are laid out otherwise" "-DFINGERPRINT=(PS_LAYOUT_FINGERPRINT^256)"
 broken "no symbol psplat_module_v1" -DSYMBOL=psplat_module_v2

@@ -79,6 +79,10 @@ run 0 $other --threads 1 -o smooth1.exr
 run 0 $other --threads 3 --batch 100 -o smooth3.exr
 expect_same smooth1.exr smooth3.exr
 expect_different smooth1.exr other1.exr
+other="--size 80x45 --plugin estimator=pathtrace:samples=2 --passes 3 --plugin denoiser=regression $PSPLAT_SOURCE/scenes/cornell-area.psd"
+run 0 $other --threads 1 -o regression1.exr
+run 0 $other --threads 3 -o regression3.exr
+expect_same regression1.exr regression3.exr
 for stratification in grid:centre=camera,threshold=3,levels=4 cascade octree; do
     few="--size 80x45 --passes 2 -p injection=photon:count=3000 --bounces 3 -p stratification=$stratification $cornell"
     run 0 $few --threads 1 -o merged1.exr

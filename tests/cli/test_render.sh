@@ -46,7 +46,7 @@ expect_same new/c.png reference.png
 expect_same new/e.png reference.png
 
 # Without layers the film keeps no surfaces, unless a denoiser asks for them.
-for denoiser in none bilateral; do
+for denoiser in none bilateral regression; do
     run 0 $small --plugin denoiser=$denoiser -o new/with.exr -o new/with.png "$cornell"
     run 0 $small --plugin denoiser=$denoiser -o new/alone.png "$cornell"
     expect_same new/alone.png new/with.png

@@ -39,6 +39,18 @@ static void bounds(const ps_host *host, ps_vec3 *center, float *radius)
     *radius = BARE_HOST_RADIUS;
 }
 
+static void camera(const ps_host *host, ps_camera *camera)
+{
+    (void)host;
+    *camera = (ps_camera){
+        .size = sizeof *camera,
+        .projection = PS_ORTHOGRAPHIC,
+        .forward = {0, 0, -1},
+        .across = {BARE_HOST_PIXEL, 0, 0},
+        .down = {0, BARE_HOST_PIXEL, 0},
+    };
+}
+
 static ps_result refuse(const ps_host *host, ps_result result, const char *why)
 {
     struct bare_host *bare = bare_of(host);
@@ -62,6 +74,7 @@ void bare_host_create(struct bare_host *bare, uint32_t threads)
         .release = release,
         .parallel_for = loop,
         .scene_bounds = bounds,
+        .camera = camera,
         .cancelled = cancelled,
         .fail = refuse,
     };

@@ -6,9 +6,10 @@
 #include "plugin/strategy.h"
 
 #define BARE_HOST_RADIUS 100.0f
+#define BARE_HOST_PIXEL 0.1f
 
 /* A host that has memory, loops on `threads` threads, the bounds of a scene with its centre in the origin and
- * radius BARE_HOST_RADIUS, says whether it is cancelled, and keeps failures; nothing else. */
+ * radius BARE_HOST_RADIUS, an orthographic camera with pixels of side BARE_HOST_PIXEL, says whether it is cancelled, and keeps failures; nothing else. */
 struct bare_host {
     ps_host host;
     uint32_t threads;

@@ -1,4 +1,5 @@
 /* test_bilateral.c: the denoiser `bilateral` on G-buffers made by hand. */
+#include "support/denoiser_picture.h"
 #include "support/one_strategy.h"
 #include "support/random.h"
 
@@ -12,107 +13,7 @@
 
 #include <cmocka.h>
 
-#define WIDTH 150 /* two whole blocks of the loop, and a part */
-#define HEIGHT 24
-#define PIXELS (WIDTH * HEIGHT)
 #define ROUNDING 2e-5f /* of a mean of equal numbers, relative */
-
-struct picture {
-    float light[3][PIXELS], albedo[3][PIXELS], normal[3][PIXELS], position[3][PIXELS];
-    float depth[PIXELS];
-};
-
-static void set_vector(float (*planes)[PIXELS], int pixel, ps_vec3 v)
-{
-    planes[0][pixel] = v.x;
-    planes[1][pixel] = v.y;
-    planes[2][pixel] = v.z;
-}
-
-static ps_vec3 vector_at(const float (*planes)[PIXELS], int pixel)
-{
-    return (ps_vec3){planes[0][pixel], planes[1][pixel], planes[2][pixel]};
-}
-
-/* A level floor of albedo 1 and radiance 1, pixels 0.1 apart. */
-static struct picture *level_floor(void)
-{
-    struct picture *picture = calloc(1, sizeof *picture);
-    assert_non_null(picture);
-    for (int i = 0; i < PIXELS; i++) {
-        int x = i % WIDTH, y = i / WIDTH;
-        set_vector(picture->light, i, (ps_vec3){1, 1, 1});
-        set_vector(picture->albedo, i, (ps_vec3){1, 1, 1});
-        set_vector(picture->normal, i, (ps_vec3){0, 0, 1});
-        set_vector(picture->position, i, (ps_vec3){0.1f * (float)x, 0.1f * (float)y, 0});
-        picture->depth[i] = 5;
-    }
-    return picture;
-}
-
-/* A wavy surface of many colours under noise, with pixels that see nothing. */
-static struct picture *wild_picture(uint64_t seed)
-{
-    struct random random = {seed};
-    struct picture *picture = level_floor();
-    for (int i = 0; i < PIXELS; i++) {
-        float x = picture->position[0][i], y = picture->position[1][i];
-        ps_vec3 normal = {-0.8f * cosf(2 * x), 0.6f * sinf(3 * y), 1};
-        picture->position[2][i] = 0.4f * sinf(2 * x) + 0.2f * cosf(3 * y);
-        /* Means of several passes are shorter than 1. */
-        float length = random_between(&random, 0.7f, 1.0f);
-        set_vector(picture->normal, i, ps_scale(ps_normalize(normal), length));
-        for (int c = 0; c < 3; c++) {
-            picture->albedo[c][i] = random_unit(&random) < 0.1f ? 0 : random_unit(&random);
-            picture->light[c][i] = picture->albedo[c][i] * random_between(&random, 0.5f, 3.0f);
-        }
-        if (random_unit(&random) < 0.05f) {
-            picture->depth[i] = INFINITY;
-            set_vector(picture->normal, i, (ps_vec3){0, 0, 0});
-            set_vector(picture->position, i, (ps_vec3){0, 0, 0});
-            set_vector(picture->light, i, (ps_vec3){0, 0, 0});
-        }
-    }
-    return picture;
-}
-
-static void denoise_or_stop(struct picture *picture, const char *choice, uint32_t threads,
-                            bool cancelled)
-{
-    struct bare_host bare;
-    const ps_image_view view = {
-        .size = sizeof view,
-        .width = WIDTH,
-        .height = HEIGHT,
-        .r = picture->light[0],
-        .g = picture->light[1],
-        .b = picture->light[2],
-        .albedo_r = picture->albedo[0],
-        .albedo_g = picture->albedo[1],
-        .albedo_b = picture->albedo[2],
-        .normal_x = picture->normal[0],
-        .normal_y = picture->normal[1],
-        .normal_z = picture->normal[2],
-        .position_x = picture->position[0],
-        .position_y = picture->position[1],
-        .position_z = picture->position[2],
-        .depth = picture->depth,
-    };
-    bare_host_create(&bare, threads);
-    bare.cancelled = cancelled;
-    struct strategy strategy = strategy_of(choice);
-    const ps_denoiser_vtable *vtable = &strategy.type->table.denoiser;
-    assert_int_equal(strategy_start(&strategy, &bare.host), PS_OK);
-    assert_int_equal(vtable->filter(strategy.state, &bare.host, &view),
-                     cancelled ? PS_CANCELLED : PS_OK);
-    assert_int_equal(bare.live_allocations, 0);
-    strategy_release(&strategy);
-}
-
-static void denoise(struct picture *picture, const char *choice, uint32_t threads)
-{
-    denoise_or_stop(picture, choice, threads, false);
-}
 
 /* --- against the formula, pixel by pixel in double precision --- */
 
@@ -221,29 +122,16 @@ static bool crosses(struct picture *picture, const char *choice)
     return off > ROUNDING;
 }
 
-/* The right half is tilted, or raised. */
-static struct picture *bent(float degrees, float step)
-{
-    struct picture *picture = level_floor();
-    float angle = degrees * PS_PI / 180;
-    for (int i = 0; i < PIXELS; i++)
-        if (i % WIDTH >= WIDTH / 2) {
-            set_vector(picture->normal, i, (ps_vec3){sinf(angle), 0, cosf(angle)});
-            picture->position[2][i] = step;
-        }
-    return picture;
-}
-
 static void test_edges_stop_the_blur(void **state)
 {
     (void)state;
-    assert_true(crosses(bent(0, 0), "denoiser=bilateral"));
-    assert_false(crosses(bent(90, 0), "denoiser=bilateral"));
-    assert_false(crosses(bent(90, 0), "denoiser=bilateral:size=33,normal=90,distance=1000"));
-    assert_false(crosses(bent(20, 0), "denoiser=bilateral:normal=19,distance=1000"));
-    assert_true(crosses(bent(20, 0), "denoiser=bilateral:normal=21,distance=1000"));
-    assert_false(crosses(bent(0, 0.3f), "denoiser=bilateral:distance=0.3"));
-    assert_true(crosses(bent(0, 0.3f), "denoiser=bilateral:distance=0.5"));
+    assert_true(crosses(bent_floor(0, 0), "denoiser=bilateral"));
+    assert_false(crosses(bent_floor(90, 0), "denoiser=bilateral"));
+    assert_false(crosses(bent_floor(90, 0), "denoiser=bilateral:size=33,normal=90,distance=1000"));
+    assert_false(crosses(bent_floor(20, 0), "denoiser=bilateral:normal=19,distance=1000"));
+    assert_true(crosses(bent_floor(20, 0), "denoiser=bilateral:normal=21,distance=1000"));
+    assert_false(crosses(bent_floor(0, 0.3f), "denoiser=bilateral:distance=0.3"));
+    assert_true(crosses(bent_floor(0, 0.3f), "denoiser=bilateral:distance=0.5"));
 }
 
 struct moments {
@@ -327,7 +215,7 @@ static void test_stops_when_cancelled(void **state)
 {
     (void)state;
     struct picture *picture = wild_picture(5);
-    denoise_or_stop(picture, "denoiser=bilateral:size=11", 2, true);
+    denoise_cancelled(picture, "denoiser=bilateral:size=11", 2);
     free(picture);
 }
 

@@ -92,11 +92,17 @@ static void add_pass(uint32_t first, float factor)
     film_count_pass(&bench.film);
 }
 
-static void expect(enum film_plane plane, uint32_t x, uint32_t y, double expected)
+static void expect_in(const struct film *film, enum film_plane plane, uint32_t x, uint32_t y,
+                      double expected)
 {
-    double value = bench.film.planes[plane][y * WIDTH + x];
+    double value = film->planes[plane][y * WIDTH + x];
     if (fabs(value - expected) > 1e-5 * fabs(expected))
         fail_msg("plane %d at (%u, %u): %.8g, expected %.8g", (int)plane, x, y, value, expected);
+}
+
+static void expect(enum film_plane plane, uint32_t x, uint32_t y, double expected)
+{
+    expect_in(&bench.film, plane, x, y, expected);
 }
 
 /* A pixel that is left out gets what its samples hold instead, by their shares. */
@@ -175,12 +181,12 @@ static void test_lanes_are_pixels(void **state)
 static void test_new_film_is_empty(void **state)
 {
     (void)state;
-    for (int plane = 0; plane < FILM_PLANES; plane++)
+    for (int plane = 0; plane < FILM_ON_REQUEST; plane++)
         for (size_t i = 0; i < WIDTH * HEIGHT; i++)
             assert_true(bench.film.planes[plane][i] == 0);
     assert_int_equal(bench.film.passes, 0);
     film_average(&bench.film); /* no passes: nothing seen, nothing divided by 0 */
-    for (int plane = 0; plane < FILM_PLANES; plane++)
+    for (int plane = 0; plane < FILM_ON_REQUEST; plane++)
         assert_true(plane == FILM_DEPTH ? isinf(bench.film.planes[plane][5])
                                         : bench.film.planes[plane][5] == 0);
 }
@@ -251,7 +257,7 @@ static void test_uncovered_pixels(void **state)
     add_pass(10, 1);
     add_pass(10, 2);
     film_average(&bench.film);
-    for (int plane = 0; plane < FILM_PLANES; plane++)
+    for (int plane = 0; plane < FILM_ON_REQUEST; plane++)
         if (plane != FILM_DEPTH)
             expect((enum film_plane)plane, 9, 17, 0);
     assert_true(isinf(bench.film.planes[FILM_DEPTH][17 * WIDTH + 9]));
@@ -269,7 +275,7 @@ static void test_film_of_light_alone(void **state)
     assert_int_equal(film_create(WIDTH, HEIGHT, false, &bench.film, &error), PS_OK);
     add_pass(10, 1);
     film_average(&bench.film);
-    for (int plane = 0; plane < FILM_PLANES; plane++) {
+    for (int plane = 0; plane < FILM_ON_REQUEST; plane++) {
         bool of_surfaces = plane >= FILM_ALBEDO_R && plane <= FILM_DEPTH;
         assert_true((bench.film.planes[plane] == NULL) == of_surfaces);
         if (!of_surfaces)
@@ -279,6 +285,37 @@ static void test_film_of_light_alone(void **state)
     assert_true(film_bytes(&bench.film) < film_bytes(&whole));
     assert_int_equal(film_bytes(&whole), film_most_bytes(WIDTH, HEIGHT));
     film_release(&whole);
+}
+
+/* Without what is emitted; and in `odd` the second pass. */
+static void test_reflected_light_apart(void **state)
+{
+    (void)state;
+    struct error error;
+    assert_int_equal(film_add_reflected(&bench.film, false, &error), PS_OK);
+    add_pass(0, 1);
+    add_pass(0, 3);
+    film_average(&bench.film);
+    double reflected = 0.25 / PI * 6 * pixel_value(12, 2);
+    expect(FILM_REFLECTED_G, 12, 2, 2 * reflected);
+    expect_in(bench.film.odd, FILM_REFLECTED_G, 12, 2, 3 * reflected);
+    assert_null(bench.film.odd->planes[FILM_COLOR_R]);
+}
+
+/* Of a single pass, `odd` has what half of its shadow rays found. */
+static void test_half_of_a_single_pass(void **state)
+{
+    (void)state;
+    struct error error;
+    assert_int_equal(film_add_reflected(&bench.film, true, &error), PS_OK);
+    assert_int_equal(gbuffer_prepare_direct_half(&bench.gbuffer, &error), PS_OK);
+    for (size_t i = 0; i < (size_t)bench.gbuffer.tile_count * PS_TILE_PIXELS; i++)
+        bench.gbuffer.direct_half[i] = (ps_rgb){1, 2, 3};
+    add_pass(0, 1);
+    assert_int_equal(bench.film.odd->passes, 1);
+    film_average(&bench.film);
+    expect(FILM_REFLECTED_G, 12, 2, 0.25 / PI * 6 * pixel_value(12, 2));
+    expect_in(bench.film.odd, FILM_REFLECTED_G, 12, 2, 0.25 / PI * 2);
 }
 
 static void test_clear_indirect(void **state)
@@ -304,6 +341,7 @@ int main(void)
         FILM_TEST(test_passes_add_up),           FILM_TEST(test_average),
         FILM_TEST(test_partly_covered_pixels),   FILM_TEST(test_uncovered_pixels),
         FILM_TEST(test_emission_is_added),       FILM_TEST(test_film_of_light_alone),
+        FILM_TEST(test_reflected_light_apart),   FILM_TEST(test_half_of_a_single_pass),
         FILM_TEST(test_clear_indirect),          FILM_TEST(test_samples_take_the_place_of_a_lane),
         FILM_TEST(test_many_samples_of_a_pixel),
     };

@@ -1,0 +1,442 @@
+/* regression.c: planes fitted to the irradiance, as wide as its noise asks for.
+ *
+ * regression/fit.h fits planes to the irradiance E of the pixels around, along the surfaces that they show. One
+ * bandwidth cannot do: a wide one blurs, a narrow one leaves noise. So fits F_R of four bandwidths R make bands, and
+ * each band is added as far as it is signal, neighbourhood by neighbourhood (shrinkage: James and Stein 1961;
+ * Donoho and Johnstone 1994):
+ *
+ *     E' = F_48 + sum over R = 24, 12, 6 of max(0, 1 - (2 <N^2> / <B^2>)^2) B,   B = F_R - F_2R
+ *
+ * N is the band of a picture of the noise alone, and <> a mean over a square of side 2R + 1. Where two halves of the
+ * light are known, of passes or of shadow rays, their difference is the noise, and the pixels themselves are a last
+ * band: light without noise stays as it is, with its hard shadows. Of a single pass of indirect light the noise is
+ * what pixels differ from a first fit, with signs drawn by lot (the wild bootstrap, Wu 1986). That needs noise that
+ * is independent from pixel to pixel, as that of paths is and that of splats is not.
+ *
+ * Bright samples that few pixels found would leave speckles in narrow bands. So what exceeds twice the first fit, and
+ * may be noise, is left out of the bands. At last the rest, E - E', gets a fit as wide as possible, and is added: with
+ * it what was left out, so that nothing is lost as clamping loses it, and what all fits are too dark or too bright by
+ * (twicing, Tukey 1977).
+ *
+ * E is radiance over albedo, so that colours of surfaces stay sharp. A channel that a surface hardly reflects says
+ * nothing about the light, and is taken for the mean of its other channels. Gloss counts as if it were irradiance,
+ * and is blurred as far as that.
+ */
+#include "regression/box.h"
+#include "regression/fit.h"
+
+#include <psplat/plugin.h>
+#include <stdbool.h>
+#include <string.h>
+
+#define DARKEST 1e-3f      /* albedo below which light is not judged by */
+#define FIRST 24           /* bandwidth of the first fit */
+#define FAR_ABOVE 2.0f     /* of the first fit: what is brighter may be left out of the bands */
+#define OUTLIER_NOISE 1.5f /* times the noise near by, by which outliers may be too bright */
+#define NEAR 3             /* pixels to each side are near by */
+#define CAUTION 2.0f       /* times the noise that a band must exceed */
+#define PIXELS_WINDOW 3    /* R of the window of the last band, of the pixels themselves */
+#define WIDEST REGRESSION_LARGEST /* bandwidth of the rest */
+
+static const int bandwidths[] = {48, 24, 12, 6}; /* of the bands */
+
+enum { NOISE = REGRESSION_COLOURS, VALUES = REGRESSION_VALUES };
+
+static const char *const automatic[] = {"auto", NULL};
+
+struct state {
+    double normal;
+    ps_number_or_choice distance;
+};
+
+struct work {
+    const ps_host *host;
+    const ps_image_view *image;
+    size_t width, height;
+    struct regression guides;
+    ps_camera camera;
+    /* With a margin: irradiance / pi, and what of it is fitted, with its noise: the sum of the channels'. */
+    float *light[VALUES], *body[VALUES];
+    /* Without: two fits, their sum so far, and for the bands 1 / F_48^2, B^2, N^2 and room to smooth those in. Before
+     * the bands `noise` holds N, where halves tell it. */
+    float *fine[VALUES], *coarse[VALUES], *sum[REGRESSION_COLOURS];
+    float *scale, *signal, *noise, *room;
+    float least; /* brightness that counts as dark */
+};
+
+static float brightness(const float colour[REGRESSION_COLOURS])
+{
+    return colour[0] + colour[1] + colour[2];
+}
+
+static float brightness_at(float *const planes[], size_t at)
+{
+    return planes[0][at] + planes[1][at] + planes[2][at];
+}
+
+/* --- irradiance and surfaces --- */
+
+static void irradiance_of(const float light[3], const float albedo[3], float irradiance[3])
+{
+    float sum = 0.0f, count = 0.0f;
+    for (int c = 0; c < 3; c++)
+        if (albedo[c] >= DARKEST) {
+            sum += light[c] / albedo[c];
+            count += 1.0f;
+        }
+    for (int c = 0; c < 3; c++)
+        irradiance[c] = albedo[c] >= DARKEST ? light[c] / albedo[c]
+                        : count > 0.0f       ? sum / count
+                                             : 0.0f;
+}
+
+static float pixel_size(const ps_camera *camera, float depth)
+{
+    float across = ps_length(camera->across);
+    return camera->projection == PS_ORTHOGRAPHIC
+               ? across
+               : depth * across / ps_dot(camera->forward, camera->corner);
+}
+
+static void take_pixel(const struct work *work, size_t pixel, size_t at)
+{
+    const ps_image_view *image = work->image;
+    const struct regression *guides = &work->guides;
+    ps_vec3 normal = {image->normal_x[pixel], image->normal_y[pixel], image->normal_z[pixel]};
+    const float light[3] = {image->r[pixel], image->g[pixel], image->b[pixel]};
+    const float albedo[3] = {image->albedo_r[pixel], image->albedo_g[pixel],
+                             image->albedo_b[pixel]};
+    float length = ps_length(normal), most = ps_max(albedo[0], ps_max(albedo[1], albedo[2]));
+    float irradiance[3];
+    if (!(image->depth[pixel] < INFINITY && length > 0.0f && most >= DARKEST))
+        return;
+    guides->normal[0][at] = normal.x / length;
+    guides->normal[1][at] = normal.y / length;
+    guides->normal[2][at] = normal.z / length;
+    guides->position[0][at] = image->position_x[pixel];
+    guides->position[1][at] = image->position_y[pixel];
+    guides->position[2][at] = image->position_z[pixel];
+    guides->size[at] = pixel_size(&work->camera, image->depth[pixel]);
+    irradiance_of(light, albedo, irradiance);
+    for (int c = 0; c < 3; c++)
+        work->light[c][at] = irradiance[c];
+}
+
+static void take_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t x = 0; x < work->width; x++)
+        take_pixel(work, row * work->width + x, regression_at(&work->guides, x, row));
+}
+
+/* --- what the bands are made of --- */
+
+static float mean_brightness(const struct work *work, float *const planes[])
+{
+    double sum = 0.0, count = 1.0;
+    for (size_t y = 0; y < work->height; y++)
+        for (size_t x = 0; x < work->width; x++)
+            if (work->guides.size[regression_at(&work->guides, x, y)] > 0.0f) {
+                sum += (double)brightness_at(planes, y * work->width + x);
+                count += 1.0;
+            }
+    return (float)(sum / count);
+}
+
+/* For the mean of n passes of which m are odd, the difference of both halves' means, times sqrt(m (n - m)) / n, is as
+ * large as the noise. Halves of a single pass are equal ones. */
+static float noise_of_halves(const ps_image_view *image, size_t pixel)
+{
+    const float even[3] = {image->even_r[pixel], image->even_g[pixel], image->even_b[pixel]};
+    const float odd[3] = {image->odd_r[pixel], image->odd_g[pixel], image->odd_b[pixel]};
+    const float albedo[3] = {image->albedo_r[pixel], image->albedo_g[pixel],
+                             image->albedo_b[pixel]};
+    float share = image->passes > 1 ? (float)(image->passes / 2) / (float)image->passes : 0.5f;
+    float a[3], b[3];
+    irradiance_of(even, albedo, a);
+    irradiance_of(odd, albedo, b);
+    return sqrtf(share * (1.0f - share)) * (brightness(a) - brightness(b));
+}
+
+static float sign_by_lot(uint32_t pixel)
+{
+    uint32_t x = (pixel ^ (pixel >> 16)) * 0x7feb352du;
+    x = (x ^ (x >> 15)) * 0x846ca68bu;
+    return (x ^ (x >> 16)) & 1u ? 1.0f : -1.0f;
+}
+
+/* Where halves tell it. And the largest near by along the row, into `room`. */
+static void take_noise_of_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    size_t first = row * work->width;
+    for (size_t x = 0; x < work->width; x++)
+        work->noise[first + x] = work->guides.size[regression_at(&work->guides, x, row)] > 0.0f
+                                     ? noise_of_halves(work->image, first + x)
+                                     : 0.0f;
+    for (size_t x = 0; x < work->width; x++) {
+        size_t from = x > NEAR ? x - NEAR : 0, end = x + NEAR + 1;
+        float most = 0.0f;
+        for (size_t i = from; i < end && i < work->width; i++)
+            most = ps_max(most, fabsf(work->noise[first + i]));
+        work->room[first + x] = most;
+    }
+}
+
+static float largest_noise_near(const struct work *work, size_t x, size_t y)
+{
+    size_t from = y > NEAR ? y - NEAR : 0, end = y + NEAR + 1;
+    float most = 0.0f;
+    for (size_t i = from; i < end && i < work->height; i++)
+        most = ps_max(most, work->room[i * work->width + x]);
+    return most;
+}
+
+/* From the first fit, in `fine`. What is bright without noise is no outlier. */
+static void make_body(const struct work *work, size_t x, size_t y, size_t at)
+{
+    size_t pixel = y * work->width + x;
+    float first = brightness_at(work->fine, pixel), bright = brightness_at(work->light, at);
+    bool known = work->image->even_r != NULL;
+    float noise = known ? largest_noise_near(work, x, y) : bright;
+    float limit = ps_max(FAR_ABOVE * ps_max(first, work->least), bright - OUTLIER_NOISE * noise);
+    float keep = bright > limit ? limit / bright : 1.0f;
+    for (int c = 0; c < REGRESSION_COLOURS; c++)
+        work->body[c][at] = keep * work->light[c][at];
+    work->body[NOISE][at] =
+        known ? keep * work->noise[pixel] : sign_by_lot((uint32_t)pixel) * (keep * bright - first);
+}
+
+static void make_body_of_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t x = 0; x < work->width; x++) {
+        size_t at = regression_at(&work->guides, x, row);
+        if (work->guides.size[at] > 0.0f)
+            make_body(work, x, row, at);
+    }
+}
+
+/* --- bands --- */
+
+/* The widest fit, by whose square all is measured: a neighbourhood's dark corner must not be ruled by its lamp. */
+static void begin_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
+        float bright = brightness_at(work->coarse, i);
+        work->scale[i] = 1.0f / (bright * bright + work->least * work->least);
+        for (int c = 0; c < REGRESSION_COLOURS; c++)
+            work->sum[c][i] = work->coarse[c][i];
+    }
+}
+
+static void measure_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
+        float noise = work->fine[NOISE][i] - work->coarse[NOISE][i];
+        float band = brightness_at(work->fine, i) - brightness_at(work->coarse, i);
+        work->signal[i] = band * band * work->scale[i];
+        work->noise[i] = noise * noise * work->scale[i];
+    }
+}
+
+static void add_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
+        float noise = CAUTION * work->noise[i], signal = work->signal[i];
+        float share = signal > noise ? noise / signal : 1.0f, keep = 1.0f - share * share;
+        for (int c = 0; c < REGRESSION_COLOURS; c++)
+            work->sum[c][i] += keep * (work->fine[c][i] - work->coarse[c][i]);
+    }
+}
+
+/* The difference of `fine` and `coarse`. */
+static void add_band(struct work *work, int radius)
+{
+    const struct regression_box signal = {work->width, work->height, (size_t)radius, work->signal,
+                                          work->room};
+    const struct regression_box noise = {work->width, work->height, (size_t)radius, work->noise,
+                                         work->room};
+    work->host->parallel_for(work->host, work->height, measure_row, work);
+    regression_box_sums(work->host, &signal);
+    regression_box_sums(work->host, &noise);
+    work->host->parallel_for(work->host, work->height, add_row, work);
+}
+
+static void copy_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t x = 0; x < work->width; x++)
+        for (int c = 0; c < VALUES; c++)
+            work->fine[c][row * work->width + x] =
+                work->body[c][regression_at(&work->guides, x, row)];
+}
+
+static void swap_fits(struct work *work)
+{
+    for (int c = 0; c < VALUES; c++) {
+        float *plane = work->fine[c];
+        work->fine[c] = work->coarse[c];
+        work->coarse[c] = plane;
+    }
+}
+
+static void add_bands(struct work *work)
+{
+    regression_fit(&work->guides, bandwidths[0], work->body, work->coarse);
+    work->host->parallel_for(work->host, work->height, begin_row, work);
+    for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {
+        regression_fit(&work->guides, bandwidths[k], work->body, work->fine);
+        add_band(work, bandwidths[k]);
+        swap_fits(work);
+    }
+    if (!work->image->even_r)
+        return;
+    work->host->parallel_for(work->host, work->height, copy_row, work);
+    add_band(work, PIXELS_WINDOW);
+}
+
+/* --- the rest --- */
+
+static void take_rest_of_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t x = 0; x < work->width; x++) {
+        size_t at = regression_at(&work->guides, x, row);
+        for (int c = 0; c < REGRESSION_COLOURS && work->guides.size[at] > 0.0f; c++)
+            work->body[c][at] = work->light[c][at] - work->sum[c][row * work->width + x];
+    }
+}
+
+static void store_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    const ps_image_view *image = work->image;
+    float *const out[3] = {image->r, image->g, image->b};
+    const float *const albedo[3] = {image->albedo_r, image->albedo_g, image->albedo_b};
+    for (size_t x = 0; x < work->width; x++) {
+        size_t i = row * work->width + x;
+        for (int c = 0; c < 3 && work->guides.size[regression_at(&work->guides, x, row)] > 0.0f;
+             c++)
+            out[c][i] = albedo[c][i] * ps_max(work->sum[c][i] + work->fine[c][i], 0.0f);
+    }
+}
+
+static void denoise(struct work *work)
+{
+    const ps_host *host = work->host;
+    work->camera = (ps_camera){.size = sizeof work->camera};
+    host->camera(host, &work->camera);
+    host->parallel_for(host, work->height, take_row, work);
+    regression_fit(&work->guides, FIRST, work->light, work->fine);
+    work->least = 0.1f * mean_brightness(work, work->fine) + 1e-18f; /* its square is no 0 */
+    if (work->image->even_r)
+        host->parallel_for(host, work->height, take_noise_of_row, work);
+    host->parallel_for(host, work->height, make_body_of_row, work);
+    add_bands(work);
+    host->parallel_for(host, work->height, take_rest_of_row, work);
+    regression_fit(&work->guides, WIDEST, work->body, work->fine);
+    host->parallel_for(host, work->height, store_row, work);
+}
+
+/* --- the strategy --- */
+
+/* Points `planes` to the next `count` planes of memory. */
+static float *lay_out(float *memory, size_t size, int count, float *planes[])
+{
+    for (int i = 0; i < count; i++)
+        planes[i] = memory + (size_t)i * size;
+    return memory + (size_t)count * size;
+}
+
+enum { PLANES_WITH_MARGIN = 7 + 2 * VALUES, PLANES = 2 * VALUES + REGRESSION_COLOURS + 4 };
+
+static void lay_out_all(struct work *work, float *next, size_t with_margin, size_t pixels)
+{
+    next = lay_out(next, with_margin, 3, work->guides.normal);
+    next = lay_out(next, with_margin, 3, work->guides.position);
+    next = lay_out(next, with_margin, 1, &work->guides.size);
+    next = lay_out(next, with_margin, VALUES, work->light);
+    next = lay_out(next, with_margin, VALUES, work->body);
+    next = lay_out(next, pixels, VALUES, work->fine);
+    next = lay_out(next, pixels, VALUES, work->coarse);
+    next = lay_out(next, pixels, REGRESSION_COLOURS, work->sum);
+    next = lay_out(next, pixels, 1, &work->scale);
+    next = lay_out(next, pixels, 1, &work->signal);
+    next = lay_out(next, pixels, 1, &work->noise);
+    lay_out(next, pixels, 1, &work->room);
+}
+
+static ps_result filter(const void *opaque, const ps_host *host, const ps_image_view *image)
+{
+    const struct state *state = opaque;
+    struct work work = {
+        .host = host, .image = image, .width = image->width, .height = image->height};
+    size_t with_margin = regression_plane_size(work.width, work.height);
+    size_t pixels = work.width * work.height;
+    size_t floats = PLANES_WITH_MARGIN * with_margin + PLANES * pixels;
+    float *memory = host->allocate(host, floats * sizeof(float), "denoiser");
+    work.guides = (struct regression){
+        .host = host,
+        .width = work.width,
+        .height = work.height,
+        .bend_scale = (float)(1 / (1 - cos(state->normal * (double)PS_PI / 180))),
+        .distance = state->distance.choice >= 0 ? 0.0f : (float)state->distance.number,
+        .fits = host->allocate(host, regression_fits_bytes(work.width, work.height), "denoiser"),
+    };
+    ps_result result = memory && work.guides.fits ? PS_OK : PS_ERROR_MEMORY;
+    if (result == PS_OK) {
+        memset(memory, 0, floats * sizeof(float));
+        lay_out_all(&work, memory, with_margin, pixels);
+        denoise(&work);
+        result = host->cancelled(host) ? PS_CANCELLED : PS_OK;
+    }
+    host->release(host, work.guides.fits);
+    host->release(host, memory);
+    return result;
+}
+
+static const ps_param params[] = {
+    PS_NUMBER(struct state, normal, "30", 1, 90, PS_PARAM_EXPERT, "degrees",
+              "angle between normals from which on nothing crosses"),
+    PS_NUMBER_OR(struct state, distance, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN | PS_PARAM_EXPERT,
+                 automatic, "scene units",
+                 "distance from the tangent plane from which on nothing crosses; auto: a fifth of "
+                 "the bandwidth"),
+};
+
+static const ps_denoiser_vtable vtable = {
+    .size = sizeof vtable,
+    .flags = PS_DENOISER_HALVES | PS_DENOISER_DIRECT,
+    .filter = filter,
+};
+
+static const ps_descriptor descriptor = {
+    .size = sizeof descriptor,
+    .kind = PS_DENOISER,
+    .name = "regression",
+    .version = "1.0",
+    .summary = "fits planes to the irradiance of surfaces, as wide as its noise asks for",
+    .paper = "Moon et al. 2014, Adaptive rendering based on weighted local regression; Bitterli et "
+             "al. 2016, Nonlinearly weighted first-order regression for denoising Monte Carlo "
+             "renderings",
+    .params = params,
+    .param_count = sizeof params / sizeof params[0],
+    .param_size = sizeof params[0],
+    .state_size = sizeof(struct state),
+    .vtable = &vtable,
+};
+
+PS_MODULE(denoiser, regression, &descriptor)

@@ -1,0 +1,377 @@
+/* fit.c: see fit.h. Loops take LANES pixels of a row at a time, with weights of zero where they go too far, and keep
+ * as many sums, so that a compiler makes vectors of them without changing the order of any sum. */
+#include "fit.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#define LANES 16
+#define MARGIN (REGRESSION_LARGEST + LANES)
+#define BLOCK 64       /* side of the squares of pixels that workers take */
+#define LEAST_FIT 0.5f /* weight of blended fits below which a pixel becomes a centre */
+#define RIDGE 1e-3f    /* of the slopes, of the fit's weight */
+#define ROOM 0.2f      /* D over R, in pixels' sizes */
+
+/* A plane for each value: a + b u + c v. */
+struct regression_fit {
+    float normal[3], position[3], u[3], v[3]; /* the tangent plane; u and v are over R */
+    float height_scale;                       /* 1 / D^2 */
+    float plane[REGRESSION_VALUES][3];
+    int x, y;
+    bool valid; /* its centre shows a surface */
+};
+
+struct work {
+    const struct regression *to;
+    int bandwidth;
+    float *const *values;
+    float *const *fitted;
+    size_t columns, rows; /* of fits */
+};
+
+static size_t stride(size_t width)
+{
+    return width + (size_t)2 * MARGIN;
+}
+
+size_t regression_plane_size(size_t width, size_t height)
+{
+    return stride(width) * (height + (size_t)2 * MARGIN);
+}
+
+size_t regression_at(const struct regression *regression, size_t x, size_t y)
+{
+    return (y + MARGIN) * stride(regression->width) + x + MARGIN;
+}
+
+/* Of a pixel that may lie in the margin. */
+static size_t place_of(const struct work *work, int x, int y)
+{
+    return (size_t)(y + MARGIN) * stride(work->to->width) + (size_t)(x + MARGIN);
+}
+
+static bool shows_surface(const struct work *work, int x, int y)
+{
+    return work->to->size[place_of(work, x, y)] > 0.0f;
+}
+
+/* --- weights --- */
+
+static void set_tangent_plane(const struct work *work, size_t at, struct regression_fit *fit)
+{
+    const struct regression *to = work->to;
+    float width = (float)work->bandwidth * to->size[at], scale = 1.0f / width;
+    float distance = to->distance > 0.0f ? to->distance : ROOM * width;
+    ps_vec3 u, v, n = {to->normal[0][at], to->normal[1][at], to->normal[2][at]};
+    ps_frame(n, &u, &v);
+    const float us[3] = {u.x * scale, u.y * scale, u.z * scale};
+    const float vs[3] = {v.x * scale, v.y * scale, v.z * scale};
+    for (int i = 0; i < 3; i++) {
+        fit->normal[i] = to->normal[i][at];
+        fit->position[i] = to->position[i][at];
+        fit->u[i] = us[i];
+        fit->v[i] = vs[i];
+    }
+    fit->height_scale = 1.0f / (distance * distance);
+}
+
+/* max(s, 0) without a comparison, which keeps compilers from making vectors. */
+static inline float above_zero(float s)
+{
+    return 0.5f * (s + fabsf(s));
+}
+
+/* Weights by geometry, and places in the tangent plane, of LANES pixels from `from` on. */
+static inline void weigh(const struct regression *to, const struct regression_fit *fit, size_t from,
+                         float *restrict weight, float *restrict u, float *restrict v)
+{
+    const float *restrict nx = to->normal[0] + from, *restrict px = to->position[0] + from;
+    const float *restrict ny = to->normal[1] + from, *restrict py = to->position[1] + from;
+    const float *restrict nz = to->normal[2] + from, *restrict pz = to->position[2] + from;
+    float bend_scale = to->bend_scale, height_scale = fit->height_scale;
+    for (int i = 0; i < LANES; i++) {
+        float dx = px[i] - fit->position[0];
+        float dy = py[i] - fit->position[1];
+        float dz = pz[i] - fit->position[2];
+        float cosine = nx[i] * fit->normal[0] + ny[i] * fit->normal[1] + nz[i] * fit->normal[2];
+        float over = dx * fit->normal[0] + dy * fit->normal[1] + dz * fit->normal[2];
+        float under = dx * nx[i] + dy * ny[i] + dz * nz[i];
+        float bend = above_zero(1.0f - (1.0f - cosine) * bend_scale);
+        float height = above_zero(1.0f - (over * over + under * under) * height_scale);
+        weight[i] = bend * bend * height * height;
+        u[i] = dx * fit->u[0] + dy * fit->u[1] + dz * fit->u[2];
+        v[i] = dx * fit->v[0] + dy * fit->v[1] + dz * fit->v[2];
+    }
+}
+
+/* --- one fit --- */
+
+enum { W, WU, WV, WUU, WUV, WVV, MOMENTS };
+
+struct sums {
+    _Alignas(64) float moments[MOMENTS][LANES];
+    float values[REGRESSION_VALUES][3][LANES]; /* w E, w u E, w v E */
+};
+
+/* Adds LANES pixels of a row, from the one at `from`, which is dx to the right and sqrt(row) above or below the
+ * centre. */
+static inline void add_pixels(const struct work *work, const struct regression_fit *fit,
+                              size_t from, int dx, float row, struct sums *sums)
+{
+    _Alignas(64) float w[LANES], u[LANES], v[LANES], wu[LANES], wv[LANES];
+    float scale = 1.0f / (((float)work->bandwidth + 0.5f) * ((float)work->bandwidth + 0.5f));
+    weigh(work->to, fit, from, w, u, v);
+    for (int i = 0; i < LANES; i++) {
+        float x = (float)(dx + i), near = above_zero(1.0f - (x * x + row) * scale);
+        w[i] *= near * near;
+        wu[i] = w[i] * u[i];
+        wv[i] = w[i] * v[i];
+    }
+    for (int i = 0; i < LANES; i++) {
+        sums->moments[W][i] += w[i];
+        sums->moments[WU][i] += wu[i];
+        sums->moments[WV][i] += wv[i];
+        sums->moments[WUU][i] += wu[i] * u[i];
+        sums->moments[WUV][i] += wu[i] * v[i];
+        sums->moments[WVV][i] += wv[i] * v[i];
+    }
+    for (int c = 0; c < REGRESSION_VALUES; c++) {
+        const float *restrict value = work->values[c] + from;
+        for (int i = 0; i < LANES; i++) {
+            sums->values[c][0][i] += w[i] * value[i];
+            sums->values[c][1][i] += wu[i] * value[i];
+            sums->values[c][2][i] += wv[i] * value[i];
+        }
+    }
+}
+
+static float total(const float lanes[LANES])
+{
+    float sum = 0.0f;
+    for (int i = 0; i < LANES; i++)
+        sum += lanes[i];
+    return sum;
+}
+
+/* The normal equations, by Cholesky's decomposition. The ridge pulls slopes to 0 where all pixels lie on a line. */
+static void solve(const struct sums *sums, struct regression_fit *fit)
+{
+    float m[MOMENTS];
+    for (int i = 0; i < MOMENTS; i++)
+        m[i] = total(sums->moments[i]);
+    float ridge = RIDGE * m[W] + 0.02f; /* a weight of 0.02 pixels at least */
+    float l00 = 1.0f / sqrtf(m[W]), l10 = m[WU] * l00, l20 = m[WV] * l00;
+    float l11 = 1.0f / sqrtf(ps_max(m[WUU] + ridge - l10 * l10, 1e-20f));
+    float l21 = (m[WUV] - l20 * l10) * l11;
+    float l22 = 1.0f / sqrtf(ps_max(m[WVV] + ridge - l20 * l20 - l21 * l21, 1e-20f));
+    for (int c = 0; c < REGRESSION_VALUES; c++) {
+        float r0 = total(sums->values[c][0]) * l00;
+        float r1 = (total(sums->values[c][1]) - l10 * r0) * l11;
+        float r2 = (total(sums->values[c][2]) - l20 * r0 - l21 * r1) * l22;
+        float *plane = fit->plane[c];
+        plane[2] = r2 * l22;
+        plane[1] = (r1 - l21 * plane[2]) * l11;
+        plane[0] = (r0 - l10 * plane[1] - l20 * plane[2]) * l00;
+    }
+}
+
+static void make_fit(const struct work *work, int x, int y, struct regression_fit *fit)
+{
+    float reach = ((float)work->bandwidth + 0.5f) * ((float)work->bandwidth + 0.5f);
+    struct sums sums;
+    fit->x = x;
+    fit->y = y;
+    fit->valid = shows_surface(work, x, y);
+    if (!fit->valid)
+        return;
+    memset(&sums, 0, sizeof sums);
+    set_tangent_plane(work, place_of(work, x, y), fit);
+    for (int dy = -work->bandwidth; dy <= work->bandwidth; dy++) {
+        if (y + dy < 0 || y + dy >= (int)work->to->height)
+            continue;
+        int half = (int)sqrtf(reach - (float)(dy * dy));
+        for (int dx = -half; dx <= half; dx += LANES)
+            add_pixels(work, fit, place_of(work, x + dx, y + dy), dx, (float)(dy * dy), &sums);
+    }
+    solve(&sums, fit);
+}
+
+/* --- the grid of fits --- */
+
+static int spacing(int bandwidth)
+{
+    return bandwidth * 2 / 3;
+}
+
+static size_t centres_along(size_t size, int bandwidth)
+{
+    return (size + (size_t)spacing(bandwidth) - 1) / (size_t)spacing(bandwidth);
+}
+
+size_t regression_fits_bytes(size_t width, size_t height)
+{
+    return centres_along(width, REGRESSION_SMALLEST) * centres_along(height, REGRESSION_SMALLEST) *
+           sizeof(struct regression_fit);
+}
+
+static int centre_at(const struct work *work, size_t index, size_t size)
+{
+    int apart = spacing(work->bandwidth), place = apart / 2 + (int)index * apart;
+    return place < (int)size ? place : (int)size - 1;
+}
+
+static void make_row_of_fits(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    const struct regression *to = work->to;
+    if (to->host->cancelled(to->host))
+        return;
+    for (size_t i = 0; i < work->columns; i++)
+        make_fit(work, centre_at(work, i, to->width), centre_at(work, row, to->height),
+                 &to->fits[row * work->columns + i]);
+}
+
+/* --- what fits say, blended --- */
+
+/* Sums over the fits that reach into a square of pixels, with room past its right edge. */
+struct block {
+    int x, y, columns, rows;
+    _Alignas(64) float weight[BLOCK][BLOCK + LANES];
+    float values[REGRESSION_VALUES][BLOCK][BLOCK + LANES];
+};
+
+/* What a fit says of LANES pixels, in proportion to its weight there: one by geometry, times a tent that ends at
+ * the centres next to it. */
+static inline void add_prediction(const struct work *work, const struct regression_fit *fit, int x,
+                                  int y, struct block *block)
+{
+    _Alignas(64) float w[LANES], u[LANES], v[LANES];
+    int column = x - block->x, row = y - block->y;
+    float scale = 1.0f / (float)spacing(work->bandwidth);
+    float down = 1.0f - fabsf((float)(y - fit->y)) * scale;
+    float *restrict weight = &block->weight[row][column];
+    weigh(work->to, fit, place_of(work, x, y), w, u, v);
+    for (int i = 0; i < LANES; i++) {
+        w[i] *= down * above_zero(1.0f - fabsf((float)(x + i - fit->x)) * scale);
+        weight[i] += w[i];
+    }
+    for (int c = 0; c < REGRESSION_VALUES; c++) {
+        const float *plane = fit->plane[c];
+        float *restrict sum = &block->values[c][row][column];
+        for (int i = 0; i < LANES; i++)
+            sum[i] += w[i] * (plane[0] + plane[1] * u[i] + plane[2] * v[i]);
+    }
+}
+
+static int larger(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static void blend(const struct work *work, const struct regression_fit *fit, struct block *block)
+{
+    int reach = spacing(work->bandwidth) - 1;
+    int left = larger(fit->x - reach, block->x);
+    int right = smaller(fit->x + reach, block->x + block->columns - 1);
+    int top = larger(fit->y - reach, block->y);
+    int bottom = smaller(fit->y + reach, block->y + block->rows - 1);
+    for (int y = top; y <= bottom; y++)
+        for (int x = left; x <= right; x += LANES)
+            add_prediction(work, fit, x, y, block);
+}
+
+/* A centre at or before the first one that reaches a pixel. */
+static size_t first_centre(const struct work *work, int pixel)
+{
+    int apart = spacing(work->bandwidth), index = (pixel - apart / 2) / apart - 1;
+    return index > 0 ? (size_t)index : 0;
+}
+
+static void blend_grid(const struct work *work, struct block *block)
+{
+    int apart = spacing(work->bandwidth);
+    for (size_t row = first_centre(work, block->y); row < work->rows; row++) {
+        if (centre_at(work, row, work->to->height) - apart >= block->y + block->rows)
+            break;
+        for (size_t column = first_centre(work, block->x); column < work->columns; column++) {
+            const struct regression_fit *fit = &work->to->fits[row * work->columns + column];
+            if (fit->x - apart >= block->x + block->columns)
+                break;
+            if (fit->valid)
+                blend(work, fit, block);
+        }
+    }
+}
+
+/* Pixels of thin things, which no centre shows, become centres, in their order. */
+static void blend_rest(const struct work *work, struct block *block)
+{
+    for (int row = 0; row < block->rows; row++)
+        for (int column = 0; column < block->columns; column++) {
+            int x = block->x + column, y = block->y + row;
+            struct regression_fit fit;
+            if (block->weight[row][column] >= LEAST_FIT || !shows_surface(work, x, y))
+                continue;
+            make_fit(work, x, y, &fit);
+            blend(work, &fit, block);
+        }
+}
+
+static void store_block(const struct work *work, const struct block *block)
+{
+    for (int row = 0; row < block->rows; row++)
+        for (int c = 0; c < REGRESSION_VALUES; c++) {
+            size_t first = (size_t)(block->y + row) * work->to->width + (size_t)block->x;
+            float *out = work->fitted[c] + first;
+            for (int i = 0; i < block->columns; i++) {
+                float weight = block->weight[row][i];
+                out[i] = weight > 0.0f ? block->values[c][row][i] / weight : 0.0f;
+            }
+        }
+}
+
+static size_t blocks_along(size_t size)
+{
+    return (size + BLOCK - 1) / BLOCK;
+}
+
+static void fill_block(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    const struct regression *to = work->to;
+    struct block block;
+    if (to->host->cancelled(to->host))
+        return;
+    memset(&block, 0, sizeof block);
+    block.x = (int)(index % blocks_along(to->width)) * BLOCK;
+    block.y = (int)(index / blocks_along(to->width)) * BLOCK;
+    block.columns = smaller((int)to->width - block.x, BLOCK);
+    block.rows = smaller((int)to->height - block.y, BLOCK);
+    blend_grid(work, &block);
+    blend_rest(work, &block);
+    store_block(work, &block);
+}
+
+void regression_fit(const struct regression *regression, int bandwidth,
+                    float *const values[REGRESSION_VALUES], float *const fitted[REGRESSION_VALUES])
+{
+    const ps_host *host = regression->host;
+    struct work work = {
+        .to = regression,
+        .bandwidth = bandwidth,
+        .values = values,
+        .fitted = fitted,
+        .columns = centres_along(regression->width, bandwidth),
+        .rows = centres_along(regression->height, bandwidth),
+    };
+    host->parallel_for(host, work.rows, make_row_of_fits, &work);
+    host->parallel_for(host, blocks_along(regression->width) * blocks_along(regression->height),
+                       fill_block, &work);
+}

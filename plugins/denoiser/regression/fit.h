@@ -1,0 +1,51 @@
+/* fit.h: planes fitted to a picture along the surfaces that it shows.
+ *
+ * Around a centre c, a pixel, a plane over the tangent plane of c is fitted to the values E of the pixels p near by
+ * (Moon et al. 2014, "Adaptive rendering based on weighted local regression"; Bitterli et al. 2016, "Nonlinearly
+ * weighted first-order regression for denoising Monte Carlo renderings"):
+ *
+ *     minimize  sum_p w(c, p) (E(p) - a - b u(p) - c v(p))^2
+ *     w = b(r^2 / R^2) b((1 - n_c.n_p) / (1 - cos(normal))) b(h^2 / D^2),   b(s) = max(0, 1 - s)^2
+ *
+ * with u, v the place of p in the tangent plane of c, r its distance in pixels, R the bandwidth, and h^2 the sum of
+ * squares of either point's distance from the other's tangent plane. A slope of E costs no bias, as it would a mean.
+ * Centres lie 2/3 R apart; between them planes are blended.
+ *
+ * Pictures are planes of floats with a margin, so that no loop asks for bounds: pixel (x, y) is regression_at().
+ */
+#ifndef PSPLAT_DENOISER_REGRESSION_FIT_H
+#define PSPLAT_DENOISER_REGRESSION_FIT_H
+
+#include <psplat/plugin.h>
+
+enum { REGRESSION_SMALLEST = 6, REGRESSION_LARGEST = 64 }; /* bandwidths, in pixels */
+
+/* Values that are fitted together: three colours, and one more. */
+enum { REGRESSION_COLOURS = 3, REGRESSION_VALUES };
+
+struct regression_fit;
+
+/* A picture's surfaces, and how fits stop at them. The planes and `fits` are the caller's. */
+struct regression {
+    const ps_host *host;
+    size_t width, height;
+    float *normal[3], *position[3]; /* of length 1; in the scene's units */
+    float *size;                 /* of a pixel there, in the scene's units; 0: no surface is seen */
+    float bend_scale;            /* 1 / (1 - cos(normal)) */
+    float distance;              /* D, in the scene's units; 0: in proportion to R */
+    struct regression_fit *fits; /* room for regression_fits_bytes() */
+};
+
+/* Floats of a plane with its margin, which are 0 where there is no pixel, and the place of a pixel in it. */
+size_t regression_plane_size(size_t width, size_t height);
+size_t regression_at(const struct regression *regression, size_t x, size_t y);
+
+size_t regression_fits_bytes(size_t width, size_t height);
+
+/* Fits `values`, planes with a margin, by a bandwidth in pixels. Puts what the planes of all fits say at each pixel
+ * into `fitted`, planes without a margin; 0 where no surface is seen. Runs on all workers; after the host was
+ * cancelled, what `fitted` holds means nothing. */
+void regression_fit(const struct regression *regression, int bandwidth,
+                    float *const values[REGRESSION_VALUES], float *const fitted[REGRESSION_VALUES]);
+
+#endif

@@ -1,0 +1,297 @@
+/* test_regression.c: the denoiser `regression` on G-buffers made by hand. */
+#include "support/denoiser_picture.h"
+#include "support/random.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define CHOICE "denoiser=regression"
+#define ROUNDING 2e-4f /* of planes fitted to numbers that lie in one, relative */
+
+/* Irradiance over pi that slopes along the floor, another way in each channel. */
+static float slope(int pixel, int channel)
+{
+    static const float along[3] = {0.01f, -0.004f, 0}, down[3] = {0, 0.02f, -0.03f};
+    return 1.5f + along[channel] * (float)(pixel % WIDTH) + down[channel] * (float)(pixel / WIDTH);
+}
+
+static double worst_difference(const struct picture *a, const struct picture *b)
+{
+    double worst = 0;
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < PIXELS; i++)
+            worst = fmax(worst, fabs(a->light[c][i] - b->light[c][i]) / fmax(b->light[c][i], 1e-3));
+    return worst;
+}
+
+/* --- light that fits say rightly stays --- */
+
+static void test_slopes_stay_under_any_colour(void **state)
+{
+    (void)state;
+    struct random random = {3};
+    struct picture *before = level_floor(), *after = level_floor();
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < PIXELS; i++) {
+            float albedo = random_between(&random, 0.1f, 0.9f);
+            before->albedo[c][i] = after->albedo[c][i] = albedo;
+            before->light[c][i] = after->light[c][i] = albedo * slope(i, c);
+        }
+    denoise(after, CHOICE, 2);
+    print_message("slopes: off by %.1e at most\n", worst_difference(after, before));
+    assert_true(worst_difference(after, before) < 3e-3); /* the ridge */
+    free(before);
+    free(after);
+}
+
+static void test_constant_light_stays_on_wild_surfaces(void **state)
+{
+    (void)state;
+    struct picture *before = wild_picture(3), *after = wild_picture(3);
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < PIXELS; i++) {
+            before->albedo[c][i] = after->albedo[c][i] = fmaxf(before->albedo[c][i], 0.01f);
+            before->light[c][i] = 2.5f * before->albedo[c][i];
+            if (isinf(before->depth[i]))
+                before->light[c][i] = 7; /* of what is no surface */
+            after->light[c][i] = before->light[c][i];
+        }
+    denoise(after, CHOICE ":normal=80", 2);
+    assert_true(worst_difference(after, before) < ROUNDING);
+    free(before);
+    free(after);
+}
+
+/* The right half shines a hundred times brighter. Whether any of its light is seen on the left. */
+static bool crosses(struct picture *picture, const char *choice)
+{
+    float most = 0;
+    for (int i = 0; i < PIXELS; i++)
+        if (i % WIDTH >= WIDTH / 2)
+            picture->light[1][i] = 100;
+    denoise(picture, choice, 1);
+    for (int i = 0; i < PIXELS; i++)
+        if (i % WIDTH < WIDTH / 2)
+            most = fmaxf(most, fabsf(picture->light[1][i] - 1));
+    free(picture);
+    return most > ROUNDING;
+}
+
+static void test_edges_stop_it(void **state)
+{
+    (void)state;
+    assert_true(crosses(bent_floor(0, 0), CHOICE));
+    assert_false(crosses(bent_floor(90, 0), CHOICE));
+    assert_false(crosses(bent_floor(20, 0), CHOICE ":normal=19,distance=1000"));
+    assert_true(crosses(bent_floor(20, 0), CHOICE ":normal=21,distance=1000"));
+    assert_false(crosses(bent_floor(0, 0.3f), CHOICE ":distance=0.3"));
+    assert_true(crosses(bent_floor(0, 0.3f), CHOICE ":distance=0.5"));
+    /* A fifth of the bandwidth: 0.12 for 6 pixels of 0.1. Either point is as far off the other's plane. */
+    assert_false(crosses(bent_floor(0, 0.4f), CHOICE));
+    assert_true(crosses(bent_floor(0, 0.05f), CHOICE));
+}
+
+/* A thread of one pixel's width, which the centres of fits pass by, in the air before a floor of other light. */
+static void test_thin_things_keep_their_light(void **state)
+{
+    (void)state;
+    struct picture *picture = level_floor();
+    for (int y = 0; y < HEIGHT; y++) {
+        picture->position[2][y * WIDTH + 77] = 50;
+        picture->light[0][y * WIDTH + 77] = 4;
+    }
+    denoise(picture, CHOICE, 1);
+    for (int i = 0; i < PIXELS; i++)
+        assert_true(fabsf(picture->light[0][i] - (i % WIDTH == 77 ? 4.0f : 1.0f)) < ROUNDING);
+    free(picture);
+}
+
+/* --- noise --- */
+
+struct outcome {
+    double mean, deviation; /* over the truth */
+};
+
+static struct outcome outcome_of(const struct picture *picture, int channel)
+{
+    struct outcome outcome = {0, 0};
+    for (int i = 0; i < PIXELS; i++) {
+        double ratio = (double)picture->light[channel][i] / (double)slope(i, channel);
+        outcome.mean += ratio / PIXELS;
+        outcome.deviation += (ratio - 1) * (ratio - 1) / PIXELS;
+    }
+    outcome.deviation = sqrt(outcome.deviation);
+    return outcome;
+}
+
+/* Noise of a deviation of 0.58, the same in all channels, as that of paths nearly is; in two halves, 0.82 each. */
+static void add_noise(struct picture *picture, uint64_t seed)
+{
+    struct random random = {seed};
+    for (int i = 0; i < PIXELS; i++) {
+        float noise[2] = {random_between(&random, -1.414f, 1.414f),
+                          random_between(&random, -1.414f, 1.414f)};
+        float factor = 1 + 0.5f * (noise[0] + noise[1]);
+        for (int c = 0; c < 3; c++) {
+            for (int half = 0; half < 2 && picture->halves; half++)
+                picture->halves[half][c][i] = slope(i, c) * (1 + noise[half]);
+            picture->light[c][i] = slope(i, c) * factor;
+        }
+    }
+}
+
+static void expect_noise_to_fall(bool halves)
+{
+    static float room[2][3][PIXELS];
+    struct picture *picture = level_floor();
+    picture->halves = halves ? room : NULL;
+    add_noise(picture, 17);
+    struct outcome before = outcome_of(picture, 1);
+    denoise(picture, CHOICE, 2);
+    struct outcome after = outcome_of(picture, 1);
+    print_message("%s: deviation %.4f -> %.4f, mean %.4f -> %.4f\n", halves ? "halves" : "one pass",
+                  before.deviation, after.deviation, before.mean, after.mean);
+    assert_true(before.deviation > 0.55);
+    assert_true(after.deviation <
+                0.06); /* 0.58 over the root of the pixels under a narrow strip's fit */
+    assert_true(fabs(after.mean - before.mean) < 0.005);
+    free(picture);
+}
+
+static void test_noise_falls_and_the_mean_stays(void **state)
+{
+    (void)state;
+    expect_noise_to_fall(false);
+    expect_noise_to_fall(true);
+}
+
+/* A disc of light ten pixels wide, as a caustic is: halves tell that it is no noise, a single pass cannot know. */
+static double lost_of_disc(float (*halves)[3][PIXELS])
+{
+    struct picture *picture = level_floor(), *truth = level_floor();
+    picture->halves = halves;
+    for (int i = 0; i < PIXELS; i++) {
+        float far = hypotf((float)(i % WIDTH - 70), (float)(i / WIDTH - 12));
+        for (int c = 0; c < 3; c++) {
+            truth->light[c][i] = picture->light[c][i] = far < 5 ? 9 : 1;
+            for (int half = 0; half < 2 && halves; half++)
+                halves[half][c][i] = truth->light[c][i];
+        }
+    }
+    denoise(picture, CHOICE, 2);
+    double worst = worst_difference(picture, truth);
+    free(picture);
+    free(truth);
+    return worst;
+}
+
+static void test_what_is_no_noise_stays(void **state)
+{
+    (void)state;
+    static float room[2][3][PIXELS];
+    double known = lost_of_disc(room), unknown = lost_of_disc(NULL);
+    print_message("disc: off by %.3f with halves, %.3f without\n", known, unknown);
+    assert_true(known < ROUNDING);
+    assert_true(unknown > 0.1);
+}
+
+/* One pixel as bright as a thousand: what is left of it is no speckle, and nothing of its light is lost. */
+static void test_outliers_spread(void **state)
+{
+    (void)state;
+    struct picture *picture = level_floor();
+    double sum = 0;
+    float most = 0;
+    picture->light[0][12 * WIDTH + 75] = 1000;
+    denoise(picture, CHOICE, 2);
+    for (int i = 0; i < PIXELS; i++) {
+        sum += (double)picture->light[0][i];
+        most = fmaxf(most, picture->light[0][i]);
+    }
+    print_message("outlier of 1000: %.2f at most, %.4f of the light\n", (double)most,
+                  sum / (PIXELS + 999));
+    assert_true(most < 3);
+    assert_true(fabs(sum / (PIXELS + 999) - 1) < 0.02);
+    free(picture);
+}
+
+/* --- pixels that say nothing --- */
+
+static void test_what_is_no_surface_stays(void **state)
+{
+    (void)state;
+    struct picture *picture = level_floor();
+    int sky = 5 * WIDTH + 30, black = 10 * WIDTH + 70, red = 12 * WIDTH + 71;
+    picture->depth[sky] = INFINITY;
+    for (int c = 0; c < 3; c++) {
+        picture->normal[c][sky] = 0;
+        picture->light[c][sky] = 1000;
+        picture->albedo[c][black] = 0;
+        picture->light[c][black] = 1000;
+    }
+    /* A channel without albedo says nothing about the light, and gets none. */
+    picture->albedo[1][red] = 0;
+    picture->light[1][red] = 0;
+    denoise(picture, CHOICE, 1);
+    for (int i = 0; i < PIXELS; i++) {
+        float expected = i == sky || i == black ? 1000 : i == red ? 0 : 1;
+        assert_true(fabsf(picture->light[1][i] - expected) <= ROUNDING);
+    }
+    free(picture);
+}
+
+static void test_nothing_seen_at_all(void **state)
+{
+    (void)state;
+    struct picture *before = level_floor(), *after = level_floor();
+    for (int i = 0; i < PIXELS; i++)
+        before->depth[i] = after->depth[i] = INFINITY;
+    denoise(after, CHOICE, 2);
+    assert_memory_equal(after, before, sizeof *before);
+    free(before);
+    free(after);
+}
+
+/* --- how it runs --- */
+
+static void test_threads_do_not_matter(void **state)
+{
+    (void)state;
+    struct picture *one = wild_picture(5), *three = wild_picture(5);
+    denoise(one, CHOICE, 1);
+    denoise(three, CHOICE, 3);
+    assert_memory_equal(one, three, sizeof *one);
+    free(one);
+    free(three);
+}
+
+static void test_stops_when_cancelled(void **state)
+{
+    (void)state;
+    struct picture *picture = wild_picture(5);
+    denoise_cancelled(picture, CHOICE, 2);
+    free(picture);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_slopes_stay_under_any_colour),
+        cmocka_unit_test(test_constant_light_stays_on_wild_surfaces),
+        cmocka_unit_test(test_edges_stop_it),
+        cmocka_unit_test(test_thin_things_keep_their_light),
+        cmocka_unit_test(test_noise_falls_and_the_mean_stays),
+        cmocka_unit_test(test_what_is_no_noise_stays),
+        cmocka_unit_test(test_outliers_spread),
+        cmocka_unit_test(test_what_is_no_surface_stays),
+        cmocka_unit_test(test_nothing_seen_at_all),
+        cmocka_unit_test(test_threads_do_not_matter),
+        cmocka_unit_test(test_stops_when_cancelled),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
