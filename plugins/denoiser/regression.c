@@ -152,7 +152,8 @@ static float noise_of_halves(const ps_image_view *image, size_t pixel)
     const float odd[3] = {image->odd_r[pixel], image->odd_g[pixel], image->odd_b[pixel]};
     const float albedo[3] = {image->albedo_r[pixel], image->albedo_g[pixel],
                              image->albedo_b[pixel]};
-    float share = image->passes > 1 ? (float)(image->passes / 2) / (float)image->passes : 0.5f;
+    uint32_t odd_passes = image->passes / 2;
+    float share = image->passes > 1 ? (float)odd_passes / (float)image->passes : 0.5f;
     float a[3], b[3];
     irradiance_of(even, albedo, a);
     irradiance_of(odd, albedo, b);

@@ -179,9 +179,7 @@ static void make_fit(const struct work *work, int x, int y, struct regression_fi
 {
     float reach = ((float)work->bandwidth + 0.5f) * ((float)work->bandwidth + 0.5f);
     struct sums sums;
-    fit->x = x;
-    fit->y = y;
-    fit->valid = shows_surface(work, x, y);
+    *fit = (struct regression_fit){.x = x, .y = y, .valid = shows_surface(work, x, y)};
     if (!fit->valid)
         return;
     memset(&sums, 0, sizeof sums);
