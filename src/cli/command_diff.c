@@ -65,8 +65,12 @@ static ps_result write_difference(const struct request *request, struct picture_
         result = image_set_attribute(difference, names[i], request->paths[i], error);
     if (result != PS_OK)
         return result;
-    return image_write_exr(difference, request->output, IMAGE_ZIP, parallel_processor_count(),
-                           error);
+    struct workers *workers;
+    result = workers_create(parallel_processor_count(), &workers, error);
+    if (result == PS_OK)
+        result = image_write_exr(difference, request->output, IMAGE_ZIP, workers, error);
+    workers_destroy(workers);
+    return result;
 }
 
 static int run(const struct argument *arguments, size_t count)

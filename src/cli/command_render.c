@@ -172,14 +172,14 @@ static void tell_of_dark_pixels(const struct job *job, const struct statistics *
 }
 
 /* Writes all that can be written; the error is the first one's. */
-static ps_result write_files(struct job *job, const struct image *image, uint32_t threads,
+static ps_result write_files(struct job *job, const struct image *image, struct workers *workers,
                              struct statistics *statistics, struct error *error)
 {
     double start = clock_seconds();
     ps_result first = PS_OK;
     for (size_t i = 0; i < job->output_count; i++) {
         struct error reason;
-        ps_result result = output_write(image, job->outputs[i], &job->format, threads, &reason);
+        ps_result result = output_write(image, job->outputs[i], &job->format, workers, &reason);
         if (result == PS_OK && !job->options.quiet)
             fprintf(stderr, "psplat: wrote %s\n", job->outputs[i]);
         if (result != PS_OK && first == PS_OK) {
@@ -215,7 +215,7 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     layers_keep(&image, job->layers);
     job->format.exposure = description->image.exposure;
     if (written == PS_OK)
-        written = write_files(job, &image, settings->threads, statistics, error);
+        written = write_files(job, &image, settings->workers, statistics, error);
     image_release(&image);
     if (written == PS_OK && result == PS_CANCELLED)
         return error_set(error, PS_CANCELLED,

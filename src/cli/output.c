@@ -59,7 +59,7 @@ static void tonemap_row(void *user, uint64_t y, uint32_t worker)
 }
 
 static ps_result write_png(const struct image *image, const char *path, double exposure,
-                           uint32_t threads, struct error *error)
+                           struct workers *workers, struct error *error)
 {
     size_t bytes = image->width * image->height * 3;
     uint8_t *rgb = malloc(bytes);
@@ -73,7 +73,7 @@ static ps_result write_png(const struct image *image, const char *path, double e
         .exposure = exposure,
         .rgb = rgb,
     };
-    parallel_for(threads, image->height, tonemap_row, &work);
+    parallel_for(workers, image->height, tonemap_row, &work);
     ps_result result = image_write_png(path, image->width, image->height, rgb, image->attributes,
                                        image->attribute_count, error);
     free(rgb);
@@ -81,11 +81,12 @@ static ps_result write_png(const struct image *image, const char *path, double e
 }
 
 ps_result output_write(const struct image *image, const char *path,
-                       const struct output_format *format, uint32_t threads, struct error *error)
+                       const struct output_format *format, struct workers *workers,
+                       struct error *error)
 {
     if (output_holds_layers(path))
-        return image_write_exr(image, path, format->compression, threads, error);
-    return write_png(image, path, format->exposure, threads, error);
+        return image_write_exr(image, path, format->compression, workers, error);
+    return write_png(image, path, format->exposure, workers, error);
 }
 
 bool output_check(const char *path, struct error *error)

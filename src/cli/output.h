@@ -2,6 +2,7 @@
 #ifndef CLI_OUTPUT_H
 #define CLI_OUTPUT_H
 
+#include "base/parallel.h"
 #include "cli/scene_options.h"
 #include "image/image.h"
 #include "render/settings.h"
@@ -22,9 +23,10 @@ struct output_format {
     double exposure;                    /* PNG; stops */
 };
 
-/* Writes the picture by its name's suffix; the threads change its time, not the file. */
+/* Writes the picture by its name's suffix; the workers change its time, not the file. */
 ps_result output_write(const struct image *image, const char *path,
-                       const struct output_format *format, uint32_t threads, struct error *error);
+                       const struct output_format *format, struct workers *workers,
+                       struct error *error);
 
 /* Attributes that say how the picture was made: version, scene, every setting, and the command that
  * repeats it. */

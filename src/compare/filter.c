@@ -63,9 +63,13 @@ static void filter_row_down(void *user, uint64_t row, uint32_t worker)
 void filter_plane(const double *in, size_t width, size_t height, const struct filter *horizontal,
                   const struct filter *vertical, double *scratch, double *out)
 {
-    uint32_t threads = parallel_processor_count();
+    struct workers *workers;
+    struct error error;
+    workers_create(parallel_processor_count(), &workers,
+                   &error); /* if that fails, the caller alone */
     struct pass across = {in, scratch, width, height, horizontal};
     struct pass down = {scratch, out, width, height, vertical};
-    parallel_for(threads, height, filter_row_across, &across);
-    parallel_for(threads, height, filter_row_down, &down);
+    parallel_for(workers, height, filter_row_across, &across);
+    parallel_for(workers, height, filter_row_down, &down);
+    workers_destroy(workers);
 }

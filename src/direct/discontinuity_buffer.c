@@ -18,7 +18,7 @@ void discontinuity_buffer_runs(const struct gbuffer *gbuffer, uint32_t tile, uin
     }
 }
 
-void discontinuity_buffer(struct gbuffer *gbuffer, uint32_t threads)
+void discontinuity_buffer(struct gbuffer *gbuffer, struct workers *workers)
 {
     ps_rgb *found = gbuffer->direct;
     struct geometry_filter mean = {.gbuffer = gbuffer,
@@ -26,7 +26,7 @@ void discontinuity_buffer(struct gbuffer *gbuffer, uint32_t threads)
                                    .radius = REACH,
                                    .from = found,
                                    .to = gbuffer->joined};
-    geometry_filter_take(&mean, threads);
+    geometry_filter_take(&mean, workers);
     gbuffer->direct = gbuffer->joined;
     gbuffer->joined = found;
 }

@@ -16,6 +16,7 @@
 #ifndef DIRECT_DISCONTINUITY_BUFFER_H
 #define DIRECT_DISCONTINUITY_BUFFER_H
 
+#include "base/parallel.h"
 #include "direct/direct.h"
 
 /* The runs of a tile's lanes, of `samples` numbers for each pass. */
@@ -24,6 +25,6 @@ void discontinuity_buffer_runs(const struct gbuffer *gbuffer, uint32_t tile, uin
 
 /* Puts joined direct irradiance in the place of what each lane found by itself; after
  * gbuffer_prepare_join. */
-void discontinuity_buffer(struct gbuffer *gbuffer, uint32_t threads);
+void discontinuity_buffer(struct gbuffer *gbuffer, struct workers *workers);
 
 #endif

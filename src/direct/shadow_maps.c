@@ -125,7 +125,8 @@ static void set_views(const struct scene *scene, struct shadow_maps *maps)
 }
 
 ps_result shadow_maps_create(const struct scene *scene, const struct trace *trace, uint32_t side,
-                             uint32_t threads, struct shadow_maps **created, struct error *error)
+                             struct workers *workers, struct shadow_maps **created,
+                             struct error *error)
 {
     size_t views = count_views(scene), pixels = (size_t)side * side;
     size_t bytes = views * pixels * sizeof(float);
@@ -143,7 +144,7 @@ ps_result shadow_maps_create(const struct scene *scene, const struct trace *trac
     }
     set_views(scene, maps);
     struct tracing tracing = {maps, trace, scene->surface_offset};
-    parallel_for(threads, (uint64_t)views * blocks_across(maps), trace_row_of_blocks, &tracing);
+    parallel_for(workers, (uint64_t)views * blocks_across(maps), trace_row_of_blocks, &tracing);
     *created = maps;
     return PS_OK;
 }

@@ -8,6 +8,7 @@
 #ifndef DIRECT_SHADOW_MAPS_H
 #define DIRECT_SHADOW_MAPS_H
 
+#include "base/parallel.h"
 #include "trace/trace.h"
 
 struct shadow_maps;
@@ -16,7 +17,8 @@ struct shadow_maps;
  * many threads; they do not depend on these. The scene must outlive them. PS_ERROR_MEMORY, with a
  * message; else to be destroyed. */
 ps_result shadow_maps_create(const struct scene *scene, const struct trace *trace, uint32_t side,
-                             uint32_t threads, struct shadow_maps **maps, struct error *error);
+                             struct workers *workers, struct shadow_maps **maps,
+                             struct error *error);
 void shadow_maps_destroy(struct shadow_maps *maps); /* or NULL */
 
 size_t shadow_maps_bytes(const struct shadow_maps *maps);

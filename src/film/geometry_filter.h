@@ -15,6 +15,7 @@
 #ifndef FILM_GEOMETRY_FILTER_H
 #define FILM_GEOMETRY_FILTER_H
 
+#include "base/parallel.h"
 #include "film/gbuffer.h"
 
 /* Arrays have a value for each lane of each tile; borrowed. */
@@ -33,6 +34,6 @@ static inline int geometry_filter_window(int radius)
     return (2 * radius + 1) * (2 * radius + 1);
 }
 
-void geometry_filter_take(struct geometry_filter *mean, uint32_t threads);
+void geometry_filter_take(struct geometry_filter *mean, struct workers *workers);
 
 #endif

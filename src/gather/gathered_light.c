@@ -30,10 +30,10 @@ size_t gathered_light_bytes(const struct gbuffer *gbuffer)
 }
 
 ps_result gathered_light_begin(struct gathered_light *near, const struct gbuffer *gbuffer,
-                               float distance, uint32_t interleave, uint32_t threads,
+                               float distance, uint32_t interleave, struct workers *workers,
                                struct error *error)
 {
-    assert(distance > 0.0f && threads > 0);
+    assert(distance > 0.0f);
     size_t lanes = lanes_of(gbuffer);
     near->distance = distance;
     near->tiles_across = gbuffer->tiles_across;
@@ -56,7 +56,7 @@ ps_result gathered_light_begin(struct gathered_light *near, const struct gbuffer
     memset(near->found, 0, lanes * sizeof *near->found);
     struct geometry_filter count = {
         .gbuffer = gbuffer, .radius = near->radius, .counts = near->averaged};
-    geometry_filter_take(&count, threads);
+    geometry_filter_take(&count, workers);
     return PS_OK;
 }
 
@@ -105,13 +105,14 @@ static void add_tile(void *user, uint64_t index, uint32_t worker)
     }
 }
 
-void gathered_light_end(struct gathered_light *near, struct gbuffer *gbuffer, uint32_t threads)
+void gathered_light_end(struct gathered_light *near, struct gbuffer *gbuffer,
+                        struct workers *workers)
 {
     if (!(near->distance > 0.0f))
         return;
     struct geometry_filter mean = {
         .gbuffer = gbuffer, .radius = near->radius, .from = near->found, .to = near->joined};
-    geometry_filter_take(&mean, threads);
+    geometry_filter_take(&mean, workers);
     struct adding adding = {gbuffer, near};
-    parallel_for(threads, gbuffer->tile_count, add_tile, &adding);
+    parallel_for(workers, gbuffer->tile_count, add_tile, &adding);
 }

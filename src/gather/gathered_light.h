@@ -13,6 +13,7 @@
 #ifndef GATHER_GATHERED_LIGHT_H
 #define GATHER_GATHERED_LIGHT_H
 
+#include "base/parallel.h"
 #include "film/gbuffer.h"
 
 struct gathered_light {
@@ -36,13 +37,14 @@ uint32_t gathered_light_rays(uint64_t paths);
 /* Starts a pass in which light from within a distance is left, and makes room where there is none.
  * `interleave`: n. */
 ps_result gathered_light_begin(struct gathered_light *near, const struct gbuffer *gbuffer,
-                               float distance, uint32_t interleave, uint32_t threads,
+                               float distance, uint32_t interleave, struct workers *workers,
                                struct error *error);
 /* What that takes for a G-buffer of this size. */
 size_t gathered_light_bytes(const struct gbuffer *gbuffer);
 void gathered_light_release(struct gathered_light *near);
 
 /* Adds what was found to the G-buffer's tiles, without weight. */
-void gathered_light_end(struct gathered_light *near, struct gbuffer *gbuffer, uint32_t threads);
+void gathered_light_end(struct gathered_light *near, struct gbuffer *gbuffer,
+                        struct workers *workers);
 
 #endif

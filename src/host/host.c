@@ -88,7 +88,7 @@ bool host_loop(const ps_host *host, const char *service, uint64_t count, ps_body
     bool other = atomic_exchange(&render->looping, true);
     if (!host_in_place(host, !other, service))
         return false;
-    parallel_for(render->settings->threads, count, body, user);
+    parallel_for(render->settings->workers, count, body, user);
     atomic_store(&render->looping, false);
     return true;
 }

@@ -99,7 +99,7 @@ void photons_place(struct render *render, const ps_photon *photons, size_t n, st
     uint64_t chunks = (n + PS_PATH_CHUNK - 1) / PS_PATH_CHUNK;
     begin_batch(render);
     struct batch batch = {render, placement_of(render), photons, n, splats};
-    parallel_for(render->settings->threads, chunks, place_chunk, &batch);
+    parallel_for(render->settings->workers, chunks, place_chunk, &batch);
     end_batch(render, n);
     statistics_add_seconds(render->statistics, "place", clock_seconds() - start);
 }
@@ -192,7 +192,7 @@ static ps_result host_gather_short_range(const ps_host *host, double rays)
                          (double)gathered_light_bytes(&render->gbuffer));
     ps_result result =
         gathered_light_begin(near, &render->gbuffer, distance, render->gather_interleave,
-                             render->settings->threads, &error);
+                             render->settings->workers, &error);
     if (result != PS_OK)
         return render_pass_on(render, result, &error);
     result =

@@ -34,7 +34,7 @@ static ps_result create_splatter(struct render *render, uint32_t interleave, str
         .surface_offset = render->scene->surface_offset,
         .kernel = render->kernel,
         .interleave = render->counts_splats ? 1 : interleave,
-        .threads = render->settings->threads,
+        .workers = render->settings->workers,
         .batch = render->settings->batch,
     };
     ps_result result = PS_OK;

@@ -26,7 +26,7 @@ static ps_result host_for_each_tile(const ps_host *host, ps_body body, void *use
         return PS_ERROR_INVALID;
     uint64_t count = render->gbuffer.tile_count;
     /* Parts of some tiles a thread: often enough to report, rarely enough to keep threads busy. */
-    uint64_t step = 16 * (uint64_t)render->settings->threads;
+    uint64_t step = 16 * (uint64_t)workers_count(render->settings->workers);
     for (uint64_t first = 0; first < count; first += step) {
         struct tile_part part = {render, first, body, user};
         uint64_t n = count - first < step ? count - first : step;

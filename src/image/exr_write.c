@@ -274,22 +274,20 @@ static void work_off_chunks(void *user, uint64_t index, uint32_t worker)
 }
 
 static ps_result write_chunks(exr_context_t context, const struct image *image, size_t lines,
-                              uint32_t threads, const struct exr_sink *sink)
+                              struct workers *workers, const struct exr_sink *sink)
 {
     struct chunk_queue queue = {
         .context = context, .image = image, .lines = lines, .code = EXR_ERR_SUCCESS};
-    size_t chunks = (image->height + lines - 1) / lines;
-    uint32_t workers = threads < chunks ? threads : (uint32_t)chunks;
     pthread_mutex_init(&queue.lock, NULL);
     pthread_cond_init(&queue.moved, NULL);
-    parallel_for(workers, workers, work_off_chunks, &queue);
+    parallel_for(workers, workers_count(workers), work_off_chunks, &queue);
     pthread_cond_destroy(&queue.moved);
     pthread_mutex_destroy(&queue.lock);
     return explain(sink, queue.code, "the", "pixels");
 }
 
 static ps_result write_picture(const struct image *image, enum image_compression compression,
-                               uint32_t threads, struct exr_sink *sink)
+                               struct workers *workers, struct exr_sink *sink)
 {
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = drop_message;
@@ -303,7 +301,7 @@ static ps_result write_picture(const struct image *image, enum image_compression
         return result;
     result = write_header(context, image, compression, sink);
     if (result == PS_OK)
-        result = write_chunks(context, image, compressions[compression].lines, threads, sink);
+        result = write_chunks(context, image, compressions[compression].lines, workers, sink);
     exr_result_t code = exr_finish(&context);
     return result == PS_OK ? explain(sink, code, "the", "end") : result;
 }
@@ -319,7 +317,8 @@ bool image_compression_named(const char *name, enum image_compression *compressi
 }
 
 ps_result image_write_exr(const struct image *image, const char *path,
-                          enum image_compression compression, uint32_t threads, struct error *error)
+                          enum image_compression compression, struct workers *workers,
+                          struct error *error)
 {
     struct exr_sink sink = {.error = error};
     ps_result result = check_picture(image, path, error);
@@ -327,7 +326,7 @@ ps_result image_write_exr(const struct image *image, const char *path,
         result = output_file_open(&sink.file, path, error);
     if (result != PS_OK)
         return result;
-    result = write_picture(image, compression, threads, &sink);
+    result = write_picture(image, compression, workers, &sink);
     if (result != PS_OK) {
         output_file_discard(&sink.file);
         return result;

@@ -9,6 +9,7 @@
 #define IMAGE_IMAGE_H
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include <stdbool.h>
 
 struct image_channel {
@@ -62,10 +63,9 @@ bool image_compression_named(const char *name, enum image_compression *compressi
 
 /* Writes a scan-line OpenEXR, 32-bit float, channels in the alphabetical order
  * that the format demands, string attributes as they stand. The same image gives the same bytes,
- * whatever the number of threads, of which it uses `threads`, at least 1. Channels' names must
- * differ. */
+ * whatever the number of workers. Channels' names must differ. */
 ps_result image_write_exr(const struct image *image, const char *path,
-                          enum image_compression compression, uint32_t threads,
+                          enum image_compression compression, struct workers *workers,
                           struct error *error);
 
 /* Reads a single-part scan-line or tiled (one level) OpenEXR, half, float or uint channels, into

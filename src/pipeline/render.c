@@ -109,7 +109,7 @@ static void over_tiles(struct tile_work *work, const char *stage, parallel_body 
 {
     struct render *render = work->render;
     double start = clock_seconds();
-    parallel_for(render->settings->threads, render->gbuffer.tile_count, body, work);
+    parallel_for(render->settings->workers, render->gbuffer.tile_count, body, work);
     statistics_add_seconds(render->statistics, stage, clock_seconds() - start);
 }
 
@@ -117,7 +117,7 @@ static void end_splats(struct render *render)
 {
     struct splatter *splatter = &render->splatter;
     splatter_end_pass(splatter, &render->gbuffer);
-    gathered_light_end(&render->gathered_light, &render->gbuffer, render->settings->threads);
+    gathered_light_end(&render->gathered_light, &render->gbuffer, render->settings->workers);
 }
 
 uint64_t mend_plane(float *plane, size_t n)
@@ -200,7 +200,7 @@ static void light_pixels(struct tile_work *work)
     if (!render->gbuffer.occlusion)
         return;
     double start = clock_seconds();
-    discontinuity_buffer(&render->gbuffer, render->settings->threads);
+    discontinuity_buffer(&render->gbuffer, render->settings->workers);
     statistics_add_seconds(render->statistics, "direct", clock_seconds() - start);
 }
 
@@ -223,7 +223,7 @@ static void set_pass(struct render *render, uint32_t number)
         .tile_count = render->gbuffer.tile_count,
         .width = (uint32_t)render->gbuffer.width,
         .height = (uint32_t)render->gbuffer.height,
-        .thread_count = render->settings->threads,
+        .thread_count = workers_count(render->settings->workers),
         .surface_offset = render->scene->surface_offset,
         .specular = render->scene->microfacets != NULL,
         .shares_places = shares_places(render->settings),

@@ -30,7 +30,7 @@ static ps_result create_shadow_maps(struct render *render, struct error *error)
         return PS_OK;
     double start = clock_seconds();
     ps_result result = shadow_maps_create(render->scene, render->trace, settings->direct_resolution,
-                                          settings->threads, &render->shadow_maps, error);
+                                          settings->workers, &render->shadow_maps, error);
     if (result != PS_OK)
         return result;
     statistics_add_seconds(render->statistics, "direct maps", clock_seconds() - start);

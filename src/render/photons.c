@@ -132,7 +132,7 @@ static ps_result fill_chunks(struct photon_stream *stream, struct error *error)
     if (stream->filled)
         return PS_OK;
     double start = clock_seconds();
-    parallel_for(render->settings->threads, BATCH_CHUNKS, inject_chunk, &injection);
+    parallel_for(render->settings->workers, BATCH_CHUNKS, inject_chunk, &injection);
     statistics_add_seconds(render->statistics, "inject", clock_seconds() - start);
     for (int i = 0; i < BATCH_CHUNKS; i++) {
         result = result == PS_OK ? results[i] : result;

@@ -96,7 +96,6 @@ ps_result settings_resolve(struct loader *loader, const struct render_descriptio
         .discontinuity_buffer = description->discontinuity_buffer != 0,
         .aa_samples = (uint32_t)description->aa_samples,
         .seed = (uint64_t)description->seed,
-        .threads = threads,
         .batch = batch,
         .direct = (enum direct_light)description->direct,
         .direct_resolution = (uint32_t)description->direct_resolution,
@@ -107,6 +106,9 @@ ps_result settings_resolve(struct loader *loader, const struct render_descriptio
     for (int kind = 0; kind < PS_KINDS; kind++)
         resolve_choice(&resolution, (ps_kind)kind, &description->strategies[kind],
                        &settings->strategies[kind]);
+    struct error error;
+    if (workers_create(threads, &settings->workers, &error) != PS_OK)
+        fail(&resolution, &nowhere, error.text);
     if (!resolution.failed)
         return PS_OK;
     settings_release(settings);
@@ -117,4 +119,5 @@ void settings_release(struct render_settings *settings)
 {
     for (int kind = 0; kind < PS_KINDS; kind++)
         strategy_release(&settings->strategies[kind]);
+    workers_destroy(settings->workers);
 }

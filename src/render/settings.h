@@ -7,6 +7,7 @@
 #ifndef RENDER_SETTINGS_H
 #define RENDER_SETTINGS_H
 
+#include "base/parallel.h"
 #include "plugin/strategy.h"
 #include "scene/description.h"
 
@@ -17,7 +18,7 @@ struct render_settings {
     bool discontinuity_buffer; /* see discontinuity_buffer.h */
     uint32_t aa_samples;       /* of a pixel at an edge, in each pass; 1: as everywhere */
     uint64_t seed;
-    uint32_t threads;
+    struct workers *workers; /* owned */
     const char *isa; /* instruction set, a name of kernel.h, borrowed; NULL: the best there is */
     size_t batch;    /* splats at a time; changes memory, not the picture */
     enum direct_light direct;
@@ -30,8 +31,8 @@ struct render_settings {
 /* Called for each problem; `origin` has line 0 where it came from the command line. */
 typedef void (*settings_report)(void *user, const struct origin *origin, const char *message);
 
-/* Loads and fills the strategies. PS_ERROR_INVALID after at least one report; settings are released
- * then. */
+/* Loads and fills the strategies and starts `threads` workers. PS_ERROR_INVALID after at least one report;
+ * settings are released then. */
 ps_result settings_resolve(struct loader *loader, const struct render_description *description,
                            uint32_t threads, size_t batch, settings_report report, void *user,
                            struct render_settings *settings);

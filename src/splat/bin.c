@@ -189,12 +189,12 @@ static void look_at_part(void *user, uint64_t index, uint32_t worker)
     }
 }
 
-static void find_range(struct sort *sort, uint32_t threads)
+static void find_range(struct sort *sort, struct workers *workers)
 {
     struct bins *bins = sort->bins;
     uint32_t each = sort->pyramid->tiles_across * sort->pyramid->tiles_down;
     uint32_t first = sort->pyramid->subsets, end = 0;
-    parallel_for(threads, CHUNKS, look_at_part, sort);
+    parallel_for(workers, CHUNKS, look_at_part, sort);
     bins->lighting = 0;
     for (int i = 0; i < CHUNKS; i++) {
         const struct bin_chunk *chunk = &bins->chunks[i];
@@ -208,16 +208,16 @@ static void find_range(struct sort *sort, uint32_t threads)
 
 ps_result bins_sort(struct bins *bins, const struct pyramid *pyramid,
                     const struct kernel_variant *kernel, const struct kernel_splat *splats,
-                    size_t n, uint32_t threads, struct error *error)
+                    size_t n, struct workers *workers, struct error *error)
 {
     struct sort sort = {bins, pyramid, kernel, splats, n};
-    find_range(&sort, threads);
-    parallel_for(threads, CHUNKS, bin_part, &sort);
+    find_range(&sort, workers);
+    parallel_for(workers, CHUNKS, bin_part, &sort);
     for (int i = 0; i < CHUNKS; i++)
         if (bins->chunks[i].failed)
             return error_memory(error, bins->chunks[i].capacity * 2 * sizeof(uint32_t), "bins");
     ps_result result = reserve_indices(bins, place_counts(bins), error);
     if (result == PS_OK)
-        parallel_for(threads, CHUNKS, scatter_part, &sort);
+        parallel_for(workers, CHUNKS, scatter_part, &sort);
     return result;
 }

@@ -8,6 +8,7 @@
 #ifndef SPLAT_BIN_H
 #define SPLAT_BIN_H
 
+#include "base/parallel.h"
 #include "splat/pyramid.h"
 
 /* Pairs of a batch of splats, sorted by tile: tile t has splats indices[offsets[t] .. offsets[t +
@@ -30,10 +31,10 @@ void bins_release(struct bins *bins);
 size_t bins_bytes(const struct bins *bins);
 
 /* Sorts n splats into the tiles that they may touch, in place of what the bins held; those whose
- * kernel_scale is 0 touch none. The order does not depend on `threads`. PS_ERROR_MEMORY, or
+ * kernel_scale is 0 touch none. The order does not depend on `workers`. PS_ERROR_MEMORY, or
  * PS_ERROR_INVALID where there are more than 2^32 pairs. */
 ps_result bins_sort(struct bins *bins, const struct pyramid *pyramid,
                     const struct kernel_variant *kernel, const struct kernel_splat *splats,
-                    size_t n, uint32_t threads, struct error *error);
+                    size_t n, struct workers *workers, struct error *error);
 
 #endif

@@ -153,10 +153,10 @@ static void fill_tile(void *user, uint64_t index, uint32_t worker)
 }
 
 void interleaved_fill(struct interleaved *interleaved, const struct gbuffer *gbuffer,
-                      uint32_t threads)
+                      struct workers *workers)
 {
     struct work work = {interleaved, gbuffer};
-    parallel_for(threads, interleaved->tile_count, fill_tile, &work);
+    parallel_for(workers, interleaved->tile_count, fill_tile, &work);
 }
 
 /* --- joining ------------------------------------------------------------------------------------ */
@@ -311,8 +311,8 @@ static void join_tile(void *user, uint64_t index, uint32_t worker)
 }
 
 void interleaved_join(const struct interleaved *interleaved, struct gbuffer *gbuffer,
-                      uint32_t threads)
+                      struct workers *workers)
 {
     struct work work = {interleaved, gbuffer};
-    parallel_for(threads, gbuffer->tile_count, join_tile, &work);
+    parallel_for(workers, gbuffer->tile_count, join_tile, &work);
 }

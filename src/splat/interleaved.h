@@ -12,6 +12,7 @@
 #ifndef SPLAT_INTERLEAVED_H
 #define SPLAT_INTERLEAVED_H
 
+#include "base/parallel.h"
 #include "film/gbuffer.h"
 #include "splat/bounds.h"
 
@@ -50,12 +51,12 @@ bool interleaved_pixel(const struct interleaved *interleaved, uint32_t tile, uin
 
 /* Takes the surfaces from the G-buffer and zeroes the sums. */
 void interleaved_fill(struct interleaved *interleaved, const struct gbuffer *gbuffer,
-                      uint32_t threads);
+                      struct workers *workers);
 
 /* Gives each pixel of the G-buffer the mean of what the subsets learned around it: over a window of
  * n pixels across and down, or n + 1 whose border weighs half where n is even, so that each subset
  * weighs the same inside of a surface; pixels off the same plane do not count. */
 void interleaved_join(const struct interleaved *interleaved, struct gbuffer *gbuffer,
-                      uint32_t threads);
+                      struct workers *workers);
 
 #endif

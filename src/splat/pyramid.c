@@ -109,10 +109,11 @@ static void build_subset(void *user, uint64_t subset, uint32_t worker)
                 build_node(build, (uint32_t)subset, level, column, row);
 }
 
-void pyramid_build(struct pyramid *pyramid, const struct interleaved *interleaved, uint32_t threads)
+void pyramid_build(struct pyramid *pyramid, const struct interleaved *interleaved,
+                   struct workers *workers)
 {
     struct build build = {pyramid, interleaved};
-    parallel_for(threads, interleaved->subsets, build_subset, &build);
+    parallel_for(workers, interleaved->subsets, build_subset, &build);
 }
 
 struct walk {

@@ -6,6 +6,7 @@
 #ifndef SPLAT_PYRAMID_H
 #define SPLAT_PYRAMID_H
 
+#include "base/parallel.h"
 #include "splat/interleaved.h"
 #include "splat/kernel.h"
 
@@ -30,9 +31,9 @@ void pyramid_release(struct pyramid *pyramid);
 size_t pyramid_bytes(const struct pyramid *pyramid);
 
 /* Bounds of what the tiles of `interleaved`, the one that it was created for, see now. Main thread; works on
- * `threads`. */
+ * `workers`. */
 void pyramid_build(struct pyramid *pyramid, const struct interleaved *interleaved,
-                   uint32_t threads);
+                   struct workers *workers);
 
 /* Called with each tile that a splat may touch; returns whether to go on. */
 typedef bool (*pyramid_visitor)(void *user, uint32_t tile);

@@ -72,14 +72,14 @@ void splatter_begin_pass(struct splatter *splatter, const struct gbuffer *gbuffe
                          struct splatter_pass pass)
 {
     splatter->pass = pass;
-    interleaved_fill(&splatter->pixels, gbuffer, splatter->settings.threads);
-    pyramid_build(&splatter->pyramid, &splatter->pixels, splatter->settings.threads);
+    interleaved_fill(&splatter->pixels, gbuffer, splatter->settings.workers);
+    pyramid_build(&splatter->pyramid, &splatter->pixels, splatter->settings.workers);
 }
 
 void splatter_end_pass(struct splatter *splatter, struct gbuffer *gbuffer)
 {
     double start = clock_seconds();
-    interleaved_join(&splatter->pixels, gbuffer, splatter->settings.threads);
+    interleaved_join(&splatter->pixels, gbuffer, splatter->settings.workers);
     splatter->join_seconds += clock_seconds() - start;
 }
 
@@ -219,14 +219,14 @@ static ps_result add_batch(const struct batch *batch, struct error *error)
     const struct splatter_settings *settings = &splatter->settings;
     struct batch work = *batch;
     double start = clock_seconds();
-    parallel_for(settings->threads, (work.n + MAP_CHUNK - 1) / MAP_CHUNK, map_chunk, &work);
+    parallel_for(settings->workers, (work.n + MAP_CHUNK - 1) / MAP_CHUNK, map_chunk, &work);
     double mapped = clock_seconds();
     ps_result result = bins_sort(&splatter->bins, &splatter->pyramid, &settings->kernel,
-                                 splatter->prepared, work.n, settings->threads, error);
+                                 splatter->prepared, work.n, settings->workers, error);
     double binned = clock_seconds();
     if (result != PS_OK)
         return result;
-    parallel_for(settings->threads, splatter->bins.end_tile - splatter->bins.first_tile, splat_tile,
+    parallel_for(settings->workers, splatter->bins.end_tile - splatter->bins.first_tile, splat_tile,
                  &work);
     splatter->map_seconds += mapped - start;
     splatter->bin_seconds += binned - mapped;

@@ -7,6 +7,7 @@
 #ifndef SPLAT_SPLATTER_H
 #define SPLAT_SPLATTER_H
 
+#include "base/parallel.h"
 #include "film/gbuffer.h"
 #include "splat/bin.h"
 #include "splat/kernel.h"
@@ -21,7 +22,7 @@ struct splatter_settings {
     struct kernel_profile profile;
     struct kernel_variant kernel;
     uint32_t interleave; /* see interleaved.h */
-    uint32_t threads;
+    struct workers *workers;
     size_t
         batch; /* at most so many splats at a time; the budget for depth maps may ask for fewer */
 };

@@ -112,6 +112,7 @@ static void denoise_or_stop(struct picture *picture, const char *choice, uint32_
                      cancelled ? PS_CANCELLED : PS_OK);
     assert_int_equal(bare.live_allocations, 0);
     strategy_release(&strategy);
+    bare_host_release(&bare);
 }
 
 void denoise(struct picture *picture, const char *choice, uint32_t threads)

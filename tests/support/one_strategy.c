@@ -1,7 +1,7 @@
 #include "support/one_strategy.h"
 
-#include "base/parallel.h"
 #include "render/settings.h"
+#include "support/workers.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -29,7 +29,7 @@ static void release(const ps_host *host, void *memory)
 
 static void loop(const ps_host *host, uint64_t count, ps_body body, void *user)
 {
-    parallel_for(bare_of(host)->threads, count, body, user);
+    parallel_for(bare_of(host)->workers, count, body, user);
 }
 
 static void bounds(const ps_host *host, ps_vec3 *center, float *radius)
@@ -65,7 +65,7 @@ static int32_t cancelled(const ps_host *host)
 
 void bare_host_create(struct bare_host *bare, uint32_t threads)
 {
-    *bare = (struct bare_host){.threads = threads};
+    *bare = (struct bare_host){.workers = start_workers(threads)};
     bare->host = (ps_host){
         .size = sizeof(ps_host),
         .abi_minor = PS_ABI_MINOR,
@@ -78,6 +78,11 @@ void bare_host_create(struct bare_host *bare, uint32_t threads)
         .cancelled = cancelled,
         .fail = refuse,
     };
+}
+
+void bare_host_release(struct bare_host *bare)
+{
+    workers_destroy(bare->workers);
 }
 
 static void set_parameter(struct strategy *strategy, const struct parameter_text *parameter)

@@ -3,6 +3,7 @@
 #ifndef TESTS_SUPPORT_ONE_STRATEGY_H
 #define TESTS_SUPPORT_ONE_STRATEGY_H
 
+#include "base/parallel.h"
 #include "plugin/strategy.h"
 
 #define BARE_HOST_RADIUS 100.0f
@@ -12,7 +13,7 @@
  * radius BARE_HOST_RADIUS, an orthographic camera with pixels of side BARE_HOST_PIXEL, says whether it is cancelled, and keeps failures; nothing else. */
 struct bare_host {
     ps_host host;
-    uint32_t threads;
+    struct workers *workers;
     int live_allocations;
     bool cancelled;
     char why[200]; /* the last failure */
@@ -20,6 +21,7 @@ struct bare_host {
 
 /* `bare` must stay where it is while it is used. */
 void bare_host_create(struct bare_host *bare, uint32_t threads);
+void bare_host_release(struct bare_host *bare);
 
 /* The strategy that a text such as "filter=cone:k=2" asks for, not started. A failure fails the
  * test. Release it with strategy_release. */

@@ -209,6 +209,7 @@ static void test_even_sizes_are_refused(void **state)
     assert_int_equal(strategy_start(&strategy, &bare.host), PS_ERROR_INVALID);
     assert_string_equal(bare.why, "size must be odd, got 8");
     strategy_release(&strategy);
+    bare_host_release(&bare);
 }
 
 static void test_stops_when_cancelled(void **state)

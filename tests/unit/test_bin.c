@@ -4,6 +4,7 @@
 #include "splat/bin.h"
 
 #include "support/random.h"
+#include "support/workers.h"
 #include <psplat/math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,6 +23,7 @@ struct bench {
     struct gbuffer gbuffer;
     struct interleaved interleaved;
     struct pyramid pyramid;
+    struct workers *workers;
     struct kernel_variant kernel;
     struct splat splats[SPLATS];
     struct kernel_splat prepared[SPLATS];
@@ -97,9 +99,10 @@ static int open_bench(void **state)
     assert_int_equal(interleaved_create(&bench->gbuffer, INTERLEAVE, &bench->interleaved, &error),
                      PS_OK);
     assert_int_equal(bench->interleaved.tile_count, 4 * 10 * 7);
-    interleaved_fill(&bench->interleaved, &bench->gbuffer, 2);
+    bench->workers = start_workers(2);
+    interleaved_fill(&bench->interleaved, &bench->gbuffer, bench->workers);
     assert_int_equal(pyramid_create(&bench->interleaved, &bench->pyramid, &error), PS_OK);
-    pyramid_build(&bench->pyramid, &bench->interleaved, 2);
+    pyramid_build(&bench->pyramid, &bench->interleaved, bench->workers);
     *state = bench;
     return 0;
 }
@@ -107,6 +110,7 @@ static int open_bench(void **state)
 static int close_bench(void **state)
 {
     struct bench *bench = *state;
+    workers_destroy(bench->workers);
     pyramid_release(&bench->pyramid);
     interleaved_release(&bench->interleaved);
     gbuffer_release(&bench->gbuffer);
@@ -139,10 +143,12 @@ static struct bins sort(const struct bench *bench, size_t n, uint32_t threads)
 {
     struct bins bins;
     struct error error;
+    struct workers *workers = start_workers(threads);
     assert_int_equal(bins_create(bench->interleaved.tile_count, &bins, &error), PS_OK);
     assert_int_equal(
-        bins_sort(&bins, &bench->pyramid, &bench->kernel, bench->prepared, n, threads, &error),
+        bins_sort(&bins, &bench->pyramid, &bench->kernel, bench->prepared, n, workers, &error),
         PS_OK);
+    workers_destroy(workers);
     return bins;
 }
 
@@ -242,9 +248,9 @@ static void test_batches_do_not_disturb_each_other(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         struct bins fresh = sort(bench, sizes[i], 2);
         struct error error;
-        assert_int_equal(
-            bins_sort(&bins, &bench->pyramid, &bench->kernel, bench->prepared, sizes[i], 2, &error),
-            PS_OK);
+        assert_int_equal(bins_sort(&bins, &bench->pyramid, &bench->kernel, bench->prepared,
+                                   sizes[i], bench->workers, &error),
+                         PS_OK);
         if (sizes[i])
             expect_same(&bins, &fresh);
         else
@@ -266,8 +272,9 @@ static void test_range_of_the_subsets(void **state)
     struct bins bins;
     struct error error;
     assert_int_equal(bins_create(bench->interleaved.tile_count, &bins, &error), PS_OK);
-    assert_int_equal(bins_sort(&bins, &bench->pyramid, &bench->kernel, splats, SPLATS, 2, &error),
-                     PS_OK);
+    assert_int_equal(
+        bins_sort(&bins, &bench->pyramid, &bench->kernel, splats, SPLATS, bench->workers, &error),
+        PS_OK);
     assert_int_equal(bins.first_tile, 10 * 7);
     assert_int_equal(bins.end_tile, 3 * 10 * 7);
     assert_int_equal(bins.offsets[bins.first_tile], 0);
@@ -337,9 +344,9 @@ static void test_smallest_picture(void **state)
     struct kernel_variant kernel;
     assert_true(kernel_choose("baseline", &kernel));
     assert_int_equal(interleaved_create(&gbuffer, 1, &interleaved, &error), PS_OK);
-    interleaved_fill(&interleaved, &gbuffer, 1);
+    interleaved_fill(&interleaved, &gbuffer, NULL);
     assert_int_equal(pyramid_create(&interleaved, &pyramid, &error), PS_OK);
-    pyramid_build(&pyramid, &interleaved, 1);
+    pyramid_build(&pyramid, &interleaved, NULL);
     assert_int_equal(bins_create(1, &bins, &error), PS_OK);
     struct splat splats[2] = {{.bundle.radius = 0.1f, .near_depth = -1, .bundle.far_depth = 1}};
     splats[0].bundle.axis_u = (ps_vec3){1, 0, 0};
@@ -349,7 +356,7 @@ static void test_smallest_picture(void **state)
     splats[1] = splats[0];
     splats[0].bundle.centre.x = 1;
     const struct kernel_splat prepared[2] = {prepare(&splats[0], 0), prepare(&splats[1], 0)};
-    assert_int_equal(bins_sort(&bins, &pyramid, &kernel, prepared, 2, 1, &error), PS_OK);
+    assert_int_equal(bins_sort(&bins, &pyramid, &kernel, prepared, 2, NULL, &error), PS_OK);
     assert_int_equal(bins.offsets[1], 1);
     assert_int_equal(bins.indices[0], 1);
     bins_release(&bins);

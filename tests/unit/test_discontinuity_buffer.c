@@ -1,5 +1,6 @@
 /* test_discontinuity_buffer.c: which pixels join their direct light: on synthetic G-buffers, wider than a tile. */
 #include "direct/discontinuity_buffer.h"
+#include "support/workers.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -59,7 +60,9 @@ static void join(struct view (*at)(uint32_t x, uint32_t y))
             gbuffer.direct[i] = (ps_rgb){sight.direct, 2 * sight.direct, 0};
             gbuffer.occlusion[i] = sight.met;
         }
-    discontinuity_buffer(&gbuffer, 3);
+    struct workers *workers = start_workers(3);
+    discontinuity_buffer(&gbuffer, workers);
+    workers_destroy(workers);
 }
 
 static float joined(uint32_t x, uint32_t y)

@@ -1,6 +1,7 @@
 /* test_image.c: pictures in memory, and written to OpenEXR and read back. */
 #include "image/image.h"
 #include "scratch.h"
+#include "support/workers.h"
 
 #include <float.h>
 #include <math.h>
@@ -49,9 +50,11 @@ static void write_with_threads(const struct image *image, const char *path,
                                enum image_compression compression, uint32_t threads)
 {
     struct error error = {{0}};
-    if (image_write_exr(image, path, compression, threads, &error) != PS_OK) {
+    struct workers *workers = start_workers(threads);
+    if (image_write_exr(image, path, compression, workers, &error) != PS_OK) {
         fail_msg("%s", error.text);
     }
+    workers_destroy(workers);
 }
 
 static void write_picture(const struct image *image, const char *path)
@@ -202,7 +205,7 @@ static void test_reserved_attributes(void **state)
         struct error error = {{0}};
         assert_int_equal(image_set_attribute(&image, names[i], "x", &error), PS_OK);
         assert_int_not_equal(
-            image_write_exr(&image, scratch_path(state, "a.exr"), IMAGE_ZIP, 1, &error), PS_OK);
+            image_write_exr(&image, scratch_path(state, "a.exr"), IMAGE_ZIP, NULL, &error), PS_OK);
         assert_non_null(strstr(error.text, names[i]));
         assert_int_equal(scratch_file_count(state), 0);
         image_release(&image);

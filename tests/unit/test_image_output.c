@@ -2,6 +2,7 @@
 #include "base/output_file.h"
 #include "image/image.h"
 #include "scratch.h"
+#include "support/workers.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -23,7 +24,7 @@ static ps_result write_some(const char *path, struct error *error)
     }
     struct image image = {.width = WIDTH, .height = HEIGHT};
     assert_non_null(image_add_channel(&image, "R"));
-    ps_result result = image_write_exr(&image, path, IMAGE_ZIP, 1, error);
+    ps_result result = image_write_exr(&image, path, IMAGE_ZIP, NULL, error);
     image_release(&image);
     return result;
 }
@@ -122,17 +123,19 @@ static void test_a_chunk_that_fails_ends_the_others(void **state)
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
     limit = old;
     signal(SIGXFSZ, SIG_IGN);
+    struct workers *workers = start_workers(4);
     for (rlim_t size = 500; size < 60000; size += 6000) {
         struct error error;
         limit.rlim_cur = size;
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
         ps_result result =
-            image_write_exr(&image, scratch_path(state, "a.exr"), IMAGE_ZIP, 4, &error);
+            image_write_exr(&image, scratch_path(state, "a.exr"), IMAGE_ZIP, workers, &error);
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
         assert_int_equal(result, PS_ERROR_IO);
         assert_non_null(strstr(error.text, strerror(EFBIG)));
         assert_int_equal(scratch_file_count(state), 0);
     }
+    workers_destroy(workers);
     image_release(&image);
 }
 
@@ -273,11 +276,11 @@ static void test_exr_refusals(void **state)
     struct error error = {{0}};
     const char *path = scratch_path(state, "a.exr");
     struct image image = {.width = 2, .height = 2};
-    assert_int_equal(image_write_exr(&image, path, IMAGE_ZIP, 1, &error), PS_ERROR_INVALID);
+    assert_int_equal(image_write_exr(&image, path, IMAGE_ZIP, NULL, &error), PS_ERROR_INVALID);
     assert_non_null(strstr(error.text, path));
     assert_non_null(image_add_channel(&image, "R"));
     assert_non_null(image_add_channel(&image, "R"));
-    assert_int_equal(image_write_exr(&image, path, IMAGE_ZIP, 1, &error), PS_ERROR_INVALID);
+    assert_int_equal(image_write_exr(&image, path, IMAGE_ZIP, NULL, &error), PS_ERROR_INVALID);
     assert_non_null(strstr(error.text, "two channels"));
     image_release(&image);
     assert_int_equal(scratch_file_count(state), 0);

@@ -42,6 +42,7 @@ static struct picture resolve(const char *normalization)
     assert_int_equal(
         vtable->resolve(strategy.state, &bare.host, &film, picture.r, picture.g, picture.b), PS_OK);
     strategy_release(&strategy);
+    bare_host_release(&bare);
     return picture;
 }
 

@@ -2,6 +2,7 @@
  *
  * The G-buffer is made by hand: a floor, beside it a wall, a step up, and nothing. */
 #include "splat/interleaved.h"
+#include "support/workers.h"
 
 #include <math.h>
 #include <psplat/host.h>
@@ -21,6 +22,7 @@
 struct bench {
     struct gbuffer gbuffer;
     struct interleaved interleaved;
+    struct workers *workers;
 };
 
 static void see(ps_tile *tile, uint32_t lane, uint32_t x, uint32_t y)
@@ -49,12 +51,14 @@ static struct bench open_bench(uint32_t interleave)
     }
     assert_int_equal(interleaved_create(&bench.gbuffer, interleave, &bench.interleaved, &error),
                      PS_OK);
-    interleaved_fill(&bench.interleaved, &bench.gbuffer, 2);
+    bench.workers = start_workers(2);
+    interleaved_fill(&bench.interleaved, &bench.gbuffer, bench.workers);
     return bench;
 }
 
 static void close_bench(struct bench *bench)
 {
+    workers_destroy(bench->workers);
     interleaved_release(&bench->interleaved);
     gbuffer_release(&bench->gbuffer);
 }
@@ -120,7 +124,7 @@ static void test_joins_all_subsets_alike(void **state)
     for (uint32_t n = 1; n <= PS_MOST_INTERLEAVE; n++) {
         struct bench bench = open_bench(n);
         light_subsets(&bench.interleaved);
-        interleaved_join(&bench.interleaved, &bench.gbuffer, 2);
+        interleaved_join(&bench.interleaved, &bench.gbuffer, bench.workers);
         double mean = 0.5 * (n * n + 1);
         for (uint32_t y = n / 2; y < HEIGHT - n / 2; y++)
             for (uint32_t x = n / 2; n > 1 && x < WALL - n / 2; x++) {
@@ -147,7 +151,7 @@ static void test_surfaces_do_not_mix(void **state)
             interleaved_pixel(&bench.interleaved, tile, lane, &x, &y);
             bench.interleaved.tiles[tile].irradiance_r[lane] = x < WALL ? 1 : x < STEP ? 2 : 4;
         }
-    interleaved_join(&bench.interleaved, &bench.gbuffer, 2);
+    interleaved_join(&bench.interleaved, &bench.gbuffer, bench.workers);
     for (uint32_t y = 0; y < HEIGHT; y++)
         for (uint32_t x = 0; x < WIDTH; x++) {
             uint32_t lane;
@@ -168,8 +172,8 @@ static void test_one_subset_is_a_copy(void **state)
     for (uint32_t tile = 0; tile < bench.interleaved.tile_count; tile++)
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
             bench.interleaved.tiles[tile].irradiance_g[lane] = 0.1f * (float)(tile * 7 + lane);
-    interleaved_join(&bench.interleaved, &bench.gbuffer, 1);
-    interleaved_join(&bench.interleaved, &bench.gbuffer, 1);
+    interleaved_join(&bench.interleaved, &bench.gbuffer, bench.workers);
+    interleaved_join(&bench.interleaved, &bench.gbuffer, bench.workers);
     for (uint32_t tile = 0; tile < bench.interleaved.tile_count; tile++)
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
             uint32_t x, y, there;
