@@ -57,7 +57,7 @@ def climb(plan, climbers, render, say):
         for climber in climbers:
             point = climber.end_rung(number, min(plan.targets), plan.budget)
             if point:
-                say(f"  {climber.method.name}: {rung_text(point['rung'])}: {point['indirect_seconds']:.2f} s, "
+                say(f"  {climber.method.name}: {rung_text(point['rung'])}: {point['wall_rendering_seconds']:.2f} s, "
                     f"{100 * point['error']:.2f} %")
     for climber in climbers:
         climber.why = climber.why or "ladder's end"
@@ -76,7 +76,7 @@ class PictureErrors:
 
     def render(self, words, threads, seed):
         words = [*words, "--seed", str(seed)]
-        run = self.psplat.render([*words, "--threads", str(threads)], self.picture)
+        run = self.psplat.render([*words, "--threads", str(threads), "--layers", "indirect"], self.picture)
         key = " ".join(words)
         if key not in self.known:
             self.known[key] = self.reference.error(self.picture)

@@ -2,9 +2,11 @@
 import argparse
 import json
 import os
+import shutil
+import subprocess
 import sys
 
-from table import ROOT, fail
+from table import FOLDER, ROOT, fail
 
 WORK = os.path.join(ROOT, "build/speed")
 
@@ -76,6 +78,15 @@ def write_json(path, results):
 def write_text(path, text):
     with open(path, "w", encoding="utf-8") as file:
         file.write(text.rstrip("\n") + "\n")
+
+
+def draw(script, picture, **given):
+    """By gnuplot, where it is there: `picture`, an SVG, with a script of speed.d that is given these words."""
+    if not shutil.which("gnuplot"):
+        say("not drawn: there is no gnuplot")
+        return
+    words = "; ".join(f"{name}='{value}'" for name, value in {"svg": picture, **given}.items())
+    subprocess.run(["gnuplot", "-e", words, os.path.join(FOLDER, script)], check=True)
 
 
 def report(path, text):

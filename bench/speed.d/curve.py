@@ -25,6 +25,15 @@ def time_to(points, target):
     return Reach(NEVER, max(seconds for seconds, _ in points))
 
 
+def error_at(points, seconds):
+    """Between the rungs on either side; None before the first and after the last."""
+    for a, b in zip(points, points[1:]):
+        if a[0] <= seconds <= b[0]:
+            part = math.log(seconds / a[0]) / math.log(b[0] / a[0]) if b[0] > a[0] else 1.0
+            return math.exp((1 - part) * math.log(a[1]) + part * math.log(b[1]))
+    return None
+
+
 def _between(a, b, target):
     part = math.log(a[1] / target) / math.log(a[1] / b[1])
     return math.exp((1 - part) * math.log(a[0]) + part * math.log(b[0]))

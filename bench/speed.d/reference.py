@@ -74,7 +74,7 @@ def make(psplat, folder, scene, size, bounces, samples, say):
         if os.path.exists(path):
             say(f"reference {os.path.basename(path)}: reused")
             continue
-        estimator = f"estimator=pathtrace:samples={max(1, samples // 2)}"
+        estimator = f"estimator=pathtrace:samples={max(1, samples // 2 // scene.passes)}"
         run = psplat.render([*scene.words, "--size", size, "--seed", str(seed), "--bounces", bounces, "--plugin", estimator], path)
         say(f"reference {os.path.basename(path)}: {run.wall:.1f} s")
     return Reference(psplat, halves, samples)

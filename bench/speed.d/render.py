@@ -8,7 +8,8 @@ import time
 
 from table import ROOT, fail
 
-# What each method's indirect light takes; the rest (G-buffer, direct light, files) is the same for all.
+# What each method's indirect light takes; the rest (G-buffer, direct light, files) is the same for all but denoisers of
+# direct light.
 INDIRECT_STAGES = ("estimate", "normalize", "denoise")
 COMMON_MEMORY = ("ray tracer", "G-buffer", "film")
 
@@ -24,6 +25,8 @@ class Run:
         self.wall, self.instructions = wall, instructions
         self.cpu = usage.ru_utime + usage.ru_stime
         self.peak = 1024 * usage.ru_maxrss
+        files = self.stages.get("load", 0.0) + self.stages.get("write", 0.0)
+        self.wall_rendering, self.cpu_rendering = wall - files, self.cpu - files
         self.indirect = sum(self.stages.get(stage, 0.0) for stage in INDIRECT_STAGES)
 
     def own_bytes(self):
@@ -111,6 +114,8 @@ def median_run(runs):
         return statistics.median(list(numbers))
     result = {
         "indirect_seconds": median(run.indirect for run in runs),
+        "wall_rendering_seconds": median(run.wall_rendering for run in runs),
+        "cpu_rendering_seconds": median(run.cpu_rendering for run in runs),
         "wall_seconds": median(run.wall for run in runs),
         "cpu_seconds": median(run.cpu for run in runs),
         "peak_bytes": median(run.peak for run in runs),

@@ -1,9 +1,8 @@
 """report.py: what bench/speed found, as Markdown."""
 from climb import rung_text
-from curve import ratio_text, reach_text, time_to
+from curve import error_at, ratio_text, reach_text, time_to
 
-# What splatting aims at: times as fast as the peer, at an error.
-AIMS = {"pathtrace": {0.06: 20, 0.03: 10}, "photonmap": {0.06: 50}}
+BUDGETS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)  # seconds
 STAGES = ("inject", "stratify", "place", "maps", "bin", "splat", "join")
 
 
@@ -20,14 +19,37 @@ def is_ours(name):
     return name.startswith("splat")
 
 
-def curve_of(method):
-    return [(point["indirect_seconds"], point["error"]) for point in method["points"]]
+def seconds_of(point, threads):
+    """Of the processor on one thread, of the clock on more."""
+    return point["cpu_rendering_seconds" if threads == 1 else "wall_rendering_seconds"]
+
+
+def curve_of(method, group):
+    return [(seconds_of(point, group["threads"]), point["error"]) for point in method["points"]]
+
+
+def curves_csv(results):
+    """A line for each point: its group's number, method, seconds, error in percent."""
+    lines = ["group,method,seconds,error"]
+    for number, group in enumerate(results["groups"]):
+        for method in group["methods"]:
+            lines += [f"{number},{method['name']},{seconds:.6g},{100 * error:.6g}"
+                      for seconds, error in curve_of(method, group)]
+    return "\n".join(lines)
+
+
+def _errors(group):
+    rows = []
+    for method in group["methods"]:
+        errors = (error_at(curve_of(method, group), seconds) for seconds in BUDGETS)
+        rows.append([method["name"], *(percent(error) if error else "" for error in errors)])
+    return markdown_table(["method", *(f"{seconds:g} s" for seconds in BUDGETS)], rows)
 
 
 def _times(group, targets):
     rows = []
     for method in group["methods"]:
-        curve = curve_of(method)
+        curve = curve_of(method, group)
         seconds, least = min(curve, key=lambda point: point[1])
         rows.append([method["name"], *(reach_text(time_to(curve, target)) for target in targets),
                      f"{percent(least)} in {seconds:.3g} s ({method['stopped']})"])
@@ -35,16 +57,13 @@ def _times(group, targets):
 
 
 def _ratios(group, targets):
-    """Every row of ours against every peer, and what is aimed at."""
+    """Every row of ours against every peer."""
     rows = []
-    curves = {method["name"]: curve_of(method) for method in group["methods"]}
+    curves = {method["name"]: curve_of(method, group) for method in group["methods"]}
     for peer in (name for name in curves if not is_ours(name)):
         for ours in filter(is_ours, curves):
             rows.append([peer, ours, *(ratio_text(time_to(curves[peer], target), time_to(curves[ours], target))
                                        for target in targets)])
-        if peer in AIMS and rows:
-            aims = (AIMS[peer].get(target) for target in targets)
-            rows.append([peer, "*aim*", *(f"*{aim}x*" if aim else "" for aim in aims)])
     return markdown_table(["against", "method", *map(percent, targets)], rows) if rows else []
 
 
@@ -56,10 +75,10 @@ def _points(group):
             bound = "<= " if point["error"] <= group["reference"]["least_error"] else ""
             rows.append([method["name"], rung_text(point["rung"]), bound + percent(point["error"]),
                          " ".join(f"{ratio:.3f}" for ratio in point["bias"]),
-                         f"{point['indirect_seconds']:.3g}", f"{point['wall_seconds']:.3g}",
+                         f"{seconds_of(point, group['threads']):.3g}", f"{point['indirect_seconds']:.3g}",
                          " ".join(f"{stages[name]:.2g}" if name in stages else "-" for name in STAGES),
                          f"{point['own_bytes'] / 1e6:.1f}", _instructions(point)])
-    return markdown_table(["method", "rung", "error", "bias", "seconds", "process", " ".join(STAGES), "own MB",
+    return markdown_table(["method", "rung", "error", "bias", "seconds", "of indirect light", " ".join(STAGES), "own MB",
                   "G instructions"], rows)
 
 
@@ -91,15 +110,16 @@ def markdown(results):
     lines = ["# Time to an error", "",
              f"{head['date']}, {results['version']}, {head['processors']} x {head['processor']}, load "
              f"{head['load']:.1f} at the start; medians of {results['repeats']}, methods by turns.",
-             "Error: relative RMSE of the indirect layer. Seconds: all that the indirect light takes "
-             "(injection to denoiser); G-buffer, direct light and files are the same for all and left out.",
+             "Error: relative RMSE of the indirect layer. Seconds: of the whole process but for loading and writing files; of "
+             "the processor on one thread, of the clock on more.",
              "Times between rungs by interpolation in the logarithms, never past the ends of a ladder. "
              f"Instructions: {results['instructions']}.", ""]
     for name, why in results["skipped"].items():
         lines += [f"Left out: {name}: {why}.", ""]
     for group in results["groups"]:
         lines += [f"## {group_title(group)}", "", _reference(group, targets), ""]
-        lines += _times(group, targets)
+        lines += ["Error after a time:", ""] + _errors(group)
+        lines += ["Time to an error:", ""] + _times(group, targets)
         ratios = _ratios(group, targets)
         if ratios:
             lines += ["How many times as long the other takes:", ""] + ratios

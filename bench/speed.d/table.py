@@ -36,7 +36,8 @@ class Scene:
         self.file = os.path.join(ROOT, section["file"])
         self.needs = section.get("needs")
         self.mesh = os.path.abspath(mesh) if mesh else None
-        options = section.get("options", "").split()
+        self.passes = int(section.get("passes", 1))
+        options = section.get("options", "").split() + [f"--passes={self.passes}"]
         self.words = [self.file] + [word.format(mesh=self.mesh) for word in options]
 
     def missing(self):

@@ -29,7 +29,9 @@ true_of() {
 # --- times to an error and their ratios, from curves that are made up ---
 
 PYTHONPATH=$bench/speed.d python3 - >out 2>err <<'END' || { fail "curves:"; cat err; }
-from curve import AT, NEVER, WITHIN, Reach, ratio_text, reach_text, time_to
+import math
+
+from curve import AT, NEVER, WITHIN, Reach, error_at, ratio_text, reach_text, time_to
 
 slope = [(1.0, 0.4), (4.0, 0.2), (16.0, 0.1)]  # error = 0.4 / sqrt(time)
 assert time_to(slope, 0.4) == Reach(WITHIN, 1.0)
@@ -40,6 +42,9 @@ reach = time_to(slope, 0.1)
 assert reach.kind == AT and abs(reach.seconds - 16) < 1e-9, reach
 assert time_to(slope, 0.09) == Reach(NEVER, 16.0)
 assert time_to([], 0.1) is None
+assert abs(error_at(slope, 2.0) - 0.4 / math.sqrt(2)) < 1e-9
+assert abs(error_at(slope, 4.0) - 0.2) < 1e-9
+assert error_at(slope, 0.9) is None and error_at(slope, 17.0) is None
 # There and back, and there sooner: the least time counts.
 twice = [(10.0, 0.4), (40.0, 0.2), (1.0, 0.4), (4.0, 0.2)]
 assert abs(time_to(twice, 0.2).seconds - 4) < 1e-9
@@ -68,9 +73,14 @@ for method in $methods; do
     expect_text json "\"name\": \"$method\""
 done
 expect_text results/speed.md "| pathtrace | splat |"
-expect_text results/speed.md "| pathtrace | *aim* |  | *20x* | *10x* |  |"
 expect_text results/speed.md "not reached"
 [ "$(number results/speed.json 'len(d["groups"][0]["methods"][0]["points"])')" = 2 ] || fail "not two rungs"
+[ "$(grep -c '^0,pathtrace,' results/speed.csv)" = 2 ] || fail "speed.csv has not two points of path tracing"
+if command -v gnuplot >/dev/null; then
+    expect_text results/speed.svg "</svg>"
+else
+    expect_text err "not drawn: there is no gnuplot"
+fi
 grep -q '"estimate":' json && grep -q '"splat":' json || fail "no seconds by stage in speed.json"
 
 measure 0 speed --quick --methods pathtrace --rungs 1 --repeats 2
@@ -93,7 +103,7 @@ true_of "noise of the reference" "abs($noisy / $good - 1) < 0.25 and $measured >
 measure 0 speed --quick --scenes conference --mesh /nowhere/conference.obj
 expect_text results/speed.md "Left out: conference: there is no /nowhere/conference.obj."
 measure 1 speed --quick --scenes nowhere
-expect_text err "speed: error: no scene 'nowhere'; there are: cornell, cornell-area, conference"
+expect_text err "speed: error: no scene 'nowhere'; there are: cornell, cornell-area, cornell-spheres, "
 measure 1 speed --quick --methods guess
 expect_text err "no method 'guess'; there are: splat"
 measure 1 speed --quick --psplat /nowhere/psplat

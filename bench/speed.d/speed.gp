@@ -1,0 +1,22 @@
+# speed.gp: draws speed.csv (given: csv, svg, titles of the groups, methods), error against time, a panel for each
+# group. Columns: number of the group, method, seconds, error in percent.
+set datafile separator ','
+groups = words(titles)
+columns = groups < 3 ? groups : 3
+rows = (groups + columns - 1) / columns
+set terminal svg size 420 * columns, 330 * rows font 'sans,11' noenhanced background 'white'
+set output svg
+set datafile missing NaN
+set logscale xy
+set grid
+set key top right samplen 2
+set xlabel 'seconds'
+set ylabel 'error (%)'
+at(group, method, number) = column(1) == group && strcol(2) eq method ? column(number) : NaN
+set multiplot layout rows, columns
+do for [group = 0:groups - 1] {
+    set title word(titles, group + 1)
+    plot for [method in methods] csv skip 1 using (at(group, method, 3)):(at(group, method, 4)) \
+        with linespoints title method
+}
+unset multiplot
