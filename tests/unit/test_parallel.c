@@ -2,8 +2,11 @@
  * whoever waits sleeps. */
 #include "base/parallel.h"
 
+#include "support/memory_limit.h"
 #include "support/workers.h"
 #include <stdatomic.h>
+#include <stdbool.h>
+#include <string.h>
 #include <time.h>
 
 #define INDICES 1000
@@ -119,6 +122,22 @@ static void test_who_waits_sleeps(void **state)
     workers_destroy(workers);
 }
 
+/* A thousand stacks, of at least 64 kB each. */
+static void test_too_many_threads(void **state)
+{
+    (void)state;
+    if (ADDRESS_SPACE_IS_SHADOWED)
+        skip();
+    struct workers *workers;
+    struct error error;
+    struct rlimit before = limit_memory(50e6);
+    ps_result result = workers_create(1000, &workers, &error);
+    assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
+    assert_int_equal(result, PS_ERROR_MEMORY);
+    assert_null(workers);
+    assert_non_null(strstr(error.text, "cannot start 1000 threads: the system gives "));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -126,6 +145,7 @@ int main(void)
         cmocka_unit_test(test_many_loops),
         cmocka_unit_test(test_denormals_are_flushed_within_loops_alone),
         cmocka_unit_test(test_who_waits_sleeps),
+        cmocka_unit_test(test_too_many_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

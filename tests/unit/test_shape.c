@@ -2,13 +2,12 @@
  * shape. */
 #include "scene/shape.h"
 
+#include "support/memory_limit.h"
 #include "support/mesh_facts.h"
 #include <psplat/math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdio.h>
-#include <sys/resource.h>
 
 #include <cmocka.h>
 
@@ -302,24 +301,6 @@ static void test_sizes_are_checked(void **state)
     assert_null(shape.vertices);
 }
 
-#if defined(__SANITIZE_ADDRESS__)
-#define ADDRESS_SPACE_IS_SHADOWED true
-#elif defined(__has_feature)
-#define ADDRESS_SPACE_IS_SHADOWED __has_feature(address_sanitizer)
-#else
-#define ADDRESS_SPACE_IS_SHADOWED false
-#endif
-
-static rlim_t address_space(void)
-{
-    long pages = 0;
-    FILE *file = fopen("/proc/self/statm", "r");
-    assert_non_null(file);
-    assert_int_equal(fscanf(file, "%ld", &pages), 1);
-    fclose(file);
-    return (rlim_t)pages * 4096;
-}
-
 /* The finest torus wants 0.40 GB for vertices, 0.81 for triangles, 0.40 for normals and 0.27 for
  * (u, v): each limit lets one array more come through than the last. */
 static void test_memory_runs_out(void **state)
@@ -335,12 +316,9 @@ static void test_memory_runs_out(void **state)
                                               .minor_radius = 1,
                                               .segments = SHAPE_SEGMENTS_MAX};
     for (int i = 0; i < 4; i++) {
-        struct rlimit before, limit;
         struct shape shape;
         struct error error;
-        assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
-        limit = (struct rlimit){address_space() + (rlim_t)limits[i], before.rlim_max};
-        assert_int_equal(setrlimit(RLIMIT_AS, &limit), 0);
+        struct rlimit before = limit_memory(limits[i]);
         ps_result result = shape_create(&object, &nothing, &shape, &error);
         assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
         assert_int_equal(result, PS_ERROR_MEMORY);
