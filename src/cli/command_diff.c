@@ -2,7 +2,6 @@
  *
  * NaN and infinities pass through: a picture of where they are is what one looks for.
  */
-#include "base/parallel.h"
 #include "cli/command.h"
 #include "compare/picture_pair.h"
 
@@ -65,12 +64,7 @@ static ps_result write_difference(const struct request *request, struct picture_
         result = image_set_attribute(difference, names[i], request->paths[i], error);
     if (result != PS_OK)
         return result;
-    struct workers *workers;
-    result = workers_create(parallel_processor_count(), &workers, error);
-    if (result == PS_OK)
-        result = image_write_exr(difference, request->output, IMAGE_ZIP, workers, error);
-    workers_destroy(workers);
-    return result;
+    return image_write_exr(difference, request->output, IMAGE_ZIP, pair->workers, error);
 }
 
 static int run(const struct argument *arguments, size_t count)

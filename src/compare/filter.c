@@ -61,15 +61,11 @@ static void filter_row_down(void *user, uint64_t row, uint32_t worker)
 }
 
 void filter_plane(const double *in, size_t width, size_t height, const struct filter *horizontal,
-                  const struct filter *vertical, double *scratch, double *out)
+                  const struct filter *vertical, double *scratch, double *out,
+                  struct workers *workers)
 {
-    struct workers *workers;
-    struct error error;
-    workers_create(parallel_processor_count(), &workers,
-                   &error); /* if that fails, the caller alone */
     struct pass across = {in, scratch, width, height, horizontal};
     struct pass down = {scratch, out, width, height, vertical};
     parallel_for(workers, height, filter_row_across, &across);
     parallel_for(workers, height, filter_row_down, &down);
-    workers_destroy(workers);
 }

@@ -30,8 +30,8 @@ static void perceive(const struct picture_pair *pair, float *const planes[3],
 {
     fill_xyz(planes, pair->channel_count, pair->width * pair->height, percept->colour);
     flip_features(percept->colour[1], pair->width, pair->height, percept->features[0],
-                  percept->features[1], scratch);
-    flip_colour_perceived(percept->colour, pair->width, pair->height, scratch);
+                  percept->features[1], scratch, pair->workers);
+    flip_colour_perceived(percept->colour, pair->width, pair->height, scratch, pair->workers);
 }
 
 static double pixel_error(const struct percept percepts[2], size_t pixel, double largest_distance)

@@ -21,7 +21,7 @@ ps_result flip_mean(const struct picture_pair *pair, double *number, struct erro
 /* XYZ planes, relative to white, to the perceptually uniform, Hunt-adjusted L*a*b* of what the eye
  * resolves; in place. */
 void flip_colour_perceived(double *const planes[3], size_t width, size_t height,
-                           double *const scratch[FLIP_SCRATCH_PLANES]);
+                           double *const scratch[FLIP_SCRATCH_PLANES], struct workers *workers);
 
 /* The largest distance that perceived display colours have: that of green to blue. */
 double flip_colour_largest_distance(void);
@@ -32,7 +32,8 @@ double flip_colour_difference(const double reference[3], const double test[3],
 
 /* Strength of edges and of points in a plane of relative luminance. */
 void flip_features(const double *luminance, size_t width, size_t height, double *edges,
-                   double *points, double *const scratch[FLIP_SCRATCH_PLANES]);
+                   double *points, double *const scratch[FLIP_SCRATCH_PLANES],
+                   struct workers *workers);
 
 /* dEf of {edge, point} strengths. */
 double flip_feature_difference(const double reference[2], const double test[2]);

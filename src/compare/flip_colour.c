@@ -98,7 +98,8 @@ static void hunt_lab_from_xyz(const double xyz[3], double lab[3])
  * of the kernel's sum, a sqrt(pi/b) S^2 with S the sum of the one-dimensional taps. */
 static void filter_by_sensitivity(double *plane, size_t width, size_t height,
                                   const struct sensitivity *sensitivity,
-                                  double *const scratch[FLIP_SCRATCH_PLANES])
+                                  double *const scratch[FLIP_SCRATCH_PLANES],
+                                  struct workers *workers)
 {
     int radius = (int)ceil(3.0 * sqrt(WIDEST_B / (2.0 * PI * PI)) * FLIP_PIXELS_PER_DEGREE);
     double shares[2] = {1.0, 0.0}, *out[2] = {scratch[1], plane};
@@ -110,18 +111,18 @@ static void filter_by_sensitivity(double *plane, size_t width, size_t height,
         shares[g] = sensitivity->a[g] * sqrt(PI / sensitivity->b[g]) * taps * taps;
     }
     if (sensitivity->gaussians == 1) {
-        filter_plane(plane, width, height, &filters[0], &filters[0], scratch[0], plane);
+        filter_plane(plane, width, height, &filters[0], &filters[0], scratch[0], plane, workers);
         return;
     }
     for (int g = 0; g < 2; g++)
-        filter_plane(plane, width, height, &filters[g], &filters[g], scratch[0], out[g]);
+        filter_plane(plane, width, height, &filters[g], &filters[g], scratch[0], out[g], workers);
     double share = shares[0] / (shares[0] + shares[1]);
     for (size_t i = 0; i < width * height; i++)
         plane[i] = share * scratch[1][i] + (1.0 - share) * plane[i];
 }
 
 void flip_colour_perceived(double *const planes[3], size_t width, size_t height,
-                           double *const scratch[FLIP_SCRATCH_PLANES])
+                           double *const scratch[FLIP_SCRATCH_PLANES], struct workers *workers)
 {
     double xyz[3], opponent[3], rgb[3], lab[3];
     for (size_t i = 0; i < width * height; i++) {
@@ -132,7 +133,7 @@ void flip_colour_perceived(double *const planes[3], size_t width, size_t height,
             planes[c][i] = opponent[c];
     }
     for (int c = 0; c < 3; c++)
-        filter_by_sensitivity(planes[c], width, height, &sensitivities[c], scratch);
+        filter_by_sensitivity(planes[c], width, height, &sensitivities[c], scratch, workers);
     for (size_t i = 0; i < width * height; i++) {
         for (int c = 0; c < 3; c++)
             opponent[c] = planes[c][i];

@@ -28,16 +28,18 @@ static struct filter scale_signs_apart(struct filter filter)
 
 static void filter_strength(const double *in, size_t width, size_t height,
                             const struct filter *derivative, const struct filter *smooth,
-                            double *const scratch[FLIP_SCRATCH_PLANES], double *strength)
+                            double *const scratch[FLIP_SCRATCH_PLANES], struct workers *workers,
+                            double *strength)
 {
-    filter_plane(in, width, height, derivative, smooth, scratch[0], strength);
-    filter_plane(in, width, height, smooth, derivative, scratch[0], scratch[1]);
+    filter_plane(in, width, height, derivative, smooth, scratch[0], strength, workers);
+    filter_plane(in, width, height, smooth, derivative, scratch[0], scratch[1], workers);
     for (size_t i = 0; i < width * height; i++)
         strength[i] = hypot(strength[i], scratch[1][i]);
 }
 
 void flip_features(const double *luminance, size_t width, size_t height, double *edges,
-                   double *points, double *const scratch[FLIP_SCRATCH_PLANES])
+                   double *points, double *const scratch[FLIP_SCRATCH_PLANES],
+                   struct workers *workers)
 {
     double sigma = 0.5 * DETECTOR_WIDTH * FLIP_PIXELS_PER_DEGREE;
     int radius = (int)ceil(3.0 * sigma);
@@ -48,8 +50,8 @@ void flip_features(const double *luminance, size_t width, size_t height, double 
     }
     first = scale_signs_apart(first);
     second = scale_signs_apart(second);
-    filter_strength(luminance, width, height, &first, &smooth, scratch, edges);
-    filter_strength(luminance, width, height, &second, &smooth, scratch, points);
+    filter_strength(luminance, width, height, &first, &smooth, scratch, workers, edges);
+    filter_strength(luminance, width, height, &second, &smooth, scratch, workers, points);
 }
 
 double flip_feature_difference(const double reference[2], const double test[2])

@@ -40,11 +40,14 @@ ps_result picture_pair_read(struct picture_pair *pair, const char *reference_pat
         pair->reference[c] = layers[0].planes[c];
         pair->test[c] = layers[1].planes[c];
     }
-    return check_alike(pair, paths, layers, error);
+    ps_result result = check_alike(pair, paths, layers, error);
+    return result == PS_OK ? workers_create(parallel_processor_count(), &pair->workers, error)
+                           : result;
 }
 
 void picture_pair_release(struct picture_pair *pair)
 {
+    workers_destroy(pair->workers);
     image_release(&pair->images[0]);
     image_release(&pair->images[1]);
     *pair = (struct picture_pair){0};

@@ -2,6 +2,7 @@
 #ifndef COMPARE_PICTURE_PAIR_H
 #define COMPARE_PICTURE_PAIR_H
 
+#include "base/parallel.h"
 #include "compare/layer.h"
 #include "image/rectangle.h"
 
@@ -14,9 +15,11 @@ struct picture_pair {
     const char *names[3];          /* of the channels */
     float *reference[3], *test[3]; /* planes of width * height, linear */
     struct image images[2];        /* own what the pointers point to */
+    struct workers *workers;       /* for metrics; owned, NULL: the caller alone */
 };
 
-/* Fails where a file can't be read, lacks the layer (NULL: R, G, B), or the sizes differ. */
+/* Fails where a file can't be read, lacks the layer (NULL: R, G, B), or the sizes differ. Starts a worker for each
+ * processor. */
 ps_result picture_pair_read(struct picture_pair *pair, const char *reference_path,
                             const char *test_path, const char *layer, struct error *error);
 void picture_pair_release(struct picture_pair *pair);

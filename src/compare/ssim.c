@@ -60,7 +60,8 @@ ps_result ssim_mean(const struct picture_pair *pair, double *number, struct erro
     fill_moments(pair, planes);
     struct filter window = filter_gaussian(WINDOW_SIGMA, WINDOW_RADIUS);
     for (size_t i = 0; i < SCRATCH; i++)
-        filter_plane(planes[i], width, height, &window, &window, planes[SCRATCH], planes[i]);
+        filter_plane(planes[i], width, height, &window, &window, planes[SCRATCH], planes[i],
+                     pair->workers);
     double sum = 0.0;
     size_t count = 0;
     for (size_t y = margin(height); y < height - margin(height); y++)

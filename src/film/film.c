@@ -21,20 +21,33 @@ static bool is_of_surfaces(int plane)
     return plane >= FILM_ALBEDO_R && plane <= FILM_DEPTH;
 }
 
+static bool is_of_light(int plane)
+{
+    return plane < FILM_ON_REQUEST && !is_of_surfaces(plane);
+}
+
+static ps_result add_planes(struct film *film, bool (*wanted)(int plane), struct error *error)
+{
+    for (int plane = 0; plane < FILM_PLANES; plane++) {
+        if (!wanted(plane))
+            continue;
+        film->planes[plane] = plane_create(film->width, film->height);
+        if (!film->planes[plane])
+            return error_memory(error, film->width * film->height * sizeof(float), "the film");
+    }
+    return PS_OK;
+}
+
 ps_result film_create(size_t width, size_t height, bool surfaces, struct film *film,
                       struct error *error)
 {
     *film = (struct film){.width = width, .height = height};
-    for (int plane = 0; plane < FILM_PLANES; plane++) {
-        if ((is_of_surfaces(plane) && !surfaces) || plane >= FILM_ON_REQUEST)
-            continue;
-        film->planes[plane] = plane_create(width, height);
-        if (!film->planes[plane]) {
-            film_release(film);
-            return error_memory(error, width * height * sizeof(float) * FILM_PLANES, "the film");
-        }
-    }
-    return PS_OK;
+    ps_result result = add_planes(film, is_of_light, error);
+    if (result == PS_OK && surfaces)
+        result = add_planes(film, is_of_surfaces, error);
+    if (result != PS_OK)
+        film_release(film);
+    return result;
 }
 
 ps_result film_add_ids(struct film *film, struct error *error)
@@ -50,18 +63,6 @@ ps_result film_add_ids(struct film *film, struct error *error)
 static bool is_of_halves(int plane)
 {
     return (plane >= FILM_COLOR_R && plane <= FILM_WEIGHT) || plane == FILM_COVERAGE;
-}
-
-static ps_result add_planes(struct film *film, bool (*wanted)(int plane), struct error *error)
-{
-    for (int plane = 0; plane < FILM_PLANES; plane++) {
-        if (!wanted(plane))
-            continue;
-        film->planes[plane] = plane_create(film->width, film->height);
-        if (!film->planes[plane])
-            return error_memory(error, film->width * film->height * sizeof(float), "the film");
-    }
-    return PS_OK;
 }
 
 static ps_result add_odd(struct film *film, bool half_of_pass, struct error *error)

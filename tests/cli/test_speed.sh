@@ -26,6 +26,14 @@ true_of() {
     python3 -c "import sys; sys.exit(not ($2))" || fail "$1: not $2"
 }
 
+expect_drawing() {
+    if command -v gnuplot >/dev/null; then
+        expect_text "$1" "</svg>"
+    else
+        expect_text err "not drawn: there is no gnuplot"
+    fi
+}
+
 # --- times to an error and their ratios, from curves that are made up ---
 
 PYTHONPATH=$bench/speed.d python3 - >out 2>err <<'END' || { fail "curves:"; cat err; }
@@ -76,11 +84,7 @@ expect_text results/speed.md "| pathtrace | splat |"
 expect_text results/speed.md "not reached"
 [ "$(number results/speed.json 'len(d["groups"][0]["methods"][0]["points"])')" = 2 ] || fail "not two rungs"
 [ "$(grep -c '^0,pathtrace,' results/speed.csv)" = 2 ] || fail "speed.csv has not two points of path tracing"
-if command -v gnuplot >/dev/null; then
-    expect_text results/speed.svg "</svg>"
-else
-    expect_text err "not drawn: there is no gnuplot"
-fi
+expect_drawing results/speed.svg
 grep -q '"estimate":' json && grep -q '"splat":' json || fail "no seconds by stage in speed.json"
 
 measure 0 speed --quick --methods pathtrace --rungs 1 --repeats 2
@@ -158,11 +162,7 @@ measure 0 scaling --quick
 expect_match results/scaling.csv '^series,x,threads,photons,'
 expect_match results/scaling.csv '^pixels,32400,2,'
 expect_text results/scaling.md "| indirect seconds with paths | 3162 to 10000 |"
-if command -v gnuplot >/dev/null; then
-    expect_text results/scaling.svg "</svg>"
-else
-    expect_text err "not drawn: there is no gnuplot"
-fi
+expect_drawing results/scaling.svg
 
 # --- bench/throughput ---
 
