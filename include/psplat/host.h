@@ -247,6 +247,20 @@ struct ps_host {
      * pass ends it is added to the tiles, without weight. Does nothing where bundles don't start at their
      * photons and follow the distance. After begin_splats, before splat. [main thread, estimator] */
     ps_result (*gather_short_range)(const ps_host *host, double rays);
+
+    /* Since 1.2: splats onto n > 0 points that are no pixels, such as surfels of a cache. Normals have length 1 and
+     * lie on the side that is lit. Fastest where points that follow each other lie close together; see
+     * ps_cells.key. Until end_points, which has to be called before the next begin_points; a pass that
+     * ends earlier forgets them. [main thread, estimator] */
+    ps_result (*begin_points)(const ps_host *host, const ps_vec3 *positions, const ps_vec3 *normals,
+                              size_t n);
+
+    /* After begin_points: like splat, but what the photons light are the points, and all of the light comes by
+     * splats. [main thread, estimator] */
+    ps_result (*splat_points)(const ps_host *host, const ps_photon *photons, size_t n);
+
+    /* Writes the irradiance (W/m^2) of each of the points, in their order. [main thread, estimator] */
+    ps_result (*end_points)(const ps_host *host, ps_rgb *irradiance);
 };
 
 #define PS_SPHERE_TRIANGLES 512u

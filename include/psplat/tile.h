@@ -56,6 +56,25 @@ static inline uint64_t ps_sample_block(uint64_t tile, uint32_t lane)
     return (tile * PS_TILE_PIXELS + lane) << 24;
 }
 
+/* The place of a lane along a Z curve through its tile (Morton 1966): aligned squares of pixels are runs of it. */
+static inline uint32_t ps_lane_along_curve(uint32_t lane)
+{
+    uint32_t x = lane % PS_TILE_SIZE, y = lane / PS_TILE_SIZE, place = 0;
+    for (uint32_t bit = 0; bit < 4; bit++)
+        place |= (x >> bit & 1u) << 2 * bit | (y >> bit & 1u) << (2 * bit + 1);
+    return place;
+}
+
+/* The first of a pixel's `count` samples of a pass, where those of a tile are shared out along a Z curve: the samples
+ * of any aligned square of pixels are a run of the sequence, and stratified as a whole, best where count is a
+ * power of two (Ahmed and Wonka 2020, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical
+ * ordering of pixels"). Tiles have 2^32 samples each. */
+static inline uint64_t ps_tile_sample(uint64_t tile, uint32_t lane, uint32_t pass, uint64_t count)
+{
+    uint64_t before = ((uint64_t)pass * PS_TILE_PIXELS + ps_lane_along_curve(lane)) * count;
+    return (tile << 32) + before;
+}
+
 /* Adds irradiance (W/m^2), and weight 1, to a pixel of a tile. */
 static inline void ps_add_irradiance(ps_tile *tile, uint32_t lane, ps_rgb irradiance)
 {

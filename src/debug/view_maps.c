@@ -213,7 +213,7 @@ static ps_result draw_picture(struct render *render, struct splat *splats, size_
     render->counts_splats = true;
     ps_result result = splats_begin(render, 1, error);
     if (result == PS_OK)
-        result = photons_add_splats(render, splats, n, error);
+        result = splatter_add(&render->splatter, splats, n, error);
     if (result != PS_OK)
         return result;
     splatter_end_pass(&render->splatter, &render->gbuffer);

@@ -16,17 +16,15 @@
 #define ASK_EVERY 16
 #define ENOUGH_UNSEEN 0.125
 
-static void begin_batch(struct render *render)
+static void begin_batch(struct unseen *unseen)
 {
-    struct unseen *unseen = &render->unseen;
-    unseen->asked = render->splatting && (unseen->many || unseen->batches % ASK_EVERY == 0);
+    unseen->asked = unseen->many || unseen->batches % ASK_EVERY == 0;
     unseen->batches++;
     atomic_store(&unseen->in_batch, 0);
 }
 
-static void end_batch(struct render *render, size_t n)
+static void end_batch(struct unseen *unseen, size_t n)
 {
-    struct unseen *unseen = &render->unseen;
     if (unseen->asked)
         unseen->many = (double)atomic_load(&unseen->in_batch) > ENOUGH_UNSEEN * (double)n;
 }
@@ -42,8 +40,6 @@ struct placement_scene place_scene(const struct render *render)
         .automatic_gather_distance = radius_automatic_gather_distance(radius, spread, paths),
         .seed = render->settings->seed,
         .camera = &render->scene->camera,
-        .interleave = render->has_splatter ? render->splatter.settings.interleave : 1,
-        .gather_distance = render->gathered_light.distance,
     };
 }
 
@@ -52,7 +48,8 @@ static bool may_light(const void *splatter, const struct splat *splat)
     return splatter_touches(splatter, splat);
 }
 
-static struct placement placement_of(struct render *render)
+/* `onto`: what will be lit; NULL: nothing is known of it. */
+static struct placement placement_of(struct render *render, const struct splatter *onto)
 {
     const struct strategy *visibility = strategy_in(render, PS_VISIBILITY);
     const ps_visibility_vtable *table = &visibility->type->table.visibility;
@@ -62,8 +59,8 @@ static struct placement placement_of(struct render *render)
         .host = own_host(render),
         .follows_rays = table->depth_maps || table->visible,
         .has_maps = table->depth_maps,
-        .may_light = render->unseen.asked ? may_light : NULL,
-        .user = &render->splatter,
+        .may_light = onto && onto->unseen.asked ? may_light : NULL,
+        .user = onto,
     };
 }
 
@@ -73,6 +70,7 @@ struct batch {
     const ps_photon *photons;
     size_t n;
     struct splat *splats;
+    struct unseen *unseen;
 };
 
 static void place_chunk(void *user, uint64_t index, uint32_t worker)
@@ -90,18 +88,51 @@ static void place_chunk(void *user, uint64_t index, uint32_t worker)
                                    render->scene->surface_offset);
     trace_intersect(render->trace, RAYS_INCOHERENT, rays, n, hits);
     uint32_t unseen = placement_place(&batch->placement, photons, hits, n, batch->splats + first);
-    atomic_fetch_add(&render->unseen.in_batch, unseen);
+    if (batch->unseen)
+        atomic_fetch_add(&batch->unseen->in_batch, unseen);
+}
+
+static void place(struct batch *batch)
+{
+    struct render *render = batch->render;
+    double start = clock_seconds();
+    uint64_t chunks = (batch->n + PS_PATH_CHUNK - 1) / PS_PATH_CHUNK;
+    parallel_for(render->settings->workers, chunks, place_chunk, batch);
+    if (batch->unseen)
+        end_batch(batch->unseen, batch->n);
+    statistics_add_seconds(render->statistics, "place", clock_seconds() - start);
 }
 
 void photons_place(struct render *render, const ps_photon *photons, size_t n, struct splat *splats)
 {
-    double start = clock_seconds();
-    uint64_t chunks = (n + PS_PATH_CHUNK - 1) / PS_PATH_CHUNK;
-    begin_batch(render);
-    struct batch batch = {render, placement_of(render), photons, n, splats};
-    parallel_for(render->settings->workers, chunks, place_chunk, &batch);
-    end_batch(render, n);
-    statistics_add_seconds(render->statistics, "place", clock_seconds() - start);
+    struct splatter *onto = render->splatting ? &render->splatter : NULL;
+    if (onto)
+        begin_batch(&onto->unseen);
+    struct batch batch = {.render = render,
+                          .placement = placement_of(render, onto),
+                          .photons = photons,
+                          .n = n,
+                          .splats = splats,
+                          .unseen = onto ? &onto->unseen : NULL};
+    batch.placement.scene.interleave = render->has_splatter ? render->splatter.lit.interleave : 1;
+    batch.placement.scene.gather_distance = render->gathered_light.distance;
+    place(&batch);
+}
+
+/* For points, whose light is averaged before it is seen: no pixel's size limits the radius, and no light from nearby
+ * is left to gather rays. */
+static void place_for_points(struct render *render, const ps_photon *photons, size_t n,
+                             struct splat *splats)
+{
+    struct splatter *onto = &render->points;
+    begin_batch(&onto->unseen);
+    struct batch batch = {.render = render,
+                          .placement = placement_of(render, onto),
+                          .photons = photons,
+                          .n = n,
+                          .splats = splats,
+                          .unseen = &onto->unseen};
+    place(&batch);
 }
 
 /* --- services --------------------------------------------------------------------------------------- */
@@ -115,31 +146,61 @@ static ps_result host_begin_splats(const ps_host *host, uint32_t n)
     return render_pass_on(render, splats_begin(render, n, &error), &error);
 }
 
-ps_result photons_add_splats(struct render *render, struct splat *splats, size_t n,
-                             struct error *error)
+typedef void (*placer)(struct render *render, const ps_photon *photons, size_t n,
+                       struct splat *splats);
+
+static ps_result splat_in_parts(struct render *render, struct splatter *onto, placer place_part,
+                                const ps_photon *photons, size_t n)
 {
-    ps_result result = splatter_add(&render->splatter, splats, n, error);
-    if (result == PS_OK)
-        statistics_set_bytes(render->statistics, "splats",
-                             (double)splatter_bytes(&render->splatter));
-    return result;
+    struct error error;
+    ps_result result = PS_OK;
+    for (size_t first = 0; first < n && result == PS_OK; first += SPLATS_PLACED) {
+        size_t count = n - first < SPLATS_PLACED ? n - first : SPLATS_PLACED;
+        if (host_is_cancelled(render))
+            return PS_CANCELLED;
+        place_part(render, photons + first, count, render->placed);
+        result = splatter_add(onto, render->placed, count, &error);
+    }
+    statistics_set_bytes(render->statistics, "splats", (double)splatter_bytes(onto));
+    return render_pass_on(render, result, &error);
 }
 
 static ps_result host_splat(const ps_host *host, const ps_photon *photons, size_t n)
 {
     struct render *render = render_of(host);
-    struct error error;
-    ps_result result = PS_OK;
     if (!host_in_place(host, render->estimating && render->splatting, "splat"))
         return PS_ERROR_INVALID;
-    for (size_t first = 0; first < n && result == PS_OK; first += SPLATS_PLACED) {
-        size_t count = n - first < SPLATS_PLACED ? n - first : SPLATS_PLACED;
-        if (host_is_cancelled(render))
-            return PS_CANCELLED;
-        photons_place(render, photons + first, count, render->placed);
-        result = photons_add_splats(render, render->placed, count, &error);
-    }
-    return render_pass_on(render, result, &error);
+    return splat_in_parts(render, &render->splatter, photons_place, photons, n);
+}
+
+static ps_result host_begin_points(const ps_host *host, const ps_vec3 *positions,
+                                   const ps_vec3 *normals, size_t n)
+{
+    struct render *render = render_of(host);
+    struct error error;
+    if (!host_in_place(host, render->estimating && !render->has_points, "begin_points"))
+        return PS_ERROR_INVALID;
+    if (n == 0)
+        return host->fail(host, PS_ERROR_INVALID, "it called begin_points without points");
+    return render_pass_on(render, splats_begin_points(render, positions, normals, n, &error),
+                          &error);
+}
+
+static ps_result host_splat_points(const ps_host *host, const ps_photon *photons, size_t n)
+{
+    struct render *render = render_of(host);
+    if (!host_in_place(host, render->estimating && render->has_points, "splat_points"))
+        return PS_ERROR_INVALID;
+    return splat_in_parts(render, &render->points, place_for_points, photons, n);
+}
+
+static ps_result host_end_points(const ps_host *host, ps_rgb *irradiance)
+{
+    struct render *render = render_of(host);
+    if (!host_in_place(host, render->estimating && render->has_points, "end_points"))
+        return PS_ERROR_INVALID;
+    splats_end_points(render, irradiance);
+    return PS_OK;
 }
 
 static ps_result host_path_count(const ps_host *host, uint64_t *paths)
@@ -209,4 +270,7 @@ void host_add_photons(ps_host *host)
     host->begin_splats = host_begin_splats;
     host->splat = host_splat;
     host->gather_short_range = host_gather_short_range;
+    host->begin_points = host_begin_points;
+    host->splat_points = host_splat_points;
+    host->end_points = host_end_points;
 }

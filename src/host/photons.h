@@ -8,8 +8,4 @@
  * render is splatting. Main thread. */
 void photons_place(struct render *render, const ps_photon *photons, size_t n, struct splat *splats);
 
-/* Adds the light of splats that were placed; cuts their depth ranges to their maps. */
-ps_result photons_add_splats(struct render *render, struct splat *splats, size_t n,
-                             struct error *error);
-
 #endif

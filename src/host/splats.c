@@ -2,6 +2,7 @@
 #include "host/splats.h"
 
 #include "placement/placement.h"
+#include "splat/point_tiles.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,7 +22,20 @@ static ps_result tabulate_filter(struct render *render, struct kernel_profile *p
                      filter->type->name);
 }
 
-static ps_result create_splatter(struct render *render, uint32_t interleave, struct error *error)
+/* Room for the splats of a batch. */
+static ps_result reserve_placed(struct render *render, struct error *error)
+{
+    size_t bytes = SPLATS_PLACED * sizeof *render->placed;
+    if (!render->placed)
+        render->placed = malloc(bytes);
+    if (!render->placed)
+        return error_memory(error, bytes, "splats placed");
+    statistics_set_bytes(render->statistics, "splats placed", (double)bytes);
+    return PS_OK;
+}
+
+static ps_result create_splatter(struct render *render, struct interleaved layout,
+                                 struct splatter *splatter, struct error *error)
 {
     const struct strategy *visibility = strategy_in(render, PS_VISIBILITY);
     const struct footprint_params *footprint = strategy_shared(visibility);
@@ -33,24 +47,17 @@ static ps_result create_splatter(struct render *render, uint32_t interleave, str
         .resolution = table->depth_maps ? (uint32_t)footprint->resolution : 0,
         .surface_offset = render->scene->surface_offset,
         .kernel = render->kernel,
-        .interleave = render->counts_splats ? 1 : interleave,
         .workers = render->settings->workers,
         .batch = render->settings->batch,
     };
-    ps_result result = PS_OK;
-    render->placed = malloc(SPLATS_PLACED * sizeof *render->placed);
-    if (!render->placed)
-        return error_memory(error, SPLATS_PLACED * sizeof *render->placed, "splats placed");
-    statistics_set_bytes(render->statistics, "splats placed",
-                         (double)(SPLATS_PLACED * sizeof *render->placed));
+    ps_result result = reserve_placed(render, error);
+    if (result != PS_OK)
+        return result;
     if (render->counts_splats)
         kernel_profile_count(&settings.profile);
     else
         result = tabulate_filter(render, &settings.profile, error);
-    if (result == PS_OK)
-        result = splatter_create(&render->splatter, &render->gbuffer, &settings, error);
-    render->has_splatter = result == PS_OK;
-    return result;
+    return result == PS_OK ? splatter_create(splatter, layout, &settings, error) : result;
 }
 
 /* Interleaving pays where n pixels are little beside a splat. In small pictures it blurs edges and adds noise,
@@ -81,7 +88,11 @@ static ps_result begin_interleaved(struct render *render, uint32_t n, struct err
     bool many = render->photons.path_count > MANY_PATHS;
     uint32_t most = many ? MOST_FOR_MANY : PS_MOST_INTERLEAVE;
     render->gather_interleave = interleave_of(render, n, PS_MOST_INTERLEAVE);
-    return create_splatter(render, interleave_of(render, n, most), error);
+    n = render->counts_splats ? 1 : interleave_of(render, n, most);
+    ps_result result =
+        create_splatter(render, interleaved_layout(&render->gbuffer, n), &render->splatter, error);
+    render->has_splatter = result == PS_OK;
+    return result;
 }
 
 ps_result splats_begin(struct render *render, uint32_t n, struct error *error)
@@ -92,10 +103,39 @@ ps_result splats_begin(struct render *render, uint32_t n, struct error *error)
     if (result != PS_OK)
         return result;
     struct splatter_pass pass = {render->pass.number, render->photons.path_count};
-    splatter_begin_pass(&render->splatter, &render->gbuffer, pass);
+    interleaved_fill(&render->splatter.lit, &render->gbuffer, render->settings->workers);
+    splatter_begin_pass(&render->splatter, pass);
     render->gathered_light.distance = 0.0f;
-    render->unseen.many = false;
-    render->unseen.batches = 0;
     render->splatting = true;
     return PS_OK;
+}
+
+ps_result splats_begin_points(struct render *render, const ps_vec3 *positions,
+                              const ps_vec3 *normals, size_t n, struct error *error)
+{
+    ps_result result = photon_stream_prepare(&render->photons, error);
+    if (result == PS_OK)
+        result = create_splatter(render, point_tiles_layout(n), &render->points, error);
+    if (result != PS_OK)
+        return result;
+    render->has_points = true;
+    render->point_count = n;
+    point_tiles_fill(&render->points.lit, positions, normals, n, render->settings->workers);
+    struct splatter_pass pass = {render->pass.number, render->photons.path_count};
+    splatter_begin_pass(&render->points, pass);
+    return PS_OK;
+}
+
+void splats_end_points(struct render *render, ps_rgb *irradiance)
+{
+    point_tiles_read(&render->points.lit, render->point_count, irradiance);
+    render_report_splatter(render->statistics, &render->points);
+    splats_drop_points(render);
+}
+
+void splats_drop_points(struct render *render)
+{
+    if (render->has_points)
+        splatter_release(&render->points);
+    render->has_points = false;
 }

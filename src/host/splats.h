@@ -10,4 +10,12 @@
 /* See ps_host.begin_splats. */
 ps_result splats_begin(struct render *render, uint32_t n, struct error *error);
 
+/* See ps_host.begin_points and ps_host.end_points; n > 0. */
+ps_result splats_begin_points(struct render *render, const ps_vec3 *positions,
+                              const ps_vec3 *normals, size_t n, struct error *error);
+void splats_end_points(struct render *render, ps_rgb *irradiance);
+
+/* Forgets points that an estimator left. */
+void splats_drop_points(struct render *render);
+
 #endif

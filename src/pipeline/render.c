@@ -6,6 +6,7 @@
 #include "direct/direct.h"
 #include "direct/discontinuity_buffer.h"
 #include "host/host.h"
+#include "host/splats.h"
 #include "pipeline/stages.h"
 #include "view/edges.h"
 #include "view/pixel_filter.h"
@@ -154,6 +155,7 @@ ps_result render_estimate(struct render *render, struct error *error)
     render->estimating = false;
     if (result == PS_OK && render->splatting)
         end_splats(render);
+    splats_drop_points(render);
     result = render_judge(render, PS_ESTIMATOR, result, error);
     for (uint32_t i = 0; i < render->gbuffer.tile_count; i++)
         render->refused.pixels[0] += mend_tile(&render->gbuffer.tiles[i]);
@@ -311,7 +313,8 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
             *error = reason;
         }
     }
-    render_report_splatter(&render);
+    if (render.has_splatter)
+        render_report_splatter(statistics, &render.splatter);
     render_report_refused(&render);
     render_destroy(&render);
     return result;

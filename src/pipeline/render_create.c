@@ -1,5 +1,6 @@
 /* render_create.c: what a render needs before its first pass, and how it ends. */
 #include "base/clock.h"
+#include "host/splats.h"
 #include "pipeline/stages.h"
 #include <stdlib.h>
 
@@ -121,6 +122,7 @@ void render_destroy(struct render *render)
 {
     if (render->has_splatter)
         splatter_release(&render->splatter);
+    splats_drop_points(render);
     free(render->placed);
     gathered_light_release(&render->gathered_light);
     photon_stream_release(&render->photons);

@@ -47,18 +47,13 @@ ps_result render_judge(struct render *render, ps_kind kind, ps_result result, st
                      result == PS_ERROR_MEMORY ? ": out of memory" : "");
 }
 
-void render_report_splatter(struct render *render)
+void render_report_splatter(struct statistics *statistics, const struct splatter *splatter)
 {
-    if (!render->has_splatter)
-        return;
-    struct statistics *statistics = render->statistics;
-    const struct splatter *splatter = &render->splatter;
     statistics_add_seconds(statistics, "maps", splatter->map_seconds);
     statistics_add_seconds(statistics, "bin", splatter->bin_seconds);
     statistics_add_seconds(statistics, "splat", splatter->kernel_seconds);
     statistics_add_seconds(statistics, "join", splatter->join_seconds);
-    statistics_set_bytes(statistics, "splatted pixels",
-                         (double)interleaved_bytes(&splatter->pixels));
+    statistics_add_bytes(statistics, "splatted pixels", (double)interleaved_bytes(&splatter->lit));
     statistics_count(statistics, "splats", (double)splatter->splats);
     statistics_count(statistics, "map rays", (double)splatter->map_rays);
     statistics_count(statistics, "visibility rays", (double)splatter->exact_tests);

@@ -13,14 +13,6 @@
 #include "view/view.h"
 #include <stdatomic.h>
 
-/* Whether it pays to ask which splats light nothing in view (host/photons.c). */
-struct unseen {
-    uint64_t batches; /* placed so far in the pass */
-    bool asked;       /* in this batch */
-    bool many;        /* of those that were last asked */
-    _Atomic(uint64_t) in_batch;
-};
-
 /* The services as one strategy has them. */
 struct strategy_host {
     ps_host host;
@@ -57,11 +49,12 @@ struct render {
     bool *edges; /* pixels that take several samples (edges.h), owned; NULL: none does */
     struct photon_stream photons;
     struct kernel_variant kernel;
-    struct splatter splatter; /* made when an estimator first splats */
-    struct splat *placed;     /* room for a batch of splats; owned, as the splatter */
-    bool has_splatter;
-    bool splatting; /* in this pass */
-    struct unseen unseen;
+    struct splatter splatter; /* onto pixels; made when an estimator first splats */
+    struct splatter points;   /* onto points, from begin_points to end_points */
+    struct splat *placed;     /* room for a batch of splats; owned, as the splatters */
+    size_t point_count;
+    bool has_splatter, has_points;
+    bool splatting; /* onto pixels in this pass */
     struct gathered_light gathered_light;
     uint32_t gather_interleave; /* over so many pixels across and down it is averaged */
     bool
@@ -113,8 +106,8 @@ ps_result render_pass_on(struct render *render, ps_result result, const struct e
  * strategy. */
 ps_result render_judge(struct render *render, ps_kind kind, ps_result result, struct error *error);
 
-/* Adds the splatter's counters to the statistics. */
-void render_report_splatter(struct render *render);
+/* Adds a splatter's counters to the statistics. */
+void render_report_splatter(struct statistics *statistics, const struct splatter *splatter);
 
 /* Says what strategies made that had to be left out. */
 void render_report_refused(const struct render *render);

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "film/apron.h"
 #include <assert.h>
+#include <psplat/tile.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,15 +26,15 @@ struct interleaved interleaved_layout(const struct gbuffer *gbuffer, uint32_t in
     return interleaved;
 }
 
-ps_result interleaved_create(const struct gbuffer *gbuffer, uint32_t interleave,
-                             struct interleaved *interleaved, struct error *error)
+ps_result interleaved_create(struct interleaved layout, struct interleaved *interleaved,
+                             struct error *error)
 {
-    assert(interleave >= 1 && interleave <= PS_MOST_INTERLEAVE);
-    *interleaved = interleaved_layout(gbuffer, interleave);
+    assert(layout.interleave >= 1 && layout.interleave <= PS_MOST_INTERLEAVE);
+    *interleaved = layout;
     interleaved->tiles = aligned_alloc(64, interleaved_bytes(interleaved));
-    return interleaved->tiles ? PS_OK
-                              : error_memory(error, interleaved_bytes(interleaved),
-                                             "the pixels that splats light");
+    return interleaved->tiles
+               ? PS_OK
+               : error_memory(error, interleaved_bytes(interleaved), "what splats light");
 }
 
 void interleaved_release(struct interleaved *interleaved)
@@ -98,18 +99,18 @@ struct work {
     const struct gbuffer *gbuffer;
 };
 
-static void fill_lane(struct interleaved_tile *tile, uint32_t lane, const ps_tile *from,
-                      uint32_t photon)
+void interleaved_set_lane(struct interleaved_tile *tile, uint32_t lane, ps_vec3 position,
+                          ps_vec3 normal)
 {
-    tile->position_x[lane] = from->position_x[photon];
-    tile->position_y[lane] = from->position_y[photon];
-    tile->position_z[lane] = from->position_z[photon];
-    tile->normal_x[lane] = from->normal_x[photon];
-    tile->normal_y[lane] = from->normal_y[photon];
-    tile->normal_z[lane] = from->normal_z[photon];
+    tile->position_x[lane] = position.x;
+    tile->position_y[lane] = position.y;
+    tile->position_z[lane] = position.z;
+    tile->normal_x[lane] = normal.x;
+    tile->normal_y[lane] = normal.y;
+    tile->normal_z[lane] = normal.z;
 }
 
-static void clear_lane(struct interleaved_tile *tile, uint32_t lane)
+void interleaved_clear_lane(struct interleaved_tile *tile, uint32_t lane)
 {
     tile->position_x[lane] = tile->position_y[lane] = tile->position_z[lane] = BOUNDS_NOWHERE;
     tile->normal_x[lane] = tile->normal_y[lane] = tile->normal_z[lane] = 0.0f;
@@ -128,6 +129,16 @@ static void bound_block(struct interleaved_tile *tile, uint32_t block)
     bounds_set(&tile->blocks, block, &bound);
 }
 
+void interleaved_begin_tile(struct interleaved_tile *tile)
+{
+    memset(tile->irradiance_r, 0, sizeof tile->irradiance_r);
+    memset(tile->irradiance_g, 0, sizeof tile->irradiance_g);
+    memset(tile->irradiance_b, 0, sizeof tile->irradiance_b);
+    memset(tile->weight, 0, sizeof tile->weight);
+    for (uint32_t block = 0; block < BOUNDS_WIDTH; block++)
+        bound_block(tile, block);
+}
+
 static void fill_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
@@ -139,17 +150,13 @@ static void fill_tile(void *user, uint64_t index, uint32_t worker)
         uint32_t x, y, photon;
         if (pixel_from(work->interleaved, corner, lane, &x, &y)) {
             uint32_t from = gbuffer_tile_of(gbuffer, x, y, &photon);
-            fill_lane(tile, lane, &gbuffer->tiles[from], photon);
+            interleaved_set_lane(tile, lane, ps_tile_position(&gbuffer->tiles[from], photon),
+                                 ps_tile_normal(&gbuffer->tiles[from], photon));
         } else {
-            clear_lane(tile, lane);
+            interleaved_clear_lane(tile, lane);
         }
     }
-    memset(tile->irradiance_r, 0, sizeof tile->irradiance_r);
-    memset(tile->irradiance_g, 0, sizeof tile->irradiance_g);
-    memset(tile->irradiance_b, 0, sizeof tile->irradiance_b);
-    memset(tile->weight, 0, sizeof tile->weight);
-    for (uint32_t block = 0; block < BOUNDS_WIDTH; block++)
-        bound_block(tile, block);
+    interleaved_begin_tile(tile);
 }
 
 void interleaved_fill(struct interleaved *interleaved, const struct gbuffer *gbuffer,

@@ -36,18 +36,26 @@ struct interleaved {
     struct interleaved_tile *tiles;    /* owned */
 };
 
-/* Interleaved pixels of a G-buffer of this size, and no memory for it. */
+/* Interleaved pixels of a G-buffer of this size, and no memory for it; `interleave` 1..PS_MOST_INTERLEAVE. */
 struct interleaved interleaved_layout(const struct gbuffer *gbuffer, uint32_t interleave);
 
-/* Interleaved pixels of a G-buffer of this size; `interleave` 1..PS_MOST_INTERLEAVE. */
-ps_result interleaved_create(const struct gbuffer *gbuffer, uint32_t interleave,
-                             struct interleaved *interleaved, struct error *error);
+/* Memory for the tiles of a layout, which have to be filled. PS_ERROR_MEMORY: nothing is left to release. */
+ps_result interleaved_create(struct interleaved layout, struct interleaved *interleaved,
+                             struct error *error);
 void interleaved_release(struct interleaved *interleaved);
 size_t interleaved_bytes(const struct interleaved *interleaved);
 
 /* Column and row of a lane; false if it lies outside of the picture. */
 bool interleaved_pixel(const struct interleaved *interleaved, uint32_t tile, uint32_t lane,
                        uint32_t *x, uint32_t *y);
+
+/* What a lane of a tile shows: a surface, or nothing. */
+void interleaved_set_lane(struct interleaved_tile *tile, uint32_t lane, ps_vec3 position,
+                          ps_vec3 normal);
+void interleaved_clear_lane(struct interleaved_tile *tile, uint32_t lane);
+
+/* Zeroes the sums of a tile whose lanes are set, and bounds its blocks. */
+void interleaved_begin_tile(struct interleaved_tile *tile);
 
 /* Takes the surfaces from the G-buffer and zeroes the sums. */
 void interleaved_fill(struct interleaved *interleaved, const struct gbuffer *gbuffer,

@@ -26,7 +26,7 @@ static size_t batch_size(const struct splatter *splatter)
     return wanted < fits ? wanted : fits;
 }
 
-ps_result splatter_create(struct splatter *splatter, const struct gbuffer *gbuffer,
+ps_result splatter_create(struct splatter *splatter, struct interleaved layout,
                           const struct splatter_settings *settings, struct error *error)
 {
     const ps_visibility_vtable *visibility = settings->visibility;
@@ -38,14 +38,13 @@ ps_result splatter_create(struct splatter *splatter, const struct gbuffer *gbuff
     size_t map_bytes = splatter->settings.batch * map_texels(splatter) * sizeof(float);
     splatter->depths = malloc(map_bytes > 0 ? map_bytes : 1);
     splatter->prepared = malloc(splatter->settings.batch * sizeof *splatter->prepared);
-    ps_result result =
-        splatter->depths && splatter->prepared
-            ? interleaved_create(gbuffer, settings->interleave, &splatter->pixels, error)
-            : error_memory(error, map_bytes, "depth maps");
+    ps_result result = splatter->depths && splatter->prepared
+                           ? interleaved_create(layout, &splatter->lit, error)
+                           : error_memory(error, map_bytes, "depth maps");
     if (result == PS_OK)
-        result = pyramid_create(&splatter->pixels, &splatter->pyramid, error);
+        result = pyramid_create(&splatter->lit, &splatter->pyramid, error);
     if (result == PS_OK)
-        result = bins_create(splatter->pixels.tile_count, &splatter->bins, error);
+        result = bins_create(splatter->lit.tile_count, &splatter->bins, error);
     if (result != PS_OK)
         splatter_release(splatter);
     return result;
@@ -53,7 +52,7 @@ ps_result splatter_create(struct splatter *splatter, const struct gbuffer *gbuff
 
 void splatter_release(struct splatter *splatter)
 {
-    interleaved_release(&splatter->pixels);
+    interleaved_release(&splatter->lit);
     pyramid_release(&splatter->pyramid);
     bins_release(&splatter->bins);
     free(splatter->depths);
@@ -68,18 +67,18 @@ size_t splatter_bytes(const struct splatter *splatter)
            bins_bytes(&splatter->bins) + pyramid_bytes(&splatter->pyramid);
 }
 
-void splatter_begin_pass(struct splatter *splatter, const struct gbuffer *gbuffer,
-                         struct splatter_pass pass)
+void splatter_begin_pass(struct splatter *splatter, struct splatter_pass pass)
 {
     splatter->pass = pass;
-    interleaved_fill(&splatter->pixels, gbuffer, splatter->settings.workers);
-    pyramid_build(&splatter->pyramid, &splatter->pixels, splatter->settings.workers);
+    splatter->unseen.many = false;
+    splatter->unseen.batches = 0;
+    pyramid_build(&splatter->pyramid, &splatter->lit, splatter->settings.workers);
 }
 
 void splatter_end_pass(struct splatter *splatter, struct gbuffer *gbuffer)
 {
     double start = clock_seconds();
-    interleaved_join(&splatter->pixels, gbuffer, splatter->settings.workers);
+    interleaved_join(&splatter->lit, gbuffer, splatter->settings.workers);
     splatter->join_seconds += clock_seconds() - start;
 }
 
@@ -89,7 +88,7 @@ void splatter_end_pass(struct splatter *splatter, struct gbuffer *gbuffer)
 static uint32_t subset_of(const struct splatter *splatter, uint64_t path)
 {
     const struct splatter_pass *pass = &splatter->pass;
-    uint64_t subsets = splatter->pixels.subsets;
+    uint64_t subsets = splatter->lit.subsets;
     uint64_t count = pass->path_count > 0 ? pass->path_count : 1;
     return (uint32_t)((path % count * subsets / count + pass->number) % subsets);
 }
@@ -113,7 +112,7 @@ static struct kernel_splat prepare(const struct splatter *splatter, const struct
         return (struct kernel_splat){.kernel_scale = 0.0f};
     struct kernel_splat prepared = kernel_prepare(splat, &splatter->settings.profile, map);
     prepared.subset = subset_of(splatter, splat->path);
-    prepared.kernel_scale *= (float)splatter->pixels.subsets;
+    prepared.kernel_scale *= (float)splatter->lit.subsets;
     return prepared;
 }
 
@@ -127,7 +126,7 @@ static bool touches_none(void *user, uint32_t tile)
 {
     const struct touch *touch = user;
     const struct splatter *splatter = touch->splatter;
-    return !splatter->settings.kernel.touch(&splatter->pixels.tiles[tile].blocks, &touch->splat);
+    return !splatter->settings.kernel.touch(&splatter->lit.tiles[tile].blocks, &touch->splat);
 }
 
 bool splatter_touches(const struct splatter *splatter, const struct splat *splat)
@@ -200,7 +199,7 @@ static void splat_tile(void *user, uint64_t index, uint32_t worker)
     size_t number = bins->first_tile + index;
     const uint32_t *indices = bins->indices + bins->offsets[number];
     size_t n = bins->offsets[number + 1] - bins->offsets[number];
-    struct interleaved_tile *tile = &splatter->pixels.tiles[number];
+    struct interleaved_tile *tile = &splatter->lit.tiles[number];
     if (n == 0)
         return;
     struct kernel_count count =
@@ -238,7 +237,7 @@ static ps_result add_batch(const struct batch *batch, struct error *error)
 
 static void add_counts(struct splatter *splatter, const struct kernel_count *counts)
 {
-    for (uint32_t i = 0; i < splatter->pixels.tile_count; i++) {
+    for (uint32_t i = 0; i < splatter->lit.tile_count; i++) {
         splatter->useful_tests += counts[i].lit;
         if (judges_points(splatter))
             splatter->exact_tests += counts[i].tests;
@@ -250,7 +249,7 @@ static void add_counts(struct splatter *splatter, const struct kernel_count *cou
 ps_result splatter_add(struct splatter *splatter, struct splat *splats, size_t n,
                        struct error *error)
 {
-    size_t tiles = splatter->pixels.tile_count, most = splatter->settings.batch;
+    size_t tiles = splatter->lit.tile_count, most = splatter->settings.batch;
     struct kernel_count *counts = calloc(tiles, sizeof *counts);
     if (!counts)
         return error_memory(error, tiles * sizeof *counts, "statistics");

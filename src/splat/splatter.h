@@ -1,4 +1,4 @@
-/* splatter.h: adds the light of a batch of splats to the tiles: maps, bins, kernel; or, where the
+/* splatter.h: adds the light of a batch of splats to tiles, of pixels or of other points: maps, bins, kernel; or, where the
  * visibility judges points by themselves, bins and the loop of exact.h.
  *
  * Memory is bounded: splats go through in batches whose depth maps fit a fixed budget. The result
@@ -12,6 +12,7 @@
 #include "splat/bin.h"
 #include "splat/kernel.h"
 #include <psplat/strategy.h>
+#include <stdatomic.h>
 
 struct splatter_settings {
     const ps_host *host;
@@ -21,7 +22,6 @@ struct splatter_settings {
     float surface_offset; /* see ps_pass */
     struct kernel_profile profile;
     struct kernel_variant kernel;
-    uint32_t interleave; /* see interleaved.h */
     struct workers *workers;
     size_t
         batch; /* at most so many splats at a time; the budget for depth maps may ask for fewer */
@@ -33,13 +33,22 @@ struct splatter_pass {
     uint64_t path_count;
 };
 
+/* Whether it pays to ask which splats light nothing of the pass before they are made (host/photons.c). */
+struct unseen {
+    uint64_t batches; /* placed so far in the pass */
+    bool asked;       /* in this batch */
+    bool many;        /* of those that were last asked */
+    _Atomic(uint64_t) in_batch;
+};
+
 struct splatter {
     struct splatter_settings settings;
     uint32_t resolution; /* of depth maps; 0: none */
     struct splatter_pass pass;
-    struct interleaved pixels;
+    struct interleaved lit;
     struct pyramid pyramid;
     struct bins bins;
+    struct unseen unseen;
     float *depths;                 /* batch * resolution^2 */
     struct kernel_splat *prepared; /* batch */
     /* Statistics, summed over all calls. */
@@ -47,23 +56,23 @@ struct splatter {
     uint64_t tests, useful_tests, map_rays, exact_tests, splats;
 };
 
-ps_result splatter_create(struct splatter *splatter, const struct gbuffer *gbuffer,
+/* `layout`: of what is lit, pixels of a G-buffer (interleaved.h) or points (point_tiles.h). */
+ps_result splatter_create(struct splatter *splatter, struct interleaved layout,
                           const struct splatter_settings *settings, struct error *error);
 void splatter_release(struct splatter *splatter);
 size_t splatter_bytes(const struct splatter *splatter);
 
-/* Takes over what the G-buffer shows; to be called when it was filled anew. */
-void splatter_begin_pass(struct splatter *splatter, const struct gbuffer *gbuffer,
-                         struct splatter_pass pass);
+/* Begins a pass; `lit` has been filled with what it shows. */
+void splatter_begin_pass(struct splatter *splatter, struct splatter_pass pass);
 
-/* Whether a splat of this pass may light any pixel. Any thread. */
+/* Whether a splat of this pass may light anything. Any thread. */
 bool splatter_touches(const struct splatter *splatter, const struct splat *splat);
 
 /* Adds n splats; cuts their depth ranges to their maps. */
 ps_result splatter_add(struct splatter *splatter, struct splat *splats, size_t n,
                        struct error *error);
 
-/* Adds what the pass's splats gave to the G-buffer's tiles. */
+/* Adds what the pass's splats gave to the tiles of the G-buffer whose pixels they lit. */
 void splatter_end_pass(struct splatter *splatter, struct gbuffer *gbuffer);
 
 #endif

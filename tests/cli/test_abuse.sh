@@ -38,16 +38,23 @@ expect_no_text err warning
 
 # --- calls out of place ---
 
-for service in tile pixel tile_of tile_hits next_photons path_count begin_splats splat gather_short_range for_each_tile; do
+for service in tile pixel tile_of tile_hits next_photons path_count begin_splats splat gather_short_range for_each_tile \
+    begin_points splat_points end_points; do
     abuse "init:$service" estimator
     refused "estimator abusive: it called $service where that is not there"
     run 2 check -p estimator=./abusive.so "$cornell"
     expect_text err "estimator abusive: it called $service where that is not there"
 done
-for service in splat gather_short_range; do
+for service in splat gather_short_range splat_points end_points; do
     abuse $service estimator
     refused "estimator abusive: it called $service where that is not there"
 done
+abuse begin_twice estimator
+refused "estimator abusive: it called begin_points where that is not there"
+abuse no_points estimator
+refused "estimator abusive: it called begin_points without points"
+abuse points_left estimator # what it leaves is forgotten when its pass ends
+run 0 --size 48x27 $words --passes 2 -o a.exr "$cornell"
 abuse nested estimator
 refused "estimator abusive: it called parallel_for where that is not there"
 abuse tile estimator

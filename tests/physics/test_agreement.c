@@ -69,6 +69,7 @@ static void test_single_bounce(void **state)
         {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",
          "injection=photon:count=300000", NULL, 0.02},
         {"vpl", "estimator=vpl:lights=2048,clamp=5", "injection=photon:count=2048", NULL, 0.02},
+        {"gather", "estimator=gather:samples=64", "injection=photon:count=1000", NULL, 0.01},
     };
     compare("bounces=1", "estimator=pathtrace:samples=512", methods,
             sizeof methods / sizeof methods[0]);
@@ -85,6 +86,7 @@ static void test_all_bounces(void **state)
         {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",
          "injection=photon:count=300000", NULL, 0.02},
         {"vpl", "estimator=vpl:lights=4096,clamp=5", "injection=photon:count=1500", NULL, 0.03},
+        {"gather", "estimator=gather:samples=64", "injection=photon:count=50000", NULL, 0.01},
     };
     compare("bounces=all", "estimator=pathtrace:samples=512", methods,
             sizeof methods / sizeof methods[0]);

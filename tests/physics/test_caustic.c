@@ -76,6 +76,10 @@ static double mean_from_image(void)
 }
 
 static const struct method mirror_methods[] = {
+    {"gather",
+     {"estimator=gather", "injection=photon:count=100000", "bounces=all",
+      "visibility=shadowmap:radius=0.08", NULL},
+     0.01},
     {"splat",
      {"estimator=splat", "injection=photon:count=100000", "bounces=all",
       "visibility=shadowmap:radius=0.08", NULL},
@@ -182,6 +186,10 @@ static void test_absorbing_plate(void **state)
 
 /* The nearest photons alone overrate a focus; a radius limits that. */
 static const struct method agreeing[] = {
+    {"gather",
+     {"estimator=gather:samples=64", "injection=photon:count=200000", "bounces=all",
+      "visibility=shadowmap:radius=0.05", NULL},
+     0.01},
     {"splat",
      {"estimator=splat", "injection=photon:count=200000", "bounces=all",
       "visibility=shadowmap:radius=0.05", NULL},

@@ -52,6 +52,9 @@ static const struct method truth = {
     "pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0};
 
 static const struct method methods[] = {
+    {"gather",
+     {"estimator=gather:samples=16", "injection=photon:count=20000", "bounces=all", NULL},
+     0.01},
     {"splat",
      {"estimator=splat", "injection=photon:count=20000", "bounces=all",
       "visibility=shadowmap:radius=0.05", NULL},

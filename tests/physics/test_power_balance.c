@@ -100,6 +100,9 @@ static const struct method methods[] = {
     {"photonmap",
      {"estimator=photonmap:neighbours=40", "injection=photon:count=4000", "bounces=all", NULL},
      0.01},
+    {"gather",
+     {"estimator=gather:samples=16", "injection=photon:count=4000", "bounces=all", NULL},
+     0.01},
 };
 
 static void check(const char *material, const char *object)

@@ -30,6 +30,9 @@ static const struct method truth = {
 
 /* The discs of a photon map follow the bent normal, and miss photons of a bumpy floor. */
 static const struct method methods[] = {
+    {"gather",
+     {"estimator=gather:samples=16", "injection=photon:count=12000", "bounces=all", NULL},
+     0.01},
     {"splat",
      {"estimator=splat", "injection=photon:count=12000", "bounces=all",
       "visibility=shadowmap:radius=0.05", NULL},

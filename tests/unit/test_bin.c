@@ -96,7 +96,8 @@ static int open_bench(void **state)
     for (int i = 0; i < SPLATS; i++)
         bench->prepared[i] = prepare(&bench->splats[i], (uint32_t)i % (INTERLEAVE * INTERLEAVE));
     assert_true(kernel_choose(NULL, &bench->kernel));
-    assert_int_equal(interleaved_create(&bench->gbuffer, INTERLEAVE, &bench->interleaved, &error),
+    assert_int_equal(interleaved_create(interleaved_layout(&bench->gbuffer, INTERLEAVE),
+                                        &bench->interleaved, &error),
                      PS_OK);
     assert_int_equal(bench->interleaved.tile_count, 4 * 10 * 7);
     bench->workers = start_workers(2);
@@ -343,7 +344,8 @@ static void test_smallest_picture(void **state)
     struct interleaved interleaved;
     struct kernel_variant kernel;
     assert_true(kernel_choose("baseline", &kernel));
-    assert_int_equal(interleaved_create(&gbuffer, 1, &interleaved, &error), PS_OK);
+    assert_int_equal(interleaved_create(interleaved_layout(&gbuffer, 1), &interleaved, &error),
+                     PS_OK);
     interleaved_fill(&interleaved, &gbuffer, NULL);
     assert_int_equal(pyramid_create(&interleaved, &pyramid, &error), PS_OK);
     pyramid_build(&pyramid, &interleaved, NULL);

@@ -49,7 +49,8 @@ static struct bench open_bench(uint32_t interleave)
                 see(&bench.gbuffer.tiles[tile], lane, x, y);
         }
     }
-    assert_int_equal(interleaved_create(&bench.gbuffer, interleave, &bench.interleaved, &error),
+    assert_int_equal(interleaved_create(interleaved_layout(&bench.gbuffer, interleave),
+                                        &bench.interleaved, &error),
                      PS_OK);
     bench.workers = start_workers(2);
     interleaved_fill(&bench.interleaved, &bench.gbuffer, bench.workers);

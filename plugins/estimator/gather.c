@@ -1,0 +1,252 @@
+/* gather.c: a final gather over surfels that photons were splatted onto.
+ *
+ * Photons find light that is hard to find, but a splat is dear, and its blur and its blotches are seen. Paths are cheap
+ * and their noise can be filtered, but most of their length goes into light that has met many surfaces.
+ * A final gather has the best of both (Reichert 1992; Jensen 1996; Christensen 1999): rays from the pixels' points
+ * find the last surface,
+ *
+ *     E(x) = integral of (L_direct(y) + albedo(y) / pi * E(y)) cos(theta) dw,   y = y(x, w)
+ *
+ * with L_direct by next-event estimation and E(y), light that met other surfaces before, from a cache. Here the cache is
+ * photon splatting: surfels where such rays land take the place of pixels (surfels.h), so that injection,
+ * stratification, visibility and filter are the plugins chosen. Where the cache knows nothing, and where a ray is too
+ * short for it, the path goes on by another segment. Mirrors, glass and gloss on the way are as path tracing has them
+ * (paths.h).
+ *
+ * Light that only mirrors, glass and gloss stand between a lamp and x sharpen, caustics, rays would find by chance
+ * alone: it stays with photons, which are splatted onto the pixels.
+ *
+ * Rays are drawn where those before them found light (guide.h), in rounds. A tile's rays of a round share a run of the
+ * Sobol sequence along a Z curve, as in pathtrace.c.
+ */
+#include "gather/rays.h"
+
+#define FEWEST_SURFELS 2000 /* of a picture */
+
+struct state {
+    int64_t samples;
+    int64_t surfels;
+    int64_t paths;
+    int64_t roulette;
+};
+
+struct work {
+    const struct state *state;
+    struct gather_setting setting;
+    struct surfels surfels;
+    ps_rgb *gathered; /* irradiance of the surfels, when they are corrected */
+};
+
+/* --- photons --- */
+
+/* Which photons are splatted where. */
+struct splatting {
+    const ps_host *host;
+    bool onto_pixels, onto_surfels;
+    uint32_t most_bounces; /* of those onto surfels, which are one surface on */
+};
+
+static bool belongs_on_pixels(const struct splatting *splatting, const ps_photon *photon)
+{
+    return splatting->onto_pixels && photon->bounce == 0;
+}
+
+static bool belongs_on_surfels(const struct splatting *splatting, const ps_photon *photon)
+{
+    return splatting->onto_surfels && photon->bounce <= splatting->most_bounces;
+}
+
+typedef bool (*choice)(const struct splatting *splatting, const ps_photon *photon);
+typedef ps_result (*splatter)(const ps_host *host, const ps_photon *photons, size_t n);
+
+/* Splats those of n photons that are chosen, run by run. */
+static ps_result splat_chosen(const struct splatting *splatting, choice belongs, splatter splat,
+                              const ps_photon *photons, size_t n)
+{
+    ps_result result = PS_OK;
+    for (size_t first = 0, end; first < n && result == PS_OK; first = end + 1) {
+        for (end = first; end < n && belongs(splatting, &photons[end]);)
+            end++;
+        if (end > first)
+            result = splat(splatting->host, photons + first, end - first);
+    }
+    return result;
+}
+
+static ps_result splat_photons(const struct splatting *splatting)
+{
+    const ps_host *host = splatting->host;
+    const ps_photon *photons;
+    size_t n = 1;
+    double progress;
+    ps_result result = PS_OK;
+    while (result == PS_OK && n > 0) {
+        result = host->next_photons(host, &photons, &n, &progress);
+        if (result == PS_OK)
+            result = splat_chosen(splatting, belongs_on_surfels, host->splat_points, photons, n);
+        if (result == PS_OK)
+            result = splat_chosen(splatting, belongs_on_pixels, host->splat, photons, n);
+    }
+    return result;
+}
+
+/* --- the cache --- */
+
+/* A final gather at a group of surfels, as if they were the pixels of a tile. */
+static void gather_group(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    const struct surfels *surfels = &work->surfels;
+    const struct paths_setting *paths = &work->setting.paths;
+    size_t first = index * SURFELS_GROUP;
+    struct gather gather = {.setting = &work->setting, .index = paths->pass->tile_count + index};
+    if (paths->host->cancelled(paths->host))
+        return;
+    for (uint32_t i = 0; i < SURFELS_GROUP && first + i < surfels->count; i++) {
+        gather.points.positions[i] = surfels->positions[first + i];
+        gather.points.normals[i] = surfels->normals[first + i];
+        gather.points.lanes[i] = i;
+        gather.points.count++;
+    }
+    gather_points(&gather);
+    for (size_t i = 0; i < gather.points.count; i++)
+        work->gathered[first + i] = gather.irradiance[i];
+}
+
+/* Splats are smooth, but a few percent too dark or too bright where their kernels are wide. A gather at the surfels
+ * themselves finds two more surfaces as they are, and asks the cache only then: of the errors little is left, and the noise
+ * is made small by the numbers of rays in a group. Where bounces are counted the cache is no part of its own light, and
+ * whole paths take its place. */
+static ps_result correct_cache(struct work *work)
+{
+    const ps_host *host = work->setting.paths.host;
+    size_t count = work->surfels.count;
+    ps_pass pass = *work->setting.paths.pass;
+    struct work correcting = *work;
+    bool counted = pass.bounces != PS_ALL_BOUNCES;
+    pass.bounces -= counted;
+    correcting.setting.paths.pass = &pass;
+    correcting.setting.samples = (uint64_t)work->state->paths;
+    correcting.setting.cache = counted ? NULL : &work->surfels;
+    correcting.setting.cache_from = 1;
+    correcting.setting.no_caustics = false; /* the splats on surfels have them */
+    correcting.gathered = host->allocate(host, count * sizeof(ps_rgb), "surfels");
+    if (!correcting.gathered)
+        return PS_ERROR_MEMORY;
+    uint64_t groups = (count + SURFELS_GROUP - 1) / SURFELS_GROUP;
+    host->parallel_for(host, groups, gather_group, &correcting);
+    bool cancelled = host->cancelled(host);
+    if (!cancelled)
+        surfels_correct(&work->surfels, correcting.gathered);
+    host->release(host, correcting.gathered);
+    return cancelled ? PS_CANCELLED : surfels_build(&work->surfels);
+}
+
+/* Splats the pass's photons onto pixels and surfels, and makes the cache. */
+static ps_result splat(struct work *work)
+{
+    const ps_host *host = work->setting.paths.host;
+    struct surfels *surfels = &work->surfels;
+    struct splatting splatting = {host, work->setting.no_caustics, surfels->count > 0,
+                                  work->setting.paths.pass->bounces - 1};
+    ps_result result = PS_OK;
+    if (splatting.onto_pixels)
+        result = host->begin_splats(host, 0);
+    if (result == PS_OK && splatting.onto_surfels)
+        result = host->begin_points(host, surfels->positions, surfels->normals, surfels->count);
+    if (result == PS_OK && (splatting.onto_pixels || splatting.onto_surfels))
+        result = splat_photons(&splatting);
+    if (result != PS_OK || !splatting.onto_surfels)
+        return result;
+    result = host->end_points(host, surfels->irradiance);
+    if (result == PS_OK)
+        result = surfels_build(surfels);
+    if (result == PS_OK && work->state->paths > 0)
+        result = correct_cache(work);
+    work->setting.cache = surfels;
+    return result;
+}
+
+/* A small picture needs as many as a scene has places. */
+static uint32_t surfels_of_tile(const struct state *state, const ps_pass *pass)
+{
+    uint64_t wanted = (uint64_t)state->surfels, least = FEWEST_SURFELS / pass->tile_count + 1;
+    uint64_t rays = wanted > least ? wanted : least;
+    return (uint32_t)(rays < PS_TILE_PIXELS ? rays : PS_TILE_PIXELS);
+}
+
+/* --- the picture --- */
+
+static void gather_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    const ps_host *host = work->setting.paths.host;
+    ps_tile *tile = host->tile(host, (uint32_t)index);
+    struct gather gather = {.setting = &work->setting, .index = index};
+    ps_collect_points(tile, &gather.points);
+    if (gather.points.count == 0)
+        return;
+    gather_points(&gather);
+    for (size_t i = 0; i < gather.points.count; i++)
+        ps_add_irradiance(tile, gather.points.lanes[i], gather.irradiance[i]);
+}
+
+static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
+{
+    const struct state *state = opaque;
+    struct work work = {
+        .state = state,
+        .setting = {.paths = {host, pass, (uint32_t)state->roulette},
+                    .samples = (uint64_t)state->samples,
+                    .no_caustics = pass->specular != 0},
+        .surfels = {.host = host},
+    };
+    ps_result result = PS_OK;
+    if (pass->bounces > 1 && state->surfels > 0)
+        result = surfels_find(host, pass, surfels_of_tile(state, pass), &work.surfels);
+    if (result == PS_OK)
+        result = splat(&work);
+    host->count(host, "surfels", (double)work.surfels.count);
+    if (result == PS_OK)
+        result = host->for_each_tile(host, gather_tile, &work);
+    surfels_release(&work.surfels);
+    return result;
+}
+
+/* --- the strategy --- */
+
+static const ps_param params[] = {
+    PS_INT(struct state, samples, "8", 1, 1 << 16, "rays",
+           "gather rays for each pixel and pass; powers of two are best"),
+    PS_ROW(struct state, surfels, PS_PARAM_INT, "16", 0, PS_TILE_PIXELS, PS_PARAM_EXPERT, NULL,
+           "surfels",
+           "surfels of the cache for each tile of 16x16 pixels; 0: none, as path tracing"),
+    PS_ROW(struct state, paths, PS_PARAM_INT, "16", 0, 1 << 16, PS_PARAM_EXPERT, NULL, "paths",
+           "paths from each surfel, by which its light is corrected; 0: none"),
+    PS_ROW(struct state, roulette, PS_PARAM_INT, "3", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
+           "bounce from which on Russian roulette may end a path"),
+};
+
+static const ps_estimator_vtable vtable = {
+    .size = sizeof vtable,
+    .flags = PS_ESTIMATOR_SHARES_PLACES,
+    .accumulate = accumulate,
+};
+
+static const ps_descriptor descriptor = {
+    .size = sizeof descriptor,
+    .kind = PS_ESTIMATOR,
+    .name = "gather",
+    .version = "1.0",
+    .summary = "final gather over surfels that photons are splatted onto",
+    .paper = "Jensen 1996, Global illumination using photon maps; Hoet 2014",
+    .params = params,
+    .param_count = sizeof params / sizeof params[0],
+    .param_size = sizeof params[0],
+    .state_size = sizeof(struct state),
+    .vtable = &vtable,
+};
+
+PS_MODULE(estimator, gather, &descriptor)

@@ -1,0 +1,300 @@
+#include "surfels.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#define LEVELS 8        /* of cubes */
+#define LARGEST 0.25f   /* side of the largest cubes, in radii of the scene */
+#define BY_LENGTH 0.15f /* side of a cube, in lengths of the ray */
+#define MOST_BY_LENGTH 0.6f
+#define CAUTION 4.0 /* c in a group */
+#define ENOUGH 2    /* surfels of a cube that is not the last one asked */
+
+struct surfel_cell {
+    uint64_t key; /* 0: none */
+    ps_rgb sum;
+    uint32_t count;
+};
+
+/* --- finding --- */
+
+struct finding {
+    struct surfels *surfels;
+    const ps_pass *pass;
+    uint32_t rays;
+};
+
+/* One ray from each of some pixels of a tile, chosen by lot. Lengths of 0 are no surfels. */
+static void find_in_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct finding *work = user;
+    struct surfels *surfels = work->surfels;
+    const ps_host *host = surfels->host;
+    size_t first = index * work->rays;
+    ps_points points;
+    ps_ray rays[PS_TILE_PIXELS];
+    ps_hit hits[PS_TILE_PIXELS];
+    uint64_t indices[PS_TILE_PIXELS];
+    float numbers[PS_TILE_PIXELS][4];
+    memset(surfels->lengths + first, 0, work->rays * sizeof *surfels->lengths);
+    ps_collect_points(host->tile(host, (uint32_t)index), &points);
+    if (points.count == 0)
+        return;
+    for (uint32_t i = 0; i < work->rays; i++)
+        indices[i] = (index << 32) + (uint64_t)work->pass->number * work->rays + i;
+    host->samples(host, PS_STREAM_PLUGIN, 0, indices, work->rays, numbers);
+    for (uint32_t i = 0; i < work->rays; i++) {
+        size_t point = (size_t)(numbers[i][2] * (float)points.count);
+        ps_vec3 normal = points.normals[point];
+        rays[i] = ps_leave_surface(points.positions[point], normal,
+                                   ps_cosine_direction(normal, numbers[i][0], numbers[i][1]),
+                                   work->pass->surface_offset);
+    }
+    host->intersect(host, rays, work->rays, hits);
+    for (uint32_t i = 0; i < work->rays; i++) {
+        if (!(hits[i].distance < INFINITY) || !(ps_rgb_maximum(hits[i].albedo) > 0.0f))
+            continue;
+        surfels->positions[first + i] = hits[i].position;
+        surfels->normals[first + i] = hits[i].normal;
+        surfels->lengths[first + i] = hits[i].distance;
+    }
+}
+
+static uint32_t facing(ps_vec3 n)
+{
+    float x = fabsf(n.x), y = fabsf(n.y), z = fabsf(n.z);
+    if (x >= y && x >= z)
+        return n.x < 0.0f ? 0 : 1;
+    if (y >= z)
+        return n.y < 0.0f ? 2 : 3;
+    return n.z < 0.0f ? 4 : 5;
+}
+
+/* By place, so that splats cull well, and without the rays that met nothing. */
+static ps_result sort(struct surfels *surfels, size_t n)
+{
+    const ps_host *host = surfels->host;
+    const ps_cells *cells = host->extension(host, PS_CELLS_EXTENSION);
+    if (!cells)
+        return host->fail(host, PS_ERROR_INVALID, "this psplat has no cells");
+    ps_key_entry *entries = host->allocate(host, 2 * n * sizeof *entries, "surfels sorted");
+    ps_vec3 *copies = host->allocate(host, 2 * n * sizeof *copies, "surfels sorted");
+    float *lengths = host->allocate(host, n * sizeof *lengths, "surfels sorted");
+    if (entries && copies && lengths) {
+        ps_lattice lattice = cells->lattice(host, surfels->origin, (double)surfels->largest / 512);
+        for (size_t i = 0; i < n; i++) {
+            if (!(surfels->lengths[i] > 0.0f))
+                continue;
+            uint64_t key = cells->key(&lattice, facing(surfels->normals[i]), surfels->positions[i]);
+            entries[surfels->count++] = (ps_key_entry){key, i};
+        }
+        memcpy(copies, surfels->positions, n * sizeof *copies);
+        memcpy(copies + n, surfels->normals, n * sizeof *copies);
+        memcpy(lengths, surfels->lengths, n * sizeof *lengths);
+        const ps_key_entry *sorted = cells->sort(entries, entries + n, surfels->count);
+        for (size_t i = 0; i < surfels->count; i++) {
+            surfels->positions[i] = copies[sorted[i].index];
+            surfels->normals[i] = copies[n + sorted[i].index];
+            surfels->lengths[i] = lengths[sorted[i].index];
+        }
+    }
+    bool failed = !entries || !copies || !lengths;
+    host->release(host, entries);
+    host->release(host, copies);
+    host->release(host, lengths);
+    return failed ? PS_ERROR_MEMORY : PS_OK;
+}
+
+ps_result surfels_find(const ps_host *host, const ps_pass *pass, uint32_t rays,
+                       struct surfels *surfels)
+{
+    size_t n = (size_t)pass->tile_count * rays;
+    float radius;
+    ps_vec3 center;
+    host->scene_bounds(host, &center, &radius);
+    *surfels = (struct surfels){
+        .host = host,
+        .positions = host->allocate(host, n * sizeof(ps_vec3), "surfels"),
+        .normals = host->allocate(host, n * sizeof(ps_vec3), "surfels"),
+        .lengths = host->allocate(host, n * sizeof(float), "surfels"),
+        .irradiance = host->allocate(host, n * sizeof(ps_rgb), "surfels"),
+        .origin = {center.x - 1.0371f * radius, center.y - 1.0719f * radius,
+                   center.z - 1.0533f * radius},
+        .largest = LARGEST * radius,
+    };
+    if (!surfels->positions || !surfels->normals || !surfels->lengths || !surfels->irradiance)
+        return PS_ERROR_MEMORY;
+    struct finding work = {surfels, pass, rays};
+    ps_result result = host->for_each_tile(host, find_in_tile, &work);
+    return result == PS_OK ? sort(surfels, n) : result;
+}
+
+void surfels_release(struct surfels *surfels)
+{
+    const ps_host *host = surfels->host;
+    host->release(host, surfels->positions);
+    host->release(host, surfels->normals);
+    host->release(host, surfels->lengths);
+    host->release(host, surfels->irradiance);
+    host->release(host, surfels->cells);
+    *surfels = (struct surfels){.host = host};
+}
+
+/* --- correction --- */
+
+static float *channel(ps_rgb *colour, int c)
+{
+    return c == 0 ? &colour->r : c == 1 ? &colour->g : &colour->b;
+}
+
+static float value(const ps_rgb *colour, int c)
+{
+    return c == 0 ? colour->r : c == 1 ? colour->g : colour->b;
+}
+
+/* What splats are multiplied by in a channel: the ratio t of what paths and splats find in n surfels, as far as it
+ * differs from what was expected by more than its noise:
+ *
+ *     e + max(0, 1 - c s^2 / (t - e)^2) (t - e)
+ *
+ * with s^2 the variance of a ratio estimate (Cochran 1977, ch. 6) and the shrinking of James and Stein 1961. In a
+ * group, few paths find light that is hard to find, and seem to have less noise than they have; hence c > 1 there. */
+static double ratio_of(const ps_rgb *splatted, const ps_rgb *traced, size_t n, int c,
+                       double expected, double caution)
+{
+    double by_splats = 0.0, by_paths = 0.0, variance = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        by_splats += (double)value(&splatted[i], c);
+        by_paths += (double)value(&traced[i], c);
+    }
+    if (!(by_splats > 0.0))
+        return expected;
+    double ratio = by_paths / by_splats;
+    for (size_t i = 0; i < n; i++) {
+        double rest = (double)value(&traced[i], c) - ratio * (double)value(&splatted[i], c);
+        variance += rest * rest;
+    }
+    variance *= caution / (by_splats * by_splats);
+    double off = ratio - expected;
+    return expected + (off * off > variance ? 1.0 - variance / (off * off) : 0.0) * off;
+}
+
+void surfels_correct(struct surfels *surfels, const ps_rgb *traced)
+{
+    for (int c = 0; c < 3; c++) {
+        double all = ratio_of(surfels->irradiance, traced, surfels->count, c, 1.0, 1.0);
+        for (size_t first = 0; first < surfels->count; first += SURFELS_GROUP) {
+            size_t left = surfels->count - first, n = left < SURFELS_GROUP ? left : SURFELS_GROUP;
+            ps_rgb *splatted = surfels->irradiance + first;
+            double ratio = ratio_of(splatted, traced + first, n, c, all, CAUTION);
+            for (size_t i = 0; i < n; i++)
+                *channel(&splatted[i], c) *= (float)ratio;
+        }
+    }
+}
+
+/* --- the table --- */
+
+/* One of 54 directions: a face of a cube, and a ninth of it. */
+static uint64_t normal_key(ps_vec3 n)
+{
+    uint32_t face = facing(n);
+    float most = ps_max(fabsf(n.x), ps_max(fabsf(n.y), fabsf(n.z)));
+    float a = face < 2 ? n.y : n.x, b = face < 4 ? n.z : n.y, third = most * (1.0f / 3.0f);
+    uint32_t column = a < -third ? 0 : a > third ? 2 : 1, row = b < -third ? 0 : b > third ? 2 : 1;
+    return face * 9 + row * 3 + column;
+}
+
+static uint64_t cell_key(const struct surfels *surfels, ps_vec3 p, uint64_t normal, uint32_t level)
+{
+    float scale = (float)(1u << level) / surfels->largest;
+    uint64_t x =
+        (uint64_t)(int64_t)((p.x - surfels->origin.x) * scale); /* not negative in the scene */
+    uint64_t y = (uint64_t)(int64_t)((p.y - surfels->origin.y) * scale);
+    uint64_t z = (uint64_t)(int64_t)((p.z - surfels->origin.z) * scale);
+    return UINT64_C(1) << 63 | (x & 0xffff) << 44 | (y & 0xffff) << 28 | (z & 0xffff) << 12 |
+           normal << 4 | level;
+}
+
+static size_t hash(uint64_t key)
+{
+    key = (key ^ (key >> 31)) * UINT64_C(0x9e3779b97f4a7c15);
+    return (size_t)(key ^ (key >> 32));
+}
+
+/* The cell of that key, or the free place where it would be. */
+static struct surfel_cell *cell_at(const struct surfels *surfels, uint64_t key)
+{
+    size_t place = hash(key) & (surfels->capacity - 1);
+    while (surfels->cells[place].key && surfels->cells[place].key != key)
+        place = (place + 1) & (surfels->capacity - 1);
+    return &surfels->cells[place];
+}
+
+static uint32_t level_of(const struct surfels *surfels, float side)
+{
+    uint32_t level = 0;
+    while (level + 1 < LEVELS && surfels->largest > side * (float)(1u << level) * 1.4142f)
+        level++;
+    return level;
+}
+
+ps_result surfels_build(struct surfels *surfels)
+{
+    const ps_host *host = surfels->host;
+    host->release(host, surfels->cells);
+    surfels->capacity = 16;
+    while (surfels->capacity < 2 * LEVELS * surfels->count)
+        surfels->capacity *= 2;
+    size_t bytes = surfels->capacity * sizeof *surfels->cells;
+    surfels->cells = host->allocate(host, bytes, "surfels");
+    if (!surfels->cells)
+        return PS_ERROR_MEMORY;
+    memset(surfels->cells, 0, bytes);
+    for (size_t i = 0; i < surfels->count; i++) {
+        uint64_t normal = normal_key(surfels->normals[i]);
+        uint32_t finest = level_of(surfels, 0.5f * BY_LENGTH * surfels->lengths[i]);
+        for (uint32_t level = 0; level <= finest; level++) {
+            uint64_t key = cell_key(surfels, surfels->positions[i], normal, level);
+            struct surfel_cell *cell = cell_at(surfels, key);
+            cell->key = key;
+            cell->sum = ps_rgb_add(cell->sum, surfels->irradiance[i]);
+            cell->count++;
+        }
+    }
+    return PS_OK;
+}
+
+/* Somewhere within a cube's side of a point, along the two axes that its surface faces least. */
+static ps_vec3 move(ps_vec3 p, ps_vec3 normal, float side, const float numbers[2])
+{
+    uint32_t axis = facing(normal) / 2;
+    float a = (numbers[0] - 0.5f) * side, b = (numbers[1] - 0.5f) * side;
+    return (ps_vec3){p.x + (axis == 0 ? 0.0f : a),
+                     p.y + (axis == 1   ? 0.0f
+                            : axis == 0 ? a
+                                        : b),
+                     p.z + (axis == 2 ? 0.0f : b)};
+}
+
+int surfels_lookup(const struct surfels *surfels, ps_vec3 position, ps_vec3 normal, float length,
+                   const float numbers[2], ps_rgb *irradiance)
+{
+    uint64_t direction = normal_key(normal);
+    uint32_t level = level_of(surfels, BY_LENGTH * length);
+    for (;; level--) {
+        float side = surfels->largest / (float)(1u << level);
+        if (side > MOST_BY_LENGTH * length)
+            return 0;
+        ps_vec3 moved = move(position, normal, side, numbers);
+        const struct surfel_cell *cell =
+            cell_at(surfels, cell_key(surfels, moved, direction, level));
+        if (cell->count >= ENOUGH || (cell->count > 0 && level == 0)) {
+            *irradiance = ps_rgb_scale(cell->sum, 1.0f / (float)cell->count);
+            return 1;
+        }
+        if (level == 0)
+            return 0;
+    }
+}

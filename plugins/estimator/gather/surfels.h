@@ -1,0 +1,49 @@
+/* surfels.h: a cache of irradiance where gather rays land.
+ *
+ * Surfels are points that rays from the pixels found: so they lie where the next rays will land, as densely as
+ * these will. Photons are splatted onto them. A lookup asks a hash table for the cube of space that a point lies in,
+ * with surfaces of like normal, and gets the mean of the surfels there (after Binder et al. 2019, "Massively parallel
+ * path space filtering"). Cubes have a side in proportion to the length of the ray, as wide as neighbouring rays are apart
+ * there, in powers of two; where one is empty, the next larger ones are asked. The point is moved by lot within
+ * a cube, which turns steps between cubes into noise.
+ */
+#ifndef PSPLAT_ESTIMATOR_GATHER_SURFELS_H
+#define PSPLAT_ESTIMATOR_GATHER_SURFELS_H
+
+#include <psplat/plugin.h>
+
+struct surfel_cell;
+
+struct surfels {
+    const ps_host *host;
+    size_t count;
+    ps_vec3 *positions, *normals;
+    float *lengths;     /* of the rays that found them */
+    ps_rgb *irradiance; /* W/m^2, set by the caller */
+    ps_vec3 origin;     /* of the cubes */
+    float largest;      /* side of the largest cubes */
+    struct surfel_cell *cells;
+    size_t capacity; /* of the table, a power of two */
+};
+
+/* Finds surfels with so many rays from each tile of the pass. PS_ERROR_MEMORY or PS_CANCELLED: release all the same. */
+ps_result surfels_find(const ps_host *host, const ps_pass *pass, uint32_t rays,
+                       struct surfels *surfels);
+
+/* Surfels that are corrected together. */
+enum { SURFELS_GROUP = 64 };
+
+/* Corrects the irradiance by that of paths, without bias but with noise. */
+void surfels_correct(struct surfels *surfels, const ps_rgb *traced);
+
+/* Makes the table, when the irradiance is set. */
+ps_result surfels_build(struct surfels *surfels);
+
+void surfels_release(struct surfels *surfels);
+
+/* The irradiance at a point that a ray of that length met, with two numbers of [0, 1); 0 where the cache knows none. Any
+ * thread. */
+int surfels_lookup(const struct surfels *surfels, ps_vec3 position, ps_vec3 normal, float length,
+                   const float numbers[2], ps_rgb *irradiance);
+
+#endif

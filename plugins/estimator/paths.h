@@ -1,0 +1,172 @@
+/* paths.h: paths from the pixels of a tile, which advance together: what path tracing and gathering have in common.
+ *
+ * Kajiya 1986. A path goes on at every surface by its own scattering. At each one the light of the lights that it
+ * reflects is added (next-event estimation), and after mirrors, glass and gloss the emission that the path meets,
+ * which are caustics; gloss weighs both. Emission met from a diffuse surface is direct light of that surface, and
+ * counted there. Russian roulette ends paths at diffuse surfaces.
+ *
+ * Random numbers are those of one set for each segment, four dimensions each. Rays go to the tracer in packets.
+ */
+#ifndef PSPLAT_ESTIMATOR_PATHS_H
+#define PSPLAT_ESTIMATOR_PATHS_H
+
+#include <psplat/plugin.h>
+
+/* Sets of the random numbers that choose points on lights; directions take 1, 2, 3, ... */
+#define PATHS_LIGHT_SETS 0x10000u
+
+struct paths_setting {
+    const ps_host *host;
+    const ps_pass *pass;
+    uint32_t roulette; /* bounce from which on paths may be ended */
+};
+
+/* The paths of one sample of a tile that are still under way; entry i belongs to pixel pixels[i]. */
+struct paths {
+    size_t count;
+    uint32_t pixels[PS_TILE_PIXELS];
+    ps_ray rays[PS_TILE_PIXELS];
+    ps_rgb throughput
+        [PS_TILE_PIXELS]; /* what radiance is multiplied by to be irradiance of the pixel */
+    uint32_t bounces[PS_TILE_PIXELS]; /* diffuse surfaces met */
+    uint32_t chain[PS_TILE_PIXELS];   /* others since the last one */
+    float pdfs[PS_TILE_PIXELS];       /* of the last scattering, where its lobe was glossy */
+    uint8_t shines[PS_TILE_PIXELS];   /* whether emission that is met counts */
+};
+
+/* What a segment needs for each path. */
+struct paths_segment {
+    ps_hit hits[PS_TILE_PIXELS];
+    uint64_t indices[PS_TILE_PIXELS]; /* of the random numbers */
+    float numbers[PS_TILE_PIXELS][4];
+};
+
+static inline void paths_move(struct paths *paths, size_t from, size_t to)
+{
+    paths->pixels[to] = paths->pixels[from];
+    paths->rays[to] = paths->rays[from];
+    paths->throughput[to] = paths->throughput[from];
+    paths->bounces[to] = paths->bounces[from];
+    paths->chain[to] = paths->chain[from];
+    paths->pdfs[to] = paths->pdfs[from];
+    paths->shines[to] = paths->shines[from];
+}
+
+/* `samples`: the index of each pixel's sample. */
+static inline void paths_draw_numbers(const struct paths_setting *setting, uint32_t set,
+                                      const uint64_t *samples, const struct paths *paths,
+                                      struct paths_segment *segment)
+{
+    for (size_t i = 0; i < paths->count; i++)
+        segment->indices[i] = samples[paths->pixels[i]];
+    setting->host->samples(setting->host, PS_STREAM_PATH, set, segment->indices, paths->count,
+                           segment->numbers);
+}
+
+/* A path leaves a pixel's point along a ray. */
+static inline void paths_add(struct paths *paths, uint32_t pixel, ps_ray ray, float throughput)
+{
+    size_t i = paths->count++;
+    paths->pixels[i] = pixel;
+    paths->rays[i] = ray;
+    paths->throughput[i] = (ps_rgb){throughput, throughput, throughput};
+    paths->bounces[i] = paths->chain[i] = 0;
+    paths->pdfs[i] = 0.0f;
+    paths->shines[i] = 0;
+}
+
+static inline void paths_add_radiance(const struct paths *paths, const ps_rgb *radiance,
+                                      ps_rgb *sums)
+{
+    for (size_t i = 0; i < paths->count; i++) {
+        ps_rgb *sum = &sums[paths->pixels[i]];
+        *sum = ps_rgb_add(*sum, ps_rgb_multiply(paths->throughput[i], radiance[i]));
+    }
+}
+
+/* Adds the emission that paths met after mirrors, glass and gloss. */
+static inline void paths_add_emission(const struct paths_setting *setting,
+                                      const struct paths *paths,
+                                      const struct paths_segment *segment, ps_rgb *sums)
+{
+    ps_rgb radiance[PS_TILE_PIXELS];
+    setting->host->emitted_radiance(setting->host, paths->rays, segment->hits, paths->pdfs,
+                                    paths->count, radiance);
+    for (size_t i = 0; i < paths->count; i++)
+        if (!paths->shines[i])
+            radiance[i] = (ps_rgb){0, 0, 0};
+    paths_add_radiance(paths, radiance, sums);
+}
+
+/* Drops paths that met nothing. */
+static inline void paths_drop_lost(struct paths *paths, struct paths_segment *segment)
+{
+    size_t met = 0;
+    for (size_t i = 0; i < paths->count; i++) {
+        if (!(segment->hits[i].distance < INFINITY))
+            continue;
+        segment->hits[met] = segment->hits[i];
+        paths_move(paths, i, met++);
+    }
+    paths->count = met;
+}
+
+/* Past its last diffuse bounce a path can only find lights in mirrors and glass. */
+static inline int paths_is_last(const struct paths_setting *setting, const struct paths *paths,
+                                size_t i)
+{
+    return paths->bounces[i] >= setting->pass->bounces;
+}
+
+/* Adds what the surfaces that were met reflect of the lights. */
+static inline void paths_add_direct(const struct paths_setting *setting, uint32_t number,
+                                    const struct paths *paths, struct paths_segment *segment,
+                                    ps_rgb *sums)
+{
+    ps_rgb radiance[PS_TILE_PIXELS];
+    for (size_t i = 0; i < paths->count; i++)
+        if (paths_is_last(setting, paths, i))
+            segment->hits[i].albedo = (ps_rgb){0, 0, 0};
+    setting->host->direct_radiance(setting->host, paths->rays, segment->hits, PS_STREAM_PATH,
+                                   PATHS_LIGHT_SETS + number, segment->indices, paths->count,
+                                   radiance);
+    paths_add_radiance(paths, radiance, sums);
+}
+
+/* Whether a path goes on after a surface that scatters like this. */
+static inline int paths_goes_on(const struct paths_setting *setting,
+                                const ps_bsdf_sample *scattered, float number, struct paths *paths,
+                                size_t i)
+{
+    ps_rgb *throughput = &paths->throughput[i];
+    *throughput = ps_rgb_multiply(*throughput, scattered->weight);
+    float likelihood = ps_rgb_maximum(*throughput) / PS_PI;
+    if (!(likelihood > 0.0f))
+        return 0;
+    if (scattered->lobe != PS_DIFFUSE)
+        return ++paths->chain[i] <= PS_LONGEST_CHAIN;
+    if (paths_is_last(setting, paths, i))
+        return 0;
+    paths->chain[i] = 0;
+    paths->bounces[i]++;
+    if (paths_is_last(setting, paths, i) && !setting->pass->specular)
+        return 0;
+    return paths->bounces[i] < setting->roulette ||
+           ps_russian_roulette(likelihood, number, throughput);
+}
+
+/* Sends a path on from its hit; false where it ends. */
+static inline int paths_scatter(const struct paths_setting *setting,
+                                const ps_bsdf_sample *scattered,
+                                const struct paths_segment *segment, struct paths *paths, size_t i)
+{
+    if (!paths_goes_on(setting, scattered, segment->numbers[i][2], paths, i))
+        return 0;
+    paths->rays[i] = ps_leave_surface(segment->hits[i].position, scattered->normal,
+                                      scattered->direction, setting->pass->surface_offset);
+    paths->shines[i] = scattered->lobe != PS_DIFFUSE;
+    paths->pdfs[i] = scattered->lobe == PS_GLOSSY ? scattered->pdf : 0.0f;
+    return 1;
+}
+
+#endif
