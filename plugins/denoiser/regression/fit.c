@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#define WIDEST_OF_REST 24 /* bandwidth, in pixels */
 #define LANES 16
 #define MARGIN (REGRESSION_LARGEST + LANES)
 #define BLOCK 64       /* side of the squares of pixels that workers take */
@@ -307,17 +308,20 @@ static void blend_grid(const struct work *work, struct block *block)
     }
 }
 
-/* Pixels of thin things, which no centre shows, become centres, in their order. */
+/* Pixels of thin things, which no centre shows, become centres, in their order. They are many where edges are smooth,
+ * and little of a wide surrounding is like them: their fits are narrow. */
 static void blend_rest(const struct work *work, struct block *block)
 {
+    struct work narrow = *work;
+    narrow.bandwidth = smaller(work->bandwidth, WIDEST_OF_REST);
     for (int row = 0; row < block->rows; row++)
         for (int column = 0; column < block->columns; column++) {
             int x = block->x + column, y = block->y + row;
             struct regression_fit fit;
             if (block->weight[row][column] >= LEAST_FIT || !shows_surface(work, x, y))
                 continue;
-            make_fit(work, x, y, &fit);
-            blend(work, &fit, block);
+            make_fit(&narrow, x, y, &fit);
+            blend(&narrow, &fit, block);
         }
 }
 
