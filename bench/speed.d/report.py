@@ -16,7 +16,7 @@ def percent(number):
 
 
 def is_ours(name):
-    return name.startswith("splat")
+    return name.startswith(("gather", "splat"))
 
 
 def seconds_of(point, threads):

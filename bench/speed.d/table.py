@@ -28,6 +28,10 @@ def choose(all_names, wanted, what):
     return [name for name in all_names if not wanted or name in wanted]
 
 
+# Where methods say nothing: splats as they are, and pixels whose light is that of one point.
+BASE = ["--plugin=estimator=splat", "--plugin=denoiser=none", "--set=render.aa_samples=1"]
+
+
 class Scene:
     """What psplat is to render, and its words: file and parameters."""
 
@@ -38,7 +42,7 @@ class Scene:
         self.mesh = os.path.abspath(mesh) if mesh else None
         self.passes = int(section.get("passes", 1))
         options = section.get("options", "").split() + [f"--passes={self.passes}"]
-        self.words = [self.file] + [word.format(mesh=self.mesh) for word in options]
+        self.words = [self.file, *BASE] + [word.format(mesh=self.mesh) for word in options]
 
     def missing(self):
         """Why the scene can't be rendered, or None."""

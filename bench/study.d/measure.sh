@@ -79,7 +79,7 @@ point() {
         seconds=$(estimate_seconds "$work/$id.json")
         for again in 1 2; do
             ((quick == 0 && $(calculate "$seconds < 1"))) || break
-            "$psplat" render "$1" --quiet --size "$size" "${@:2}" -o "$work/again.exr" --stats "$work/again.json"
+            "$psplat" render "$1" --quiet --size "$size" --passes 1 --plugin estimator=splat --plugin denoiser=none "${@:2}" -o "$work/again.exr" --stats "$work/again.json"
             seconds=$(awk -v a="$seconds" -v b="$(estimate_seconds "$work/again.json")" 'BEGIN { print (a < b) ? a : b }')
         done
         wrong=$(errors "$reference" "$id")

@@ -50,7 +50,7 @@ cornell_pictures() {
 
 overlap_picture() {
     set_options thesis_splats 25000 "$small_size" weight
-    "$psplat" debug overlap "$cornell" --quiet --size "$size" --top 600 "${options[@]}" -o "$work/overlap.png" >/dev/null
+    "$psplat" debug overlap "$cornell" --plugin estimator=splat --quiet --size "$size" --top 600 "${options[@]}" -o "$work/overlap.png" >/dev/null
     keep_picture overlap
 }
 

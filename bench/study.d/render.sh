@@ -40,7 +40,7 @@ render_now() {
     local name=$1 scene=$2
     shift 2
     echo "rendering $name"
-    "$psplat" render "$scene" --quiet --size "$size" "$@" -o "$work/part.exr" --stats "$work/part.json"
+    "$psplat" render "$scene" --quiet --size "$size" --passes 1 --plugin estimator=splat --plugin denoiser=none "$@" -o "$work/part.exr" --stats "$work/part.json"
     mv "$work/part.exr" "$work/$name.exr"
     mv "$work/part.json" "$work/$name.json"
 }

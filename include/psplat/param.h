@@ -41,6 +41,9 @@ typedef struct ps_number_or_choice {
 #define PS_PARAM_EXPERT                                                                            \
     4u /* its default is right for all but experiments: lists show it on request */
 #define PS_PARAM_WHOLE 8u /* of numbers: whole ones alone */
+/* Since 1.2, of a PS_PARAM_INT: a number of samples, whose default is that of normal quality; other qualities multiply
+ * it. */
+#define PS_PARAM_QUALITY 16u
 
 typedef struct ps_param {
     const char *name;

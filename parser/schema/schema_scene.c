@@ -2,6 +2,7 @@
 #include "parser/schema/schema_language.h"
 #include "parser/schema/schema_rows.h"
 #include "settings/kinds.h"
+#include "settings/quality.h"
 
 #define LARGEST_SEED 9007199254740992.0 /* 2^53: any double counts up to it in ones */
 
@@ -77,9 +78,16 @@ static const char *const all_bounces[] = {"all", NULL};
 
 static const char *const direct_ways[] = {"rays", "shadowmap", NULL};
 
+static const char *const qualities[] = QUALITY_WORDS;
+
+static const char *const automatic[] = {"auto", NULL};
+
 static const struct schema_row render_rows[] = {
-    STRATEGY_KINDS(STRATEGY_ROW) VALUE(PS_INT(struct render_description, passes, "1", 1, 1e6, "",
-                                              "how many independent passes are added up")),
+    STRATEGY_KINDS(STRATEGY_ROW) VALUE(
+        PS_CHOICE(struct render_description, quality, "normal", qualities,
+                  "how much work the picture is worth, where numbers of samples are not given")),
+    VALUE(PS_NUMBER_OR(struct render_description, passes, "auto", 1, 1e6, PS_PARAM_WHOLE, automatic,
+                       "", "how many independent passes are added up; auto: by quality")),
     VALUE(PS_NUMBER_OR(struct render_description, bounces, "all", 1, 1000, PS_PARAM_WHOLE,
                        all_bounces, "bounces",
                        "how many surfaces indirect light may meet before the one that is seen")),
@@ -89,7 +97,7 @@ static const struct schema_row render_rows[] = {
                  "shadow rays to each area light, for a pixel and pass")),
     BOOL("discontinuity_buffer", offsetof(struct render_description, discontinuity_buffer), "no",
          "whether direct light is averaged over neighbouring pixels that see the lights alike"),
-    VALUE(PS_INT(struct render_description, aa_samples, "1", 1, MOST_AA_SAMPLES, "",
+    VALUE(PS_INT(struct render_description, aa_samples, "4", 1, MOST_AA_SAMPLES, "",
                  "camera samples in each pass of a pixel that differs from its neighbours")),
     VALUE(PS_CHOICE(struct render_description, direct, "rays", direct_ways,
                     "how direct light finds shadows; area lights: by rays alone")),

@@ -34,7 +34,7 @@ struct work {
     const struct state *state;
     struct gather_setting setting;
     struct surfels surfels;
-    ps_rgb *gathered; /* irradiance of the surfels, when they are corrected */
+    ps_rgb *traced; /* irradiance of the surfels by paths, when they are corrected */
 };
 
 /* --- photons --- */
@@ -92,8 +92,8 @@ static ps_result splat_photons(const struct splatting *splatting)
 
 /* --- the cache --- */
 
-/* A final gather at a group of surfels, as if they were the pixels of a tile. */
-static void gather_group(void *user, uint64_t index, uint32_t worker)
+/* Paths from a group of surfels, as if they were the pixels of a tile. */
+static void trace_group(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
@@ -111,36 +111,32 @@ static void gather_group(void *user, uint64_t index, uint32_t worker)
     }
     gather_points(&gather);
     for (size_t i = 0; i < gather.points.count; i++)
-        work->gathered[first + i] = gather.irradiance[i];
+        work->traced[first + i] = gather.irradiance[i];
 }
 
-/* Splats are smooth, but a few percent too dark or too bright where their kernels are wide. A gather at the surfels
- * themselves finds two more surfaces as they are, and asks the cache only then: of the errors little is left, and the noise
- * is made small by the numbers of rays in a group. Where bounces are counted the cache is no part of its own light, and
- * whole paths take its place. */
+/* Splats are smooth, but a few percent too dark or too bright where their kernels are wide. Paths from the surfels are right
+ * on average, and their noise is made small by their number. */
 static ps_result correct_cache(struct work *work)
 {
     const ps_host *host = work->setting.paths.host;
     size_t count = work->surfels.count;
     ps_pass pass = *work->setting.paths.pass;
     struct work correcting = *work;
-    bool counted = pass.bounces != PS_ALL_BOUNCES;
-    pass.bounces -= counted;
-    correcting.setting.paths.pass = &pass;
-    correcting.setting.samples = (uint64_t)work->state->paths;
-    correcting.setting.cache = counted ? NULL : &work->surfels;
-    correcting.setting.cache_from = 1;
-    correcting.setting.no_caustics = false; /* the splats on surfels have them */
-    correcting.gathered = host->allocate(host, count * sizeof(ps_rgb), "surfels");
-    if (!correcting.gathered)
+    pass.bounces -= pass.bounces != PS_ALL_BOUNCES; /* surfels are one surface on */
+    correcting.setting = (struct gather_setting){
+        .paths = {host, &pass, work->setting.paths.roulette},
+        .samples = (uint64_t)work->state->paths,
+    };
+    correcting.traced = host->allocate(host, count * sizeof(ps_rgb), "surfels");
+    if (!correcting.traced)
         return PS_ERROR_MEMORY;
     uint64_t groups = (count + SURFELS_GROUP - 1) / SURFELS_GROUP;
-    host->parallel_for(host, groups, gather_group, &correcting);
+    host->parallel_for(host, groups, trace_group, &correcting);
     bool cancelled = host->cancelled(host);
     if (!cancelled)
-        surfels_correct(&work->surfels, correcting.gathered);
-    host->release(host, correcting.gathered);
-    return cancelled ? PS_CANCELLED : surfels_build(&work->surfels);
+        surfels_correct(&work->surfels, correcting.traced);
+    host->release(host, correcting.traced);
+    return cancelled ? PS_CANCELLED : PS_OK;
 }
 
 /* Splats the pass's photons onto pixels and surfels, and makes the cache. */
@@ -160,10 +156,10 @@ static ps_result splat(struct work *work)
     if (result != PS_OK || !splatting.onto_surfels)
         return result;
     result = host->end_points(host, surfels->irradiance);
-    if (result == PS_OK)
-        result = surfels_build(surfels);
     if (result == PS_OK && work->state->paths > 0)
         result = correct_cache(work);
+    if (result == PS_OK)
+        result = surfels_build(surfels);
     work->setting.cache = surfels;
     return result;
 }
@@ -218,12 +214,12 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
 /* --- the strategy --- */
 
 static const ps_param params[] = {
-    PS_INT(struct state, samples, "8", 1, 1 << 16, "rays",
+    PS_ROW(struct state, samples, PS_PARAM_INT, "8", 1, 1 << 16, PS_PARAM_QUALITY, NULL, "rays",
            "gather rays for each pixel and pass; powers of two are best"),
     PS_ROW(struct state, surfels, PS_PARAM_INT, "16", 0, PS_TILE_PIXELS, PS_PARAM_EXPERT, NULL,
            "surfels",
            "surfels of the cache for each tile of 16x16 pixels; 0: none, as path tracing"),
-    PS_ROW(struct state, paths, PS_PARAM_INT, "16", 0, 1 << 16, PS_PARAM_EXPERT, NULL, "paths",
+    PS_ROW(struct state, paths, PS_PARAM_INT, "32", 0, 1 << 16, PS_PARAM_EXPERT, NULL, "paths",
            "paths from each surfel, by which its light is corrected; 0: none"),
     PS_ROW(struct state, roulette, PS_PARAM_INT, "3", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),

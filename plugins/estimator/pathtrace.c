@@ -113,7 +113,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
 }
 
 static const ps_param params[] = {
-    PS_INT(struct state, samples, "64", 1, 1 << 20, "paths",
+    PS_ROW(struct state, samples, PS_PARAM_INT, "64", 1, 1 << 20, PS_PARAM_QUALITY, NULL, "paths",
            "paths for each pixel and pass; powers of two are best"),
     PS_ROW(struct state, roulette, PS_PARAM_INT, "3", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),

@@ -311,7 +311,8 @@ static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pa
 static const char *const split_choices[] = {"auto", NULL};
 
 static const ps_param params[] = {
-    PS_INT(struct state, count, "100000", 1, 2000000000, "paths", "light paths in each pass"),
+    PS_ROW(struct state, count, PS_PARAM_INT, "25000", 1, 2000000000, PS_PARAM_QUALITY, NULL,
+           "paths", "light paths in each pass"),
     PS_ROW(struct state, roulette, PS_PARAM_INT, "2", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),
     PS_NUMBER_OR(struct state, split, "auto", 1, MOST_SPLIT, PS_PARAM_EXPERT | PS_PARAM_WHOLE,

@@ -201,7 +201,15 @@ ps_result param_set(const ps_param *row, void *state, const char *text, struct e
     return good ? PS_OK : reject(row, text, error);
 }
 
-ps_result param_set_defaults(const struct param_table *table, void *state, struct error *error)
+static void scale(const ps_param *row, void *state, double effort)
+{
+    int64_t *member = (int64_t *)(void *)((char *)state + row->offset);
+    double number = round(effort * (double)*member);
+    *member = (int64_t)fmin(fmax(number, row->minimum), row->maximum);
+}
+
+ps_result param_set_defaults(const struct param_table *table, void *state, double effort,
+                             struct error *error)
 {
     for (size_t i = 0; i < table->count; i++) {
         const ps_param *row = param_row(table, i);
@@ -209,6 +217,8 @@ ps_result param_set_defaults(const struct param_table *table, void *state, struc
             row->default_value ? param_set(row, state, row->default_value, error) : PS_OK;
         if (result != PS_OK)
             return result;
+        if (row->type == PS_PARAM_INT && row->flags & PS_PARAM_QUALITY)
+            scale(row, state, effort);
     }
     return PS_OK;
 }

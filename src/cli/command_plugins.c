@@ -58,7 +58,8 @@ static void print_parameter(const ps_param *row)
     printf("  %s\n      %s\n      %s%s%s", row->name, row->help, domain,
            row->unit[0] ? ", in " : "", row->unit);
     if (row->default_value)
-        printf("; default: %s\n", row->default_value);
+        printf("; default: %s%s\n", row->default_value,
+               row->flags & PS_PARAM_QUALITY ? ", by quality" : "");
     else
         printf("; required\n");
 }

@@ -18,6 +18,7 @@ static const struct argument stands_for[] = {
     {&plugin, "stratification=none"},
     {&plugin, "visibility=shadowmap:radius=auto,resolution=4"},
     {&plugin, "estimator=splat:interleave=4,gather_rays=0"},
+    {&plugin, "denoiser=none"},
 };
 
 #define STANDS_FOR (sizeof stands_for / sizeof stands_for[0])

@@ -25,6 +25,8 @@ static bool take_option(struct render_options *options, const struct argument *a
         options->exposure = value;
     else if (strcmp(name, "bounces") == 0)
         options->bounces = value;
+    else if (strcmp(name, "quality") == 0)
+        options->quality = value;
     else if (strcmp(name, "direct") == 0)
         options->direct = value;
     else if (strcmp(name, "direct-resolution") == 0)
@@ -89,13 +91,13 @@ static bool override_exposure(const char *text, double *exposure)
 }
 
 /* As the render section of a file reads it. */
-static bool override_bounces(const char *text, struct render_description *render)
+static bool override_setting(const char *key, const char *text, struct render_description *render)
 {
     struct error error;
     struct param_table table = schema_table(schema_only("render"));
-    if (param_set(param_find(&table, "bounces"), render, text, &error) == PS_OK)
+    if (!text || param_set(param_find(&table, key), render, text, &error) == PS_OK)
         return true;
-    fprintf(stderr, "psplat: error: --bounces: %s\n", error.text);
+    fprintf(stderr, "psplat: error: --%s: %s\n", key, error.text);
     return false;
 }
 
@@ -128,7 +130,8 @@ static bool override(const struct render_options *options, struct scene_input *i
     return (!options->size || override_size(options->size, &description->image)) &&
            (!options->exposure ||
             override_exposure(options->exposure, &description->image.exposure)) &&
-           (!options->bounces || override_bounces(options->bounces, &description->render)) &&
+           override_setting("bounces", options->bounces, &description->render) &&
+           override_setting("quality", options->quality, &description->render) &&
            (!options->direct || override_direct(options->direct, &description->render.direct));
 }
 

@@ -9,6 +9,8 @@
 #define RENDER_OPTIONS                                                                             \
     {'p', "plugin", "KIND=NAME[:KEY=VALUE,...]", "use another strategy, or other parameters"},     \
         SCENE_OPTIONS, {0, "size", "WxH", "width and height of the picture in pixels"},            \
+        {0, "quality", "NAME",                                                                     \
+         "draft, normal, high or final: how many samples, where none are given"},                  \
         {0, "bounces", "N|all", "surfaces that indirect light may meet, for every estimator"},     \
         {0, "seed", "N", "seed of the random numbers"},                                            \
         {'t', "threads", "N", "threads; the picture does not depend on them"},                     \
@@ -28,7 +30,7 @@ struct render_options {
     struct scene_options scene;
     const char *size, *exposure, *isa, *direct;
     double seed, threads, batch, direct_resolution; /* negative: not given */
-    const char *bounces;
+    const char *bounces, *quality;
     bool quiet;
     bool preview;                     /* see preview_shrink; `size` goes before it */
     const struct argument *arguments; /* borrowed; --plugin waits for the scene */

@@ -9,7 +9,7 @@ const void *strategy_shared(const struct strategy *strategy)
     return (const char *)strategy->state + strategy->type->shared_offset;
 }
 
-ps_result strategy_create(struct loader *loader, ps_kind kind, const char *name,
+ps_result strategy_create(struct loader *loader, ps_kind kind, const char *name, double effort,
                           struct strategy *strategy, struct error *error)
 {
     struct strategy_type *type;
@@ -23,7 +23,7 @@ ps_result strategy_create(struct loader *loader, ps_kind kind, const char *name,
     };
     struct param_table table = strategy_type_params(type);
     result = strategy->name && strategy->state
-                 ? param_set_defaults(&table, strategy->state, error)
+                 ? param_set_defaults(&table, strategy->state, effort, error)
                  : error_memory(error, type->state_size, "a plugin's state");
     if (result != PS_OK)
         strategy_release(strategy);

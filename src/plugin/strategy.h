@@ -16,9 +16,9 @@ struct strategy {
 /* What the strategy's kind shares: a footprint_params or a merge_params, where it has any. */
 const void *strategy_shared(const struct strategy *strategy);
 
-/* Loads the strategy of that name and gives it a state with default parameters. Set others with
- * param_set, then start it. */
-ps_result strategy_create(struct loader *loader, ps_kind kind, const char *name,
+/* Loads the strategy of that name and gives it a state with default parameters (see param_set_defaults). Set others
+ * with param_set, then start it. */
+ps_result strategy_create(struct loader *loader, ps_kind kind, const char *name, double effort,
                           struct strategy *strategy, struct error *error);
 
 /* Runs the plugin's init with the host that it keeps; what it said of a failure, host->fail was told. */

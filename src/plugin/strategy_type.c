@@ -40,7 +40,7 @@ static ps_result check_rows(const struct strategy_type *type, struct error *erro
     void *state = calloc(1, type->state_size);
     if (!state)
         return error_memory(error, type->state_size, "a plugin's state");
-    ps_result result = param_set_defaults(&table, state, &reason);
+    ps_result result = param_set_defaults(&table, state, 1.0, &reason);
     param_release(&table, state);
     free(state);
     if (result == PS_OK)

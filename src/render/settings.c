@@ -1,5 +1,7 @@
 #include "render/settings.h"
 
+#include "settings/quality.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -9,6 +11,7 @@ struct resolution {
     struct loader *loader;
     settings_report report;
     void *user;
+    double effort;
     bool failed;
 };
 
@@ -76,7 +79,8 @@ static void resolve_choice(struct resolution *resolution, ps_kind kind,
 {
     struct error error;
     const char *name = choice->name ? choice->name : kinds[kind].default_strategy;
-    if (strategy_create(resolution->loader, kind, name, strategy, &error) != PS_OK) {
+    if (strategy_create(resolution->loader, kind, name, resolution->effort, strategy, &error) !=
+        PS_OK) {
         fail(resolution, choice->name ? &choice->origin : &nowhere, error.text);
         return;
     }
@@ -89,8 +93,10 @@ ps_result settings_resolve(struct loader *loader, const struct render_descriptio
                            uint32_t threads, size_t batch, settings_report report, void *user,
                            struct render_settings *settings)
 {
+    enum quality quality = (enum quality)description->quality;
     *settings = (struct render_settings){
-        .passes = (uint32_t)description->passes,
+        .passes = description->passes.choice >= 0 ? quality_passes(quality)
+                                                  : (uint32_t)description->passes.number,
         .bounces = description->bounces.choice >= 0 ? PS_ALL_BOUNCES
                                                     : (uint32_t)description->bounces.number,
         .discontinuity_buffer = description->discontinuity_buffer != 0,
@@ -102,7 +108,7 @@ ps_result settings_resolve(struct loader *loader, const struct render_descriptio
         .indirect_exposure = description->indirect_exposure,
         .ambient = description->ambient,
     };
-    struct resolution resolution = {loader, report, user, false};
+    struct resolution resolution = {loader, report, user, quality_effort(quality), false};
     for (int kind = 0; kind < PS_KINDS; kind++)
         resolve_choice(&resolution, (ps_kind)kind, &description->strategies[kind],
                        &settings->strategies[kind]);

@@ -11,8 +11,8 @@
     X(PS_STRATIFICATION, "stratification", "combines neighbouring photons into fewer", "none")     \
     X(PS_VISIBILITY, "visibility", "decides what a bundled light ray lights", "shadowmap")         \
     X(PS_FILTER, "filter", "radial weight of a splat", "gaussian")                                 \
-    X(PS_ESTIMATOR, "estimator", "turns photons into light on the picture", "splat")               \
+    X(PS_ESTIMATOR, "estimator", "turns photons into light on the picture", "gather")              \
     X(PS_NORMALIZATION, "normalization", "turns accumulated light into radiance", "density")       \
-    X(PS_DENOISER, "denoiser", "smooths the indirect light", "none")
+    X(PS_DENOISER, "denoiser", "smooths the light", "regression")
 
 #endif

@@ -28,7 +28,8 @@ enum direct_light { DIRECT_RAYS, DIRECT_SHADOWMAP };
 
 struct render_description {
     struct strategy_choice strategies[PS_KINDS];
-    int64_t passes;
+    int32_t quality;             /* enum quality */
+    ps_number_or_choice passes;  /* a whole number, or as many as the quality has */
     ps_number_or_choice bounces; /* a whole number, or all */
     int64_t seed;
     int64_t light_samples; /* shadow rays for each area light, pixel and pass */

@@ -20,7 +20,7 @@ trap 'exit 1' HUP INT TERM
 cd "$scratch" || exit 1
 
 cornell=$PSPLAT_SOURCE/scenes/cornell.psd
-small="--size 48x27 --plugin injection=photon:count=500"
+small="--size 48x27 --plugin injection=photon:count=500 --plugin estimator=splat --plugin denoiser=none --set render.aa_samples=1"
 
 fail() {
     echo "FAILED: $*"

@@ -6,7 +6,7 @@ abuse() {
     what=$1
     shift
     compile_module "$PSPLAT_SOURCE/include" "$PSPLAT_SOURCE/tests/plugins/abusive.c" "$PWD/abusive.so" "-DABUSE=\"$what\""
-    words=
+    words='-p estimator=splat -p denoiser=none'
     for kind; do
         words="$words -p $kind=./abusive.so"
     done

@@ -1,7 +1,7 @@
 # psplat debug: every view as it is called, its files, and that nothing depends on threads and batches.
 . "$PSPLAT_SOURCE/tests/cli/lib.sh"
 
-small="--size 60x40 -p injection=photon:count=1000 $cornell"
+small="--size 60x40 -p injection=photon:count=1000 -p estimator=splat $cornell"
 
 # expect_size WxH FILE.png: as its header says.
 expect_size() {

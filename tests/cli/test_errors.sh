@@ -138,7 +138,7 @@ for bounces in 0 1001 1.5 none ''; do
     expect_text err "psplat: error: --bounces: expected all | integer 1..1000, got '$bounces'"
 done
 run 2 $small --set render.bounces=1.5 -o init.exr "$cornell"
-expect_text err "--set:1:16: error: bounces in render: expected all | integer 1..1000, got '"
+expect_text err "--set:2:16: error: bounces in render: expected all | integer 1..1000, got '"
 run 2 $small --set render.bounces=0 -o init.exr "$cornell"
 expect_text err "bounces in render: expected all | integer 1..1000, got '0'"
 [ ! -e init.exr ] || fail "a picture in spite of the error"

@@ -32,7 +32,7 @@ expect_no_text new/a.json '"passes": 0'
 expect_no_text new/a.json '"passes": 1000000'
 
 # One endless pass: direct light alone, which is what black indirect light gives.
-interrupt TERM 1 --size 48x27 -p injection=photon:count=2000000000
+interrupt TERM 1 --size 48x27 -p estimator=splat -p injection=photon:count=2000000000
 expect_match new/a.json '"passes": 0,?$'
 expect_text out "psplat.passes: 0"
 expect_text out "interrupted in its first pass"

@@ -101,10 +101,11 @@ gather_statistics() {
     awk '/^  "/ { split($0, part, "\""); table = part[2] }
          /^    "/ { split($0, key, "\""); print table ": " key[2] }' a.json >>statistics
 }
-photon="-p injection=photon:count=200"
-gather_statistics -p injection=rsm:resolution=8
-gather_statistics -p injection=voxel:resolution=8
-gather_statistics $photon --set render.aa_samples=2
+splats="-p estimator=splat"
+photon="$splats -p injection=photon:count=200"
+gather_statistics $splats -p injection=rsm:resolution=8
+gather_statistics $splats -p injection=voxel:resolution=8
+gather_statistics $photon --set render.aa_samples=1
 for choice in stratification=cascade estimator=splat estimator=photonmap estimator=vpl:lights=8 estimator=ssao estimator=gather:samples=1 \
     denoiser=gaussian visibility=imperfect:points=1000; do
     gather_statistics $photon -p $choice --direct shadowmap --direct-resolution 8

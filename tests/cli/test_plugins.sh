@@ -41,7 +41,7 @@ run 0 plugins filter=cone
 expect_no_text out expert
 run 0 plugins injection=photon
 expect_text out "light paths in each pass"
-expect_match out '^      integer 1\.\..*, in paths; default: 100000$'
+expect_match out '^      integer 1\.\..*, in paths; default: 25000, by quality$'
 run 2 plugins filter=nope
 expect_text err "no filter 'nope' (there are: box,"
 run 2 plugins filter=
@@ -158,7 +158,7 @@ chosen filter "gaussian:sigma=0.5" -p filter=box -p filter=gaussian $scene
 chosen visibility "shadowmap:radius=1,$shadowmap,resolution=2,bias=3" \
     -p visibility=shadowmap:radius=9,bias=3 -p visibility=shadowmap:radius=1,resolution=2 $scene
 # Where the scene says nothing, the default is laid over.
-chosen denoiser "none" $scene
+chosen denoiser "none" -p denoiser=none $scene
 chosen denoiser "gaussian:size=7x7" -p denoiser=gaussian:size=7x7 $scene
 chosen injection "photon:count=50,roulette=3,split=auto" -p injection=photon:roulette=3 $scene
 

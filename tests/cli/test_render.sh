@@ -182,6 +182,32 @@ for key in seconds counters bytes load scene build gbuffer direct inject stratif
 done
 expect_match stats.json '"passes": 2,?$'
 
+# --- --quality ---
+
+for quality in draft normal high final; do
+    case $quality in
+    draft) made='6250 2 1' ;;
+    normal) made='25000 8 1' ;;
+    high) made='25000 8 4' ;;
+    final) made='100000 32 16' ;;
+    esac
+    # shellcheck disable=SC2086 # three words
+    set -- $made
+    run 0 -q --size 8x4 --quality $quality -o quality.exr "$cornell"
+    run 0 info quality.exr
+    expect_text out "psplat.injection: photon:count=$1,"
+    expect_text out "psplat.estimator: gather:samples=$2,"
+    expect_text out "psplat.denoiser: regression:"
+    expect_text out "psplat.passes: $3"
+done
+run 0 -q --size 8x4 --set render.quality=draft -p injection=photon:count=7 --passes 3 -o quality.exr "$cornell"
+run 0 info quality.exr
+expect_text out "psplat.injection: photon:count=7,"
+expect_text out "psplat.estimator: gather:samples=2,"
+expect_text out "psplat.passes: 3"
+run 2 -q --quality best "$cornell"
+expect_text err "psplat: error: --quality: expected draft | normal | high | final, got 'best'"
+
 # --- --preview: the options that psplat(1) lists, and before them what else is given ---
 
 preview_options() {
@@ -204,7 +230,7 @@ expect_text out "psplat.passes: 2"
 expect_no_text out "640x360"
 
 # Pixels that no light reached are told of where there are any, with the same number.
-run 0 --size 48x27 -p injection=photon:count=8 --stats dark.json -o dark.exr "$cornell"
+run 0 --size 48x27 -p injection=photon:count=8 -p estimator=splat --stats dark.json -o dark.exr "$cornell"
 dark=$(sed -n 's/.*"pixels without weight": \([0-9]*\).*/\1/p' dark.json)
 [ "${dark:-0}" -gt 100 ] || fail "$dark pixels without weight of 8 photons"
 expect_match err "^psplat: no indirect light reached $dark pixels\$"

@@ -109,7 +109,7 @@ expect_text results/speed.md "Left out: conference: there is no /nowhere/confere
 measure 1 speed --quick --scenes nowhere
 expect_text err "speed: error: no scene 'nowhere'; there are: cornell, cornell-area, cornell-spheres, "
 measure 1 speed --quick --methods guess
-expect_text err "no method 'guess'; there are: splat"
+expect_text err "no method 'guess'; there are: gather"
 measure 1 speed --quick --psplat /nowhere/psplat
 expect_text err "no program '/nowhere/psplat'"
 measure 2 speed --quick --targets 0
@@ -121,8 +121,11 @@ expect_text err "no estimator 'nothing'"
 
 area=$PSPLAT_SOURCE/scenes/cornell-area.psd
 mkdir -p reference/pictures
-run 0 "$area" --size 64x36 -q -p estimator=pathtrace:samples=16 --bounces all -o reference/pictures/A_full.exr
-run 0 "$area" --size 64x36 -q -p estimator=ambient:irradiance=0 -o reference/pictures/A_direct.exr
+plain="--size 64x36 -q -p denoiser=none --set render.aa_samples=1"
+# shellcheck disable=SC2086
+run 0 "$area" $plain -p estimator=pathtrace:samples=16 --bounces all -o reference/pictures/A_full.exr
+# shellcheck disable=SC2086
+run 0 "$area" $plain -p estimator=ambient:irradiance=0 -o reference/pictures/A_direct.exr
 cat >reference/README.md <<'END'
 | another | table |
 |---|---|

@@ -92,7 +92,7 @@ struct method {
 };
 
 static const struct method methods[] = {
-    {"pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0},
+    {"pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0.002}, /* few seeds */
     {"splat",
      {"estimator=splat", "injection=photon:count=4000", "bounces=all",
       "visibility=shadowmap:radius=0.06", NULL},

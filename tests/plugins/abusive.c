@@ -28,8 +28,8 @@ static ps_result init(void *state, const ps_host *host)
     double progress;
     uint32_t x, y;
     uint64_t paths;
-    ps_rgb power;
-    float written = 0;
+    ps_rgb power = {0, 0, 0};
+    float written = power.r;
     (void)state;
     if (does("init:tile")) {
         host->tile(host, 0)->irradiance_r[0] = 1;
@@ -55,12 +55,14 @@ static ps_result init(void *state, const ps_host *host)
         host->splat(host, &lamp, 1);
     if (does("init:gather_short_range"))
         host->gather_short_range(host, 4);
+#if PS_ABI_MINOR >= 2
     if (does("init:begin_points"))
         host->begin_points(host, &lamp.position, &lamp.normal, 1);
     if (does("init:splat_points"))
         host->splat_points(host, &lamp, 1);
     if (does("init:end_points"))
         host->end_points(host, &power);
+#endif
     if (does("init:for_each_tile"))
         host->for_each_tile(host, NULL, NULL);
     if (does("init:fail"))
@@ -126,6 +128,7 @@ static ps_result accumulate(void *state, const ps_host *host, const ps_pass *pas
         return host->splat(host, &lamp, 1);
     if (does("gather_short_range"))
         return host->gather_short_range(host, 1);
+#if PS_ABI_MINOR >= 2
     if (does("splat_points"))
         return host->splat_points(host, &lamp, 1);
     if (does("end_points"))
@@ -136,6 +139,7 @@ static ps_result accumulate(void *state, const ps_host *host, const ps_pass *pas
         host->begin_points(host, &lamp.position, &lamp.normal, 1);
     if (does("begin_twice"))
         return host->begin_points(host, &lamp.position, &lamp.normal, 1);
+#endif
     if (does("nested"))
         host->parallel_for(host, 8, nested, (void *)(uintptr_t)host);
     if (does("keep") &&

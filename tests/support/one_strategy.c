@@ -105,7 +105,7 @@ struct strategy strategy_of(const char *text)
     assert_true(kind < PS_KINDS && wanted);
     assert_int_equal(settings_parse_choice(wanted, &choice, &error), PS_OK);
     assert_int_equal(loader_create(&loader, &error), PS_OK);
-    assert_int_equal(strategy_create(loader, kind, choice.name, &strategy, &error), PS_OK);
+    assert_int_equal(strategy_create(loader, kind, choice.name, 1.0, &strategy, &error), PS_OK);
     for (size_t i = 0; i < choice.parameter_count; i++)
         set_parameter(&strategy, &choice.parameters[i]);
     strategy_choice_release(&choice);

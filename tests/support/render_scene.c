@@ -50,6 +50,19 @@ static void lay_over(struct render_description *render, const char *text)
     assert_int_equal(settings_override(&render->strategies[kind], &choice, &error), PS_OK);
 }
 
+/* Tests that say nothing look at splats as they are. */
+static void lay_under(const char *text, struct render_description *render)
+{
+    if (!strstr(text, "bounces:"))
+        render->bounces = bounces_of("1");
+    if (!strstr(text, "aa_samples:"))
+        render->aa_samples = 1;
+    if (!render->strategies[PS_ESTIMATOR].name)
+        lay_over(render, "estimator=splat");
+    if (!render->strategies[PS_DENOISER].name)
+        lay_over(render, "denoiser=none");
+}
+
 struct rendering render_text(const char *text, uint32_t threads, const char *const choices[])
 {
     return render_text_in_batches(text, threads, 4096, choices);
@@ -60,8 +73,7 @@ void prepare_text(const char *text, uint32_t threads, size_t batch, const char *
 {
     struct error error;
     read_text(text, &prepared->description);
-    if (!strstr(text, "bounces:"))
-        prepared->description.render.bounces = bounces_of("1");
+    lay_under(text, &prepared->description.render);
     for (size_t i = 0; choices && choices[i]; i++)
         lay_over(&prepared->description.render, choices[i]);
     assert_int_equal(loader_create(&prepared->loader, &error), PS_OK);

@@ -114,7 +114,7 @@ static void create(struct loader *loader, const char *text, struct strategy *str
     struct strategy_choice choice;
     struct error error;
     assert_int_equal(settings_parse_choice(text, &choice, &error), PS_OK);
-    if (strategy_create(loader, PS_STRATIFICATION, choice.name, strategy, &error) != PS_OK)
+    if (strategy_create(loader, PS_STRATIFICATION, choice.name, 1.0, strategy, &error) != PS_OK)
         fail_msg("%s", error.text);
     struct param_table table = strategy_type_params(strategy->type);
     for (size_t i = 0; i < choice.parameter_count; i++) {

@@ -8,7 +8,7 @@ static void test_defaults(void **state)
     (void)state;
     struct state values = {.above = 99};
     struct error error;
-    assert_int_equal(param_set_defaults(&table, &values, &error), PS_OK);
+    assert_int_equal(param_set_defaults(&table, &values, 1.0, &error), PS_OK);
     assert_int_equal(values.flag, 1);
     assert_true(values.count == 7);
     assert_true(values.number == 0.5 && values.open == 0.25 && values.below == -1);
@@ -29,7 +29,7 @@ static void test_bad_default_is_reported(void **state)
     const struct param_table bad_table = {bad, 1, sizeof bad[0]};
     struct state values = {0};
     struct error error;
-    assert_int_equal(param_set_defaults(&bad_table, &values, &error), PS_ERROR_INVALID);
+    assert_int_equal(param_set_defaults(&bad_table, &values, 1.0, &error), PS_ERROR_INVALID);
     assert_string_equal(error.text, "expected integer 1..64, got '100'");
 }
 

@@ -3,6 +3,7 @@
 
 #include "parser/language/arithmetic.h"
 #include "parser/schema/schema.h"
+#include "settings/quality.h"
 #include <math.h>
 
 static void assert_vector(ps_vec3 v, double x, double y, double z)
@@ -69,7 +70,7 @@ static void test_defaults(void **state)
     assert_int_equal(d.image.height, 450);
     assert_true(d.lights[0].radius == 30 && d.lights[0].falloff == 45);
     assert_int_equal(d.object_count, 0);
-    assert_int_equal(d.render.passes, 1);
+    assert_true(d.render.passes.choice == 0 && d.render.quality == QUALITY_NORMAL);
     assert_int_equal(d.render.seed, 0);
     assert_true(d.render.indirect_exposure == 1 && d.render.ambient.g == 0);
     for (size_t i = 0; i < PS_KINDS; i++)
@@ -96,7 +97,7 @@ static void test_strategies(void **state)
     assert_string_equal(d.render.strategies[3].name, "gaussian");
     assert_int_equal(d.render.strategies[3].parameter_count, 0);
     assert_string_equal(d.render.strategies[6].name, "bilateral");
-    assert_int_equal(d.render.passes, 16);
+    assert_true(d.render.passes.choice < 0 && d.render.passes.number == 16);
     assert_true(d.render.seed == INT64_C(9007199254740992));
     scene_description_release(&d);
 }

@@ -75,7 +75,7 @@ static void test_values(void **state)
          "5:19: error: exposure in image: expected number -20..20, got a list\n"},
         {HEAD "image: 5", "5:8: error: expected a map for image, got text\n"},
         {HEAD "render: {passes: 0, seed: -1}",
-         "5:18: error: passes in render: expected integer 1..1000000, got '0'\n"
+         "5:18: error: passes in render: expected auto | integer 1..1000000, got '0'\n"
          "5:27: error: seed in render: expected integer 0..9007199254740992, got '-1'\n"},
         {"psd: 1\ncamera: {location: [1, 2], look_at: [0, x, {}], up: 3, angle: 180}\n" LIGHTS,
          "2:20: error: location in camera: expected 3 numbers, got 2\n"

@@ -78,8 +78,7 @@ static bool add_cached(struct gather *gather, const struct paths *paths, ps_rgb 
     ps_rgb irradiance;
     /* Where bounces are counted, the cache knows those that are left after one surface. */
     bool counted = setting->paths.pass->bounces != PS_ALL_BOUNCES;
-    if (!setting->cache || paths->bounces[i] < setting->cache_from ||
-        (counted && paths->bounces[i] > 0) ||
+    if (!setting->cache || (counted && paths->bounces[i] > 0) ||
         !surfels_lookup(setting->cache, hit->position, hit->normal, hit->distance,
                         gather->places[paths->pixels[i]], &irradiance))
         return false;

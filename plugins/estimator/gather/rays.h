@@ -19,8 +19,7 @@ struct gather_setting {
     struct paths_setting paths;
     uint64_t samples;            /* from each point */
     const struct surfels *cache; /* NULL: none */
-    uint32_t cache_from; /* diffuse surfaces that paths meet before one where the cache is asked */
-    bool no_caustics;    /* on the points: somebody else adds them */
+    bool no_caustics;            /* on the points: somebody else adds them */
 };
 
 struct gather {

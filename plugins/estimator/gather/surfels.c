@@ -7,7 +7,7 @@
 #define LARGEST 0.25f   /* side of the largest cubes, in radii of the scene */
 #define BY_LENGTH 0.15f /* side of a cube, in lengths of the ray */
 #define MOST_BY_LENGTH 0.6f
-#define CAUTION 4.0 /* c in a group */
+#define CAUTION 3.0 /* c of shrunk() */
 #define ENOUGH 2    /* surfels of a cube that is not the last one asked */
 
 struct surfel_cell {
@@ -153,15 +153,12 @@ static float value(const ps_rgb *colour, int c)
     return c == 0 ? colour->r : c == 1 ? colour->g : colour->b;
 }
 
-/* What splats are multiplied by in a channel: the ratio t of what paths and splats find in n surfels, as far as it
- * differs from what was expected by more than its noise:
- *
- *     e + max(0, 1 - c s^2 / (t - e)^2) (t - e)
- *
- * with s^2 the variance of a ratio estimate (Cochran 1977, ch. 6) and the shrinking of James and Stein 1961. In a
- * group, few paths find light that is hard to find, and seem to have less noise than they have; hence c > 1 there. */
-static double ratio_of(const ps_rgb *splatted, const ps_rgb *traced, size_t n, int c,
-                       double expected, double caution)
+/* The ratio of what paths and splats find in n surfels, and the variance of that estimate (Cochran 1977, ch. 6). */
+struct ratio {
+    double mean, variance;
+};
+
+static struct ratio ratio_of(const ps_rgb *splatted, const ps_rgb *traced, size_t n, int c)
 {
     double by_splats = 0.0, by_paths = 0.0, variance = 0.0;
     for (size_t i = 0; i < n; i++) {
@@ -169,25 +166,35 @@ static double ratio_of(const ps_rgb *splatted, const ps_rgb *traced, size_t n, i
         by_paths += (double)value(&traced[i], c);
     }
     if (!(by_splats > 0.0))
-        return expected;
-    double ratio = by_paths / by_splats;
+        return (struct ratio){1.0, 0.0};
+    double mean = by_paths / by_splats;
     for (size_t i = 0; i < n; i++) {
-        double rest = (double)value(&traced[i], c) - ratio * (double)value(&splatted[i], c);
+        double rest = (double)value(&traced[i], c) - mean * (double)value(&splatted[i], c);
         variance += rest * rest;
     }
-    variance *= caution / (by_splats * by_splats);
-    double off = ratio - expected;
-    return expected + (off * off > variance ? 1.0 - variance / (off * off) : 0.0) * off;
+    return (struct ratio){mean, variance / (by_splats * by_splats)};
+}
+
+/* A group's splats are multiplied by its ratio t as far as that differs from all surfels' ratio a by more than noise:
+ *
+ *     a + max(0, 1 - c s^2 / (t - a)^2) (t - a)
+ *
+ * with s^2 the variance of t, the shrinking of James and Stein 1961. Few paths find light that is hard to find, and
+ * seem to have less noise than they have; hence c > 1. */
+static double shrunk(struct ratio group, double all)
+{
+    double off = group.mean - all, noise = CAUTION * group.variance;
+    return off * off > noise ? all + (1.0 - noise / (off * off)) * off : all;
 }
 
 void surfels_correct(struct surfels *surfels, const ps_rgb *traced)
 {
     for (int c = 0; c < 3; c++) {
-        double all = ratio_of(surfels->irradiance, traced, surfels->count, c, 1.0, 1.0);
+        struct ratio all = ratio_of(surfels->irradiance, traced, surfels->count, c);
         for (size_t first = 0; first < surfels->count; first += SURFELS_GROUP) {
             size_t left = surfels->count - first, n = left < SURFELS_GROUP ? left : SURFELS_GROUP;
             ps_rgb *splatted = surfels->irradiance + first;
-            double ratio = ratio_of(splatted, traced + first, n, c, all, CAUTION);
+            double ratio = shrunk(ratio_of(splatted, traced + first, n, c), all.mean);
             for (size_t i = 0; i < n; i++)
                 *channel(&splatted[i], c) *= (float)ratio;
         }
