@@ -65,14 +65,16 @@ static inline uint32_t ps_lane_along_curve(uint32_t lane)
     return place;
 }
 
-/* The first of a pixel's `count` samples of a pass, where those of a tile are shared out along a Z curve: the samples
- * of any aligned square of pixels are a run of the sequence, and stratified as a whole, best where count is a
+/* The first of a pixel's `count` samples of a pass. Of the first pass those of a tile are shared out along a Z curve: the
+ * samples of any aligned square of pixels are a run of the sequence, and stratified as a whole, best where count is a
  * power of two (Ahmed and Wonka 2020, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical
- * ordering of pixels"). Tiles have 2^32 samples each. */
+ * ordering of pixels"). Further passes take a run of each pixel's own, so that its samples of many passes are stratified
+ * instead. */
 static inline uint64_t ps_tile_sample(uint64_t tile, uint32_t lane, uint32_t pass, uint64_t count)
 {
-    uint64_t before = ((uint64_t)pass * PS_TILE_PIXELS + ps_lane_along_curve(lane)) * count;
-    return (tile << 32) + before;
+    if (pass == 0)
+        return (tile << 32) + ps_lane_along_curve(lane) * count;
+    return ps_sample_block(tile, lane) + (UINT64_C(1) << 23) + pass * count;
 }
 
 /* Adds irradiance (W/m^2), and weight 1, to a pixel of a tile. */

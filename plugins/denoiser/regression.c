@@ -35,7 +35,9 @@
 #define OUTLIER_NOISE 1.5f /* times the noise near by, by which outliers may be too bright */
 #define NEAR 3             /* pixels to each side are near by */
 #define CAUTION 2.0f       /* times the noise that a band must exceed */
-#define PIXELS_WINDOW 3    /* R of the window of the last band, of the pixels themselves */
+#define PIXELS_WINDOW 4    /* R of the window of the last band, of the pixels themselves */
+#define PIXELS_CAUTION                                                                             \
+    4.0f /* for that band: so few pixels may seem to have less noise than they have */
 #define WIDEST REGRESSION_LARGEST /* bandwidth of the rest */
 
 static const int bandwidths[] = {48, 24, 12, 6}; /* of the bands */
@@ -61,7 +63,8 @@ struct work {
      * the bands `noise` holds N, where halves tell it. */
     float *fine[VALUES], *coarse[VALUES], *sum[REGRESSION_COLOURS];
     float *scale, *signal, *noise, *room;
-    float least; /* brightness that counts as dark */
+    float caution; /* with the band under way */
+    float least;   /* brightness that counts as dark */
 };
 
 static float brightness(const float colour[REGRESSION_COLOURS])
@@ -253,7 +256,7 @@ static void add_row(void *user, uint64_t row, uint32_t worker)
     (void)worker;
     const struct work *work = user;
     for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
-        float noise = CAUTION * work->noise[i], signal = work->signal[i];
+        float noise = work->caution * work->noise[i], signal = work->signal[i];
         float share = signal > noise ? noise / signal : 1.0f, keep = 1.0f - share * share;
         for (int c = 0; c < REGRESSION_COLOURS; c++)
             work->sum[c][i] += keep * (work->fine[c][i] - work->coarse[c][i]);
@@ -261,12 +264,13 @@ static void add_row(void *user, uint64_t row, uint32_t worker)
 }
 
 /* The difference of `fine` and `coarse`. */
-static void add_band(struct work *work, int radius)
+static void add_band(struct work *work, int radius, float caution)
 {
     const struct regression_box signal = {work->width, work->height, (size_t)radius, work->signal,
                                           work->room};
     const struct regression_box noise = {work->width, work->height, (size_t)radius, work->noise,
                                          work->room};
+    work->caution = caution;
     work->host->parallel_for(work->host, work->height, measure_row, work);
     regression_box_sums(work->host, &signal);
     regression_box_sums(work->host, &noise);
@@ -298,13 +302,13 @@ static void add_bands(struct work *work)
     work->host->parallel_for(work->host, work->height, begin_row, work);
     for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {
         regression_fit(&work->guides, bandwidths[k], work->body, work->fine);
-        add_band(work, bandwidths[k]);
+        add_band(work, bandwidths[k], CAUTION);
         swap_fits(work);
     }
     if (!work->image->even_r)
         return;
     work->host->parallel_for(work->host, work->height, copy_row, work);
-    add_band(work, PIXELS_WINDOW);
+    add_band(work, PIXELS_WINDOW, PIXELS_CAUTION);
 }
 
 /* --- the rest --- */

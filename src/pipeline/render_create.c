@@ -47,11 +47,17 @@ static bool wants_surfaces(const struct render_settings *settings)
            settings->strategies[PS_DENOISER].type->table.denoiser.filter != NULL;
 }
 
+/* Halves of the direct light tell its noise from an edge. */
 static ps_result create_edges(struct render *render, struct error *error)
 {
+    const struct scene *scene = render->scene;
     size_t count = (size_t)render->gbuffer.tile_count * PS_TILE_PIXELS;
     render->edges = calloc(count, sizeof *render->edges);
-    return render->edges ? PS_OK : error_memory(error, count * sizeof *render->edges, "edges");
+    if (!render->edges)
+        return error_memory(error, count * sizeof *render->edges, "edges");
+    return scene->has_area_lights && scene->light_samples > 1
+               ? gbuffer_prepare_direct_half(&render->gbuffer, error)
+               : PS_OK;
 }
 
 /* Where a denoiser may smooth it: it has noise, which halves of it tell, and nothing else smooths it. */
@@ -63,7 +69,7 @@ static ps_result create_reflected(struct render *render, struct error *error)
     if (!scene->has_area_lights || render->settings->discontinuity_buffer ||
         (single_pass && scene->light_samples == 1))
         return PS_OK;
-    if (single_pass)
+    if (single_pass && !render->gbuffer.direct_half)
         result = gbuffer_prepare_direct_half(&render->gbuffer, error);
     return result == PS_OK ? film_add_reflected(&render->film, single_pass, error) : result;
 }

@@ -15,6 +15,9 @@
  * step; less may be a normal that is bent or smoothed. */
 #define STEP2 0.25f
 
+/* Radiance whose halves tell its noise differs where it does by more than three times as much. */
+#define NOISE2 9.0f
+
 #define LEAST_COSINE 0.9f /* between normals of one surface */
 
 #define SIDE (PS_TILE_SIZE + 2)
@@ -25,7 +28,22 @@ struct sights {
     float x[SIDE][SIDE], y[SIDE][SIDE], z[SIDE][SIDE];
     float normal_x[SIDE][SIDE], normal_y[SIDE][SIDE], normal_z[SIDE][SIDE];
     float albedo[3][SIDE][SIDE], radiance[3][SIDE][SIDE];
+    float variance[3][SIDE][SIDE]; /* of that radiance */
 };
+
+/* Half of the shadow rays find `half`, all of them the mean of that and the other half, which is as far off. */
+static void load_variance(const struct gbuffer *gbuffer, size_t pixel, ps_rgb albedo, int row,
+                          int column, struct sights *sights)
+{
+    if (!gbuffer->direct_half)
+        return;
+    ps_rgb half = gbuffer->direct_half[pixel];
+    ps_rgb off = ps_rgb_add(gbuffer->direct[pixel], ps_rgb_scale(half, -1.0f));
+    ps_rgb noise = ps_rgb_scale(ps_rgb_multiply(albedo, off), 1.0f / PS_PI);
+    sights->variance[0][row][column] = noise.r * noise.r;
+    sights->variance[1][row][column] = noise.g * noise.g;
+    sights->variance[2][row][column] = noise.b * noise.b;
+}
 
 static void load_pixel(const struct gbuffer *gbuffer, int64_t x, int64_t y, int row, int column,
                        struct sights *sights)
@@ -54,11 +72,34 @@ static void load_pixel(const struct gbuffer *gbuffer, int64_t x, int64_t y, int 
     sights->radiance[0][row][column] = radiance.r;
     sights->radiance[1][row][column] = radiance.g;
     sights->radiance[2][row][column] = radiance.b;
+    load_variance(gbuffer, pixel, albedo, row, column, sights);
+}
+
+/* Becomes the mean over the pixels around: of a few rays, both halves often agree by chance. */
+static void smooth_variance(float variance[SIDE][SIDE])
+{
+    float rows[SIDE][SIDE];
+    for (int row = 0; row < SIDE; row++)
+        for (int i = 0; i < SIDE; i++) {
+            int left = i > 0 ? i - 1 : i, right = i + 1 < SIDE ? i + 1 : i;
+            rows[row][i] = variance[row][left] + variance[row][i] + variance[row][right];
+        }
+    for (int row = 0; row < SIDE; row++)
+        for (int i = 0; i < SIDE; i++) {
+            int above = row > 0 ? row - 1 : row, below = row + 1 < SIDE ? row + 1 : row;
+            variance[row][i] = (rows[above][i] + rows[row][i] + rows[below][i]) * (1.0f / 9.0f);
+        }
 }
 
 static inline int contrast(float a, float b)
 {
     return fabsf(a - b) > CONTRAST * ps_max(a, b);
+}
+
+/* Whether two differ by more than the variance of their difference lets chance do. */
+static inline int exceeds(float a, float b, float variance)
+{
+    return (a - b) * (a - b) > NOISE2 * variance;
 }
 
 /* Marks the pixels of a row whose neighbours at (dx, dy) see another surface, or another colour of it or from it. */
@@ -84,11 +125,15 @@ static void compare_row(const struct sights *sights, int row, int dx, int dy,
         uint32_t object = sights->object[here_row][here];
         int other =
             (object != sights->object[there_row][there]) | ((object != PS_NO_OBJECT) & bent);
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++) {
+            float own = sights->radiance[k][here_row][here];
+            float radiance = sights->radiance[k][there_row][there];
+            float variance =
+                sights->variance[k][here_row][here] + sights->variance[k][there_row][there];
             other |=
                 contrast(sights->albedo[k][here_row][here], sights->albedo[k][there_row][there]) |
-                contrast(sights->radiance[k][here_row][here],
-                         sights->radiance[k][there_row][there]);
+                (contrast(own, radiance) & exceeds(own, radiance, variance));
+        }
         differs[i] |= other & sights->there[there_row][there];
     }
 }
@@ -104,6 +149,8 @@ void edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE
         for (int column = 0; column < SIDE; column++)
             load_pixel(gbuffer, (int64_t)left + column - 1, (int64_t)top + row - 1, row, column,
                        &sights);
+    for (int k = 0; k < 3 && gbuffer->direct_half; k++)
+        smooth_variance(sights.variance[k]);
     for (int row = 0; row < PS_TILE_SIZE; row++) {
         int differs[PS_TILE_SIZE] = {0};
         for (int i = 0; i < 4; i++)

@@ -18,7 +18,7 @@
 /* Samples under way: one tile of a picture of its own. */
 struct looks {
     _Alignas(64) ps_tile tile;
-    ps_rgb direct[PS_TILE_PIXELS], emitted[PS_TILE_PIXELS];
+    ps_rgb direct[PS_TILE_PIXELS], direct_half[PS_TILE_PIXELS], emitted[PS_TILE_PIXELS];
     bool by_chance[PS_TILE_PIXELS];
     float radiance[3 * PS_TILE_PIXELS];
     struct view_points points;
@@ -37,10 +37,12 @@ static void draw_pattern(const struct edge_pass *pass, struct looks *looks)
     }
 }
 
-/* Shadow rays of a sample: all samples together have no fewer than a pixel elsewhere. */
+/* Shadow rays of a sample: all samples together have no fewer than a pixel elsewhere; two make halves. */
 static uint32_t light_samples_of(const struct edge_pass *pass)
 {
-    return (pass->lighting->scene->light_samples + pass->samples - 1) / pass->samples;
+    uint32_t wanted = (pass->lighting->scene->light_samples + pass->samples - 1) / pass->samples;
+    uint32_t least = pass->gbuffer->direct_half ? 2 : 1;
+    return wanted > least ? wanted : least;
 }
 
 static void add_look(const struct edge_pass *pass, uint32_t tile, uint32_t lane, uint32_t sample,
@@ -194,6 +196,7 @@ static void finish_looks(const struct edge_pass *pass, struct looks *looks, stru
         .tile_count = 1,
         .tiles = &looks->tile,
         .direct = looks->direct,
+        .direct_half = pass->gbuffer->direct_half ? looks->direct_half : NULL,
         .emitted = looks->emitted,
         .by_chance = looks->by_chance,
         .radiance = pass->gbuffer->radiance ? looks->radiance : NULL,

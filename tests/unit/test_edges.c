@@ -150,6 +150,39 @@ static void test_light_and_albedo_that_differ(void **state)
     expect_edge_at(0);
 }
 
+/* Half of the shadow rays find `near` left of column 7, `far` from there on. */
+static void set_halves(ps_rgb near, ps_rgb far)
+{
+    for (uint32_t tile = 0; tile < gbuffer.tile_count; tile++)
+        for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+            uint32_t x = 0, y;
+            gbuffer_pixel(&gbuffer, tile, lane, &x, &y);
+            gbuffer.direct_half[(size_t)tile * PS_TILE_PIXELS + lane] = x >= 7 ? far : near;
+        }
+}
+
+/* Light that differs by no more than its shadow rays' noise is no edge; where halves agree, it is. */
+static void test_noise_is_none(void **state)
+{
+    (void)state;
+    struct error error;
+    assert_int_equal(gbuffer_prepare_direct_half(&gbuffer, &error), PS_OK);
+    fill(7, &grey, none, none);
+    set_halves(one, none);
+    expect_edge_at(7);
+    set_halves((ps_rgb){1.5f, 1.5f, 1.5f}, none);
+    expect_edge_at(0);
+    fill(7, &grey, (ps_rgb){20, 20, 20}, none);
+    expect_edge_at(0); /* halves of 20 and 0 */
+    set_halves((ps_rgb){1.5f, 1.5f, 1.5f}, (ps_rgb){20, 20, 20});
+    expect_edge_at(7);
+    ps_hit other = grey;
+    other.object = 3;
+    fill(7, &other, one, none);
+    set_halves(none, none);
+    expect_edge_at(7); /* surfaces differ all the same */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -159,6 +192,7 @@ int main(void)
         cmocka_unit_test(test_bumps_are_none),
         cmocka_unit_test(test_pixels_that_show_something_by_chance),
         cmocka_unit_test(test_light_and_albedo_that_differ),
+        cmocka_unit_test(test_noise_is_none), /* last: the G-buffer has halves from here on */
     };
     return cmocka_run_group_tests(tests, open_gbuffer, close_gbuffer);
 }
