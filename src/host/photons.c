@@ -54,7 +54,6 @@ static struct placement placement_of(struct render *render, const struct splatte
     const struct strategy *visibility = strategy_in(render, PS_VISIBILITY);
     const ps_visibility_vtable *table = &visibility->type->table.visibility;
     return (struct placement){
-        .scene = place_scene(render),
         .settings = strategy_shared(visibility),
         .host = own_host(render),
         .follows_rays = table->depth_maps || table->visible,
@@ -92,31 +91,29 @@ static void place_chunk(void *user, uint64_t index, uint32_t worker)
         atomic_fetch_add(&batch->unseen->in_batch, unseen);
 }
 
-static void place(struct batch *batch)
+/* The splats of n photons, for what `onto` lights; NULL: nothing is known of it. */
+static void place(struct render *render, struct splatter *onto, struct placement_scene scene,
+                  const ps_photon *photons, size_t n, struct splat *splats)
 {
-    struct render *render = batch->render;
     double start = clock_seconds();
-    uint64_t chunks = (batch->n + PS_PATH_CHUNK - 1) / PS_PATH_CHUNK;
-    parallel_for(render->settings->workers, chunks, place_chunk, batch);
-    if (batch->unseen)
-        end_batch(batch->unseen, batch->n);
+    if (onto)
+        begin_batch(&onto->unseen);
+    struct batch batch = {render, placement_of(render, onto), photons, n,
+                          splats, onto ? &onto->unseen : NULL};
+    batch.placement.scene = scene;
+    parallel_for(render->settings->workers, (n + PS_PATH_CHUNK - 1) / PS_PATH_CHUNK, place_chunk,
+                 &batch);
+    if (onto)
+        end_batch(&onto->unseen, n);
     statistics_add_seconds(render->statistics, "place", clock_seconds() - start);
 }
 
 void photons_place(struct render *render, const ps_photon *photons, size_t n, struct splat *splats)
 {
-    struct splatter *onto = render->splatting ? &render->splatter : NULL;
-    if (onto)
-        begin_batch(&onto->unseen);
-    struct batch batch = {.render = render,
-                          .placement = placement_of(render, onto),
-                          .photons = photons,
-                          .n = n,
-                          .splats = splats,
-                          .unseen = onto ? &onto->unseen : NULL};
-    batch.placement.scene.interleave = render->has_splatter ? render->splatter.lit.interleave : 1;
-    batch.placement.scene.gather_distance = render->gathered_light.distance;
-    place(&batch);
+    struct placement_scene scene = place_scene(render);
+    scene.interleave = render->has_splatter ? render->splatter.lit.interleave : 1;
+    scene.gather_distance = render->gathered_light.distance;
+    place(render, render->splatting ? &render->splatter : NULL, scene, photons, n, splats);
 }
 
 /* For points, whose light is averaged before it is seen: no pixel's size limits the radius, and no light from nearby
@@ -124,15 +121,7 @@ void photons_place(struct render *render, const ps_photon *photons, size_t n, st
 static void place_for_points(struct render *render, const ps_photon *photons, size_t n,
                              struct splat *splats)
 {
-    struct splatter *onto = &render->points;
-    begin_batch(&onto->unseen);
-    struct batch batch = {.render = render,
-                          .placement = placement_of(render, onto),
-                          .photons = photons,
-                          .n = n,
-                          .splats = splats,
-                          .unseen = &onto->unseen};
-    place(&batch);
+    place(render, &render->points, place_scene(render), photons, n, splats);
 }
 
 /* --- services --------------------------------------------------------------------------------------- */

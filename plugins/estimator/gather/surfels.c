@@ -213,15 +213,19 @@ static uint64_t normal_key(ps_vec3 n)
     return face * 9 + row * 3 + column;
 }
 
+/* Index of a cube along an axis; what lies out of the scene's bounds counts as at its border. */
+static uint64_t cube_at(float place, float scale)
+{
+    return (uint64_t)ps_min(ps_max(place * scale, 0.0f), 65535.0f);
+}
+
 static uint64_t cell_key(const struct surfels *surfels, ps_vec3 p, uint64_t normal, uint32_t level)
 {
     float scale = (float)(1u << level) / surfels->largest;
-    uint64_t x =
-        (uint64_t)(int64_t)((p.x - surfels->origin.x) * scale); /* not negative in the scene */
-    uint64_t y = (uint64_t)(int64_t)((p.y - surfels->origin.y) * scale);
-    uint64_t z = (uint64_t)(int64_t)((p.z - surfels->origin.z) * scale);
-    return UINT64_C(1) << 63 | (x & 0xffff) << 44 | (y & 0xffff) << 28 | (z & 0xffff) << 12 |
-           normal << 4 | level;
+    uint64_t x = cube_at(p.x - surfels->origin.x, scale);
+    uint64_t y = cube_at(p.y - surfels->origin.y, scale);
+    uint64_t z = cube_at(p.z - surfels->origin.z, scale);
+    return UINT64_C(1) << 63 | x << 44 | y << 28 | z << 12 | normal << 4 | level;
 }
 
 static size_t hash(uint64_t key)
@@ -247,29 +251,40 @@ static uint32_t level_of(const struct surfels *surfels, float side)
     return level;
 }
 
+/* The smallest cubes that a surfel is put in: rays that are shorter than the one that found it are few there. */
+static uint32_t finest_level(const struct surfels *surfels, size_t i)
+{
+    return level_of(surfels, 0.5f * BY_LENGTH * surfels->lengths[i]);
+}
+
+static void add_surfel(struct surfels *surfels, size_t i)
+{
+    uint64_t normal = normal_key(surfels->normals[i]);
+    for (uint32_t level = 0; level <= finest_level(surfels, i); level++) {
+        uint64_t key = cell_key(surfels, surfels->positions[i], normal, level);
+        struct surfel_cell *cell = cell_at(surfels, key);
+        cell->key = key;
+        cell->sum = ps_rgb_add(cell->sum, surfels->irradiance[i]);
+        cell->count++;
+    }
+}
+
 ps_result surfels_build(struct surfels *surfels)
 {
     const ps_host *host = surfels->host;
-    host->release(host, surfels->cells);
+    size_t most = 0; /* cells */
+    for (size_t i = 0; i < surfels->count; i++)
+        most += finest_level(surfels, i) + 1;
     surfels->capacity = 16;
-    while (surfels->capacity < 2 * LEVELS * surfels->count)
+    while (surfels->capacity < most + most / 3)
         surfels->capacity *= 2;
     size_t bytes = surfels->capacity * sizeof *surfels->cells;
     surfels->cells = host->allocate(host, bytes, "surfels");
     if (!surfels->cells)
         return PS_ERROR_MEMORY;
     memset(surfels->cells, 0, bytes);
-    for (size_t i = 0; i < surfels->count; i++) {
-        uint64_t normal = normal_key(surfels->normals[i]);
-        uint32_t finest = level_of(surfels, 0.5f * BY_LENGTH * surfels->lengths[i]);
-        for (uint32_t level = 0; level <= finest; level++) {
-            uint64_t key = cell_key(surfels, surfels->positions[i], normal, level);
-            struct surfel_cell *cell = cell_at(surfels, key);
-            cell->key = key;
-            cell->sum = ps_rgb_add(cell->sum, surfels->irradiance[i]);
-            cell->count++;
-        }
-    }
+    for (size_t i = 0; i < surfels->count; i++)
+        add_surfel(surfels, i);
     return PS_OK;
 }
 
