@@ -7,9 +7,9 @@
 
 static uint8_t choose_guide(struct gather *gather, ps_vec3 normal)
 {
-    uint8_t best = 0;
+    uint32_t best = 0;
     float most = -2.0f;
-    for (uint8_t i = 0; i < gather->guide_count; i++) {
+    for (uint32_t i = 0; i < gather->guide_count; i++) {
         float cosine = ps_dot(gather->guides[i].normal, normal);
         if (cosine > most) {
             most = cosine;
@@ -17,7 +17,7 @@ static uint8_t choose_guide(struct gather *gather, ps_vec3 normal)
         }
     }
     if (most >= SAME_FACING || gather->guide_count == GATHER_GUIDES)
-        return best;
+        return (uint8_t)best;
     guide_begin(&gather->guides[gather->guide_count], normal);
     return (uint8_t)gather->guide_count++;
 }
@@ -131,7 +131,7 @@ static void add_light(struct gather *gather, uint32_t number, struct paths *path
                       struct paths_segment *segment)
 {
     const struct gather_setting *setting = gather->setting;
-    uint32_t flags[PS_TILE_PIXELS];
+    uint32_t flags[PS_TILE_PIXELS] = {0};
     for (size_t i = 0; i < paths->count && setting->no_caustics; i++)
         paths->shines[i] &= !is_caustic(paths, i);
     paths_add_emission(&setting->paths, paths, segment, gather->found);
