@@ -21,12 +21,13 @@
  */
 #include "gather/rays.h"
 
+#define MOST_PATHS 32       /* of a surfel, by default */
 #define FEWEST_SURFELS 2000 /* of a picture */
 
 struct state {
     int64_t samples;
     int64_t surfels;
-    int64_t paths;
+    ps_number_or_choice paths;
     int64_t roulette;
 };
 
@@ -114,6 +115,14 @@ static void trace_group(void *user, uint64_t index, uint32_t worker)
         work->traced[first + i] = gather.irradiance[i];
 }
 
+/* By default a part of the work that the gather is. */
+static uint64_t paths_of_surfel(const struct state *state)
+{
+    if (state->paths.choice < 0)
+        return (uint64_t)state->paths.number;
+    return state->samples < MOST_PATHS / 4 ? 4 * (uint64_t)state->samples : MOST_PATHS;
+}
+
 /* Splats are smooth, but a few percent too dark or too bright where their kernels are wide. Paths from the surfels are right
  * on average, and their noise is made small by their number. */
 static ps_result correct_cache(struct work *work)
@@ -125,7 +134,7 @@ static ps_result correct_cache(struct work *work)
     pass.bounces -= pass.bounces != PS_ALL_BOUNCES; /* surfels are one surface on */
     correcting.setting = (struct gather_setting){
         .paths = {host, &pass, work->setting.paths.roulette},
-        .samples = (uint64_t)work->state->paths,
+        .samples = paths_of_surfel(work->state),
     };
     correcting.traced = host->allocate(host, count * sizeof(ps_rgb), "surfels");
     if (!correcting.traced)
@@ -156,7 +165,7 @@ static ps_result splat(struct work *work)
     if (result != PS_OK || !splatting.onto_surfels)
         return result;
     result = host->end_points(host, surfels->irradiance);
-    if (result == PS_OK && work->state->paths > 0)
+    if (result == PS_OK && paths_of_surfel(work->state) > 0)
         result = correct_cache(work);
     if (result == PS_OK)
         result = surfels_build(surfels);
@@ -213,14 +222,18 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
 
 /* --- the strategy --- */
 
+static const char *const automatic_choice[] = {"auto", NULL};
+
 static const ps_param params[] = {
     PS_ROW(struct state, samples, PS_PARAM_INT, "8", 1, 1 << 16, PS_PARAM_QUALITY, NULL, "rays",
            "gather rays for each pixel and pass; powers of two are best"),
     PS_ROW(struct state, surfels, PS_PARAM_INT, "16", 0, PS_TILE_PIXELS, PS_PARAM_EXPERT, NULL,
            "surfels",
            "surfels of the cache for each tile of 16x16 pixels; 0: none, as path tracing"),
-    PS_ROW(struct state, paths, PS_PARAM_INT, "32", 0, 1 << 16, PS_PARAM_EXPERT, NULL, "paths",
-           "paths from each surfel, by which its light is corrected; 0: none"),
+    PS_NUMBER_OR(struct state, paths, "auto", 0, 1 << 16, PS_PARAM_EXPERT | PS_PARAM_WHOLE,
+                 automatic_choice, "paths",
+                 "paths from each surfel, by which its light is corrected; auto: four times the "
+                 "samples, at most 32; 0: none"),
     PS_ROW(struct state, roulette, PS_PARAM_INT, "3", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),
 };
