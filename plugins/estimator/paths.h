@@ -53,14 +53,31 @@ static inline void paths_move(struct paths *paths, size_t from, size_t to)
 }
 
 /* `samples`: the index of each pixel's sample. */
-static inline void paths_draw_numbers(const struct paths_setting *setting, uint32_t set,
-                                      const uint64_t *samples, const struct paths *paths,
+static inline void paths_find_indices(const uint64_t *samples, const struct paths *paths,
                                       struct paths_segment *segment)
 {
     for (size_t i = 0; i < paths->count; i++)
         segment->indices[i] = samples[paths->pixels[i]];
+}
+
+static inline void paths_draw_numbers(const struct paths_setting *setting, uint32_t set,
+                                      const uint64_t *samples, const struct paths *paths,
+                                      struct paths_segment *segment)
+{
+    paths_find_indices(samples, paths, segment);
     setting->host->samples(setting->host, PS_STREAM_PATH, set, segment->indices, paths->count,
                            segment->numbers);
+}
+
+/* What the paths meet with their segment of that number, from 1. */
+static inline void paths_intersect(const struct paths_setting *setting, const ps_points *points,
+                                   uint32_t number, const struct paths *paths,
+                                   struct paths_segment *segment)
+{
+    setting->host->intersect(setting->host, paths->rays, paths->count, segment->hits);
+    if (number == 1)
+        ps_forget_own_surface(points, paths->pixels, paths->count, setting->pass->surface_offset,
+                              segment->hits);
 }
 
 /* A path leaves a pixel's point along a ray. */

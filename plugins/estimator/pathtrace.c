@@ -26,9 +26,8 @@ struct work {
 static void start_paths(const struct work *work, const ps_points *points, const uint64_t *samples,
                         struct paths *paths, struct paths_segment *segment)
 {
-    for (paths->count = 0; paths->count < points->count; paths->count++)
-        paths->pixels[paths->count] = (uint32_t)paths->count;
-    paths_draw_numbers(&work->setting, 1, samples, paths, segment);
+    const ps_host *host = work->setting.host;
+    host->samples(host, PS_STREAM_PATH, 1, samples, points->count, segment->numbers);
     paths->count = 0;
     for (uint32_t i = 0; i < points->count; i++) {
         ps_vec3 n = points->normals[i];
@@ -71,15 +70,11 @@ static void extend_paths(const struct work *work, uint32_t number, const uint64_
 static void trace_sample(const struct work *work, const ps_points *points, const uint64_t *samples,
                          ps_rgb *sums)
 {
-    const ps_host *host = work->setting.host;
     struct paths paths;
     struct paths_segment segment;
     start_paths(work, points, samples, &paths, &segment);
     for (uint32_t number = 1; paths.count > 0; number++) {
-        host->intersect(host, paths.rays, paths.count, segment.hits);
-        if (number == 1)
-            ps_forget_own_surface(points, paths.pixels, paths.count,
-                                  work->setting.pass->surface_offset, segment.hits);
+        paths_intersect(&work->setting, points, number, &paths, &segment);
         extend_paths(work, number, samples, &paths, &segment, sums);
     }
 }

@@ -46,6 +46,8 @@ ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error)
 ps_result gbuffer_prepare_direct_half(struct gbuffer *gbuffer, struct error *error)
 {
     size_t count = (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
+    if (gbuffer->direct_half)
+        return PS_OK;
     gbuffer->direct_half = calloc(count, sizeof *gbuffer->direct_half);
     return gbuffer->direct_half
                ? PS_OK

@@ -39,7 +39,7 @@ void gbuffer_release(struct gbuffer *gbuffer);
 /* Makes room for what discontinuity_buffer.h needs. */
 ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error);
 
-/* Makes room for direct light by half of the shadow rays. */
+/* Makes room for direct light by half of the shadow rays, where there is none yet. */
 ps_result gbuffer_prepare_direct_half(struct gbuffer *gbuffer, struct error *error);
 
 /* Makes room for indirect radiance. */

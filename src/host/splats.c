@@ -34,6 +34,13 @@ static ps_result reserve_placed(struct render *render, struct error *error)
     return PS_OK;
 }
 
+/* What a splatter lights takes memory from here on, or, with a sign of -1, no more. */
+static void count_lit(struct render *render, const struct splatter *splatter, double sign)
+{
+    statistics_add_bytes(render->statistics, "splatted pixels",
+                         sign * (double)interleaved_bytes(&splatter->lit));
+}
+
 static ps_result create_splatter(struct render *render, struct interleaved layout,
                                  struct splatter *splatter, struct error *error)
 {
@@ -57,7 +64,11 @@ static ps_result create_splatter(struct render *render, struct interleaved layou
         kernel_profile_count(&settings.profile);
     else
         result = tabulate_filter(render, &settings.profile, error);
-    return result == PS_OK ? splatter_create(splatter, layout, &settings, error) : result;
+    if (result == PS_OK)
+        result = splatter_create(splatter, layout, &settings, error);
+    if (result == PS_OK)
+        count_lit(render, splatter, 1.0);
+    return result;
 }
 
 /* Interleaving pays where n pixels are little beside a splat. In small pictures it blurs edges and adds noise,
@@ -119,8 +130,7 @@ ps_result splats_begin_points(struct render *render, const ps_vec3 *positions,
     if (result != PS_OK)
         return result;
     render->has_points = true;
-    render->point_count = n;
-    point_tiles_fill(&render->points.lit, positions, normals, n, render->settings->workers);
+    point_tiles_fill(&render->points.lit, positions, normals, render->settings->workers);
     struct splatter_pass pass = {render->pass.number, render->photons.path_count};
     splatter_begin_pass(&render->points, pass);
     return PS_OK;
@@ -128,14 +138,16 @@ ps_result splats_begin_points(struct render *render, const ps_vec3 *positions,
 
 void splats_end_points(struct render *render, ps_rgb *irradiance)
 {
-    point_tiles_read(&render->points.lit, render->point_count, irradiance);
+    point_tiles_read(&render->points.lit, irradiance);
     render_report_splatter(render->statistics, &render->points);
     splats_drop_points(render);
 }
 
 void splats_drop_points(struct render *render)
 {
-    if (render->has_points)
-        splatter_release(&render->points);
+    if (!render->has_points)
+        return;
+    count_lit(render, &render->points, -1.0);
+    splatter_release(&render->points);
     render->has_points = false;
 }

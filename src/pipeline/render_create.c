@@ -69,7 +69,7 @@ static ps_result create_reflected(struct render *render, struct error *error)
     if (!scene->has_area_lights || render->settings->discontinuity_buffer ||
         (single_pass && scene->light_samples == 1))
         return PS_OK;
-    if (single_pass && !render->gbuffer.direct_half)
+    if (single_pass)
         result = gbuffer_prepare_direct_half(&render->gbuffer, error);
     return result == PS_OK ? film_add_reflected(&render->film, single_pass, error) : result;
 }

@@ -53,7 +53,6 @@ void render_report_splatter(struct statistics *statistics, const struct splatter
     statistics_add_seconds(statistics, "bin", splatter->bin_seconds);
     statistics_add_seconds(statistics, "splat", splatter->kernel_seconds);
     statistics_add_seconds(statistics, "join", splatter->join_seconds);
-    statistics_add_bytes(statistics, "splatted pixels", (double)interleaved_bytes(&splatter->lit));
     statistics_count(statistics, "splats", (double)splatter->splats);
     statistics_count(statistics, "map rays", (double)splatter->map_rays);
     statistics_count(statistics, "visibility rays", (double)splatter->exact_tests);

@@ -52,7 +52,6 @@ struct render {
     struct splatter splatter; /* onto pixels; made when an estimator first splats */
     struct splatter points;   /* onto points, from begin_points to end_points */
     struct splat *placed;     /* room for a batch of splats; owned, as the splatters */
-    size_t point_count;
     bool has_splatter, has_points;
     bool splatting; /* onto pixels in this pass */
     struct gathered_light gathered_light;

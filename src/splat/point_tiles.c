@@ -25,7 +25,7 @@ struct interleaved point_tiles_layout(size_t n)
     return tiles;
 }
 
-/* The number, in the order of points, of the tile at a place; the other way round it would be no simpler. */
+/* The number of a tile, in the order of points, by its place in the grid. */
 static size_t number_of(const struct interleaved *tiles, uint32_t tile)
 {
     uint32_t x = tile % tiles->tiles_across, y = tile / tiles->tiles_across;
@@ -40,7 +40,6 @@ static size_t number_of(const struct interleaved *tiles, uint32_t tile)
 struct filling {
     struct interleaved *tiles;
     const ps_vec3 *positions, *normals;
-    size_t n;
 };
 
 static void fill_tile(void *user, uint64_t index, uint32_t worker)
@@ -50,7 +49,7 @@ static void fill_tile(void *user, uint64_t index, uint32_t worker)
     struct interleaved_tile *tile = &work->tiles->tiles[index];
     size_t first = number_of(work->tiles, (uint32_t)index) * PS_TILE_PIXELS;
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-        if (first + lane < work->n)
+        if (first + lane < work->tiles->width)
             interleaved_set_lane(tile, lane, work->positions[first + lane],
                                  work->normals[first + lane]);
         else
@@ -60,18 +59,18 @@ static void fill_tile(void *user, uint64_t index, uint32_t worker)
 }
 
 void point_tiles_fill(struct interleaved *tiles, const ps_vec3 *positions, const ps_vec3 *normals,
-                      size_t n, struct workers *workers)
+                      struct workers *workers)
 {
-    struct filling work = {tiles, positions, normals, n};
+    struct filling work = {tiles, positions, normals};
     parallel_for(workers, tiles->tile_count, fill_tile, &work);
 }
 
-void point_tiles_read(const struct interleaved *tiles, size_t n, ps_rgb *irradiance)
+void point_tiles_read(const struct interleaved *tiles, ps_rgb *irradiance)
 {
     for (uint32_t i = 0; i < tiles->tile_count; i++) {
         const struct interleaved_tile *tile = &tiles->tiles[i];
         size_t first = number_of(tiles, i) * PS_TILE_PIXELS;
-        for (uint32_t lane = 0; lane < PS_TILE_PIXELS && first + lane < n; lane++)
+        for (uint32_t lane = 0; lane < PS_TILE_PIXELS && first + lane < tiles->width; lane++)
             irradiance[first + lane] = (ps_rgb){tile->irradiance_r[lane], tile->irradiance_g[lane],
                                                 tile->irradiance_b[lane]};
     }

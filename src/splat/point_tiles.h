@@ -9,14 +9,14 @@
 
 #include "splat/interleaved.h"
 
-/* Tiles for n > 0 points, and no memory for them. */
+/* Tiles for n > 0 points, as a picture n wide and 1 high, and no memory for them. */
 struct interleaved point_tiles_layout(size_t n);
 
-/* The tiles of that layout take n points, and their sums are zeroed. Works on `workers`. */
+/* The tiles of that layout take its points, and their sums are zeroed. Works on `workers`. */
 void point_tiles_fill(struct interleaved *tiles, const ps_vec3 *positions, const ps_vec3 *normals,
-                      size_t n, struct workers *workers);
+                      struct workers *workers);
 
-/* The irradiance that splats added to each of n points, W/m^2. */
-void point_tiles_read(const struct interleaved *tiles, size_t n, ps_rgb *irradiance);
+/* The irradiance that splats added to each of the points, W/m^2. */
+void point_tiles_read(const struct interleaved *tiles, ps_rgb *irradiance);
 
 #endif

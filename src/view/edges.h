@@ -4,8 +4,8 @@
  * up; yet most pixels lie on one surface, of which one look tells all. Adaptive supersampling (Whitted
  * 1980, "An improved illumination model for shaded display", section 3) looks again only where a pixel
  * differs from a neighbour: in its surface, in its albedo, or in the light that comes from it straight
- * from the lights, if by more than the noise of its shadow rays. Each further sample has surface, emission and direct light of its own. Its indirect
- * light, which is smooth and dear, is the mean of what the pixels around found on the same surface, so that
+ * from the lights, if by more than the noise of its shadow rays. Each further sample has surface, emission and
+ * direct light of its own. Its indirect light, which is smooth and dear, is the mean of what the pixels around found on the same surface, so that
  * estimators are not asked again. All pixels look at the same places in them. Tracing at a higher resolution would
  * cost everywhere.
  *

@@ -182,6 +182,13 @@ for key in seconds counters bytes load scene build gbuffer direct inject stratif
 done
 expect_match stats.json '"passes": 2,?$'
 
+# Memory is what there is at a time, not the sum over passes.
+for passes in 1 3; do
+    run 0 -q --size 48x27 --bounces all --passes $passes --stats passes.json -o passes.exr "$cornell"
+    grep '"splatted pixels"' passes.json >pixels$passes || fail "no splatted pixels in $passes passes"
+done
+cmp -s pixels1 pixels3 || fail "splatted pixels grow with passes: $(cat pixels1 pixels3)"
+
 # --- --quality ---
 
 for quality in draft normal high final; do

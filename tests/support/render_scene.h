@@ -10,8 +10,9 @@ struct rendering {
 };
 
 /* Renders `text` with choices such as "injection=photon:count=1000" laid over it; ends with NULL. Indirect light
- * is that of one bounce, by splats, not denoised and without smooth edges, where neither the text nor a choice "bounces=3" or "bounces=all" says otherwise. A
- * failure fails the test. Release it with rendering_release. */
+ * is that of one bounce, by splats, not denoised and without smooth edges, where neither the text nor a choice
+ * ("bounces=3", "bounces=all", "estimator=...") says otherwise. A failure fails the test. Release it with
+ * rendering_release. */
 struct rendering render_text(const char *text, uint32_t threads, const char *const choices[]);
 /* The same with splats in batches of `batch`. */
 struct rendering render_text_in_batches(const char *text, uint32_t threads, size_t batch,

@@ -21,7 +21,7 @@ static struct interleaved fill(size_t n, struct workers *workers)
         normals[i] = (ps_vec3){0, 0, 1};
     }
     assert_int_equal(interleaved_create(point_tiles_layout(n), &tiles, &error), PS_OK);
-    point_tiles_fill(&tiles, positions, normals, n, workers);
+    point_tiles_fill(&tiles, positions, normals, workers);
     free(positions);
     free(normals);
     return tiles;
@@ -46,7 +46,7 @@ static void check(size_t n, struct workers *workers)
             there++;
         }
     assert_int_equal(there, n);
-    point_tiles_read(&tiles, n, irradiance);
+    point_tiles_read(&tiles, irradiance);
     for (size_t i = 0; i < n; i++)
         assert_true(irradiance[i].g == (float)i + 1.0f);
     free(irradiance);

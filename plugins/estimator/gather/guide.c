@@ -101,12 +101,8 @@ static ps_vec3 guided_direction(const struct guide *guide, float a, float b)
     float in_ring, in_sector;
     int ring = choose(guide->ring_ends, GUIDE_RINGS, a, &in_ring);
     int sector = choose(guide->sector_ends[ring], GUIDE_SECTORS, b, &in_sector);
-    float squared = ((float)ring + in_ring) / GUIDE_RINGS;
-    float phi = 2.0f * PS_PI * ((float)sector + in_sector) / GUIDE_SECTORS;
-    float radius = sqrtf(squared), height = sqrtf(ps_max(1.0f - squared, 0.0f));
-    ps_vec3 in_plane =
-        ps_add_scaled(ps_scale(guide->u, radius * cosf(phi)), radius * sinf(phi), guide->v);
-    return ps_normalize(ps_add_scaled(in_plane, height, guide->normal));
+    return ps_cosine_direction(guide->normal, ((float)ring + in_ring) / GUIDE_RINGS,
+                               ((float)sector + in_sector) / GUIDE_SECTORS);
 }
 
 static float guided_pdf(const struct guide *guide, ps_vec3 direction)

@@ -15,7 +15,7 @@
 enum { GUIDE_RINGS = 8, GUIDE_SECTORS = 16, GUIDE_BINS = GUIDE_RINGS * GUIDE_SECTORS };
 
 struct guide {
-    ps_vec3 normal, u, v;                      /* a frame */
+    ps_vec3 normal, u, v;                      /* a frame, of ps_frame */
     float found[GUIDE_RINGS][GUIDE_SECTORS];   /* sums of the light that rays found */
     int ready;                                 /* whether the rest is set */
     float density[GUIDE_RINGS][GUIDE_SECTORS]; /* over that of the cosine */

@@ -29,14 +29,17 @@ static void choose_guides(struct gather *gather)
         gather->guide_of[i] = choose_guide(gather, gather->points.normals[i]);
 }
 
-static void end_sample(struct gather *gather)
+/* `learns`: whether more rays will be drawn by what this sample found. */
+static void end_sample(struct gather *gather, bool learns)
 {
     for (size_t i = 0; i < gather->points.count; i++) {
         ps_rgb found = gather->found[i];
         gather->irradiance[i] = ps_rgb_add(gather->irradiance[i], found);
+        gather->samples[i]++;
+        if (!learns)
+            continue;
         guide_learn(&gather->guides[gather->guide_of[i]], gather->directions[i],
                     found.r + found.g + found.b);
-        gather->samples[i]++;
     }
 }
 
@@ -126,44 +129,51 @@ static bool is_caustic(const struct paths *paths, size_t i)
     return paths->bounces[i] == 0;
 }
 
+/* Adds what surfaces that were met reflect of the lights diffusely; on the way of caustics that alone. */
+static void add_direct_without_caustics(struct gather *gather, uint32_t number,
+                                        const struct paths *paths, struct paths_segment *segment)
+{
+    uint32_t flags[PS_TILE_PIXELS] = {0};
+    for (size_t i = 0; i < paths->count; i++) {
+        flags[i] = segment->hits[i].flags;
+        if (is_caustic(paths, i))
+            segment->hits[i].flags &= ~PS_HIT_SPECULAR;
+    }
+    paths_add_direct(&gather->setting->paths, number, paths, segment, gather->found);
+    for (size_t i = 0; i < paths->count; i++)
+        segment->hits[i].flags = flags[i];
+}
+
 /* Adds what is emitted and reflected where paths land, but for caustics where they are left out. */
 static void add_light(struct gather *gather, uint32_t number, struct paths *paths,
                       struct paths_segment *segment)
 {
     const struct gather_setting *setting = gather->setting;
-    uint32_t flags[PS_TILE_PIXELS] = {0};
     for (size_t i = 0; i < paths->count && setting->no_caustics; i++)
         paths->shines[i] &= !is_caustic(paths, i);
     paths_add_emission(&setting->paths, paths, segment, gather->found);
     paths_drop_lost(paths, segment);
-    for (size_t i = 0; i < paths->count; i++) {
-        segment->indices[i] = gather->samples[paths->pixels[i]];
-        flags[i] = segment->hits[i].flags;
-        if (setting->no_caustics && is_caustic(paths, i))
-            segment->hits[i].flags &= ~PS_HIT_SPECULAR; /* diffuse reflection alone */
-    }
-    paths_add_direct(&setting->paths, number, paths, segment, gather->found);
-    for (size_t i = 0; i < paths->count; i++)
-        segment->hits[i].flags = flags[i];
+    paths_find_indices(gather->samples, paths, segment);
+    if (setting->no_caustics)
+        add_direct_without_caustics(gather, number, paths, segment);
+    else
+        paths_add_direct(&setting->paths, number, paths, segment, gather->found);
 }
 
-static void take_sample(struct gather *gather)
+static void take_sample(struct gather *gather, bool learns)
 {
     const struct paths_setting *setting = &gather->setting->paths;
     struct paths paths;
     struct paths_segment segment;
     start_paths(gather, &paths, &segment);
     for (uint32_t number = 1; paths.count > 0; number++) {
-        setting->host->intersect(setting->host, paths.rays, paths.count, segment.hits);
-        if (number == 1)
-            ps_forget_own_surface(&gather->points, paths.pixels, paths.count,
-                                  setting->pass->surface_offset, segment.hits);
+        paths_intersect(setting, &gather->points, number, &paths, &segment);
         add_light(gather, number, &paths, &segment);
         end_diffuse(gather, &paths, &segment);
         paths_draw_numbers(setting, number + 1, gather->samples, &paths, &segment);
         scatter_paths(gather, &paths, &segment);
     }
-    end_sample(gather);
+    end_sample(gather, learns);
 }
 
 static uint64_t smaller(uint64_t a, uint64_t b)
@@ -183,11 +193,11 @@ static void take_rounds(struct gather *gather)
                          ((uint64_t)setting->paths.pass->number * all + done) * PS_TILE_PIXELS;
         for (size_t i = 0; i < gather->points.count; i++)
             gather->samples[i] = first + ps_lane_along_curve(gather->points.lanes[i]) * round;
-        for (uint64_t sample = 0; sample < round; sample++)
-            take_sample(gather);
-        for (uint32_t i = 0; i < gather->guide_count; i++)
-            guide_update(&gather->guides[i]);
         done += round;
+        for (uint64_t sample = 0; sample < round; sample++)
+            take_sample(gather, done < all);
+        for (uint32_t i = 0; i < gather->guide_count && done < all; i++)
+            guide_update(&gather->guides[i]);
     }
 }
 

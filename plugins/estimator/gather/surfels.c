@@ -148,9 +148,9 @@ static float *channel(ps_rgb *colour, int c)
     return c == 0 ? &colour->r : c == 1 ? &colour->g : &colour->b;
 }
 
-static float value(const ps_rgb *colour, int c)
+static double value(ps_rgb colour, int c)
 {
-    return c == 0 ? colour->r : c == 1 ? colour->g : colour->b;
+    return (double)*channel(&colour, c);
 }
 
 /* The ratio of what paths and splats find in n surfels, and the variance of that estimate (Cochran 1977, ch. 6). */
@@ -162,14 +162,14 @@ static struct ratio ratio_of(const ps_rgb *splatted, const ps_rgb *traced, size_
 {
     double by_splats = 0.0, by_paths = 0.0, variance = 0.0;
     for (size_t i = 0; i < n; i++) {
-        by_splats += (double)value(&splatted[i], c);
-        by_paths += (double)value(&traced[i], c);
+        by_splats += value(splatted[i], c);
+        by_paths += value(traced[i], c);
     }
     if (!(by_splats > 0.0))
         return (struct ratio){1.0, 0.0};
     double mean = by_paths / by_splats;
     for (size_t i = 0; i < n; i++) {
-        double rest = (double)value(&traced[i], c) - mean * (double)value(&splatted[i], c);
+        double rest = value(traced[i], c) - mean * value(splatted[i], c);
         variance += rest * rest;
     }
     return (struct ratio){mean, variance / (by_splats * by_splats)};
