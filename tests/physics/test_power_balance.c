@@ -22,7 +22,7 @@
 #include "support/run_tests.h"
 
 #define PI 3.14159265358979323846
-#define SEEDS 3
+#define SEEDS 6
 #define SIDE 12 /* pixels */
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -92,7 +92,7 @@ struct method {
 };
 
 static const struct method methods[] = {
-    {"pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0.002}, /* few seeds */
+    {"pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0},
     {"splat",
      {"estimator=splat", "injection=photon:count=4000", "bounces=all",
       "visibility=shadowmap:radius=0.06", NULL},
