@@ -170,7 +170,8 @@ typedef struct ps_image_view {
     uint32_t passes;
     float *r, *g, *b; /* indirect radiance, or direct (PS_DENOISER_DIRECT), to change in place */
     /* Diffuse reflectance times the throughput of mirrors and glass before it: what radiance is of
-     * irradiance / pi. Not the colour of what mirrors. */
+     * irradiance / pi. Where a path met gloss, or a surface that mirrors by chance, that surface's reflectance by all
+     * its lobes, and normal, position and depth are its own: what lies behind differs from look to look. */
     const float *albedo_r, *albedo_g, *albedo_b;
     const float *normal_x, *normal_y, *normal_z;
     const float *position_x, *position_y, *position_z;
@@ -188,8 +189,9 @@ typedef struct ps_image_view {
 #define PS_DENOISER_IDS 1u    /* ps_image_view.object and material are there */
 #define PS_DENOISER_HALVES 2u /* ps_image_view.even_r to odd_b are there */
 /* Since 1.1. filter() is called a second time, for the direct light that surfaces reflect, with halves of it: of the
- * passes, or of the shadow rays of a single pass. Not where its lights have no size, nor where the scene asks for
- * one shadow ray and one pass, or for the discontinuity buffer. */
+ * passes, or of the shadow rays of a single pass; and for all direct light that gloss mirrors, with halves of the
+ * passes or of a pixel's camera samples. Not where neither has noise, nor where the scene asks for one ray and one
+ * pass, or for the discontinuity buffer. */
 #define PS_DENOISER_DIRECT 4u
 
 typedef struct ps_denoiser_vtable {

@@ -19,8 +19,8 @@
  * (twicing, Tukey 1977).
  *
  * E is radiance over albedo, so that colours of surfaces stay sharp. A channel that a surface hardly reflects says
- * nothing about the light, and is taken for the mean of its other channels. Gloss counts as if it were irradiance,
- * and is blurred as far as that.
+ * nothing about the light, and is taken for the mean of its other channels. What gloss mirrors is fitted along
+ * the glossy surface, as if it were irradiance, and is blurred as far as noise asks.
  */
 #include "regression/box.h"
 #include "regression/fit.h"

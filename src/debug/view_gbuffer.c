@@ -132,14 +132,15 @@ struct depths {
     float nearest, farthest;
 };
 
-static struct depths depths_of(const struct film *film)
+static struct depths depths_of(const struct gbuffer *gbuffer)
 {
     struct depths depths = {INFINITY, 0.0f};
-    for (size_t i = 0; i < film->width * film->height; i++) {
-        if (!(film->planes[FILM_DEPTH][i] < INFINITY))
+    for (size_t i = 0; i < (size_t)gbuffer->tile_count * PS_TILE_PIXELS; i++) {
+        float depth = gbuffer->tiles[i / PS_TILE_PIXELS].depth[i % PS_TILE_PIXELS];
+        if (!(depth < INFINITY))
             continue;
-        depths.nearest = fminf(depths.nearest, film->planes[FILM_DEPTH][i]);
-        depths.farthest = fmaxf(depths.farthest, film->planes[FILM_DEPTH][i]);
+        depths.nearest = fminf(depths.nearest, depth);
+        depths.farthest = fmaxf(depths.farthest, depth);
     }
     return depths;
 }
@@ -149,7 +150,7 @@ static void paint_layer(const struct render *render, int layer, double exposure,
                         size_t top, struct canvas *canvas)
 {
     const struct gbuffer *gbuffer = &render->gbuffer;
-    struct depths depths = depths_of(&render->film);
+    struct depths depths = depths_of(&render->gbuffer);
     for (size_t i = 0; i < (size_t)gbuffer->tile_count * PS_TILE_PIXELS; i++) {
         uint32_t x, y, tile = (uint32_t)(i / PS_TILE_PIXELS), lane = i % PS_TILE_PIXELS;
         struct pixel pixel = {
@@ -171,7 +172,7 @@ static void label(const struct render *render, int layer, size_t left, size_t to
                   struct canvas *canvas)
 {
     static const struct colour ink = {230, 230, 230};
-    struct depths depths = depths_of(&render->film);
+    struct depths depths = depths_of(&render->gbuffer);
     char text[96];
     if (layer == DEPTH && depths.farthest > 0.0f)
         snprintf(text, sizeof text, "depth %.5g - %.5g", (double)depths.nearest,

@@ -18,7 +18,7 @@ static float *plane_create(size_t width, size_t height)
 
 static bool is_of_surfaces(int plane)
 {
-    return plane >= FILM_ALBEDO_R && plane <= FILM_DEPTH;
+    return plane >= FILM_ALBEDO_R && plane <= FILM_VISIBLE;
 }
 
 static bool is_of_light(int plane)
@@ -123,25 +123,58 @@ size_t film_most_bytes(size_t width, size_t height)
     return width * height * sizeof(float) * FILM_ON_REQUEST;
 }
 
+static const struct glossy_tile no_gloss; /* depth 0 */
+
 /* A row of a tile's pixels that are in the picture. */
 struct tile_row {
     const ps_tile *tile;
-    const ps_rgb *direct, *emitted; /* of the row's pixels */
-    size_t lane, pixel;             /* its first, in the tile and in the film */
+    const ps_rgb *direct, *emitted;   /* of the row's pixels */
+    const struct glossy_tile *glossy; /* of the tile */
+    size_t lane, pixel;               /* its first, in the tile and in the film */
     size_t count;
     float shares[PS_TILE_SIZE]; /* of what each gathered, that is added */
 };
 
-/* Adds to a plane, where the film has it, what the pixels of a row see; where they see no surface, nothing. */
-static void add_seen(struct film *film, int plane, const struct tile_row *row, const float *values)
+static bool ends_at_surface(const struct tile_row *row, size_t i)
+{
+    return row->tile->object[row->lane + i] != PS_NO_OBJECT;
+}
+
+static bool met_gloss(const struct tile_row *row, size_t i)
+{
+    return row->glossy->depth[row->lane + i] > 0.0f;
+}
+
+/* Adds shares of values to a plane, where the film has it. */
+static void add_shares(struct film *film, int plane, const struct tile_row *row,
+                       const float *values)
 {
     if (!film->planes[plane])
         return;
-    const uint32_t *object = row->tile->object + row->lane;
     float *sums = film->planes[plane] + row->pixel;
     for (size_t i = 0; i < row->count; i++)
-        sums[i] +=
-            object[i] == PS_NO_OBJECT || row->shares[i] <= 0.0f ? 0.0f : row->shares[i] * values[i];
+        sums[i] += row->shares[i] <= 0.0f ? 0.0f : row->shares[i] * values[i];
+}
+
+/* The same of what pixels see; where their paths end at no surface, nothing. */
+static void add_seen(struct film *film, int plane, const struct tile_row *row, const float *values)
+{
+    float seen[PS_TILE_SIZE];
+    for (size_t i = 0; i < row->count; i++)
+        seen[i] = ends_at_surface(row, i) ? values[i] : 0.0f;
+    add_shares(film, plane, row, seen);
+}
+
+/* The same of what tells surfaces apart: that of the first glossy one, where there is one. */
+static void add_feature(struct film *film, int plane, const struct tile_row *row,
+                        const float *values, const float *glossy)
+{
+    float features[PS_TILE_SIZE];
+    for (size_t i = 0; i < row->count; i++)
+        features[i] = met_gloss(row, i)         ? glossy[row->lane + i]
+                      : ends_at_surface(row, i) ? values[i]
+                                                : 0.0f;
+    add_shares(film, plane, row, features);
 }
 
 static void add_emitted(struct film *film, const struct tile_row *row)
@@ -161,8 +194,21 @@ static void add_emitted(struct film *film, const struct tile_row *row)
 struct row_channel {
     const float *albedo, *throughput, *irradiance; /* indirect */
     const float *radiance;                         /* indirect; NULL: none */
+    const float *glossy;                           /* reflectance, of the tile */
     float direct[PS_TILE_SIZE];                    /* irradiance */
+    float emitted[PS_TILE_SIZE];                   /* radiance */
 };
+
+/* What of the direct light a denoiser may smooth: all, where the path is one of chance. */
+static void add_denoised(struct film *film, const struct tile_row *row, int channel,
+                         const struct row_channel *from, const float direct[PS_TILE_SIZE])
+{
+    float values[PS_TILE_SIZE];
+    for (size_t i = 0; i < row->count; i++)
+        values[i] = (ends_at_surface(row, i) ? direct[i] : 0.0f) +
+                    (met_gloss(row, i) ? from->emitted[i] : 0.0f);
+    add_shares(film, FILM_REFLECTED_R + channel, row, values);
+}
 
 /* Adds the share of the light that arrives where a pixel looks, and that its albedo and the way to the
  * camera leave; and the light that this reflects. */
@@ -179,33 +225,40 @@ static void add_reflected(struct film *film, const struct tile_row *row, int cha
     for (size_t i = 0; from->radiance && i < row->count; i++)
         indirect[i] += from->throughput[i] * from->radiance[i];
     add_seen(film, FILM_DIRECT_R + channel, row, direct);
-    add_seen(film, FILM_REFLECTED_R + channel, row, direct);
+    add_denoised(film, row, channel, from, direct);
     add_seen(film, FILM_COLOR_R + channel, row, indirect);
-    add_seen(film, FILM_ALBEDO_R + channel, row, albedo);
+    add_feature(film, FILM_ALBEDO_R + channel, row, albedo, from->glossy);
 }
 
 static void add_light(struct film *film, const struct tile_row *row)
 {
     const ps_tile *tile = row->tile;
+    const struct glossy_tile *glossy = row->glossy;
     size_t lane = row->lane;
     struct row_channel channels[3] = {
         {.albedo = tile->albedo_r + lane,
          .throughput = tile->throughput_r + lane,
          .irradiance = tile->irradiance_r + lane,
-         .radiance = tile->radiance_r ? tile->radiance_r + lane : NULL},
+         .radiance = tile->radiance_r ? tile->radiance_r + lane : NULL,
+         .glossy = glossy->reflectance_r},
         {.albedo = tile->albedo_g + lane,
          .throughput = tile->throughput_g + lane,
          .irradiance = tile->irradiance_g + lane,
-         .radiance = tile->radiance_g ? tile->radiance_g + lane : NULL},
+         .radiance = tile->radiance_g ? tile->radiance_g + lane : NULL,
+         .glossy = glossy->reflectance_g},
         {.albedo = tile->albedo_b + lane,
          .throughput = tile->throughput_b + lane,
          .irradiance = tile->irradiance_b + lane,
-         .radiance = tile->radiance_b ? tile->radiance_b + lane : NULL},
+         .radiance = tile->radiance_b ? tile->radiance_b + lane : NULL,
+         .glossy = glossy->reflectance_b},
     };
     for (size_t i = 0; i < row->count; i++) {
         channels[0].direct[i] = row->direct[i].r;
         channels[1].direct[i] = row->direct[i].g;
         channels[2].direct[i] = row->direct[i].b;
+        channels[0].emitted[i] = row->emitted[i].r;
+        channels[1].emitted[i] = row->emitted[i].g;
+        channels[2].emitted[i] = row->emitted[i].b;
     }
     add_emitted(film, row);
     for (int channel = 0; channel < 3; channel++)
@@ -215,19 +268,23 @@ static void add_light(struct film *film, const struct tile_row *row)
 static void add_geometry(struct film *film, const struct tile_row *row)
 {
     const ps_tile *tile = row->tile;
+    const struct glossy_tile *glossy = row->glossy;
     size_t lane = row->lane;
-    float ones[PS_TILE_SIZE];
-    for (size_t i = 0; i < row->count; i++)
+    float ones[PS_TILE_SIZE], visible[PS_TILE_SIZE];
+    for (size_t i = 0; i < row->count; i++) {
         ones[i] = 1.0f;
+        visible[i] = met_gloss(row, i) || ends_at_surface(row, i) ? 1.0f : 0.0f;
+    }
     add_seen(film, FILM_WEIGHT, row, tile->weight + lane);
-    add_seen(film, FILM_NORMAL_X, row, tile->normal_x + lane);
-    add_seen(film, FILM_NORMAL_Y, row, tile->normal_y + lane);
-    add_seen(film, FILM_NORMAL_Z, row, tile->normal_z + lane);
-    add_seen(film, FILM_POSITION_X, row, tile->position_x + lane);
-    add_seen(film, FILM_POSITION_Y, row, tile->position_y + lane);
-    add_seen(film, FILM_POSITION_Z, row, tile->position_z + lane);
-    add_seen(film, FILM_DEPTH, row, tile->depth + lane);
     add_seen(film, FILM_COVERAGE, row, ones);
+    add_shares(film, FILM_VISIBLE, row, visible);
+    add_feature(film, FILM_NORMAL_X, row, tile->normal_x + lane, glossy->normal_x);
+    add_feature(film, FILM_NORMAL_Y, row, tile->normal_y + lane, glossy->normal_y);
+    add_feature(film, FILM_NORMAL_Z, row, tile->normal_z + lane, glossy->normal_z);
+    add_feature(film, FILM_POSITION_X, row, tile->position_x + lane, glossy->position_x);
+    add_feature(film, FILM_POSITION_Y, row, tile->position_y + lane, glossy->position_y);
+    add_feature(film, FILM_POSITION_Z, row, tile->position_z + lane, glossy->position_z);
+    add_feature(film, FILM_DEPTH, row, tile->depth + lane, glossy->depth);
 }
 
 static void take_ids(struct film *film, const struct tile_row *row)
@@ -247,6 +304,7 @@ static struct tile_row row_of(const struct film *film, const struct gbuffer *gbu
         .tile = &gbuffer->tiles[tile],
         .direct = half ? &gbuffer->direct_half[first] : &gbuffer->direct[first],
         .emitted = &gbuffer->emitted[first],
+        .glossy = gbuffer->glossy ? &gbuffer->glossy[tile] : &no_gloss,
         .lane = lane,
         .pixel = pixel,
         .count = count,
@@ -286,6 +344,14 @@ void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t in
         film_add_tile(film->odd, gbuffer, index, left_out);
 }
 
+static bool any_met_gloss(const struct gbuffer *gbuffer, uint32_t first, uint32_t count)
+{
+    bool any = false;
+    for (uint32_t i = first; i < first + count && gbuffer->glossy; i++)
+        any |= gbuffer->glossy->depth[i] > 0.0f;
+    return any;
+}
+
 void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t first,
                       uint32_t count, float share, size_t x, size_t y)
 {
@@ -304,8 +370,17 @@ void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t
     for (int plane = 0; plane < FILM_PLANES; plane++)
         for (size_t i = 0; i < PS_TILE_SIZE && film->planes[plane]; i++)
             film->planes[plane][y * film->width + x] += sums[plane][i];
-    if (belongs_to_odd(film))
+    if (!belongs_to_odd(film))
+        return;
+    if (film->odd->half_of_pass && count > 1 && any_met_gloss(gbuffer, first, count)) {
+        struct gbuffer whole = *gbuffer;
+        uint32_t skipped = count / 2, left = count - skipped;
+        whole.direct_half = NULL;
+        film_add_samples(film->odd, &whole, first + skipped, left,
+                         share * (float)count / (float)left, x, y);
+    } else {
         film_add_samples(film->odd, gbuffer, first, count, share, x, y);
+    }
 }
 
 void film_count_pass(struct film *film)
@@ -325,10 +400,10 @@ static void average_light(struct film *film, int plane)
 
 static void average_geometry(struct film *film, int plane)
 {
-    const float *coverage = film->planes[FILM_COVERAGE];
+    const float *visible = film->planes[FILM_VISIBLE];
     float *sums = film->planes[plane];
     for (size_t i = 0; i < film->width * film->height; i++)
-        sums[i] *= coverage[i] > 0.0f ? 1.0f / coverage[i] : 0.0f;
+        sums[i] *= visible[i] > 0.0f ? 1.0f / visible[i] : 0.0f;
 }
 
 void film_average(struct film *film)
@@ -344,6 +419,6 @@ void film_average(struct film *film)
     for (int plane = FILM_ALBEDO_R; plane <= FILM_DEPTH; plane++)
         average_geometry(film, plane);
     for (size_t i = 0; i < film->width * film->height; i++)
-        if (film->planes[FILM_COVERAGE][i] <= 0.0f)
+        if (film->planes[FILM_VISIBLE][i] <= 0.0f)
             film->planes[FILM_DEPTH][i] = INFINITY;
 }

@@ -26,12 +26,13 @@ enum film_plane {
     FILM_POSITION_Y,
     FILM_POSITION_Z,
     FILM_DEPTH,
-    FILM_COVERAGE, /* passes, or shares of them, in which the pixel saw a surface */
+    FILM_VISIBLE,  /* passes, or shares of them, in which albedo to depth are those of a surface */
+    FILM_COVERAGE, /* those in which there is a surface at the end of the pixel's path */
     /* From here on NULL where nobody asks. */
     FILM_ON_REQUEST,
     FILM_REFLECTED_R = FILM_ON_REQUEST,
     FILM_REFLECTED_G,
-    FILM_REFLECTED_B, /* direct light reflected, alone */
+    FILM_REFLECTED_B, /* direct light that is reflected, or that gloss mirrors: what has noise */
     FILM_PLANES
 };
 
@@ -42,7 +43,7 @@ struct film {
     uint32_t *object,
         *material; /* what pixels see in the first pass; owned, NULL where nobody asks */
     /* Light, weight and coverage of the odd passes alone; or of a single pass the direct light by the second half of
-     * the shadow rays, `half_of_pass`. Owned; NULL where nobody asks. */
+     * the shadow rays, or of the samples where they met gloss, `half_of_pass`. Owned; NULL where nobody asks. */
     struct film *odd;
     bool half_of_pass; /* this is such an odd film */
 };
@@ -73,7 +74,7 @@ void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t ti
                    const bool left_out[PS_TILE_PIXELS]);
 
 /* Adds `share` of what each of `count` lanes of a G-buffer's only tile gathered, from lane `first` on, to pixel
- * (x, y) of the film, whose own lane was left out. */
+ * (x, y) of the film, whose own lane was left out. They are all of that pixel's. */
 void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t first,
                       uint32_t count, float share, size_t x, size_t y);
 void film_count_pass(struct film *film);

@@ -54,6 +54,14 @@ ps_result gbuffer_prepare_direct_half(struct gbuffer *gbuffer, struct error *err
                : error_memory(error, count * sizeof *gbuffer->direct_half, "direct light");
 }
 
+ps_result gbuffer_prepare_glossy(struct gbuffer *gbuffer, struct error *error)
+{
+    gbuffer->glossy = calloc(gbuffer->tile_count, sizeof *gbuffer->glossy);
+    return gbuffer->glossy ? PS_OK
+                           : error_memory(error, gbuffer->tile_count * sizeof *gbuffer->glossy,
+                                          "glossy surfaces");
+}
+
 ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error)
 {
     size_t count = 3 * (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
@@ -72,6 +80,7 @@ void gbuffer_release(struct gbuffer *gbuffer)
     free(gbuffer->direct_half);
     free(gbuffer->emitted);
     free(gbuffer->by_chance);
+    free(gbuffer->glossy);
     *gbuffer = (struct gbuffer){.tiles = NULL};
 }
 
@@ -80,8 +89,9 @@ size_t gbuffer_bytes(const struct gbuffer *gbuffer)
     size_t join = gbuffer->occlusion ? sizeof *gbuffer->occlusion + sizeof *gbuffer->joined : 0;
     size_t radiance = gbuffer->radiance ? 3 * sizeof(float) : 0;
     size_t half = gbuffer->direct_half ? sizeof *gbuffer->direct_half : 0;
+    size_t glossy = gbuffer->glossy ? sizeof *gbuffer->glossy : 0;
     return gbuffer->tile_count *
-           (sizeof(ps_tile) +
+           (sizeof(ps_tile) + glossy +
             PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool) + join + radiance + half));
 }
 
@@ -137,6 +147,24 @@ void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throu
     tile->material[lane] = hit->material;
 }
 
+void gbuffer_store_glossy(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,
+                          ps_rgb reflectance, float travelled)
+{
+    assert(lane < PS_TILE_PIXELS);
+    if (glossy->depth[lane] > 0.0f)
+        return;
+    glossy->reflectance_r[lane] = reflectance.r;
+    glossy->reflectance_g[lane] = reflectance.g;
+    glossy->reflectance_b[lane] = reflectance.b;
+    glossy->normal_x[lane] = hit->normal.x;
+    glossy->normal_y[lane] = hit->normal.y;
+    glossy->normal_z[lane] = hit->normal.z;
+    glossy->position_x[lane] = hit->position.x;
+    glossy->position_y[lane] = hit->position.y;
+    glossy->position_z[lane] = hit->position.z;
+    glossy->depth[lane] = travelled;
+}
+
 /* Zeroes a tile's radiance, and tells the tile where it is. */
 static void clear_radiance(struct gbuffer *gbuffer, uint32_t index)
 {
@@ -157,6 +185,8 @@ void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t index)
     clear_radiance(gbuffer, index);
     memset(&gbuffer->emitted[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(ps_rgb));
     memset(&gbuffer->by_chance[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(bool));
+    if (gbuffer->glossy)
+        memset(gbuffer->glossy[index].depth, 0, sizeof gbuffer->glossy[index].depth);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
         tile->position_x[lane] = tile->position_y[lane] = tile->position_z[lane] = GBUFFER_NOWHERE;
         tile->depth[lane] = INFINITY;

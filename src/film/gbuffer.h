@@ -13,6 +13,16 @@
 /* Where lanes that see no surface lie: outside of any scene, yet its square is finite. */
 #define GBUFFER_NOWHERE 1e18f
 
+/* Of the lanes of a tile whose paths met gloss, or a surface that mirrors by chance: the first such surface. What a
+ * pixel finds behind it differs from look to look; this is what neighbouring pixels have in common. */
+struct glossy_tile {
+    float reflectance_r[PS_TILE_PIXELS], reflectance_g[PS_TILE_PIXELS],
+        reflectance_b[PS_TILE_PIXELS]; /* by all lobes, and of the way from there to the camera */
+    float normal_x[PS_TILE_PIXELS], normal_y[PS_TILE_PIXELS], normal_z[PS_TILE_PIXELS];
+    float position_x[PS_TILE_PIXELS], position_y[PS_TILE_PIXELS], position_z[PS_TILE_PIXELS];
+    float depth[PS_TILE_PIXELS]; /* 0: met none */
+};
+
 struct gbuffer {
     size_t width, height;
     uint32_t tiles_across, tiles_down, tile_count;
@@ -22,6 +32,7 @@ struct gbuffer {
     ps_rgb *direct_half;
     ps_rgb *emitted; /* radiance collected on the way there, of the same size, owned */
     bool *by_chance; /* whether another look would take another way (a lens, gloss), likewise */
+    struct glossy_tile *glossy; /* of each tile, owned; NULL where the scene has no such surface */
     /* What shadow rays met (see gbuffer_occlusion_alike), and room for direct light that is joined; likewise,
      * or NULL where nobody joins it. */
     uint64_t *occlusion;
@@ -42,6 +53,9 @@ ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error);
 /* Makes room for direct light by half of the shadow rays, where there is none yet. */
 ps_result gbuffer_prepare_direct_half(struct gbuffer *gbuffer, struct error *error);
 
+/* Makes room for the first glossy surfaces. */
+ps_result gbuffer_prepare_glossy(struct gbuffer *gbuffer, struct error *error);
+
 /* Makes room for indirect radiance. */
 ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error);
 
@@ -59,13 +73,17 @@ uint32_t gbuffer_tile_of(const struct gbuffer *gbuffer, uint32_t x, uint32_t y, 
 bool gbuffer_find(const struct gbuffer *gbuffer, int64_t x, int64_t y, uint32_t *tile,
                   uint32_t *lane);
 
-/* Makes all lanes of a tile see nothing, and zeroes its accumulators, emitted radiance and by_chance. */
+/* Makes all lanes of a tile see nothing, and zeroes its accumulators, emitted radiance and by_chance; no glossy surface is met. */
 void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t tile);
 
 /* Lets a lane see what was hit, at the end of a way of length `travelled` that leaves `throughput` of
  * its light. */
 void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throughput,
                    float travelled);
+
+/* Notes a glossy surface of a lane that met none before, and what it reflects with the way to the camera. */
+void gbuffer_store_glossy(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,
+                          ps_rgb reflectance, float travelled);
 
 /* Whether no lane of a tile sees anything. */
 bool gbuffer_sees_nothing(const ps_tile *tile);

@@ -64,12 +64,15 @@ static ps_result create_edges(struct render *render, struct error *error)
 static ps_result create_reflected(struct render *render, struct error *error)
 {
     const struct scene *scene = render->scene;
-    bool single_pass = render->settings->passes == 1;
+    const struct render_settings *settings = render->settings;
+    bool single_pass = settings->passes == 1;
+    bool noisy_shadows = scene->has_area_lights && !settings->discontinuity_buffer &&
+                         !(single_pass && scene->light_samples == 1);
+    bool noisy_gloss = render->gbuffer.glossy && !(single_pass && settings->aa_samples == 1);
     ps_result result = PS_OK;
-    if (!scene->has_area_lights || render->settings->discontinuity_buffer ||
-        (single_pass && scene->light_samples == 1))
+    if (!noisy_shadows && !noisy_gloss)
         return PS_OK;
-    if (single_pass)
+    if (single_pass && noisy_shadows)
         result = gbuffer_prepare_direct_half(&render->gbuffer, error);
     return result == PS_OK ? film_add_reflected(&render->film, single_pass, error) : result;
 }
@@ -106,6 +109,8 @@ ps_result render_create(struct render *render, struct error *error)
     if (result == PS_OK)
         result = film_create(scene->width, scene->height, wants_surfaces(render->settings),
                              &render->film, error);
+    if (result == PS_OK && scene->microfacets && wants_surfaces(render->settings))
+        result = gbuffer_prepare_glossy(&render->gbuffer, error);
     if (result == PS_OK && render->settings->discontinuity_buffer && scene->has_area_lights)
         result = gbuffer_prepare_join(&render->gbuffer, error);
     if (result == PS_OK && render->settings->aa_samples > 1)

@@ -189,6 +189,28 @@ ps_rgb material_albedo(const struct material *material, const struct microfacet_
     return all_diffuse_albedo(&view, view.cosine);
 }
 
+/* The albedo of the component's other lobe towards `cosine`, with its share. */
+static ps_rgb specular_albedo(const struct component *component, const struct view *view,
+                              float cosine)
+{
+    if (component->kind == COMPONENT_DIFFUSE)
+        return (ps_rgb){0, 0, 0};
+    ps_rgb albedo = component->kind == COMPONENT_DIELECTRIC
+                        ? (ps_rgb){1, 1, 1}
+                        : reflector_albedo(component, view, cosine);
+    return ps_rgb_scale(albedo, component->share);
+}
+
+ps_rgb material_reflectance(const struct material *material, const struct microfacet_table *table,
+                            const ps_hit *hit, ps_vec3 ray_direction)
+{
+    struct view view = view_of(material, table, hit, ray_direction);
+    ps_rgb sum = all_diffuse_albedo(&view, view.cosine);
+    for (uint32_t i = 0; i < material->component_count; i++)
+        sum = ps_rgb_add(sum, specular_albedo(&material->components[i], &view, view.cosine));
+    return sum;
+}
+
 ps_rgb material_emission(const struct material *material, const ps_hit *hit)
 {
     if (!material->emissive || ((hit->flags & PS_HIT_BACK) && !material->emission_both))
@@ -219,13 +241,8 @@ static size_t list_lobes(const struct view *view, struct lobe lobes[MOST_LOBES])
     size_t count = add_lobe(lobes, 0, NULL, ps_rgb_maximum(all_diffuse_albedo(view, view->cosine)));
     for (uint32_t i = 0; i < view->material->component_count; i++) {
         const struct component *component = &view->material->components[i];
-        float other = 0.0f;
-        if (component->kind == COMPONENT_DIELECTRIC)
-            other = component->share;
-        else if (component->kind != COMPONENT_DIFFUSE)
-            other =
-                component->share * ps_rgb_maximum(reflector_albedo(component, view, view->cosine));
-        count = add_lobe(lobes, count, component, other);
+        ps_rgb albedo = specular_albedo(component, view, view->cosine);
+        count = add_lobe(lobes, count, component, ps_rgb_maximum(albedo));
     }
     for (size_t i = 0; i < count; i++)
         sum += lobes[i].probability;

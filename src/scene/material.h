@@ -73,6 +73,11 @@ bool material_is_opaque(const struct material *material, ps_vec3 texture_point, 
 ps_rgb material_albedo(const struct material *material, const struct microfacet_table *table,
                        const ps_hit *hit, ps_vec3 ray_direction);
 
+/* Share of the light from all around that the surface sends to the ray's origin, by all its lobes; what glass lets
+ * through counts. */
+ps_rgb material_reflectance(const struct material *material, const struct microfacet_table *table,
+                            const ps_hit *hit, ps_vec3 ray_direction);
+
 /* Radiance that the surface emits along the ray, towards its origin. */
 ps_rgb material_emission(const struct material *material, const ps_hit *hit);
 

@@ -20,6 +20,7 @@ struct looks {
     _Alignas(64) ps_tile tile;
     ps_rgb direct[PS_TILE_PIXELS], direct_half[PS_TILE_PIXELS], emitted[PS_TILE_PIXELS];
     bool by_chance[PS_TILE_PIXELS];
+    struct glossy_tile glossy;
     float radiance[3 * PS_TILE_PIXELS];
     struct view_points points;
     uint32_t x[PS_TILE_PIXELS], y[PS_TILE_PIXELS]; /* their pixels */
@@ -199,6 +200,7 @@ static void finish_looks(const struct edge_pass *pass, struct looks *looks, stru
         .direct_half = pass->gbuffer->direct_half ? looks->direct_half : NULL,
         .emitted = looks->emitted,
         .by_chance = looks->by_chance,
+        .glossy = pass->gbuffer->glossy ? &looks->glossy : NULL,
         .radiance = pass->gbuffer->radiance ? looks->radiance : NULL,
     };
     struct view_pass view = {
@@ -229,12 +231,17 @@ static void look_again(const struct edge_pass *pass, uint32_t tile, const bool *
     struct looks looks;
     looks.points.count = 0;
     draw_pattern(pass, &looks);
-    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
-        for (uint32_t sample = 0; sample < pass->samples && edges[lane]; sample++) {
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        if (!edges[lane])
+            continue;
+        if (looks.points.count + pass->samples > PS_TILE_PIXELS)
+            finish_looks(pass, &looks, film);
+        for (uint32_t sample = 0; sample < pass->samples; sample++) {
             add_look(pass, tile, lane, sample, &looks);
             if (looks.points.count == PS_TILE_PIXELS)
                 finish_looks(pass, &looks, film);
         }
+    }
     if (looks.points.count > 0)
         finish_looks(pass, &looks, film);
 }

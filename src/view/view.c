@@ -121,12 +121,27 @@ static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t 
                     ps_rgb_multiply(paths->throughput[i], radiance[i]));
 }
 
+/* Path i goes on from the hit by chance. */
+static void note_chance(const struct view_pass *pass, uint32_t tile,
+                        const struct camera_paths *paths, size_t i, const ps_hit *hit)
+{
+    const struct scene *scene = pass->scene;
+    struct gbuffer *gbuffer = pass->gbuffer;
+    uint32_t lane = paths->lanes[i];
+    gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS + lane] = true;
+    if (!gbuffer->glossy)
+        return;
+    ps_rgb reflectance = material_reflectance(&scene->materials[hit->material], scene->microfacets,
+                                              hit, paths->rays[i].direction);
+    gbuffer_store_glossy(&gbuffer->glossy[tile], lane, hit,
+                         ps_rgb_multiply(paths->throughput[i], reflectance), paths->travelled[i]);
+}
+
 /* Sends the paths on, or ends them at the diffuse lobe of a surface that has others too. */
 static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
                     struct camera_paths *paths, const ps_hit *hits)
 {
     const struct scene *scene = pass->scene;
-    bool *by_chance = pass->hits ? NULL : &pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
     uint32_t key = sample_key(pass->seed, PS_STREAM_VIEW, depth);
     size_t left = 0;
     for (size_t i = 0; i < paths->count; i++) {
@@ -135,8 +150,8 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
         ps_bsdf_sample on =
             material_scatter(&scene->materials[hits[i].material], scene->microfacets,
                              PS_FROM_CAMERA, &paths->rays[i], &hits[i], numbers);
-        if (by_chance)
-            by_chance[paths->lanes[i]] |= on.probability < 1.0f || on.lobe == PS_GLOSSY;
+        if (!pass->hits && (on.probability < 1.0f || on.lobe == PS_GLOSSY))
+            note_chance(pass, tile, paths, i, &hits[i]);
         if (on.lobe == PS_DIFFUSE) {
             ps_rgb throughput = ps_rgb_scale(paths->throughput[i], 1.0f / on.probability);
             if (ps_rgb_maximum(hits[i].albedo) > 0.0f)

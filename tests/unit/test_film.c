@@ -276,7 +276,7 @@ static void test_film_of_light_alone(void **state)
     add_pass(10, 1);
     film_average(&bench.film);
     for (int plane = 0; plane < FILM_ON_REQUEST; plane++) {
-        bool of_surfaces = plane >= FILM_ALBEDO_R && plane <= FILM_DEPTH;
+        bool of_surfaces = plane >= FILM_ALBEDO_R && plane <= FILM_VISIBLE;
         assert_true((bench.film.planes[plane] == NULL) == of_surfaces);
         if (!of_surfaces)
             assert_memory_equal(bench.film.planes[plane], whole.planes[plane],
@@ -318,6 +318,69 @@ static void test_half_of_a_single_pass(void **state)
     expect_in(bench.film.odd, FILM_REFLECTED_G, 12, 2, 0.25 / PI * 2);
 }
 
+/* A lane whose path met gloss, of depth 8 and reflectance 1/2, with value 2 in all that it is. */
+static void meet_gloss(uint32_t lane)
+{
+    ps_hit hit = {.position = {2, 2, 2}, .normal = {0, 1, 0}};
+    gbuffer_store_glossy(&bench.gbuffer.glossy[0], lane, &hit, (ps_rgb){0.5f, 0.5f, 0.5f}, 8);
+    hit.position.x = 99; /* a second one does not count */
+    gbuffer_store_glossy(&bench.gbuffer.glossy[0], lane, &hit, (ps_rgb){1, 1, 1}, 99);
+    bench.gbuffer.emitted[lane] = (ps_rgb){3, 3, 3};
+}
+
+/* The first glossy surface stands for what lies behind, and for nothing behind; light is what it is. */
+static void test_first_glossy_surface(void **state)
+{
+    (void)state;
+    struct error error;
+    assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
+    assert_int_equal(film_add_reflected(&bench.film, true, &error), PS_OK);
+    gbuffer_clear_tile(&bench.gbuffer, 0);
+    for (uint32_t lane = 0; lane < 2; lane++)
+        see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[lane], lane, 1);
+    see_nothing(&bench.gbuffer.tiles[0], 2);
+    meet_gloss(1);
+    meet_gloss(2);
+    film_add_tile(&bench.film, &bench.gbuffer, 0, NULL);
+    film_count_pass(&bench.film);
+    film_average(&bench.film);
+    double reflected = 0.5 / PI * 5;
+    expect(FILM_POSITION_X, 0, 0, 1);
+    expect(FILM_REFLECTED_R, 0, 0, reflected);
+    for (uint32_t x = 1; x <= 2; x++) {
+        expect(FILM_POSITION_X, x, 0, 2);
+        expect(FILM_NORMAL_Y, x, 0, 1);
+        expect(FILM_ALBEDO_G, x, 0, 0.5);
+        expect(FILM_DEPTH, x, 0, 8);
+        expect(FILM_COVERAGE, x, 0, x == 1);
+        expect(FILM_COLOR_R, x, 0, x == 1 ? 0.5 / PI : 0);
+        expect(FILM_REFLECTED_R, x, 0, 3 + (x == 1 ? reflected : 0));
+        expect(FILM_DIRECT_R, x, 0, 3 + (x == 1 ? reflected : 0));
+    }
+    gbuffer_clear_tile(&bench.gbuffer, 0);
+    assert_true(bench.gbuffer.glossy[0].depth[1] == 0);
+}
+
+/* Of a pixel's samples of which one met gloss, the second half is in `odd`. */
+static void test_halves_of_glossy_samples(void **state)
+{
+    (void)state;
+    struct error error;
+    double mean = 0.5 / PI * 5 * (1 + 2 + 3 + 4 + 5) / 5 + 3.0 / 5;
+    assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
+    assert_int_equal(gbuffer_prepare_direct_half(&bench.gbuffer, &error), PS_OK);
+    assert_int_equal(film_add_reflected(&bench.film, true, &error), PS_OK);
+    gbuffer_clear_tile(&bench.gbuffer, 0);
+    for (uint32_t lane = 0; lane < 5; lane++)
+        see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[lane], lane, (float)(1 + lane));
+    film_add_samples(&bench.film, &bench.gbuffer, 0, 5, 0.2f, 2, 0);
+    expect_in(bench.film.odd, FILM_REFLECTED_R, 2, 0, 0); /* half of the shadow rays: none lit */
+    meet_gloss(4);
+    film_add_samples(&bench.film, &bench.gbuffer, 0, 5, 0.2f, 1, 0);
+    expect(FILM_REFLECTED_R, 1, 0, mean);
+    expect_in(bench.film.odd, FILM_REFLECTED_R, 1, 0, 0.5 / PI * 5 * (3 + 4 + 5) / 3 + 3.0 / 3);
+}
+
 static void test_clear_indirect(void **state)
 {
     (void)state;
@@ -337,13 +400,21 @@ static void test_clear_indirect(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        FILM_TEST(test_lanes_are_pixels),        FILM_TEST(test_new_film_is_empty),
-        FILM_TEST(test_passes_add_up),           FILM_TEST(test_average),
-        FILM_TEST(test_partly_covered_pixels),   FILM_TEST(test_uncovered_pixels),
-        FILM_TEST(test_emission_is_added),       FILM_TEST(test_film_of_light_alone),
-        FILM_TEST(test_reflected_light_apart),   FILM_TEST(test_half_of_a_single_pass),
-        FILM_TEST(test_clear_indirect),          FILM_TEST(test_samples_take_the_place_of_a_lane),
+        FILM_TEST(test_lanes_are_pixels),
+        FILM_TEST(test_new_film_is_empty),
+        FILM_TEST(test_passes_add_up),
+        FILM_TEST(test_average),
+        FILM_TEST(test_partly_covered_pixels),
+        FILM_TEST(test_uncovered_pixels),
+        FILM_TEST(test_emission_is_added),
+        FILM_TEST(test_film_of_light_alone),
+        FILM_TEST(test_reflected_light_apart),
+        FILM_TEST(test_half_of_a_single_pass),
+        FILM_TEST(test_clear_indirect),
+        FILM_TEST(test_samples_take_the_place_of_a_lane),
         FILM_TEST(test_many_samples_of_a_pixel),
+        FILM_TEST(test_first_glossy_surface),
+        FILM_TEST(test_halves_of_glossy_samples),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
