@@ -184,6 +184,8 @@ typedef struct ps_image_view {
      * first and by the second half of the shadow rays; see PS_DENOISER_DIRECT. */
     const uint32_t *object, *material;
     const float *even_r, *even_g, *even_b, *odd_r, *odd_g, *odd_b;
+    /* Since 1.3: the share of the albedo that is not diffuse, but gloss that mirrors by chance. NULL: none anywhere. */
+    const float *gloss;
 } ps_image_view;
 
 #define PS_DENOISER_IDS 1u    /* ps_image_view.object and material are there */

@@ -37,7 +37,8 @@
 #define CAUTION 2.0f       /* times the noise that a band must exceed */
 #define PIXELS_WINDOW 4    /* R of the window of the last band, of the pixels themselves */
 #define PIXELS_CAUTION                                                                             \
-    4.0f /* for that band: so few pixels may seem to have less noise than they have */
+    4.0f              /* for that band: so few pixels may seem to have less noise than they have */
+#define GLOSSY 0.125f /* share of gloss from which on a pixel is of that class */
 #define WIDEST REGRESSION_LARGEST /* bandwidth of the rest */
 
 static const int bandwidths[] = {48, 24, 12, 6}; /* of the bands */
@@ -64,6 +65,7 @@ struct work {
     float *fine[VALUES], *coarse[VALUES], *sum[REGRESSION_COLOURS];
     float *scale, *signal, *noise, *room;
     float caution; /* with the band under way */
+    bool glossy;   /* the class of pixels under way */
     float least;   /* brightness that counts as dark */
 };
 
@@ -119,6 +121,7 @@ static void take_pixel(const struct work *work, size_t pixel, size_t at)
     guides->position[0][at] = image->position_x[pixel];
     guides->position[1][at] = image->position_y[pixel];
     guides->position[2][at] = image->position_z[pixel];
+    guides->gloss[at] = image->gloss ? image->gloss[pixel] : 0.0f;
     guides->size[at] = pixel_size(&work->camera, image->depth[pixel]);
     irradiance_of(light, albedo, irradiance);
     for (int c = 0; c < 3; c++)
@@ -239,11 +242,21 @@ static void begin_row(void *user, uint64_t row, uint32_t worker)
     }
 }
 
+static bool is_in_class(const struct work *work, size_t pixel)
+{
+    const float *gloss = work->image->gloss;
+    return (gloss && gloss[pixel] > GLOSSY) == work->glossy;
+}
+
 static void measure_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
     for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
+        if (!is_in_class(work, i)) {
+            work->signal[i] = work->noise[i] = 0.0f;
+            continue;
+        }
         float noise = work->fine[NOISE][i] - work->coarse[NOISE][i];
         float band = brightness_at(work->fine, i) - brightness_at(work->coarse, i);
         work->signal[i] = band * band * work->scale[i];
@@ -256,6 +269,8 @@ static void add_row(void *user, uint64_t row, uint32_t worker)
     (void)worker;
     const struct work *work = user;
     for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
+        if (!is_in_class(work, i))
+            continue;
         float noise = work->caution * work->noise[i], signal = work->signal[i];
         float share = signal > noise ? noise / signal : 1.0f, keep = 1.0f - share * share;
         for (int c = 0; c < REGRESSION_COLOURS; c++)
@@ -263,18 +278,28 @@ static void add_row(void *user, uint64_t row, uint32_t worker)
     }
 }
 
-/* The difference of `fine` and `coarse`. */
-static void add_band(struct work *work, int radius, float caution)
+/* The difference of `fine` and `coarse`, to the pixels of one class: what gloss mirrors has noise of its own, which
+ * says nothing about the walls around. */
+static void add_band_of_class(struct work *work, int radius)
 {
     const struct regression_box signal = {work->width, work->height, (size_t)radius, work->signal,
                                           work->room};
     const struct regression_box noise = {work->width, work->height, (size_t)radius, work->noise,
                                          work->room};
-    work->caution = caution;
     work->host->parallel_for(work->host, work->height, measure_row, work);
     regression_box_sums(work->host, &signal);
     regression_box_sums(work->host, &noise);
     work->host->parallel_for(work->host, work->height, add_row, work);
+}
+
+static void add_band(struct work *work, int radius, float caution)
+{
+    work->caution = caution;
+    work->glossy = false;
+    add_band_of_class(work, radius);
+    work->glossy = true;
+    if (work->image->gloss)
+        add_band_of_class(work, radius);
 }
 
 static void copy_row(void *user, uint64_t row, uint32_t worker)
@@ -366,12 +391,13 @@ static float *lay_out(float *memory, size_t size, int count, float *planes[])
     return memory + (size_t)count * size;
 }
 
-enum { PLANES_WITH_MARGIN = 7 + 2 * VALUES, PLANES = 2 * VALUES + REGRESSION_COLOURS + 4 };
+enum { PLANES_WITH_MARGIN = 8 + 2 * VALUES, PLANES = 2 * VALUES + REGRESSION_COLOURS + 4 };
 
 static void lay_out_all(struct work *work, float *next, size_t with_margin, size_t pixels)
 {
     next = lay_out(next, with_margin, 3, work->guides.normal);
     next = lay_out(next, with_margin, 3, work->guides.position);
+    next = lay_out(next, with_margin, 1, &work->guides.gloss);
     next = lay_out(next, with_margin, 1, &work->guides.size);
     next = lay_out(next, with_margin, VALUES, work->light);
     next = lay_out(next, with_margin, VALUES, work->body);

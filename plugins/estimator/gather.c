@@ -23,10 +23,12 @@
 
 #define MOST_PATHS 32       /* of a surfel, by default */
 #define FEWEST_SURFELS 2000 /* of a picture */
+#define THINNED_TOGETHER 4  /* paths */
 
 struct state {
     int64_t samples;
     int64_t surfels;
+    int64_t thinning;
     ps_number_or_choice paths;
     int64_t roulette;
 };
@@ -35,7 +37,8 @@ struct work {
     const struct state *state;
     struct gather_setting setting;
     struct surfels surfels;
-    ps_rgb *traced; /* irradiance of the surfels by paths, when they are corrected */
+    /* When they are corrected: the surfels' irradiance by paths, and by the first half of each one's paths. */
+    ps_rgb *traced, *half;
 };
 
 /* --- photons --- */
@@ -45,32 +48,50 @@ struct splatting {
     const ps_host *host;
     bool onto_pixels, onto_surfels;
     uint32_t most_bounces; /* of those onto surfels, which are one surface on */
+    uint64_t thinning;
 };
+
+typedef bool (*choice)(const struct splatting *splatting, const ps_photon *photon);
+typedef ps_result (*splatter)(const ps_host *host, const ps_photon *photons, size_t n);
 
 static bool belongs_on_pixels(const struct splatting *splatting, const ps_photon *photon)
 {
     return splatting->onto_pixels && photon->bounce == 0;
 }
 
+/* Paths that share places (ps_pass.shares_places) follow one another, and are better taken together. */
 static bool belongs_on_surfels(const struct splatting *splatting, const ps_photon *photon)
 {
-    return splatting->onto_surfels && photon->bounce <= splatting->most_bounces;
+    return splatting->onto_surfels && photon->bounce <= splatting->most_bounces &&
+           photon->path / THINNED_TOGETHER % splatting->thinning == 0;
 }
 
-typedef bool (*choice)(const struct splatting *splatting, const ps_photon *photon);
-typedef ps_result (*splatter)(const ps_host *host, const ps_photon *photons, size_t n);
-
-/* Splats those of n photons that are chosen, run by run. */
+/* Splats those of n photons that are chosen, with `scale` times their power; `chosen` is room for n. */
 static ps_result splat_chosen(const struct splatting *splatting, choice belongs, splatter splat,
-                              const ps_photon *photons, size_t n)
+                              float scale, const ps_photon *photons, size_t n, ps_photon *chosen)
 {
-    ps_result result = PS_OK;
-    for (size_t first = 0, end; first < n && result == PS_OK; first = end + 1) {
-        for (end = first; end < n && belongs(splatting, &photons[end]);)
-            end++;
-        if (end > first)
-            result = splat(splatting->host, photons + first, end - first);
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (!belongs(splatting, &photons[i]))
+            continue;
+        chosen[count] = photons[i];
+        chosen[count].power = ps_rgb_scale(photons[i].power, scale);
+        count++;
     }
+    return count > 0 ? splat(splatting->host, chosen, count) : PS_OK;
+}
+
+static ps_result splat_batch(const struct splatting *splatting, const ps_photon *photons, size_t n)
+{
+    const ps_host *host = splatting->host;
+    ps_photon *chosen = host->allocate(host, n * sizeof *chosen, "photons chosen");
+    if (!chosen)
+        return PS_ERROR_MEMORY;
+    ps_result result = splat_chosen(splatting, belongs_on_surfels, host->splat_points,
+                                    (float)splatting->thinning, photons, n, chosen);
+    if (result == PS_OK)
+        result = splat_chosen(splatting, belongs_on_pixels, host->splat, 1.0f, photons, n, chosen);
+    host->release(host, chosen);
     return result;
 }
 
@@ -83,10 +104,8 @@ static ps_result splat_photons(const struct splatting *splatting)
     ps_result result = PS_OK;
     while (result == PS_OK && n > 0) {
         result = host->next_photons(host, &photons, &n, &progress);
-        if (result == PS_OK)
-            result = splat_chosen(splatting, belongs_on_surfels, host->splat_points, photons, n);
-        if (result == PS_OK)
-            result = splat_chosen(splatting, belongs_on_pixels, host->splat, photons, n);
+        if (result == PS_OK && n > 0)
+            result = splat_batch(splatting, photons, n);
     }
     return result;
 }
@@ -111,8 +130,10 @@ static void trace_group(void *user, uint64_t index, uint32_t worker)
         gather.points.count++;
     }
     gather_points(&gather);
-    for (size_t i = 0; i < gather.points.count; i++)
+    for (size_t i = 0; i < gather.points.count; i++) {
         work->traced[first + i] = gather.irradiance[i];
+        work->half[first + i] = gather.half[i];
+    }
 }
 
 /* By default a part of the work that the gather is. */
@@ -120,11 +141,9 @@ static uint64_t paths_of_surfel(const struct state *state)
 {
     if (state->paths.choice < 0)
         return (uint64_t)state->paths.number;
-    return state->samples < MOST_PATHS / 4 ? 4 * (uint64_t)state->samples : MOST_PATHS;
+    return state->samples < MOST_PATHS / 2 ? 2 * (uint64_t)state->samples : MOST_PATHS;
 }
 
-/* Splats are smooth, but a few percent too dark or too bright where their kernels are wide. Paths from the surfels are right
- * on average, and their noise is made small by their number. */
 static ps_result correct_cache(struct work *work)
 {
     const ps_host *host = work->setting.paths.host;
@@ -136,16 +155,17 @@ static ps_result correct_cache(struct work *work)
         .paths = {host, &pass, work->setting.paths.roulette},
         .samples = paths_of_surfel(work->state),
     };
-    correcting.traced = host->allocate(host, count * sizeof(ps_rgb), "surfels");
+    correcting.traced = host->allocate(host, 2 * count * sizeof(ps_rgb), "surfels");
     if (!correcting.traced)
         return PS_ERROR_MEMORY;
+    correcting.half = correcting.traced + count;
     uint64_t groups = (count + SURFELS_GROUP - 1) / SURFELS_GROUP;
     host->parallel_for(host, groups, trace_group, &correcting);
-    bool cancelled = host->cancelled(host);
-    if (!cancelled)
-        surfels_correct(&work->surfels, correcting.traced);
+    ps_result result = host->cancelled(host) ? PS_CANCELLED : PS_OK;
+    if (result == PS_OK)
+        result = surfels_correct(&work->surfels, correcting.traced, correcting.half);
     host->release(host, correcting.traced);
-    return cancelled ? PS_CANCELLED : PS_OK;
+    return result;
 }
 
 /* Splats the pass's photons onto pixels and surfels, and makes the cache. */
@@ -154,7 +174,8 @@ static ps_result splat(struct work *work)
     const ps_host *host = work->setting.paths.host;
     struct surfels *surfels = &work->surfels;
     struct splatting splatting = {host, work->setting.no_caustics, surfels->count > 0,
-                                  work->setting.paths.pass->bounces - 1};
+                                  work->setting.paths.pass->bounces - 1,
+                                  (uint64_t)work->state->thinning};
     ps_result result = PS_OK;
     if (splatting.onto_pixels)
         result = host->begin_splats(host, 0);
@@ -227,12 +248,14 @@ static const char *const automatic_choice[] = {"auto", NULL};
 static const ps_param params[] = {
     PS_ROW(struct state, samples, PS_PARAM_INT, "8", 1, 1 << 16, PS_PARAM_QUALITY, NULL, "rays",
            "gather rays for each pixel and pass; powers of two are best"),
-    PS_ROW(struct state, surfels, PS_PARAM_INT, "16", 0, PS_TILE_PIXELS, PS_PARAM_EXPERT, NULL,
+    PS_ROW(struct state, surfels, PS_PARAM_INT, "32", 0, PS_TILE_PIXELS, PS_PARAM_EXPERT, NULL,
            "surfels",
            "surfels of the cache for each tile of 16x16 pixels; 0: none, as path tracing"),
+    PS_ROW(struct state, thinning, PS_PARAM_INT, "8", 1, 1000, PS_PARAM_EXPERT, NULL, "paths",
+           "of so many light paths one is splatted onto the surfels, with the power of all"),
     PS_NUMBER_OR(struct state, paths, "auto", 0, 1 << 16, PS_PARAM_EXPERT | PS_PARAM_WHOLE,
                  automatic_choice, "paths",
-                 "paths from each surfel, by which its light is corrected; auto: four times the "
+                 "paths from each surfel, by which its light is corrected; auto: twice the "
                  "samples, at most 32; 0: none"),
     PS_ROW(struct state, roulette, PS_PARAM_INT, "3", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),

@@ -16,18 +16,24 @@
  * goes on along the first. A pixel sees splats that come from all over, few of them from one place, so
  * their noise is nearly that of as many walks; but the walk is traced, and the walls around the
  * place are looked for, once for all. Each path keeps its own share Phi / N, so the mean is the same
- * whatever `split` is. Where surfaces mirror, caustics want walks of their own.
+ * whatever `split` is.
+ *
+ * Caustics are seen directly, where other photons' blotches are averaged over many of them, and few paths make them; so
+ * they have walks of their own, as in Jensen 1996: `caustics` for each path, which end at their first diffuse surface.
  */
 #include <psplat/plugin.h>
+#include <stdbool.h>
 #include <string.h>
 
 struct state {
     int64_t count;
     int64_t roulette;
     ps_number_or_choice split;
+    int64_t caustics;
 };
 
 #define MOST_SPLIT 64
+#define CAUSTIC_SETS 0x10000u /* of random numbers: from here on those of walks for caustics */
 
 /* What the light paths [path, path + count) share. */
 struct walk {
@@ -41,6 +47,7 @@ struct walk {
     uint32_t bounces; /* diffuse surfaces met */
     uint32_t chain;   /* others since the last one */
     uint8_t specular; /* 1: it met others at all */
+    uint8_t caustic;  /* 1: it ends at the first diffuse surface */
 };
 
 /* A walk that an earlier run began sends out its own direction besides those of its paths. */
@@ -93,17 +100,31 @@ static size_t share_out(const struct state *state, const ps_pass *pass, uint64_t
     return shared;
 }
 
+/* Walks of n paths that share theirs with no others, for caustics alone; `round` numbers those of each path. */
+static void share_out_caustics(const struct state *state, const ps_pass *pass, uint64_t first,
+                               size_t n, uint64_t round, struct walk *walks)
+{
+    uint64_t rounds = (uint64_t)state->caustics;
+    for (size_t i = 0; i < n; i++) {
+        uint64_t path = pass->number * (uint64_t)state->count + first + i;
+        walks[i] =
+            (struct walk){.index = path * rounds + round, .path = path, .count = 1, .caustic = 1};
+    }
+}
+
 static void start_walks(const struct state *state, const ps_host *host, struct walk *walks,
                         size_t n)
 {
+    bool caustic = walks[0].caustic;
+    uint32_t set = caustic ? CAUSTIC_SETS : 0;
     uint64_t indices[PS_PATH_CHUNK] = {0};
     float shared[PS_PATH_CHUNK][4], other[PS_PATH_CHUNK][4], emission[PS_PATH_CHUNK][4];
     ps_ray rays[PS_PATH_CHUNK];
     ps_rgb power[PS_PATH_CHUNK];
     for (size_t i = 0; i < n; i++)
         indices[i] = walks[i].index;
-    host->samples(host, PS_STREAM_EMISSION, 0, indices, n, shared);
-    host->samples(host, PS_STREAM_EMISSION, 1, indices, n, other);
+    host->samples(host, PS_STREAM_EMISSION, set, indices, n, shared);
+    host->samples(host, PS_STREAM_EMISSION, set + 1, indices, n, other);
     for (size_t i = 0; i < n; i++) {
         emission[i][0] = shared[i][0];
         emission[i][1] = shared[i][1];
@@ -114,7 +135,8 @@ static void start_walks(const struct state *state, const ps_host *host, struct w
     for (size_t i = 0; i < n; i++) {
         const float numbers[4] = {shared[i][2], shared[i][3], other[i][2], other[i][3]};
         walks[i].ray = rays[i];
-        walks[i].power = ps_rgb_scale(power[i], 1.0f / (float)state->count);
+        walks[i].power = ps_rgb_scale(
+            power[i], 1.0f / (float)(caustic ? state->count * state->caustics : state->count));
         memcpy(walks[i].numbers, numbers, sizeof numbers);
     }
 }
@@ -126,7 +148,8 @@ static void draw_surface(const ps_host *host, uint32_t segment, struct walk *wal
     float points[PS_PATH_CHUNK][4];
     for (size_t i = 0; i < n; i++)
         indices[i] = walks[i].index;
-    host->samples(host, PS_STREAM_BOUNCE, segment + 1, indices, n, points);
+    uint32_t set = walks[0].caustic ? CAUSTIC_SETS : 0;
+    host->samples(host, PS_STREAM_BOUNCE, set + segment + 1, indices, n, points);
     for (size_t i = 0; i < n; i++)
         memcpy(walks[i].numbers, points[i], sizeof points[i]);
 }
@@ -154,6 +177,8 @@ static int leaves_photons(const struct state *state, const ps_pass *pass,
         walk->specular = 1;
         return ++walk->chain <= PS_LONGEST_CHAIN;
     }
+    if (walk->caustic)
+        return 0;
     walk->chain = 0;
     walk->bounces++;
     if (walk->bounces > pass->bounces)
@@ -239,6 +264,8 @@ static size_t leave_photons(const struct walk *walk, const ps_hit *hit,
 {
     size_t left = 0;
     if (scattered->lobe != PS_DIFFUSE) {
+        if (walk->bounces == 0 && !walk->caustic)
+            return 0;
         photons[left] = photon_of(walk, hit, scattered, arriving);
         photons[left].power = ps_rgb_scale(photons[left].power, (float)walk->count);
         return 1;
@@ -291,19 +318,31 @@ static size_t extend_walks(const struct state *state, const ps_host *host, const
     return alive;
 }
 
-static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pass, uint64_t first,
-                      size_t n, const ps_photon_sink *sink)
+static ps_result trace_all(const struct state *state, const ps_host *host, const ps_pass *pass,
+                           struct walk *walks, size_t n, const ps_photon_sink *sink)
 {
-    const struct state *state = opaque;
-    struct walk walks[PS_PATH_CHUNK];
     ps_photon photons[PS_PATH_CHUNK];
-    n = share_out(state, pass, first, n, walks);
-    start_walks(state, host, walks, n);
     ps_result result = PS_OK;
+    start_walks(state, host, walks, n);
     for (uint32_t segment = 0; n > 0 && result == PS_OK; segment++) {
         size_t count;
         n = extend_walks(state, host, pass, segment, walks, n, photons, &count);
         result = sink->append(sink->core, photons, count);
+    }
+    return result;
+}
+
+static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pass, uint64_t first,
+                      size_t n, const ps_photon_sink *sink)
+{
+    const struct state *state = opaque;
+    uint64_t rounds = pass->specular ? (uint64_t)state->caustics : 0;
+    struct walk walks[PS_PATH_CHUNK];
+    size_t shared = share_out(state, pass, first, n, walks);
+    ps_result result = trace_all(state, host, pass, walks, shared, sink);
+    for (uint64_t round = 0; round < rounds && result == PS_OK; round++) {
+        share_out_caustics(state, pass, first, n, round, walks);
+        result = trace_all(state, host, pass, walks, n, sink);
     }
     return result;
 }
@@ -319,6 +358,8 @@ static const ps_param params[] = {
                  split_choices, "paths",
                  "light paths that share a walk and leave its surfaces in different directions; "
                  "auto: 4, or 1 where that is noisy"),
+    PS_ROW(struct state, caustics, PS_PARAM_INT, "8", 1, 1000, PS_PARAM_EXPERT, NULL, "paths",
+           "paths for caustics, for each light path, where something mirrors or refracts"),
 };
 
 static const ps_injection_vtable vtable = {

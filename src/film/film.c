@@ -96,6 +96,16 @@ ps_result film_add_reflected(struct film *film, bool single_pass, struct error *
     return result == PS_OK ? add_planes(film->odd, is_reflected, error) : result;
 }
 
+static bool is_gloss(int plane)
+{
+    return plane == FILM_GLOSS;
+}
+
+ps_result film_add_gloss(struct film *film, struct error *error)
+{
+    return add_planes(film, is_gloss, error);
+}
+
 void film_release(struct film *film)
 {
     if (film->odd)
@@ -270,9 +280,10 @@ static void add_geometry(struct film *film, const struct tile_row *row)
     const ps_tile *tile = row->tile;
     const struct glossy_tile *glossy = row->glossy;
     size_t lane = row->lane;
-    float ones[PS_TILE_SIZE], visible[PS_TILE_SIZE];
+    float ones[PS_TILE_SIZE], visible[PS_TILE_SIZE], zeros[PS_TILE_SIZE];
     for (size_t i = 0; i < row->count; i++) {
         ones[i] = 1.0f;
+        zeros[i] = 0.0f;
         visible[i] = met_gloss(row, i) || ends_at_surface(row, i) ? 1.0f : 0.0f;
     }
     add_seen(film, FILM_WEIGHT, row, tile->weight + lane);
@@ -285,6 +296,7 @@ static void add_geometry(struct film *film, const struct tile_row *row)
     add_feature(film, FILM_POSITION_Y, row, tile->position_y + lane, glossy->position_y);
     add_feature(film, FILM_POSITION_Z, row, tile->position_z + lane, glossy->position_z);
     add_feature(film, FILM_DEPTH, row, tile->depth + lane, glossy->depth);
+    add_feature(film, FILM_GLOSS, row, zeros, glossy->gloss);
 }
 
 static void take_ids(struct film *film, const struct tile_row *row)
@@ -344,12 +356,13 @@ void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t in
         film_add_tile(film->odd, gbuffer, index, left_out);
 }
 
-static bool any_met_gloss(const struct gbuffer *gbuffer, uint32_t first, uint32_t count)
+/* Samples that differ by what they look at, at the edge of a glossy surface, do not differ by chance. */
+static bool all_met_gloss(const struct gbuffer *gbuffer, uint32_t first, uint32_t count)
 {
-    bool any = false;
-    for (uint32_t i = first; i < first + count && gbuffer->glossy; i++)
-        any |= gbuffer->glossy->depth[i] > 0.0f;
-    return any;
+    bool all = gbuffer->glossy != NULL;
+    for (uint32_t i = first; i < first + count && all; i++)
+        all = gbuffer->glossy->depth[i] > 0.0f;
+    return all;
 }
 
 void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t first,
@@ -372,7 +385,7 @@ void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t
             film->planes[plane][y * film->width + x] += sums[plane][i];
     if (!belongs_to_odd(film))
         return;
-    if (film->odd->half_of_pass && count > 1 && any_met_gloss(gbuffer, first, count)) {
+    if (film->odd->half_of_pass && count > 1 && all_met_gloss(gbuffer, first, count)) {
         struct gbuffer whole = *gbuffer;
         uint32_t skipped = count / 2, left = count - skipped;
         whole.direct_half = NULL;
@@ -418,6 +431,8 @@ void film_average(struct film *film)
         return;
     for (int plane = FILM_ALBEDO_R; plane <= FILM_DEPTH; plane++)
         average_geometry(film, plane);
+    if (film->planes[FILM_GLOSS])
+        average_geometry(film, FILM_GLOSS);
     for (size_t i = 0; i < film->width * film->height; i++)
         if (film->planes[FILM_VISIBLE][i] <= 0.0f)
             film->planes[FILM_DEPTH][i] = INFINITY;

@@ -33,6 +33,7 @@ enum film_plane {
     FILM_REFLECTED_R = FILM_ON_REQUEST,
     FILM_REFLECTED_G,
     FILM_REFLECTED_B, /* direct light that is reflected, or that gloss mirrors: what has noise */
+    FILM_GLOSS,       /* share of the albedo that is not diffuse */
     FILM_PLANES
 };
 
@@ -61,6 +62,9 @@ ps_result film_add_halves(struct film *film, struct error *error);
 /* Lets it keep the direct light that is reflected apart from what is emitted, and half of it: of the passes, or of
  * its only pass. */
 ps_result film_add_reflected(struct film *film, bool single_pass, struct error *error);
+
+/* Lets it tell gloss from diffuse surfaces. */
+ps_result film_add_gloss(struct film *film, struct error *error);
 
 void film_release(struct film *film);
 size_t film_bytes(const struct film *film);

@@ -148,7 +148,7 @@ void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throu
 }
 
 void gbuffer_store_glossy(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,
-                          ps_rgb reflectance, float travelled)
+                          ps_rgb reflectance, float gloss, float travelled)
 {
     assert(lane < PS_TILE_PIXELS);
     if (glossy->depth[lane] > 0.0f)
@@ -162,6 +162,7 @@ void gbuffer_store_glossy(struct glossy_tile *glossy, uint32_t lane, const ps_hi
     glossy->position_x[lane] = hit->position.x;
     glossy->position_y[lane] = hit->position.y;
     glossy->position_z[lane] = hit->position.z;
+    glossy->gloss[lane] = gloss;
     glossy->depth[lane] = travelled;
 }
 

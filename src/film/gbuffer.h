@@ -20,6 +20,7 @@ struct glossy_tile {
         reflectance_b[PS_TILE_PIXELS]; /* by all lobes, and of the way from there to the camera */
     float normal_x[PS_TILE_PIXELS], normal_y[PS_TILE_PIXELS], normal_z[PS_TILE_PIXELS];
     float position_x[PS_TILE_PIXELS], position_y[PS_TILE_PIXELS], position_z[PS_TILE_PIXELS];
+    float gloss[PS_TILE_PIXELS]; /* share of the reflectance that is not diffuse */
     float depth[PS_TILE_PIXELS]; /* 0: met none */
 };
 
@@ -81,9 +82,10 @@ void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t tile);
 void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throughput,
                    float travelled);
 
-/* Notes a glossy surface of a lane that met none before, and what it reflects with the way to the camera. */
+/* Notes a glossy surface of a lane that met none before, what it reflects with the way to the camera, and the share
+ * of that which is gloss. */
 void gbuffer_store_glossy(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,
-                          ps_rgb reflectance, float travelled);
+                          ps_rgb reflectance, float gloss, float travelled);
 
 /* Whether no lane of a tile sees anything. */
 bool gbuffer_sees_nothing(const ps_tile *tile);

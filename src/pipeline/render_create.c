@@ -47,6 +47,12 @@ static bool wants_surfaces(const struct render_settings *settings)
            settings->strategies[PS_DENOISER].type->table.denoiser.filter != NULL;
 }
 
+static ps_result create_gloss(struct render *render, struct error *error)
+{
+    ps_result result = gbuffer_prepare_glossy(&render->gbuffer, error);
+    return result == PS_OK ? film_add_gloss(&render->film, error) : result;
+}
+
 /* Halves of the direct light tell its noise from an edge. */
 static ps_result create_edges(struct render *render, struct error *error)
 {
@@ -110,7 +116,7 @@ ps_result render_create(struct render *render, struct error *error)
         result = film_create(scene->width, scene->height, wants_surfaces(render->settings),
                              &render->film, error);
     if (result == PS_OK && scene->microfacets && wants_surfaces(render->settings))
-        result = gbuffer_prepare_glossy(&render->gbuffer, error);
+        result = create_gloss(render, error);
     if (result == PS_OK && render->settings->discontinuity_buffer && scene->has_area_lights)
         result = gbuffer_prepare_join(&render->gbuffer, error);
     if (result == PS_OK && render->settings->aa_samples > 1)

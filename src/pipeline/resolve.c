@@ -275,6 +275,7 @@ static ps_image_view image_of(const struct render *render, struct rgb_planes ind
         .odd_r = halves->odd.r,
         .odd_g = halves->odd.g,
         .odd_b = halves->odd.b,
+        .gloss = planes[FILM_GLOSS],
     };
 }
 

@@ -133,8 +133,10 @@ static void note_chance(const struct view_pass *pass, uint32_t tile,
         return;
     ps_rgb reflectance = material_reflectance(&scene->materials[hit->material], scene->microfacets,
                                               hit, paths->rays[i].direction);
+    float diffuse = ps_luminance(hit->albedo), all = ps_luminance(reflectance);
     gbuffer_store_glossy(&gbuffer->glossy[tile], lane, hit,
-                         ps_rgb_multiply(paths->throughput[i], reflectance), paths->travelled[i]);
+                         ps_rgb_multiply(paths->throughput[i], reflectance),
+                         all > 0.0f ? 1.0f - diffuse / all : 1.0f, paths->travelled[i]);
 }
 
 /* Sends the paths on, or ends them at the diffuse lobe of a surface that has others too. */

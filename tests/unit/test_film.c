@@ -322,9 +322,10 @@ static void test_half_of_a_single_pass(void **state)
 static void meet_gloss(uint32_t lane)
 {
     ps_hit hit = {.position = {2, 2, 2}, .normal = {0, 1, 0}};
-    gbuffer_store_glossy(&bench.gbuffer.glossy[0], lane, &hit, (ps_rgb){0.5f, 0.5f, 0.5f}, 8);
+    gbuffer_store_glossy(&bench.gbuffer.glossy[0], lane, &hit, (ps_rgb){0.5f, 0.5f, 0.5f}, 0.75f,
+                         8);
     hit.position.x = 99; /* a second one does not count */
-    gbuffer_store_glossy(&bench.gbuffer.glossy[0], lane, &hit, (ps_rgb){1, 1, 1}, 99);
+    gbuffer_store_glossy(&bench.gbuffer.glossy[0], lane, &hit, (ps_rgb){1, 1, 1}, 0, 99);
     bench.gbuffer.emitted[lane] = (ps_rgb){3, 3, 3};
 }
 
@@ -335,6 +336,7 @@ static void test_first_glossy_surface(void **state)
     struct error error;
     assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
     assert_int_equal(film_add_reflected(&bench.film, true, &error), PS_OK);
+    assert_int_equal(film_add_gloss(&bench.film, &error), PS_OK);
     gbuffer_clear_tile(&bench.gbuffer, 0);
     for (uint32_t lane = 0; lane < 2; lane++)
         see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[lane], lane, 1);
@@ -347,11 +349,13 @@ static void test_first_glossy_surface(void **state)
     double reflected = 0.5 / PI * 5;
     expect(FILM_POSITION_X, 0, 0, 1);
     expect(FILM_REFLECTED_R, 0, 0, reflected);
+    expect(FILM_GLOSS, 0, 0, 0);
     for (uint32_t x = 1; x <= 2; x++) {
         expect(FILM_POSITION_X, x, 0, 2);
         expect(FILM_NORMAL_Y, x, 0, 1);
         expect(FILM_ALBEDO_G, x, 0, 0.5);
         expect(FILM_DEPTH, x, 0, 8);
+        expect(FILM_GLOSS, x, 0, 0.75);
         expect(FILM_COVERAGE, x, 0, x == 1);
         expect(FILM_COLOR_R, x, 0, x == 1 ? 0.5 / PI : 0);
         expect(FILM_REFLECTED_R, x, 0, 3 + (x == 1 ? reflected : 0));
@@ -361,24 +365,26 @@ static void test_first_glossy_surface(void **state)
     assert_true(bench.gbuffer.glossy[0].depth[1] == 0);
 }
 
-/* Of a pixel's samples of which one met gloss, the second half is in `odd`. */
+/* Of a pixel's samples the second half is in `odd` if all met gloss; else half of the shadow rays. */
 static void test_halves_of_glossy_samples(void **state)
 {
     (void)state;
     struct error error;
-    double mean = 0.5 / PI * 5 * (1 + 2 + 3 + 4 + 5) / 5 + 3.0 / 5;
+    double mean = 0.5 / PI * 5 * (1 + 2 + 3 + 4 + 5) / 5 + 3;
     assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
     assert_int_equal(gbuffer_prepare_direct_half(&bench.gbuffer, &error), PS_OK);
     assert_int_equal(film_add_reflected(&bench.film, true, &error), PS_OK);
     gbuffer_clear_tile(&bench.gbuffer, 0);
     for (uint32_t lane = 0; lane < 5; lane++)
         see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[lane], lane, (float)(1 + lane));
+    for (uint32_t lane = 1; lane < 5; lane++)
+        meet_gloss(lane);
     film_add_samples(&bench.film, &bench.gbuffer, 0, 5, 0.2f, 2, 0);
-    expect_in(bench.film.odd, FILM_REFLECTED_R, 2, 0, 0); /* half of the shadow rays: none lit */
-    meet_gloss(4);
+    expect_in(bench.film.odd, FILM_REFLECTED_R, 2, 0, 3.0 * 4 / 5); /* no shadow rays lit */
+    meet_gloss(0);
     film_add_samples(&bench.film, &bench.gbuffer, 0, 5, 0.2f, 1, 0);
     expect(FILM_REFLECTED_R, 1, 0, mean);
-    expect_in(bench.film.odd, FILM_REFLECTED_R, 1, 0, 0.5 / PI * 5 * (3 + 4 + 5) / 3 + 3.0 / 3);
+    expect_in(bench.film.odd, FILM_REFLECTED_R, 1, 0, 0.5 / PI * 5 * (3 + 4 + 5) / 3 + 3);
 }
 
 static void test_clear_indirect(void **state)

@@ -8,15 +8,17 @@
 #define WIDEST_OF_REST 24 /* bandwidth, in pixels */
 #define LANES 16
 #define MARGIN (REGRESSION_LARGEST + LANES)
-#define BLOCK 64       /* side of the squares of pixels that workers take */
-#define LEAST_FIT 0.5f /* weight of blended fits below which a pixel becomes a centre */
-#define RIDGE 1e-3f    /* of the slopes, of the fit's weight */
-#define ROOM 0.2f      /* D over R, in pixels' sizes */
+#define BLOCK 64         /* side of the squares of pixels that workers take */
+#define LEAST_FIT 0.5f   /* weight of blended fits below which a pixel becomes a centre */
+#define RIDGE 1e-3f      /* of the slopes, of the fit's weight */
+#define ROOM 0.2f        /* D over R, in pixels' sizes */
+#define MOST_GLOSS 0.25f /* G */
 
 /* A plane for each value: a + b u + c v. */
 struct regression_fit {
     float normal[3], position[3], u[3], v[3]; /* the tangent plane; u and v are over R */
     float height_scale;                       /* 1 / D^2 */
+    float gloss;
     float plane[REGRESSION_VALUES][3];
     int x, y;
     bool valid; /* its centre shows a surface */
@@ -74,6 +76,7 @@ static void set_tangent_plane(const struct work *work, size_t at, struct regress
         fit->v[i] = vs[i];
     }
     fit->height_scale = 1.0f / (distance * distance);
+    fit->gloss = to->gloss[at];
 }
 
 /* max(s, 0) without a comparison, which keeps compilers from making vectors. */
@@ -89,6 +92,7 @@ static inline void weigh(const struct regression *to, const struct regression_fi
     const float *restrict nx = to->normal[0] + from, *restrict px = to->position[0] + from;
     const float *restrict ny = to->normal[1] + from, *restrict py = to->position[1] + from;
     const float *restrict nz = to->normal[2] + from, *restrict pz = to->position[2] + from;
+    const float *restrict gloss = to->gloss + from;
     float bend_scale = to->bend_scale, height_scale = fit->height_scale;
     for (int i = 0; i < LANES; i++) {
         float dx = px[i] - fit->position[0];
@@ -98,8 +102,10 @@ static inline void weigh(const struct regression *to, const struct regression_fi
         float over = dx * fit->normal[0] + dy * fit->normal[1] + dz * fit->normal[2];
         float under = dx * nx[i] + dy * ny[i] + dz * nz[i];
         float bend = above_zero(1.0f - (1.0f - cosine) * bend_scale);
-        float height = above_zero(1.0f - (over * over + under * under) * height_scale);
-        weight[i] = bend * bend * height * height;
+        float other = (gloss[i] - fit->gloss) * (1.0f / MOST_GLOSS);
+        float like =
+            above_zero(1.0f - (over * over + under * under) * height_scale - other * other);
+        weight[i] = bend * bend * like * like;
         u[i] = dx * fit->u[0] + dy * fit->u[1] + dz * fit->u[2];
         v[i] = dx * fit->v[0] + dy * fit->v[1] + dz * fit->v[2];
     }

@@ -29,12 +29,14 @@ static void choose_guides(struct gather *gather)
         gather->guide_of[i] = choose_guide(gather, gather->points.normals[i]);
 }
 
-/* `learns`: whether more rays will be drawn by what this sample found. */
-static void end_sample(struct gather *gather, bool learns)
+/* `learns`: whether more rays will be drawn by what this sample found; `half`: whether it is of the first half. */
+static void end_sample(struct gather *gather, bool learns, bool half)
 {
     for (size_t i = 0; i < gather->points.count; i++) {
         ps_rgb found = gather->found[i];
         gather->irradiance[i] = ps_rgb_add(gather->irradiance[i], found);
+        if (half)
+            gather->half[i] = ps_rgb_add(gather->half[i], found);
         gather->samples[i]++;
         if (!learns)
             continue;
@@ -160,7 +162,7 @@ static void add_light(struct gather *gather, uint32_t number, struct paths *path
         paths_add_direct(&setting->paths, number, paths, segment, gather->found);
 }
 
-static void take_sample(struct gather *gather, bool learns)
+static void take_sample(struct gather *gather, bool learns, bool half)
 {
     const struct paths_setting *setting = &gather->setting->paths;
     struct paths paths;
@@ -173,7 +175,7 @@ static void take_sample(struct gather *gather, bool learns)
         paths_draw_numbers(setting, number + 1, gather->samples, &paths, &segment);
         scatter_paths(gather, &paths, &segment);
     }
-    end_sample(gather, learns);
+    end_sample(gather, learns, half);
 }
 
 static uint64_t smaller(uint64_t a, uint64_t b)
@@ -195,7 +197,7 @@ static void take_rounds(struct gather *gather)
             gather->samples[i] = first + ps_lane_along_curve(gather->points.lanes[i]) * round;
         done += round;
         for (uint64_t sample = 0; sample < round; sample++)
-            take_sample(gather, done < all);
+            take_sample(gather, done < all, sample < round / 2);
         for (uint32_t i = 0; i < gather->guide_count && done < all; i++)
             guide_update(&gather->guides[i]);
     }
@@ -205,7 +207,9 @@ void gather_points(struct gather *gather)
 {
     choose_guides(gather);
     take_rounds(gather);
-    for (size_t i = 0; i < gather->points.count; i++)
-        gather->irradiance[i] =
-            ps_rgb_scale(gather->irradiance[i], 1.0f / (float)gather->setting->samples);
+    float samples = (float)gather->setting->samples;
+    for (size_t i = 0; i < gather->points.count; i++) {
+        gather->irradiance[i] = ps_rgb_scale(gather->irradiance[i], 1.0f / samples);
+        gather->half[i] = ps_rgb_scale(gather->half[i], 2.0f / samples);
+    }
 }

@@ -27,6 +27,7 @@ struct gather {
     uint64_t index; /* of the group, among all that draw random numbers: a tile's own */
     ps_points points;
     ps_rgb irradiance[PS_TILE_PIXELS]; /* W/m^2, of each point: the result */
+    ps_rgb half[PS_TILE_PIXELS];       /* the same by the first half of each round's samples */
     /* Of the sample under way: its index, what it found, its first direction, and random numbers for lookups. */
     uint64_t samples[PS_TILE_PIXELS];
     ps_rgb found[PS_TILE_PIXELS];
@@ -37,7 +38,7 @@ struct gather {
     struct guide guides[GATHER_GUIDES];
 };
 
-/* Fills in `irradiance`; setting, index and points are given, the rest is 0. Any thread. */
+/* Fills in `irradiance` and `half`; setting, index and points are given, the rest is 0. Any thread. */
 void gather_points(struct gather *gather);
 
 #endif

@@ -7,8 +7,8 @@
 #define LARGEST 0.25f   /* side of the largest cubes, in radii of the scene */
 #define BY_LENGTH 0.15f /* side of a cube, in lengths of the ray */
 #define MOST_BY_LENGTH 0.6f
-#define CAUTION 3.0 /* c of shrunk() */
-#define ENOUGH 2    /* surfels of a cube that is not the last one asked */
+#define GROUPS_AROUND 4 /* to each side, in the order of surfels */
+#define ENOUGH 2        /* surfels of a cube that is not the last one asked */
 
 struct surfel_cell {
     uint64_t key; /* 0: none */
@@ -153,52 +153,96 @@ static double value(ps_rgb colour, int c)
     return (double)*channel(&colour, c);
 }
 
-/* The ratio of what paths and splats find in n surfels, and the variance of that estimate (Cochran 1977, ch. 6). */
-struct ratio {
-    double mean, variance;
+/* Surfels near each other, and what their splats and paths say of one channel. */
+struct group {
+    ps_rgb *splatted;
+    const ps_rgb *traced, *half;
+    size_t n;
+    /* Variance of the paths' noise, and mean square of what splats and paths differ by, over the square of the mean. */
+    double noise, difference;
 };
 
-static struct ratio ratio_of(const ps_rgb *splatted, const ps_rgb *traced, size_t n, int c)
+static struct group group_at(const struct surfels *surfels, const ps_rgb *traced,
+                             const ps_rgb *half, size_t index)
 {
-    double by_splats = 0.0, by_paths = 0.0, variance = 0.0;
-    for (size_t i = 0; i < n; i++) {
-        by_splats += value(splatted[i], c);
-        by_paths += value(traced[i], c);
-    }
-    if (!(by_splats > 0.0))
-        return (struct ratio){1.0, 0.0};
-    double mean = by_paths / by_splats;
-    for (size_t i = 0; i < n; i++) {
-        double rest = value(traced[i], c) - mean * value(splatted[i], c);
-        variance += rest * rest;
-    }
-    return (struct ratio){mean, variance / (by_splats * by_splats)};
+    size_t first = index * SURFELS_GROUP, left = surfels->count - first;
+    return (struct group){
+        .splatted = surfels->irradiance + first,
+        .traced = traced + first,
+        .half = half + first,
+        .n = left < SURFELS_GROUP ? left : SURFELS_GROUP,
+    };
 }
 
-/* A group's splats are multiplied by its ratio t as far as that differs from all surfels' ratio a by more than noise:
- *
- *     a + max(0, 1 - c s^2 / (t - a)^2) (t - a)
- *
- * with s^2 the variance of t, the shrinking of James and Stein 1961. Few paths find light that is hard to find, and
- * seem to have less noise than they have; hence c > 1. */
-static double shrunk(struct ratio group, double all)
+/* Multiplies a group's splats by the ratio of what its paths and splats find. */
+static void scale_splats(const struct group *group, int c)
 {
-    double off = group.mean - all, noise = CAUTION * group.variance;
-    return off * off > noise ? all + (1.0 - noise / (off * off)) * off : all;
+    double by_splats = 0.0, by_paths = 0.0;
+    for (size_t i = 0; i < group->n; i++) {
+        by_splats += value(group->splatted[i], c);
+        by_paths += value(group->traced[i], c);
+    }
+    float ratio = by_splats > 0.0 ? (float)(by_paths / by_splats) : 1.0f;
+    for (size_t i = 0; i < group->n; i++)
+        *channel(&group->splatted[i], c) *= ratio;
 }
 
-void surfels_correct(struct surfels *surfels, const ps_rgb *traced)
+static void compare(struct group *group, int c)
 {
+    double sum = 0.0, noise = 0.0, difference = 0.0;
+    for (size_t i = 0; i < group->n; i++) {
+        double by_paths = value(group->traced[i], c);
+        double off = value(group->half[i], c) - by_paths;
+        double rest = value(group->splatted[i], c) - by_paths;
+        noise += off * off;
+        difference += rest * rest;
+        sum += by_paths;
+    }
+    group->noise = sum > 0.0 ? noise / (sum * sum) : 0.0;
+    group->difference = sum > 0.0 ? difference / (sum * sum) : 0.0;
+}
+
+/* The weight of splats in the mean of both, each weighted by the other's variance: what they differ by, of which the
+ * paths' noise is known. From the groups around, too: a group whose paths have found a light by luck must not be told
+ * from its noise alone, or such light would be lost. */
+static float weight_of_splats(const struct group *groups, size_t count, size_t index)
+{
+    size_t from = index > GROUPS_AROUND ? index - GROUPS_AROUND : 0;
+    double noise = 0.0, difference = 0.0;
+    for (size_t i = from; i < count && i <= index + GROUPS_AROUND; i++) {
+        noise += groups[i].noise;
+        difference += groups[i].difference;
+    }
+    return difference > noise ? (float)(noise / difference) : 1.0f;
+}
+
+static void mix(const struct group *group, float weight, int c)
+{
+    for (size_t i = 0; i < group->n; i++) {
+        float *irradiance = channel(&group->splatted[i], c);
+        float by_paths = (float)value(group->traced[i], c);
+        *irradiance = weight * *irradiance + (1.0f - weight) * by_paths;
+    }
+}
+
+ps_result surfels_correct(struct surfels *surfels, const ps_rgb *traced, const ps_rgb *half)
+{
+    const ps_host *host = surfels->host;
+    size_t count = (surfels->count + SURFELS_GROUP - 1) / SURFELS_GROUP;
+    struct group *groups = host->allocate(host, count * sizeof *groups, "surfels");
+    if (!groups)
+        return PS_ERROR_MEMORY;
     for (int c = 0; c < 3; c++) {
-        struct ratio all = ratio_of(surfels->irradiance, traced, surfels->count, c);
-        for (size_t first = 0; first < surfels->count; first += SURFELS_GROUP) {
-            size_t left = surfels->count - first, n = left < SURFELS_GROUP ? left : SURFELS_GROUP;
-            ps_rgb *splatted = surfels->irradiance + first;
-            double ratio = shrunk(ratio_of(splatted, traced + first, n, c), all.mean);
-            for (size_t i = 0; i < n; i++)
-                *channel(&splatted[i], c) *= (float)ratio;
+        for (size_t i = 0; i < count; i++) {
+            groups[i] = group_at(surfels, traced, half, i);
+            scale_splats(&groups[i], c);
+            compare(&groups[i], c);
         }
+        for (size_t i = 0; i < count; i++)
+            mix(&groups[i], weight_of_splats(groups, count, i), c);
     }
+    host->release(host, groups);
+    return PS_OK;
 }
 
 /* --- the table --- */

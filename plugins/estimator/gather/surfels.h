@@ -33,8 +33,10 @@ ps_result surfels_find(const ps_host *host, const ps_pass *pass, uint32_t rays,
 /* Surfels that are corrected together. */
 enum { SURFELS_GROUP = 64 };
 
-/* Corrects the irradiance by that of paths, without bias but with noise. */
-void surfels_correct(struct surfels *surfels, const ps_rgb *traced);
+/* Corrects the surfels' irradiance, which is that of splats: smooth, but blotched, and a few percent too dark or too
+ * bright where kernels are wide. `traced` is right on average, with noise: the irradiance by paths; `half` is that by the
+ * first half of each surfel's paths, which tells the noise. PS_ERROR_MEMORY: nothing happened. */
+ps_result surfels_correct(struct surfels *surfels, const ps_rgb *traced, const ps_rgb *half);
 
 /* Makes the table, when the irradiance is set. */
 ps_result surfels_build(struct surfels *surfels);
