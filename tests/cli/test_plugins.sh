@@ -160,7 +160,7 @@ chosen visibility "shadowmap:radius=1,$shadowmap,resolution=2,bias=3" \
 # Where the scene says nothing, the default is laid over.
 chosen denoiser "none" -p denoiser=none $scene
 chosen denoiser "gaussian:size=7x7" -p denoiser=gaussian:size=7x7 $scene
-chosen injection "photon:count=50,roulette=3,split=auto" -p injection=photon:roulette=3 $scene
+chosen injection "photon:count=50,roulette=3,split=auto,caustics=8" -p injection=photon:roulette=3 $scene
 
 # --- each strategy makes another picture than the default ---
 

@@ -81,21 +81,42 @@ static const char mirror_text[] = SCENE_HEAD
     "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: mirror}\n"
     "  - quad: {corners: [[-9, 3, 9], [9, 3, 9], [9, 3, -9], [-9, 3, -9]], material: white}\n";
 
+static size_t count_mirrored(const struct injected *injected, uint32_t bounce)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < injected->count; k++)
+        count += injected->photons[k].lobe == PS_SPECULAR && injected->photons[k].bounce == bounce;
+    return count;
+}
+
+/* From the ceiling, which the light reaches by the mirror. */
 static void test_a_mirror_leaves_one_photon(void **state)
 {
     (void)state;
-    struct injected one = inject_text(mirror_text, "photon:count=1000,split=1 bounces=1", 0, 2);
-    struct injected four = inject_text(mirror_text, "photon:count=1000,split=4 bounces=1", 0, 2);
-    size_t mirrored[2] = {0, 0};
-    for (size_t k = 0; k < one.count; k++)
-        mirrored[0] += one.photons[k].lobe == PS_SPECULAR;
-    for (size_t k = 0; k < four.count; k++)
-        mirrored[1] += four.photons[k].lobe == PS_SPECULAR && four.photons[k].bounce == 0;
-    assert_true(mirrored[0] > 990);
-    assert_true(mirrored[1] == 250);
+    struct injected one = inject_text(mirror_text, "photon:count=8000,split=1 bounces=1", 0, 2);
+    struct injected four = inject_text(mirror_text, "photon:count=8000,split=4 bounces=1", 0, 2);
+    double times = (double)count_mirrored(&one, 1) / (double)count_mirrored(&four, 1);
+    assert_true(times > 3.6 && times < 4.4);
     expect_power("behind a mirror", power_of(&four), power_of(&one), 0.02);
     injected_release(&one);
     injected_release(&four);
+}
+
+/* Eight walks for each path, which leave nothing else. */
+static void test_caustics_have_walks_of_their_own(void **state)
+{
+    (void)state;
+    struct injected few =
+        inject_text(mirror_text, "photon:count=1000,split=1,caustics=1 bounces=1", 0, 2);
+    struct injected many =
+        inject_text(mirror_text, "photon:count=1000,split=1,caustics=8 bounces=1", 0, 2);
+    size_t caustics = count_mirrored(&many, 0);
+    assert_true(count_mirrored(&few, 0) > 990 && count_mirrored(&few, 0) <= 1000);
+    assert_true(caustics > 7920 && caustics <= 8000);
+    assert_int_equal(many.count - caustics, few.count - count_mirrored(&few, 0));
+    expect_power("of caustics", power_of(&many), power_of(&few), 0.01);
+    injected_release(&few);
+    injected_release(&many);
 }
 
 /* All bounces: where walks end by roulette, too. */
@@ -129,6 +150,7 @@ int main(void)
         cmocka_unit_test(test_paths_of_a_walk_share_its_place),
         cmocka_unit_test(test_walks_that_runs_cut),
         cmocka_unit_test(test_a_mirror_leaves_one_photon),
+        cmocka_unit_test(test_caustics_have_walks_of_their_own),
         SLOW_TEST(test_power_does_not_depend_on_it),
         cmocka_unit_test(test_bumps),
     };
