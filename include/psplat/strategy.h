@@ -186,6 +186,9 @@ typedef struct ps_image_view {
     const float *even_r, *even_g, *even_b, *odd_r, *odd_g, *odd_b;
     /* Since 1.3: the share of the albedo that is not diffuse, but gloss that mirrors by chance. NULL: none anywhere. */
     const float *gloss;
+    /* Since 1.3: to be filled in where it is not NULL, which takes PS_DENOISER_ERROR: how far the mean of a pixel's three
+     * channels is likely to be off, noise and blur together, in W/(m^2 sr). It is 0 before. */
+    float *error;
 } ps_image_view;
 
 #define PS_DENOISER_IDS 1u    /* ps_image_view.object and material are there */
@@ -195,6 +198,8 @@ typedef struct ps_image_view {
  * passes or of a pixel's camera samples. Not where neither has noise, nor where the scene asks for one ray and one
  * pass, or for the discontinuity buffer. */
 #define PS_DENOISER_DIRECT 4u
+
+#define PS_DENOISER_ERROR 8u /* since 1.3: filter() fills in ps_image_view.error */
 
 typedef struct ps_denoiser_vtable {
     uint32_t size;

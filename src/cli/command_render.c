@@ -254,6 +254,18 @@ static bool wants_layers(const struct job *job)
     return wanted && strcmp(job->layers, "none") != 0;
 }
 
+static bool denoiser_makes_layers(const struct job *job, const struct render_settings *settings)
+{
+    const struct strategy_type *denoiser = settings->strategies[PS_DENOISER].type;
+    if (!layers_name(job->layers, "error") || denoiser->table.denoiser.flags & PS_DENOISER_ERROR)
+        return true;
+    fprintf(stderr,
+            "psplat: error: --layers: denoiser '%s' does not estimate its error; "
+            "denoiser=regression does\n",
+            denoiser->name);
+    return false;
+}
+
 static int load_and_render(struct job *job)
 {
     struct scene_input input;
@@ -263,7 +275,8 @@ static int load_and_render(struct job *job)
         if (job->passes > 0)
             settings.passes = (uint32_t)job->passes;
         settings.picture_alone = !wants_layers(job);
-        status = render_job(job, &input, &settings);
+        if (denoiser_makes_layers(job, &settings))
+            status = render_job(job, &input, &settings);
         settings_release(&settings);
     }
     scene_input_release(&input);

@@ -31,19 +31,27 @@ bool layers_check(const char *list)
     return true;
 }
 
-/* Of channel "N.X" the layer is N. */
-static bool keeps(const void *list, const char *channel)
+static bool is_named(const char *list, const char *layer, size_t length)
 {
-    const char *rest = list, *name;
-    size_t length = strcspn(channel, ".");
-    if (!render_makes_layer(channel, length))
-        return true;
-    while (*rest) {
-        size_t name_length = next_name(&rest, &name);
-        if (name_length == length && strncmp(name, channel, length) == 0)
+    const char *name;
+    while (*list) {
+        size_t name_length = next_name(&list, &name);
+        if (name_length == length && strncmp(name, layer, length) == 0)
             return true;
     }
     return false;
+}
+
+bool layers_name(const char *list, const char *layer)
+{
+    return is_named(list, layer, strlen(layer));
+}
+
+/* Of channel "N.X" the layer is N. */
+static bool keeps(const void *list, const char *channel)
+{
+    size_t length = strcspn(channel, ".");
+    return !render_makes_layer(channel, length) || is_named(list, channel, length);
 }
 
 void layers_keep(struct image *image, const char *list)

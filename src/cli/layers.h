@@ -12,6 +12,9 @@
 /* Whether it is a list of layers that pictures have; if not, says so on stderr. */
 bool layers_check(const char *list);
 
+/* Whether a list names that layer; `all` names none. */
+bool layers_name(const char *list, const char *layer);
+
 /* Takes what the list, checked before, does not name out of a picture. */
 void layers_keep(struct image *image, const char *list);
 

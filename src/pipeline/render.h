@@ -23,7 +23,7 @@ double render_bytes(size_t width, size_t height);
 ps_result render_check_memory(size_t width, size_t height, struct error *error);
 
 /* The layers of a picture, beside R, G and B. */
-#define RENDER_LAYERS "albedo, direct, indirect, N, P, weight, Z"
+#define RENDER_LAYERS "albedo, direct, error, indirect, N, P, weight, Z"
 
 /* Whether the first `length` characters of `name` are that of a layer. */
 bool render_makes_layer(const char *name, size_t length);

@@ -26,7 +26,8 @@ static bool is_layer_of(const char *channel, const char *name, size_t length)
 
 bool render_makes_layer(const char *name, size_t length)
 {
-    bool found = length > 0 && is_layer_of("indirect", name, length);
+    bool found =
+        length > 0 && (is_layer_of("indirect", name, length) || is_layer_of("error", name, length));
     for (size_t i = 0; i < sizeof layers / sizeof layers[0] && length > 0; i++)
         found |= is_layer_of(layers[i].name, name, length);
     return found;
@@ -242,8 +243,9 @@ static ps_result make_halves(struct render *render, struct halves *halves, struc
     return result;
 }
 
+/* `error`: see ps_image_view; NULL where nobody asks. */
 static ps_image_view image_of(const struct render *render, struct rgb_planes indirect,
-                              const struct halves *halves)
+                              const struct halves *halves, float *error)
 {
     const struct film *film = &render->film;
     float *const *planes = film->planes;
@@ -276,16 +278,17 @@ static ps_image_view image_of(const struct render *render, struct rgb_planes ind
         .odd_g = halves->odd.g,
         .odd_b = halves->odd.b,
         .gloss = planes[FILM_GLOSS],
+        .error = error,
     };
 }
 
 /* Needs room for a copy of the light. */
 static ps_result denoise(struct render *render, struct rgb_planes indirect, struct rgb_planes copy,
-                         const struct halves *halves, struct error *error)
+                         const struct halves *halves, float *estimate, struct error *error)
 {
     const struct strategy *strategy = strategy_in(render, PS_DENOISER);
     const ps_denoiser_vtable *table = &strategy->type->table.denoiser;
-    ps_image_view view = image_of(render, indirect, halves);
+    ps_image_view view = image_of(render, indirect, halves, estimate);
     if (!table->filter)
         return PS_OK;
     double start = clock_seconds();
@@ -299,6 +302,15 @@ static ps_result denoise(struct render *render, struct rgb_planes indirect, stru
     }
     copy_rgb(render, copy, indirect);
     return leave_out(render, PS_DENOISER, result, "is not denoised", error);
+}
+
+/* Room for the denoiser's estimate of its error, where it makes one and somebody wants layers; without room there is
+ * none. */
+static float *create_estimate(const struct render *render)
+{
+    uint32_t flags = strategy_in(render, PS_DENOISER)->type->table.denoiser.flags;
+    bool wanted = flags & PS_DENOISER_ERROR && !render->settings->picture_alone;
+    return wanted ? calloc(pixels_of(render), sizeof(float)) : NULL;
 }
 
 static struct rgb_planes reflected_of(const struct film *film)
@@ -347,7 +359,7 @@ static ps_result denoise_direct(struct render *render, struct rgb_planes copy, s
                          error_memory(error, 3 * pixels * sizeof *even, "half of the direct light"),
                          "is not denoised", error);
     const struct halves halves = halves_of_reflected(film, even);
-    ps_result result = denoise(render, reflected, copy, &halves, error);
+    ps_result result = denoise(render, reflected, copy, &halves, NULL, error);
     free(even);
     if (result != PS_OK)
         return result;
@@ -387,14 +399,20 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
     struct halves halves;
     ps_result halved = make_halves(render, &halves, error);
     film_average(&render->film);
+    float *estimate = create_estimate(render);
     ps_result denoised = halved == PS_OK
-                             ? denoise(render, indirect, picture, &halves, error)
+                             ? denoise(render, indirect, picture, &halves, estimate, error)
                              : leave_out(render, PS_DENOISER, halved, "is not denoised", error);
     free(halves.light);
     if (denoised == PS_OK)
         denoised = denoise_direct(render, picture, error);
     combine(render, indirect, picture);
     result = move_film_layers(&render->film, image, error);
+    if (result == PS_OK && estimate && denoised == PS_OK) {
+        result = image_adopt_channel(image, "error", estimate, error);
+        estimate = result == PS_OK ? NULL : estimate;
+    }
+    free(estimate);
     statistics_add_seconds(render->statistics, "resolve", clock_seconds() - start);
     if (result != PS_OK) {
         image_release(image);

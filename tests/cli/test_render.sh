@@ -117,6 +117,11 @@ for name in $names; do
     run 0 info layers.exr
     [ "$(channels | tr ' ' '\n' | sed '/^[RGB]$/d; s/\..*//' | sort -u)" = "$name" ] || fail "--layers $name: $(channels)"
 done
+run 0 $small --layers error -p denoiser=regression -o layers.exr "$cornell"
+run 0 info layers.exr
+[ "$(channels)" = "B G R error" ] || fail "--layers error: $(channels)"
+run 2 $small --layers Z,error -p denoiser=bilateral -o layers.exr "$cornell"
+expect_text err "denoiser 'bilateral' does not estimate its error; denoiser=regression does"
 run 2 --layers nothing "$cornell"
 for name in $names; do
     expect_match err "expected .* $name[, ]"
