@@ -16,14 +16,19 @@
  * Light that only mirrors, glass and gloss stand between a lamp and x sharpen, caustics, rays would find by chance
  * alone: it stays with photons, which are splatted onto the pixels.
  *
- * Rays are drawn where those before them found light (guide.h), in rounds. A tile's rays of a round share a run of the
- * Sobol sequence along a Z curve, as in pathtrace.c.
+ * Rays are drawn where those before them found light (guide.h), in rounds, and more of them in tiles whose first round
+ * asks for it (allocation.h). A tile's rays of a round share a run of the Sobol sequence along a Z curve, as in
+ * pathtrace.c.
  */
+#include "gather/allocation.h"
 #include "gather/rays.h"
+
+#include <string.h>
 
 #define MOST_PATHS 32       /* of a surfel, by default */
 #define FEWEST_SURFELS 2000 /* of a picture */
 #define THINNED_TOGETHER 4  /* paths */
+#define MOST_OF_SAMPLES 4   /* times the samples, that a tile takes at most */
 
 struct state {
     int64_t samples;
@@ -31,6 +36,7 @@ struct state {
     int64_t thinning;
     ps_number_or_choice paths;
     int64_t roulette;
+    int32_t adaptive;
 };
 
 struct work {
@@ -39,6 +45,10 @@ struct work {
     struct surfels surfels;
     /* When they are corrected: the surfels' irradiance by paths, and by the first half of each one's paths. */
     ps_rgb *traced, *half;
+    /* When tiles take samples by their need: what the first round found in each, and how many it takes. */
+    struct first_round *first_rounds;
+    struct tile_pilot *pilots;
+    uint32_t *allocated;
 };
 
 /* --- photons --- */
@@ -129,10 +139,12 @@ static void trace_group(void *user, uint64_t index, uint32_t worker)
         gather.points.lanes[i] = i;
         gather.points.count++;
     }
-    gather_points(&gather);
+    gather_begin(&gather);
+    gather_samples(&gather, work->setting.most);
+    float share = 1.0f / (float)work->setting.most;
     for (size_t i = 0; i < gather.points.count; i++) {
-        work->traced[first + i] = gather.irradiance[i];
-        work->half[first + i] = gather.half[i];
+        work->traced[first + i] = ps_rgb_scale(gather.irradiance[i], share);
+        work->half[first + i] = ps_rgb_scale(gather.half[i], 2.0f * share);
     }
 }
 
@@ -153,7 +165,7 @@ static ps_result correct_cache(struct work *work)
     pass.bounces -= pass.bounces != PS_ALL_BOUNCES; /* surfels are one surface on */
     correcting.setting = (struct gather_setting){
         .paths = {host, &pass, work->setting.paths.roulette},
-        .samples = paths_of_surfel(work->state),
+        .most = paths_of_surfel(work->state),
     };
     correcting.traced = host->allocate(host, 2 * count * sizeof(ps_rgb), "surfels");
     if (!correcting.traced)
@@ -204,19 +216,111 @@ static uint32_t surfels_of_tile(const struct state *state, const ps_pass *pass)
 
 /* --- the picture --- */
 
+/* What a tile's first round found, kept until it is known how many more samples it takes. */
+struct first_round {
+    ps_rgb irradiance[PS_TILE_PIXELS];
+    float found[GATHER_GUIDES][GUIDE_RINGS][GUIDE_SECTORS];
+};
+
+static bool begin_tile(const struct work *work, uint64_t index, struct gather *gather)
+{
+    const ps_host *host = work->setting.paths.host;
+    *gather = (struct gather){.setting = &work->setting, .index = index};
+    ps_collect_points(host->tile(host, (uint32_t)index), &gather->points);
+    if (gather->points.count > 0)
+        gather_begin(gather);
+    return gather->points.count > 0;
+}
+
+/* In the brightness that a pixel has of it. */
+static struct tile_pilot pilot_of(const struct gather *gather, const ps_tile *tile)
+{
+    float found[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
+    for (size_t i = 0; i < gather->points.count; i++) {
+        uint32_t lane = gather->points.lanes[i];
+        float albedo = ps_luminance((ps_rgb){tile->albedo_r[lane] * tile->throughput_r[lane],
+                                             tile->albedo_g[lane] * tile->throughput_g[lane],
+                                             tile->albedo_b[lane] * tile->throughput_b[lane]});
+        found[i] = albedo * ps_luminance(gather->irradiance[i]);
+        half[i] = 2.0f * albedo * ps_luminance(gather->half[i]);
+    }
+    return tile_pilot(gather->points.lanes, found, half, gather->points.count);
+}
+
+static void take_first_round(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    const ps_host *host = work->setting.paths.host;
+    struct first_round *first = &work->first_rounds[index];
+    struct gather gather;
+    work->pilots[index] = (struct tile_pilot){0};
+    if (!begin_tile(work, index, &gather))
+        return;
+    gather.goes_on = true;
+    gather_samples(&gather, GATHER_FIRST);
+    memcpy(first->irradiance, gather.irradiance, sizeof first->irradiance);
+    for (uint32_t i = 0; i < gather.guide_count; i++)
+        memcpy(first->found[i], gather.guides[i].found, sizeof first->found[i]);
+    work->pilots[index] = pilot_of(&gather, host->tile(host, (uint32_t)index));
+}
+
+static void resume(const struct first_round *first, struct gather *gather)
+{
+    memcpy(gather->irradiance, first->irradiance, sizeof first->irradiance);
+    for (uint32_t i = 0; i < gather->guide_count; i++)
+        memcpy(gather->guides[i].found, first->found[i], sizeof first->found[i]);
+    gather_update_guides(gather);
+    gather->done = GATHER_FIRST;
+}
+
 static void gather_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
     const ps_host *host = work->setting.paths.host;
     ps_tile *tile = host->tile(host, (uint32_t)index);
-    struct gather gather = {.setting = &work->setting, .index = index};
-    ps_collect_points(tile, &gather.points);
-    if (gather.points.count == 0)
+    uint64_t samples = work->allocated ? work->allocated[index] : (uint64_t)work->state->samples;
+    struct gather gather;
+    if (!begin_tile(work, index, &gather))
         return;
-    gather_points(&gather);
+    if (work->allocated)
+        resume(&work->first_rounds[index], &gather);
+    gather_samples(&gather, samples);
     for (size_t i = 0; i < gather.points.count; i++)
-        ps_add_irradiance(tile, gather.points.lanes[i], gather.irradiance[i]);
+        ps_add_irradiance(tile, gather.points.lanes[i],
+                          ps_rgb_scale(gather.irradiance[i], 1.0f / (float)samples));
+}
+
+/* The first round may have missed all that there is to be found in a tile: half of the samples are taken everywhere. */
+static ps_result share_out_samples(struct work *work, const ps_pass *pass)
+{
+    const ps_host *host = work->setting.paths.host;
+    size_t tiles = pass->tile_count;
+    work->first_rounds = host->allocate(host, tiles * sizeof *work->first_rounds, "first round");
+    work->pilots = host->allocate(host, tiles * sizeof *work->pilots, "first round");
+    work->allocated = host->allocate(host, tiles * sizeof *work->allocated, "first round");
+    if (!work->first_rounds || !work->pilots || !work->allocated)
+        return PS_ERROR_MEMORY;
+    ps_result result = host->for_each_tile(host, take_first_round, work);
+    uint64_t samples = (uint64_t)work->state->samples, half = samples / 2;
+    uint64_t least = half > GATHER_FIRST ? half : GATHER_FIRST;
+    if (result == PS_OK)
+        allocate_samples(work->pilots, tiles, least, samples, work->setting.most, work->allocated);
+    return result;
+}
+
+static ps_result gather_picture(struct work *work, const ps_pass *pass)
+{
+    const ps_host *host = work->setting.paths.host;
+    bool adapts = work->state->adaptive && work->state->samples > GATHER_FIRST;
+    ps_result result = adapts ? share_out_samples(work, pass) : PS_OK;
+    if (result == PS_OK)
+        result = host->for_each_tile(host, gather_tile, work);
+    host->release(host, work->first_rounds);
+    host->release(host, work->pilots);
+    host->release(host, work->allocated);
+    return result;
 }
 
 static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
@@ -225,7 +329,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     struct work work = {
         .state = state,
         .setting = {.paths = {host, pass, (uint32_t)state->roulette},
-                    .samples = (uint64_t)state->samples,
+                    .most = MOST_OF_SAMPLES * (uint64_t)state->samples,
                     .no_caustics = pass->specular != 0},
         .surfels = {.host = host},
     };
@@ -236,7 +340,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
         result = splat(&work);
     host->count(host, "surfels", (double)work.surfels.count);
     if (result == PS_OK)
-        result = host->for_each_tile(host, gather_tile, &work);
+        result = gather_picture(&work, pass);
     surfels_release(&work.surfels);
     return result;
 }
@@ -247,7 +351,7 @@ static const char *const automatic_choice[] = {"auto", NULL};
 
 static const ps_param params[] = {
     PS_ROW(struct state, samples, PS_PARAM_INT, "8", 1, 1 << 16, PS_PARAM_QUALITY, NULL, "rays",
-           "gather rays for each pixel and pass; powers of two are best"),
+           "gather rays for each pixel and pass, on average"),
     PS_ROW(struct state, surfels, PS_PARAM_INT, "32", 0, PS_TILE_PIXELS, PS_PARAM_EXPERT, NULL,
            "surfels",
            "surfels of the cache for each tile of 16x16 pixels; 0: none, as path tracing"),
@@ -259,6 +363,8 @@ static const ps_param params[] = {
                  "samples, at most 32; 0: none"),
     PS_ROW(struct state, roulette, PS_PARAM_INT, "3", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),
+    PS_ROW(struct state, adaptive, PS_PARAM_BOOL, "yes", 0, 1, PS_PARAM_EXPERT, NULL, "",
+           "give more samples to tiles that seem to need them"),
 };
 
 static const ps_estimator_vtable vtable = {

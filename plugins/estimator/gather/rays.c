@@ -1,6 +1,5 @@
 #include "rays.h"
 
-#define FIRST_ROUND 4    /* samples of each point */
 #define SAME_FACING 0.8f /* cosine of two normals that share a guide */
 
 /* --- guides --- */
@@ -178,38 +177,40 @@ static void take_sample(struct gather *gather, bool learns, bool half)
     end_sample(gather, learns, half);
 }
 
-static uint64_t smaller(uint64_t a, uint64_t b)
+void gather_update_guides(struct gather *gather)
 {
-    return a < b ? a : b;
+    for (uint32_t i = 0; i < gather->guide_count; i++)
+        guide_update(&gather->guides[i]);
+}
+
+static void take_round(struct gather *gather, uint64_t round, bool last)
+{
+    const struct gather_setting *setting = gather->setting;
+    uint64_t first =
+        (gather->index << 32) +
+        ((uint64_t)setting->paths.pass->number * setting->most + gather->done) * PS_TILE_PIXELS;
+    for (size_t i = 0; i < gather->points.count; i++)
+        gather->samples[i] = first + ps_lane_along_curve(gather->points.lanes[i]) * round;
+    for (uint64_t sample = 0; sample < round; sample++)
+        take_sample(gather, !last || gather->goes_on, sample < round / 2);
+    gather->done += round;
+}
+
+void gather_begin(struct gather *gather)
+{
+    choose_guides(gather);
 }
 
 /* Rounds of 4, 12, 48, ... samples, each drawn by what those before it found. Shorter ones would learn sooner, but the
  * samples of a round are stratified together, which is worth more. */
-static void take_rounds(struct gather *gather)
+void gather_samples(struct gather *gather, uint64_t samples)
 {
-    const struct gather_setting *setting = gather->setting;
-    uint64_t all = setting->samples, done = 0;
-    while (done < all) {
-        uint64_t round = smaller(done == 0 ? FIRST_ROUND : 3 * done, all - done);
-        uint64_t first = (gather->index << 32) +
-                         ((uint64_t)setting->paths.pass->number * all + done) * PS_TILE_PIXELS;
-        for (size_t i = 0; i < gather->points.count; i++)
-            gather->samples[i] = first + ps_lane_along_curve(gather->points.lanes[i]) * round;
-        done += round;
-        for (uint64_t sample = 0; sample < round; sample++)
-            take_sample(gather, done < all, sample < round / 2);
-        for (uint32_t i = 0; i < gather->guide_count && done < all; i++)
-            guide_update(&gather->guides[i]);
-    }
-}
-
-void gather_points(struct gather *gather)
-{
-    choose_guides(gather);
-    take_rounds(gather);
-    float samples = (float)gather->setting->samples;
-    for (size_t i = 0; i < gather->points.count; i++) {
-        gather->irradiance[i] = ps_rgb_scale(gather->irradiance[i], 1.0f / samples);
-        gather->half[i] = ps_rgb_scale(gather->half[i], 2.0f / samples);
+    while (gather->done < samples) {
+        uint64_t round = gather->done == 0 ? GATHER_FIRST : 3 * gather->done;
+        uint64_t left = samples - gather->done;
+        bool last = round >= left;
+        take_round(gather, last ? left : round, last);
+        if (!last)
+            gather_update_guides(gather);
     }
 }

@@ -15,9 +15,12 @@
 /* Guides of a group, one for each way that its surfaces face. */
 enum { GATHER_GUIDES = 4 };
 
+/* Samples of the first round, after which rays are guided. */
+enum { GATHER_FIRST = 4 };
+
 struct gather_setting {
     struct paths_setting paths;
-    uint64_t samples;            /* from each point */
+    uint64_t most; /* samples from each point, of any group: random numbers are counted by it */
     const struct surfels *cache; /* NULL: none */
     bool no_caustics;            /* on the points: somebody else adds them */
 };
@@ -26,8 +29,10 @@ struct gather {
     const struct gather_setting *setting;
     uint64_t index; /* of the group, among all that draw random numbers: a tile's own */
     ps_points points;
-    ps_rgb irradiance[PS_TILE_PIXELS]; /* W/m^2, of each point: the result */
-    ps_rgb half[PS_TILE_PIXELS];       /* the same by the first half of each round's samples */
+    uint64_t done; /* samples */
+    bool goes_on;  /* others will follow those that are asked for: they learn for them */
+    /* Sums over the samples of irradiance, W/m^2, at each point; `half` by the first half of each round. */
+    ps_rgb irradiance[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
     /* Of the sample under way: its index, what it found, its first direction, and random numbers for lookups. */
     uint64_t samples[PS_TILE_PIXELS];
     ps_rgb found[PS_TILE_PIXELS];
@@ -38,7 +43,13 @@ struct gather {
     struct guide guides[GATHER_GUIDES];
 };
 
-/* Fills in `irradiance` and `half`; setting, index and points are given, the rest is 0. Any thread. */
-void gather_points(struct gather *gather);
+/* Chooses guides, when setting, index and points are given and the rest is 0. */
+void gather_begin(struct gather *gather);
+
+/* Takes samples until `samples` are done, in rounds. Any thread. */
+void gather_samples(struct gather *gather, uint64_t samples);
+
+/* What samples before these found, by the guides' `found`, is what rays are drawn by from now on. */
+void gather_update_guides(struct gather *gather);
 
 #endif

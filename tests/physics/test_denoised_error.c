@@ -1,5 +1,5 @@
-/* test_error_estimate.c: the layer `error` of denoiser=regression is as large as the error is: against path tracing, whose
- * own noise two halves tell, within a factor of 1.5 over each picture.
+/* test_denoised_error.c: the error behind denoiser=regression, against path tracing, whose own noise two halves tell: the
+ * layer `error` says it within a factor of 1.5 over each picture, and adaptive sampling makes it less.
  */
 #include "support/render_scene.h"
 #include <math.h>
@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #define MOST_OFF 1.5
+#define SEEDS 4
 
 static const char room[] =
     "psd: 1\n"
@@ -73,17 +74,26 @@ static void truth_release(struct truth *truth)
     rendering_release(&truth->halves[1]);
 }
 
+/* Sum of the squared errors of a picture. */
+static double squared_error(const struct image *image, const struct truth *truth)
+{
+    double sum = 0;
+    for (size_t i = 0; i < image->width * image->height; i++) {
+        double value = mean_of_channels(image, i);
+        sum += (value - mean_of_channels(&truth->halves[0].image, i)) *
+               (value - mean_of_channels(&truth->halves[1].image, i));
+    }
+    return sum;
+}
+
 static void expect_honest(const char *scene, const struct truth *truth, const char *estimator)
 {
     const char *const choices[] = {estimator, "denoiser=regression", "bounces=all", NULL};
     struct rendering test = render(scene, 1, choices);
     const float *error = image_channel(&test.image, "error");
     assert_non_null(error);
-    double squared = 0, estimated = 0;
+    double squared = squared_error(&test.image, truth), estimated = 0;
     for (size_t i = 0; i < test.image.width * test.image.height; i++) {
-        double value = mean_of_channels(&test.image, i);
-        squared += (value - mean_of_channels(&truth->halves[0].image, i)) *
-                   (value - mean_of_channels(&truth->halves[1].image, i));
         estimated += (double)error[i] * (double)error[i];
         assert_true(error[i] >= 0);
     }
@@ -115,6 +125,37 @@ static void test_yard(void **state)
     test_estimators_in(yard);
 }
 
+/* Over some seeds: the squared error, and the mean of all pixels over that of the truth. */
+static double error_of_seeds(const struct truth *truth, const char *estimator, double *mean)
+{
+    const char *const choices[] = {estimator, "denoiser=regression", "bounces=all", NULL};
+    double sum = 0;
+    *mean = 0;
+    for (int seed = 1; seed <= SEEDS; seed++) {
+        struct rendering test = render(yard, seed, choices);
+        sum += squared_error(&test.image, truth);
+        *mean += mean_of_all(&test.image, "indirect.G") /
+                 mean_of_all(&truth->halves[0].image, "indirect.G") / SEEDS;
+        rendering_release(&test);
+    }
+    return sum;
+}
+
+/* What a first round finds decides how many samples follow, which must not bias their mean. */
+static void test_adaptive_sampling(void **state)
+{
+    (void)state;
+    double mean, even_mean;
+    struct truth truth = trace(yard);
+    double adaptive = error_of_seeds(&truth, "estimator=gather:samples=16", &mean);
+    double even = error_of_seeds(&truth, "estimator=gather:samples=16,adaptive=no", &even_mean);
+    print_message("adaptive / even error %.2f, means %.4f and %.4f\n", sqrt(adaptive / even), mean,
+                  even_mean);
+    assert_true(adaptive < 0.9 * even);
+    assert_true(fabs(mean - even_mean) < 0.003);
+    truth_release(&truth);
+}
+
 /* A denoiser that estimates nothing makes no layer of zeros. */
 static void test_no_estimate_no_layer(void **state)
 {
@@ -130,6 +171,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_room),
         cmocka_unit_test(test_yard),
+        cmocka_unit_test(test_adaptive_sampling),
         cmocka_unit_test(test_no_estimate_no_layer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,33 @@
+/* allocation.h: how the samples of a pass are shared out among tiles (adaptive sampling, Zwicker et al. 2015, "Recent
+ * advances in adaptive sampling and reconstruction").
+ *
+ * After a first round of samples, all tiles alike, a tile's error behind a denoiser is told from their noise and from how
+ * the light varies over the tile: of noise of variance s^2 and light that bends by c, a fit of the best bandwidth h has
+ * variance s^2 / h^2 and bias c h^2, so an error in proportion to (s^2 c)^(1/3). Over the square root of the brightness:
+ * what counts is neither the absolute error alone, by which dark walls would stay noisy, nor the relative one.
+ * The other samples go where that is large.
+ */
+#ifndef PSPLAT_ESTIMATOR_GATHER_ALLOCATION_H
+#define PSPLAT_ESTIMATOR_GATHER_ALLOCATION_H
+
+#include <psplat/plugin.h>
+
+/* What the first round told of a tile, in radiance of no special unit. */
+struct tile_pilot {
+    uint32_t points;
+    float brightness; /* mean */
+    float noise;      /* variance of a point's noise */
+    float variation;  /* variance of the means of its blocks of 4x4 pixels, without their noise */
+};
+
+/* `found`: what the first round found at each of `count` lanes, and `half` what the first half of it did, both of the
+ * brightness above. */
+struct tile_pilot tile_pilot(const uint32_t *lanes, const float *found, const float *half,
+                             size_t count);
+
+/* Samples of each point of n tiles: from `least` to `most`, and `samples` in the mean over all points as nearly as whole
+ * numbers allow. */
+void allocate_samples(const struct tile_pilot *pilots, size_t n, uint64_t least, uint64_t samples,
+                      uint64_t most, uint32_t *allocated);
+
+#endif
