@@ -7,7 +7,7 @@
  *
  *     E' = F_48 + sum over R = 24, 12, 6 of max(0, 1 - (2 <N^2> / <B^2>)^2) B,   B = F_R - F_2R
  *
- * N is the band of a picture of the noise alone, and <> a mean over a square of side 2R + 1. Where two halves of the
+ * N is the band of a picture of the noise alone, and <> a mean over a square around. Where two halves of the
  * light are known, of passes or of shadow rays, their difference is the noise, and the pixels themselves are a last
  * band: light without noise stays as it is, with its hard shadows. Of a single pass of indirect light the noise is
  * what pixels differ from a first fit, with signs drawn by lot (the wild bootstrap, Wu 1986). That needs noise that
@@ -67,11 +67,12 @@ struct work {
      * the bands `noise` holds N, where halves tell it. */
     float *fine[VALUES], *coarse[VALUES], *sum[REGRESSION_COLOURS];
     float *scale, *signal, *noise, *room;
-    /* Where the error is asked for: its square, times `scale`, and how many pixels of the class are around. */
-    float *error, *around;
-    float caution; /* with the band under way */
-    bool glossy;   /* the class of pixels under way */
-    float least;   /* brightness that counts as dark */
+    float *around;   /* pixels of the class in a square */
+    float *averaged; /* the plane under way */
+    float *error;    /* where it is asked for: its square, times `scale` */
+    float caution;   /* with the band under way */
+    bool glossy;     /* the class of pixels under way */
+    float least;     /* brightness that counts as dark */
 };
 
 static float brightness(const float colour[REGRESSION_COLOURS])
@@ -282,13 +283,37 @@ static void count_row(void *user, uint64_t row, uint32_t worker)
     }
 }
 
+static void divide_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t i = row * work->width; i < (row + 1) * work->width; i++)
+        work->averaged[i] *= work->around[i] > 0.0f ? 1.0f / work->around[i] : 0.0f;
+}
+
+/* Replaces values by their means over the pixels of the class in a square around; elsewhere they are 0. Where two of
+ * the same square are compared and nothing more, by their sums. */
+static void average_around(struct work *work, int radius, float *plane)
+{
+    const struct regression_box counts = {work->width, work->height, (size_t)radius, work->around,
+                                          work->room};
+    const struct regression_box values = {work->width, work->height, (size_t)radius, plane,
+                                          work->room};
+    regression_box_sums(work->host, &values);
+    if (work->image->even_r && !work->error)
+        return;
+    work->host->parallel_for(work->host, work->height, count_row, work);
+    regression_box_sums(work->host, &counts);
+    work->averaged = plane;
+    work->host->parallel_for(work->host, work->height, divide_row, work);
+}
+
 /* Of a band of mean square S of which N is noise, and of which the share k is kept: k^2 N + (1 - k)^2 (S - N), Stein's
  * estimate of the risk. Of what S exceeds N by, as much as half of the caution is taken for chance. */
 static float risk_of_band(const struct work *work, size_t i, float keep)
 {
-    float per_pixel = work->around[i] > 0.0f ? 1.0f / work->around[i] : 0.0f;
-    float noise = per_pixel * work->noise[i];
-    float lost = ps_max(per_pixel * work->signal[i] - 0.5f * work->caution * noise, 0.0f);
+    float noise = work->noise[i];
+    float lost = ps_max(work->signal[i] - 0.5f * work->caution * noise, 0.0f);
     return keep * keep * noise + (1.0f - keep) * (1.0f - keep) * lost;
 }
 
@@ -309,22 +334,14 @@ static void add_row(void *user, uint64_t row, uint32_t worker)
 }
 
 /* The difference of `fine` and `coarse`, to the pixels of one class: what gloss mirrors has noise of its own, which
- * says nothing about the walls around. */
+ * says nothing about the walls around. Signs by lot cancel now and then, where the noise that is there does not: of
+ * those, more pixels are asked. */
 static void add_band_of_class(struct work *work, int radius)
 {
-    const struct regression_box signal = {work->width, work->height, (size_t)radius, work->signal,
-                                          work->room};
-    const struct regression_box noise = {work->width, work->height, (size_t)radius, work->noise,
-                                         work->room};
-    const struct regression_box around = {work->width, work->height, (size_t)radius, work->around,
-                                          work->room};
-    if (work->error) {
-        work->host->parallel_for(work->host, work->height, count_row, work);
-        regression_box_sums(work->host, &around);
-    }
+    int wide = work->image->even_r ? radius : 2 * radius;
     work->host->parallel_for(work->host, work->height, measure_row, work);
-    regression_box_sums(work->host, &signal);
-    regression_box_sums(work->host, &noise);
+    average_around(work, radius, work->signal);
+    average_around(work, wide, work->noise);
     work->host->parallel_for(work->host, work->height, add_row, work);
 }
 
@@ -448,8 +465,7 @@ static float *lay_out(float *memory, size_t size, int count, float *planes[])
     return memory + (size_t)count * size;
 }
 
-enum { PLANES_OF_ERROR = 2 };
-enum { PLANES_WITH_MARGIN = 8 + 2 * VALUES, PLANES = 2 * VALUES + REGRESSION_COLOURS + 4 };
+enum { PLANES_WITH_MARGIN = 8 + 2 * VALUES, PLANES = 2 * VALUES + REGRESSION_COLOURS + 5 };
 
 static void lay_out_all(struct work *work, float *next, size_t with_margin, size_t pixels)
 {
@@ -466,10 +482,9 @@ static void lay_out_all(struct work *work, float *next, size_t with_margin, size
     next = lay_out(next, pixels, 1, &work->signal);
     next = lay_out(next, pixels, 1, &work->noise);
     next = lay_out(next, pixels, 1, &work->room);
-    if (!work->image->error)
-        return;
-    next = lay_out(next, pixels, 1, &work->error);
-    lay_out(next, pixels, 1, &work->around);
+    next = lay_out(next, pixels, 1, &work->around);
+    if (work->image->error)
+        lay_out(next, pixels, 1, &work->error);
 }
 
 static ps_result filter(const void *opaque, const ps_host *host, const ps_image_view *image)
@@ -479,7 +494,7 @@ static ps_result filter(const void *opaque, const ps_host *host, const ps_image_
         .host = host, .image = image, .width = image->width, .height = image->height};
     size_t with_margin = regression_plane_size(work.width, work.height);
     size_t pixels = work.width * work.height;
-    size_t planes = PLANES + (image->error ? PLANES_OF_ERROR : 0);
+    size_t planes = PLANES + (image->error ? 1 : 0);
     size_t floats = PLANES_WITH_MARGIN * with_margin + planes * pixels;
     float *memory = host->allocate(host, floats * sizeof(float), "denoiser");
     work.guides = (struct regression){
