@@ -33,6 +33,7 @@ struct state {
 };
 
 #define MOST_SPLIT 64
+#define NO_SET UINT32_MAX
 #define CAUSTIC_SETS 0x10000u /* of random numbers: from here on those of walks for caustics */
 
 /* What the light paths [path, path + count) share. */
@@ -112,11 +113,10 @@ static void share_out_caustics(const struct state *state, const ps_pass *pass, u
     }
 }
 
-static void start_walks(const struct state *state, const ps_host *host, struct walk *walks,
-                        size_t n)
+/* `set`: the first of their random numbers. */
+static void start_walks(const struct state *state, const ps_host *host, uint32_t set,
+                        struct walk *walks, size_t n)
 {
-    bool caustic = walks[0].caustic;
-    uint32_t set = caustic ? CAUSTIC_SETS : 0;
     uint64_t indices[PS_PATH_CHUNK] = {0};
     float shared[PS_PATH_CHUNK][4], other[PS_PATH_CHUNK][4], emission[PS_PATH_CHUNK][4];
     ps_ray rays[PS_PATH_CHUNK];
@@ -135,21 +135,20 @@ static void start_walks(const struct state *state, const ps_host *host, struct w
     for (size_t i = 0; i < n; i++) {
         const float numbers[4] = {shared[i][2], shared[i][3], other[i][2], other[i][3]};
         walks[i].ray = rays[i];
-        walks[i].power = ps_rgb_scale(
-            power[i], 1.0f / (float)(caustic ? state->count * state->caustics : state->count));
+        int64_t walks_in_all = walks[i].caustic ? state->count * state->caustics : state->count;
+        walks[i].power = ps_rgb_scale(power[i], 1.0f / (float)walks_in_all);
         memcpy(walks[i].numbers, numbers, sizeof numbers);
     }
 }
 
-/* Random numbers for the surfaces that the walks meet at the end of segment `segment` > 0. */
-static void draw_surface(const ps_host *host, uint32_t segment, struct walk *walks, size_t n)
+/* Random numbers of that set for the surfaces that the walks meet. */
+static void draw_surface(const ps_host *host, uint32_t set, struct walk *walks, size_t n)
 {
     uint64_t indices[PS_PATH_CHUNK] = {0};
     float points[PS_PATH_CHUNK][4];
     for (size_t i = 0; i < n; i++)
         indices[i] = walks[i].index;
-    uint32_t set = walks[0].caustic ? CAUSTIC_SETS : 0;
-    host->samples(host, PS_STREAM_BOUNCE, set + segment + 1, indices, n, points);
+    host->samples(host, PS_STREAM_BOUNCE, set, indices, n, points);
     for (size_t i = 0; i < n; i++)
         memcpy(walks[i].numbers, points[i], sizeof points[i]);
 }
@@ -287,17 +286,17 @@ static int may_go_on(const ps_pass *pass, const struct walk *walk)
 }
 
 /* Carries all walks to their next surface, where they leave `count` photons; returns how many go on,
- * moved to the front. */
+ * moved to the front. `set`: of the random numbers there; NO_SET: they have them. */
 static size_t extend_walks(const struct state *state, const ps_host *host, const ps_pass *pass,
-                           uint32_t segment, struct walk *walks, size_t n, ps_photon *photons,
+                           uint32_t set, struct walk *walks, size_t n, ps_photon *photons,
                            size_t *count)
 {
     ps_ray rays[PS_PATH_CHUNK];
     ps_hit hits[PS_PATH_CHUNK];
     struct fan fan;
     n = trace_walks(host, walks, n, rays, hits);
-    if (segment > 0)
-        draw_surface(host, segment, walks, n);
+    if (set != NO_SET)
+        draw_surface(host, set, walks, n);
     fan_out(host, walks, rays, hits, n, &fan);
     size_t alive = 0;
     *count = 0;
@@ -319,14 +318,15 @@ static size_t extend_walks(const struct state *state, const ps_host *host, const
 }
 
 static ps_result trace_all(const struct state *state, const ps_host *host, const ps_pass *pass,
-                           struct walk *walks, size_t n, const ps_photon_sink *sink)
+                           uint32_t set, struct walk *walks, size_t n, const ps_photon_sink *sink)
 {
     ps_photon photons[PS_PATH_CHUNK];
     ps_result result = PS_OK;
-    start_walks(state, host, walks, n);
+    start_walks(state, host, set, walks, n);
     for (uint32_t segment = 0; n > 0 && result == PS_OK; segment++) {
         size_t count;
-        n = extend_walks(state, host, pass, segment, walks, n, photons, &count);
+        uint32_t next = segment > 0 ? set + segment + 1 : NO_SET;
+        n = extend_walks(state, host, pass, next, walks, n, photons, &count);
         result = sink->append(sink->core, photons, count);
     }
     return result;
@@ -339,10 +339,10 @@ static ps_result emit(const void *opaque, const ps_host *host, const ps_pass *pa
     uint64_t rounds = pass->specular ? (uint64_t)state->caustics : 0;
     struct walk walks[PS_PATH_CHUNK];
     size_t shared = share_out(state, pass, first, n, walks);
-    ps_result result = trace_all(state, host, pass, walks, shared, sink);
+    ps_result result = trace_all(state, host, pass, 0, walks, shared, sink);
     for (uint64_t round = 0; round < rounds && result == PS_OK; round++) {
         share_out_caustics(state, pass, first, n, round, walks);
-        result = trace_all(state, host, pass, walks, n, sink);
+        result = trace_all(state, host, pass, CAUSTIC_SETS, walks, n, sink);
     }
     return result;
 }

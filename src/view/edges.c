@@ -229,12 +229,12 @@ static void look_again(const struct edge_pass *pass, uint32_t tile, const bool *
                        struct film *film)
 {
     struct looks looks;
-    looks.points.count = 0;
     draw_pattern(pass, &looks);
+    looks.points.count = 0;
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
         if (!edges[lane])
             continue;
-        if (looks.points.count + pass->samples > PS_TILE_PIXELS)
+        if (looks.points.count > 0 && looks.points.count + pass->samples > PS_TILE_PIXELS)
             finish_looks(pass, &looks, film);
         for (uint32_t sample = 0; sample < pass->samples; sample++) {
             add_look(pass, tile, lane, sample, &looks);
