@@ -97,7 +97,7 @@ static const struct schema_row render_rows[] = {
                  "shadow rays to each area light, for a pixel and pass")),
     BOOL("discontinuity_buffer", offsetof(struct render_description, discontinuity_buffer), "no",
          "whether direct light is averaged over neighbouring pixels that see the lights alike"),
-    VALUE(PS_INT(struct render_description, aa_samples, "4", 1, MOST_AA_SAMPLES, "",
+    VALUE(PS_INT(struct render_description, aa_samples, "8", 1, MOST_AA_SAMPLES, "",
                  "camera samples in each pass of a pixel that differs from its neighbours")),
     VALUE(PS_CHOICE(struct render_description, direct, "rays", direct_ways,
                     "how direct light finds shadows; area lights: by rays alone")),
