@@ -74,7 +74,8 @@ uint32_t gbuffer_tile_of(const struct gbuffer *gbuffer, uint32_t x, uint32_t y, 
 bool gbuffer_find(const struct gbuffer *gbuffer, int64_t x, int64_t y, uint32_t *tile,
                   uint32_t *lane);
 
-/* Makes all lanes of a tile see nothing, and zeroes its accumulators, emitted radiance and by_chance; no glossy surface is met. */
+/* Makes all lanes of a tile see nothing, meet no glossy surface, and zeroes its accumulators, emitted radiance and
+ * by_chance. */
 void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t tile);
 
 /* Lets a lane see what was hit, at the end of a way of length `travelled` that leaves `throughput` of

@@ -5,10 +5,12 @@
  * weighted first-order regression for denoising Monte Carlo renderings"):
  *
  *     minimize  sum_p w(c, p) (E(p) - a - b u(p) - c v(p))^2
- *     w = b(r^2 / R^2) b((1 - n_c.n_p) / (1 - cos(normal))) b(h^2 / D^2 + (g_c - g_p)^2 / G^2),   b(s) = max(0, 1 - s)^2
+ *     w = b(r^2 / R^2) b((1 - n_c.n_p) / (1 - cos(normal))) b(h^2 / D^2 + (g_c - g_p)^2 / G^2)
+ *     b(s) = max(0, 1 - s)^2
  *
  * with u, v the place of p in the tangent plane of c, r its distance in pixels, R the bandwidth, h^2 the sum of
- * squares of either point's distance from the other's tangent plane, and g the share of the reflectance that is gloss. A slope of E costs no bias, as it would a mean.
+ * squares of either point's distance from the other's tangent plane, and g the share of the reflectance that is
+ * gloss. A slope of E costs no bias, as it would a mean.
  * Centres lie 2/3 R apart; between them planes are blended.
  *
  * Pictures are planes of floats with a margin, so that no loop asks for bounds: pixel (x, y) is regression_at().
