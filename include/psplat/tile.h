@@ -15,6 +15,14 @@ static inline ps_vec3 ps_tile_normal(const ps_tile *tile, uint32_t lane)
     return (ps_vec3){tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
 }
 
+/* Diffuse reflectance times what the way to the camera leaves: what a pixel's radiance is of irradiance / pi. */
+static inline ps_rgb ps_tile_reflectance(const ps_tile *tile, uint32_t lane)
+{
+    return (ps_rgb){tile->albedo_r[lane] * tile->throughput_r[lane],
+                    tile->albedo_g[lane] * tile->throughput_g[lane],
+                    tile->albedo_b[lane] * tile->throughput_b[lane]};
+}
+
 /* The pixels of a tile that see a surface. */
 typedef struct ps_points {
     size_t count;

@@ -291,19 +291,23 @@ static void divide_row(void *user, uint64_t row, uint32_t worker)
         work->averaged[i] *= work->around[i] > 0.0f ? 1.0f / work->around[i] : 0.0f;
 }
 
-/* Replaces values by their means over the pixels of the class in a square around; elsewhere they are 0. Where two of
- * the same square are compared and nothing more, by their sums. */
-static void average_around(struct work *work, int radius, float *plane)
+/* Replaces values by their sums over a square around. */
+static void sum_around(struct work *work, int radius, float *plane)
 {
-    const struct regression_box counts = {work->width, work->height, (size_t)radius, work->around,
-                                          work->room};
-    const struct regression_box values = {work->width, work->height, (size_t)radius, plane,
-                                          work->room};
-    regression_box_sums(work->host, &values);
-    if (work->image->even_r && !work->error)
-        return;
+    const struct regression_box box = {work->width, work->height, (size_t)radius, plane,
+                                       work->room};
+    regression_box_sums(work->host, &box);
+}
+
+static void count_around(struct work *work, int radius)
+{
     work->host->parallel_for(work->host, work->height, count_row, work);
-    regression_box_sums(work->host, &counts);
+    sum_around(work, radius, work->around);
+}
+
+/* Sums of values of the class become means over its pixels, which were counted. */
+static void divide_by_count(struct work *work, float *plane)
+{
     work->averaged = plane;
     work->host->parallel_for(work->host, work->height, divide_row, work);
 }
@@ -335,13 +339,21 @@ static void add_row(void *user, uint64_t row, uint32_t worker)
 
 /* The difference of `fine` and `coarse`, to the pixels of one class: what gloss mirrors has noise of its own, which
  * says nothing about the walls around. Signs by lot cancel now and then, where the noise that is there does not: of
- * those, more pixels are asked. */
+ * those, more pixels are asked. Sums over the same square, which are only compared, need not be means. */
 static void add_band_of_class(struct work *work, int radius)
 {
-    int wide = work->image->even_r ? radius : 2 * radius;
+    bool known = work->image->even_r != NULL;
+    int wide = known ? radius : 2 * radius;
     work->host->parallel_for(work->host, work->height, measure_row, work);
-    average_around(work, radius, work->signal);
-    average_around(work, wide, work->noise);
+    sum_around(work, radius, work->signal);
+    sum_around(work, wide, work->noise);
+    if (!known || work->error) {
+        count_around(work, radius);
+        divide_by_count(work, work->signal);
+        if (wide != radius)
+            count_around(work, wide);
+        divide_by_count(work, work->noise);
+    }
     work->host->parallel_for(work->host, work->height, add_row, work);
 }
 

@@ -238,9 +238,7 @@ static struct tile_pilot pilot_of(const struct gather *gather, const ps_tile *ti
     float found[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
     for (size_t i = 0; i < gather->points.count; i++) {
         uint32_t lane = gather->points.lanes[i];
-        float albedo = ps_luminance((ps_rgb){tile->albedo_r[lane] * tile->throughput_r[lane],
-                                             tile->albedo_g[lane] * tile->throughput_g[lane],
-                                             tile->albedo_b[lane] * tile->throughput_b[lane]});
+        float albedo = ps_luminance(ps_tile_reflectance(tile, lane));
         found[i] = albedo * ps_luminance(gather->irradiance[i]);
         half[i] = 2.0f * albedo * ps_luminance(gather->half[i]);
     }

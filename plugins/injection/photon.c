@@ -33,7 +33,6 @@ struct state {
 };
 
 #define MOST_SPLIT 64
-#define NO_SET UINT32_MAX
 #define CAUSTIC_SETS 0x10000u /* of random numbers: from here on those of walks for caustics */
 
 /* What the light paths [path, path + count) share. */
@@ -141,7 +140,7 @@ static void start_walks(const struct state *state, const ps_host *host, uint32_t
     }
 }
 
-/* Random numbers of that set for the surfaces that the walks meet. */
+/* Random numbers of that set for the surfaces that the walks will meet. */
 static void draw_surface(const ps_host *host, uint32_t set, struct walk *walks, size_t n)
 {
     uint64_t indices[PS_PATH_CHUNK] = {0};
@@ -286,17 +285,14 @@ static int may_go_on(const ps_pass *pass, const struct walk *walk)
 }
 
 /* Carries all walks to their next surface, where they leave `count` photons; returns how many go on,
- * moved to the front. `set`: of the random numbers there; NO_SET: they have them. */
+ * moved to the front. */
 static size_t extend_walks(const struct state *state, const ps_host *host, const ps_pass *pass,
-                           uint32_t set, struct walk *walks, size_t n, ps_photon *photons,
-                           size_t *count)
+                           struct walk *walks, size_t n, ps_photon *photons, size_t *count)
 {
     ps_ray rays[PS_PATH_CHUNK];
     ps_hit hits[PS_PATH_CHUNK];
     struct fan fan;
     n = trace_walks(host, walks, n, rays, hits);
-    if (set != NO_SET)
-        draw_surface(host, set, walks, n);
     fan_out(host, walks, rays, hits, n, &fan);
     size_t alive = 0;
     *count = 0;
@@ -325,8 +321,8 @@ static ps_result trace_all(const struct state *state, const ps_host *host, const
     start_walks(state, host, set, walks, n);
     for (uint32_t segment = 0; n > 0 && result == PS_OK; segment++) {
         size_t count;
-        uint32_t next = segment > 0 ? set + segment + 1 : NO_SET;
-        n = extend_walks(state, host, pass, next, walks, n, photons, &count);
+        n = extend_walks(state, host, pass, walks, n, photons, &count);
+        draw_surface(host, set + segment + 2, walks, n);
         result = sink->append(sink->core, photons, count);
     }
     return result;

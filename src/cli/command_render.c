@@ -275,6 +275,8 @@ static int load_and_render(struct job *job)
         if (job->passes > 0)
             settings.passes = (uint32_t)job->passes;
         settings.picture_alone = !wants_layers(job);
+        settings.no_error_layer =
+            strcmp(job->layers, "all") != 0 && !layers_name(job->layers, "error");
         if (denoiser_makes_layers(job, &settings))
             status = render_job(job, &input, &settings);
         settings_release(&settings);

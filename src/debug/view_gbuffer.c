@@ -107,7 +107,7 @@ static struct colour paint_throughput(const struct pixel *pixel)
 /* Reflected to the camera. */
 static struct colour paint_direct(const struct pixel *pixel)
 {
-    ps_rgb reflectance = ps_rgb_multiply(albedo_of(pixel), throughput_of(pixel));
+    ps_rgb reflectance = ps_tile_reflectance(pixel->tile, pixel->lane);
     ps_rgb irradiance = pixel->render->gbuffer.direct[pixel->index];
     return from_light(ps_rgb_scale(ps_rgb_multiply(reflectance, irradiance), 1.0f / PS_PI),
                       pixel->exposure);

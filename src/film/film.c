@@ -415,7 +415,7 @@ static void average_geometry(struct film *film, int plane)
 {
     const float *visible = film->planes[FILM_VISIBLE];
     float *sums = film->planes[plane];
-    for (size_t i = 0; i < film->width * film->height; i++)
+    for (size_t i = 0; sums && i < film->width * film->height; i++)
         sums[i] *= visible[i] > 0.0f ? 1.0f / visible[i] : 0.0f;
 }
 
@@ -431,8 +431,7 @@ void film_average(struct film *film)
         return;
     for (int plane = FILM_ALBEDO_R; plane <= FILM_DEPTH; plane++)
         average_geometry(film, plane);
-    if (film->planes[FILM_GLOSS])
-        average_geometry(film, FILM_GLOSS);
+    average_geometry(film, FILM_GLOSS);
     for (size_t i = 0; i < film->width * film->height; i++)
         if (film->planes[FILM_VISIBLE][i] <= 0.0f)
             film->planes[FILM_DEPTH][i] = INFINITY;

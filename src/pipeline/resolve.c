@@ -304,13 +304,18 @@ static ps_result denoise(struct render *render, struct rgb_planes indirect, stru
     return leave_out(render, PS_DENOISER, result, "is not denoised", error);
 }
 
-/* Room for the denoiser's estimate of its error, where it makes one and somebody wants layers; without room there is
- * none. */
-static float *create_estimate(const struct render *render)
+/* Room for the denoiser's estimate of its error, where it makes one and somebody wants it; NULL elsewhere. */
+static ps_result create_estimate(const struct render *render, float **estimate, struct error *error)
 {
+    const struct render_settings *settings = render->settings;
     uint32_t flags = strategy_in(render, PS_DENOISER)->type->table.denoiser.flags;
-    bool wanted = flags & PS_DENOISER_ERROR && !render->settings->picture_alone;
-    return wanted ? calloc(pixels_of(render), sizeof(float)) : NULL;
+    *estimate = NULL;
+    if (!(flags & PS_DENOISER_ERROR) || settings->picture_alone || settings->no_error_layer)
+        return PS_OK;
+    *estimate = calloc(pixels_of(render), sizeof **estimate);
+    return *estimate
+               ? PS_OK
+               : error_memory(error, pixels_of(render) * sizeof **estimate, "the layer error");
 }
 
 static struct rgb_planes reflected_of(const struct film *film)
@@ -386,10 +391,13 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
     static const char *const indirect_names[3] = {"indirect.R", "indirect.G", "indirect.B"};
     *image = (struct image){.width = render->film.width, .height = render->film.height};
     struct rgb_planes picture, indirect;
+    float *estimate;
     double start = clock_seconds();
     ps_result result = add_rgb(image, picture_names, &picture, error);
     if (result == PS_OK)
         result = add_rgb(image, indirect_names, &indirect, error);
+    if (result == PS_OK)
+        result = create_estimate(render, &estimate, error);
     if (result != PS_OK) {
         image_release(image);
         return result;
@@ -399,7 +407,6 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
     struct halves halves;
     ps_result halved = make_halves(render, &halves, error);
     film_average(&render->film);
-    float *estimate = create_estimate(render);
     ps_result denoised = halved == PS_OK
                              ? denoise(render, indirect, picture, &halves, estimate, error)
                              : leave_out(render, PS_DENOISER, halved, "is not denoised", error);

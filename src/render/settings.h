@@ -24,6 +24,7 @@ struct render_settings {
     enum direct_light direct;
     uint32_t direct_resolution; /* pixels along the side of each map of DIRECT_SHADOWMAP */
     bool picture_alone;         /* nobody wants its layers: those of surfaces may be missing */
+    bool no_error_layer;        /* nobody wants the layer `error` */
     double indirect_exposure;
     ps_rgb ambient;
 };

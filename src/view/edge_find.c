@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <psplat/math.h>
+#include <psplat/tile.h>
 #include <string.h>
 
 /* Radiance and albedo differ where they do by more than this share of the larger one. */
@@ -53,9 +54,7 @@ static void load_pixel(const struct gbuffer *gbuffer, int64_t x, int64_t y, int 
         return;
     const ps_tile *tile = &gbuffer->tiles[number];
     size_t pixel = (size_t)number * PS_TILE_PIXELS + lane;
-    ps_rgb albedo = {tile->albedo_r[lane] * tile->throughput_r[lane],
-                     tile->albedo_g[lane] * tile->throughput_g[lane],
-                     tile->albedo_b[lane] * tile->throughput_b[lane]};
+    ps_rgb albedo = ps_tile_reflectance(tile, lane);
     ps_rgb reflected = ps_rgb_scale(ps_rgb_multiply(albedo, gbuffer->direct[pixel]), 1.0f / PS_PI);
     ps_rgb radiance = ps_rgb_add(gbuffer->emitted[pixel], reflected);
     sights->there[row][column] = 1;

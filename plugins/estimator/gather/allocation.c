@@ -44,8 +44,12 @@ struct tile_pilot tile_pilot(const uint32_t *lanes, const float *found, const fl
     }
     float mean = sum / (float)count;
     noise /= (float)count;
-    return (struct tile_pilot){(uint32_t)count, mean, noise,
-                               variation_of(sums, counts, mean, noise, count)};
+    return (struct tile_pilot){
+        .points = (uint32_t)count,
+        .brightness = mean,
+        .noise = noise,
+        .variation = variation_of(sums, counts, mean, noise, count),
+    };
 }
 
 static float mean_brightness(const struct tile_pilot *pilots, size_t n)
@@ -73,13 +77,14 @@ static uint64_t samples_by(double scale, float error, uint64_t least, uint64_t m
     return samples > least ? samples : least;
 }
 
-void allocate_samples(const struct tile_pilot *pilots, size_t n, uint64_t least, uint64_t samples,
+void allocate_samples(struct tile_pilot *pilots, size_t n, uint64_t least, uint64_t samples,
                       uint64_t most, uint32_t *allocated)
 {
     float brightness = mean_brightness(pilots, n), largest = 0.0f;
     double points = 0.0;
     for (size_t i = 0; i < n; i++) {
-        largest = ps_max(largest, error_of(&pilots[i], brightness));
+        pilots[i].error = error_of(&pilots[i], brightness);
+        largest = ps_max(largest, pilots[i].error);
         points += (double)pilots[i].points;
     }
     if (!(largest > 0.0f))
@@ -88,13 +93,13 @@ void allocate_samples(const struct tile_pilot *pilots, size_t n, uint64_t least,
     for (int step = 0; step < STEPS; step++) {
         double middle = 0.5 * (low + high), sum = 0.0;
         for (size_t i = 0; i < n; i++)
-            sum += (double)pilots[i].points *
-                   (double)samples_by(middle, error_of(&pilots[i], brightness), least, most);
+            sum +=
+                (double)pilots[i].points * (double)samples_by(middle, pilots[i].error, least, most);
         if (sum > points * (double)samples)
             high = middle;
         else
             low = middle;
     }
     for (size_t i = 0; i < n; i++)
-        allocated[i] = (uint32_t)samples_by(low, error_of(&pilots[i], brightness), least, most);
+        allocated[i] = (uint32_t)samples_by(low, pilots[i].error, least, most);
 }

@@ -18,6 +18,7 @@ struct tile_pilot {
     float brightness; /* mean */
     float noise;      /* variance of a point's noise */
     float variation;  /* variance of the means of its blocks of 4x4 pixels, without their noise */
+    float error;      /* for allocate_samples() */
 };
 
 /* `found`: what the first round found at each of `count` lanes, and `half` what the first half of it did, both of the
@@ -27,7 +28,7 @@ struct tile_pilot tile_pilot(const uint32_t *lanes, const float *found, const fl
 
 /* Samples of each point of n tiles: from `least` to `most`, and `samples` in the mean over all points as nearly as whole
  * numbers allow. */
-void allocate_samples(const struct tile_pilot *pilots, size_t n, uint64_t least, uint64_t samples,
+void allocate_samples(struct tile_pilot *pilots, size_t n, uint64_t least, uint64_t samples,
                       uint64_t most, uint32_t *allocated);
 
 #endif

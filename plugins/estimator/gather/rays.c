@@ -21,7 +21,7 @@ static uint8_t choose_guide(struct gather *gather, ps_vec3 normal)
     return (uint8_t)gather->guide_count++;
 }
 
-static void choose_guides(struct gather *gather)
+void gather_begin(struct gather *gather)
 {
     gather->guide_count = 0;
     for (size_t i = 0; i < gather->points.count; i++)
@@ -194,11 +194,6 @@ static void take_round(struct gather *gather, uint64_t round, bool last)
     for (uint64_t sample = 0; sample < round; sample++)
         take_sample(gather, !last || gather->goes_on, sample < round / 2);
     gather->done += round;
-}
-
-void gather_begin(struct gather *gather)
-{
-    choose_guides(gather);
 }
 
 /* Rounds of 4, 12, 48, ... samples, each drawn by what those before it found. Shorter ones would learn sooner, but the
