@@ -180,8 +180,8 @@ typedef struct ps_image_view {
     const float *coverage; /* passes in which a surface was seen */
     /* Where the table asks for them, else NULL: object and material of the first pass, PS_NO_OBJECT where
      * nothing is seen; and the indirect radiance of the even and of the odd passes alone, whose
-     * difference tells the noise: NULL, too, where there is one pass. Of direct light in one pass they are by the
-     * first and by the second half of the shadow rays; see PS_DENOISER_DIRECT. */
+     * difference tells the noise: NULL, too, where there is one pass. Of direct light they are by halves of the shadow
+     * rays of each pass, or by even and odd passes; see PS_DENOISER_DIRECT. */
     const uint32_t *object, *material;
     const float *even_r, *even_g, *even_b, *odd_r, *odd_g, *odd_b;
     /* Since 1.3: the share of the albedo that is not diffuse, but gloss that mirrors by chance. NULL: none anywhere. */
@@ -189,14 +189,15 @@ typedef struct ps_image_view {
     /* Since 1.3: to be filled in where it is not NULL, which takes PS_DENOISER_ERROR: how far the mean of a pixel's three
      * channels is likely to be off, noise and blur together, in W/(m^2 sr). It is 0 before. */
     float *error;
+    float odd_share; /* since 1.4: of the samples, how many are in odd_r, _g, _b: 0..1 */
 } ps_image_view;
 
 #define PS_DENOISER_IDS 1u    /* ps_image_view.object and material are there */
 #define PS_DENOISER_HALVES 2u /* ps_image_view.even_r to odd_b are there */
 /* Since 1.1. filter() is called a second time, for the direct light that surfaces reflect, with halves of it: of the
- * passes, or of the shadow rays of a single pass; and for all direct light that gloss mirrors, with halves of the
- * passes or of a pixel's camera samples. Not where neither has noise, nor where the scene asks for one ray and one
- * pass, or for the discontinuity buffer. */
+ * shadow rays of each pass, or of the passes where there is but one ray; and for all direct light that gloss mirrors,
+ * with halves of a pixel's camera samples, or of the passes. Not where neither has noise, nor where the scene asks
+ * for one ray and one pass, or for the discontinuity buffer. */
 #define PS_DENOISER_DIRECT 4u
 
 #define PS_DENOISER_ERROR 8u /* since 1.3: filter() fills in ps_image_view.error */

@@ -156,17 +156,15 @@ static float mean_brightness(const struct work *work, float *const planes[])
     return (float)(sum / count);
 }
 
-/* For the mean of n passes of which m are odd, the difference of both halves' means, times sqrt(m (n - m)) / n, is as
- * large as the noise. Halves of a single pass are equal ones. */
+/* For the mean of n samples of which m are odd, the difference of both parts' means, times sqrt(m (n - m)) / n, is as
+ * large as the noise. */
 static float noise_of_halves(const ps_image_view *image, size_t pixel)
 {
     const float even[3] = {image->even_r[pixel], image->even_g[pixel], image->even_b[pixel]};
     const float odd[3] = {image->odd_r[pixel], image->odd_g[pixel], image->odd_b[pixel]};
     const float albedo[3] = {image->albedo_r[pixel], image->albedo_g[pixel],
                              image->albedo_b[pixel]};
-    uint32_t odd_passes = image->passes / 2;
-    float share = image->passes > 1 ? (float)odd_passes / (float)image->passes : 0.5f;
-    float a[3], b[3];
+    float share = image->odd_share, a[3], b[3];
     irradiance_of(even, albedo, a);
     irradiance_of(odd, albedo, b);
     return sqrtf(share * (1.0f - share)) * (brightness(a) - brightness(b));

@@ -202,7 +202,7 @@ static ps_result render_and_write(struct job *job, const struct scene_descriptio
     callbacks.cancelled = was_interrupted;
     struct image image = {0};
     handle_signals(interrupt);
-    ps_result result = render_run(scene, settings, &callbacks, statistics, &image, error);
+    ps_result result = render_run(scene, settings, &callbacks, statistics, NULL, &image, error);
     progress_clear(&job->progress);
     if (image.width == 0)
         return result;

@@ -139,7 +139,8 @@ static ps_result render(void *user, const struct scene *scene, struct render_set
     struct statistics statistics;
     statistics_init(&statistics);
     ps_result result =
-        render_run(scene, settings, &callbacks, &statistics, &rendering->outcome->image, error);
+        render_run(scene, settings, &callbacks, &statistics, NULL, &rendering->outcome->image,
+                   error);
     rendering->outcome->refused = statistics_counter(&statistics, "refused");
     rendering->outcome->kept = statistics_counter(&statistics, "kept blocks");
     statistics_destroy(&statistics);
@@ -225,7 +226,7 @@ static ps_result add_powers(void *user, struct render *render, struct error *err
 static ps_result inspect(void *user, const struct scene *scene, struct render_settings *settings,
                          struct error *error)
 {
-    static const struct render_callbacks silent = {NULL, NULL, NULL, NULL};
+    static const struct render_callbacks silent = {.user = NULL};
     struct statistics statistics;
     statistics_init(&statistics);
     ps_result result =

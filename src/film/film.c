@@ -31,6 +31,7 @@ static ps_result add_planes(struct film *film, bool (*wanted)(int plane), struct
     for (int plane = 0; plane < FILM_PLANES; plane++) {
         if (!wanted(plane))
             continue;
+        film->has[plane] = true;
         film->planes[plane] = plane_create(film->width, film->height);
         if (!film->planes[plane])
             return error_memory(error, film->width * film->height * sizeof(float), "the film");
@@ -65,21 +66,21 @@ static bool is_of_halves(int plane)
     return (plane >= FILM_COLOR_R && plane <= FILM_WEIGHT) || plane == FILM_COVERAGE;
 }
 
-static ps_result add_odd(struct film *film, bool half_of_pass, struct error *error)
+static ps_result add_part(struct film *film, bool is_half, struct error *error)
 {
-    if (film->odd)
+    struct film **part = is_half ? &film->half : &film->odd;
+    if (*part)
         return PS_OK;
-    film->odd = malloc(sizeof *film->odd);
-    if (!film->odd)
-        return error_memory(error, sizeof *film->odd, "half the film");
-    *film->odd =
-        (struct film){.width = film->width, .height = film->height, .half_of_pass = half_of_pass};
+    *part = malloc(sizeof **part);
+    if (!*part)
+        return error_memory(error, sizeof **part, "half the film");
+    **part = (struct film){.width = film->width, .height = film->height, .is_half = is_half};
     return PS_OK;
 }
 
 ps_result film_add_halves(struct film *film, struct error *error)
 {
-    ps_result result = add_odd(film, false, error);
+    ps_result result = add_part(film, false, error);
     return result == PS_OK ? add_planes(film->odd, is_of_halves, error) : result;
 }
 
@@ -88,12 +89,14 @@ static bool is_reflected(int plane)
     return plane >= FILM_REFLECTED_R && plane <= FILM_REFLECTED_B;
 }
 
-ps_result film_add_reflected(struct film *film, bool single_pass, struct error *error)
+ps_result film_add_reflected(struct film *film, bool half_of_pass, struct error *error)
 {
-    ps_result result = add_odd(film, single_pass, error);
+    ps_result result = add_part(film, half_of_pass, error);
     if (result == PS_OK)
         result = add_planes(film, is_reflected, error);
-    return result == PS_OK ? add_planes(film->odd, is_reflected, error) : result;
+    return result == PS_OK
+               ? add_planes(half_of_pass ? film->half : film->odd, is_reflected, error)
+               : result;
 }
 
 static bool is_gloss(int plane)
@@ -106,11 +109,45 @@ ps_result film_add_gloss(struct film *film, struct error *error)
     return add_planes(film, is_gloss, error);
 }
 
+static ps_result empty_planes(struct film *film, struct error *error)
+{
+    size_t bytes = film->width * film->height * sizeof(float);
+    for (int plane = 0; plane < FILM_PLANES; plane++) {
+        if (!film->has[plane])
+            continue;
+        if (film->planes[plane] && film->passes > 0)
+            memset(film->planes[plane], 0, bytes);
+        else if (!film->planes[plane])
+            film->planes[plane] = plane_create(film->width, film->height);
+        if (!film->planes[plane])
+            return error_memory(error, bytes, "the film");
+    }
+    return PS_OK;
+}
+
+ps_result film_begin_pass(struct film *film, uint32_t number, struct error *error)
+{
+    ps_result result = empty_planes(film, error);
+    if (result == PS_OK && film->odd)
+        result = film_begin_pass(film->odd, number, error);
+    if (result == PS_OK && film->half)
+        result = film_begin_pass(film->half, number, error);
+    film->number = number;
+    film->passes = 0;
+    return result;
+}
+
+static void release_part(struct film *part)
+{
+    if (part)
+        film_release(part);
+    free(part);
+}
+
 void film_release(struct film *film)
 {
-    if (film->odd)
-        film_release(film->odd);
-    free(film->odd);
+    release_part(film->odd);
+    release_part(film->half);
     free(film->object);
     free(film->material);
     for (int plane = 0; plane < FILM_PLANES; plane++)
@@ -125,7 +162,7 @@ size_t film_bytes(const struct film *film)
         planes += film->planes[plane] != NULL;
     planes += (film->object != NULL) + (film->material != NULL);
     return film->width * film->height * sizeof(float) * planes +
-           (film->odd ? film_bytes(film->odd) : 0);
+           (film->odd ? film_bytes(film->odd) : 0) + (film->half ? film_bytes(film->half) : 0);
 }
 
 size_t film_most_bytes(size_t width, size_t height)
@@ -299,7 +336,7 @@ static void add_geometry(struct film *film, const struct tile_row *row)
     add_feature(film, FILM_GLOSS, row, zeros, glossy->gloss);
 }
 
-static void take_ids(struct film *film, const struct tile_row *row)
+static void keep_ids(struct film *film, const struct tile_row *row)
 {
     memcpy(film->object + row->pixel, row->tile->object + row->lane,
            row->count * sizeof *film->object);
@@ -311,7 +348,7 @@ static struct tile_row row_of(const struct film *film, const struct gbuffer *gbu
                               size_t lane, size_t pixel, size_t count)
 {
     size_t first = (size_t)tile * PS_TILE_PIXELS + lane;
-    bool half = film->half_of_pass && gbuffer->direct_half;
+    bool half = film->is_half && gbuffer->direct_half;
     return (struct tile_row){
         .tile = &gbuffer->tiles[tile],
         .direct = half ? &gbuffer->direct_half[first] : &gbuffer->direct[first],
@@ -328,32 +365,51 @@ static size_t at_most_a_tile(size_t pixels)
     return pixels < PS_TILE_SIZE ? pixels : PS_TILE_SIZE;
 }
 
-/* Whether the pass that is being added belongs to film->odd as well. */
-static bool belongs_to_odd(const struct film *film)
+static bool is_odd_pass(const struct film *film)
 {
-    return film->odd && (film->odd->half_of_pass || film->passes % 2 == 1);
+    return film->odd && film->number % 2 == 1;
+}
+
+/* The part of a tile's row `y` that is in the picture. */
+static struct tile_row row_in_picture(const struct film *film, const struct gbuffer *gbuffer,
+                                      uint32_t tile, size_t y)
+{
+    size_t left = (size_t)(tile % gbuffer->tiles_across) * PS_TILE_SIZE;
+    size_t top = (size_t)(tile / gbuffer->tiles_across) * PS_TILE_SIZE;
+    return row_of(film, gbuffer, tile, y * PS_TILE_SIZE, (top + y) * film->width + left,
+                  at_most_a_tile(film->width - left));
+}
+
+static size_t rows_in_picture(const struct film *film, const struct gbuffer *gbuffer, uint32_t tile)
+{
+    return at_most_a_tile(film->height - (size_t)(tile / gbuffer->tiles_across) * PS_TILE_SIZE);
 }
 
 void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t index,
                    const bool left_out[PS_TILE_PIXELS])
 {
     assert(index < gbuffer->tile_count);
-    size_t x = (size_t)(index % gbuffer->tiles_across) * PS_TILE_SIZE;
-    size_t y = (size_t)(index / gbuffer->tiles_across) * PS_TILE_SIZE;
-    size_t rows = at_most_a_tile(film->height - y), columns = at_most_a_tile(film->width - x);
-    for (size_t i = 0; i < rows; i++) {
-        size_t lane = i * PS_TILE_SIZE;
-        struct tile_row row =
-            row_of(film, gbuffer, index, lane, (y + i) * film->width + x, columns);
-        for (size_t k = 0; k < columns; k++)
-            row.shares[k] = left_out && left_out[lane + k] ? 0.0f : 1.0f;
+    size_t rows = rows_in_picture(film, gbuffer, index);
+    for (size_t y = 0; y < rows; y++) {
+        struct tile_row row = row_in_picture(film, gbuffer, index, y);
+        for (size_t k = 0; k < row.count; k++)
+            row.shares[k] = left_out && left_out[row.lane + k] ? 0.0f : 1.0f;
         add_light(film, &row);
         add_geometry(film, &row);
-        if (film->object && film->passes == 0)
-            take_ids(film, &row);
     }
-    if (belongs_to_odd(film))
+    if (is_odd_pass(film))
         film_add_tile(film->odd, gbuffer, index, left_out);
+    if (film->half)
+        film_add_tile(film->half, gbuffer, index, left_out);
+}
+
+void film_keep_ids(struct film *film, const struct gbuffer *gbuffer, uint32_t index)
+{
+    size_t rows = film->object ? rows_in_picture(film, gbuffer, index) : 0;
+    for (size_t y = 0; y < rows; y++) {
+        struct tile_row row = row_in_picture(film, gbuffer, index, y);
+        keep_ids(film, &row);
+    }
 }
 
 /* Samples that differ by what they look at, at the edge of a glossy surface, do not differ by chance. */
@@ -363,6 +419,19 @@ static bool all_met_gloss(const struct gbuffer *gbuffer, uint32_t first, uint32_
     for (uint32_t i = first; i < first + count && all; i++)
         all = gbuffer->glossy->depth[i] > 0.0f;
     return all;
+}
+
+static void add_half_of_samples(struct film *half, const struct gbuffer *gbuffer, uint32_t first,
+                                uint32_t count, float share, size_t x, size_t y)
+{
+    struct gbuffer whole = *gbuffer;
+    uint32_t skipped = count / 2, left = count - skipped;
+    if (count == 1 || !all_met_gloss(gbuffer, first, count)) {
+        film_add_samples(half, gbuffer, first, count, share, x, y);
+        return;
+    }
+    whole.direct_half = NULL;
+    film_add_samples(half, &whole, first + skipped, left, share * (float)count / (float)left, x, y);
 }
 
 void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t first,
@@ -383,24 +452,19 @@ void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t
     for (int plane = 0; plane < FILM_PLANES; plane++)
         for (size_t i = 0; i < PS_TILE_SIZE && film->planes[plane]; i++)
             film->planes[plane][y * film->width + x] += sums[plane][i];
-    if (!belongs_to_odd(film))
-        return;
-    if (film->odd->half_of_pass && count > 1 && all_met_gloss(gbuffer, first, count)) {
-        struct gbuffer whole = *gbuffer;
-        uint32_t skipped = count / 2, left = count - skipped;
-        whole.direct_half = NULL;
-        film_add_samples(film->odd, &whole, first + skipped, left,
-                         share * (float)count / (float)left, x, y);
-    } else {
+    if (is_odd_pass(film))
         film_add_samples(film->odd, gbuffer, first, count, share, x, y);
-    }
+    if (film->half)
+        add_half_of_samples(film->half, gbuffer, first, count, share, x, y);
 }
 
-void film_count_pass(struct film *film)
+void film_end_pass(struct film *film)
 {
-    if (belongs_to_odd(film))
-        film->odd->passes++;
-    film->passes++;
+    film->passes = 1;
+    if (film->odd)
+        film->odd->passes = is_odd_pass(film);
+    if (film->half)
+        film->half->passes = 1;
 }
 
 static void average_light(struct film *film, int plane)
@@ -426,6 +490,8 @@ void film_average(struct film *film)
         average_light(film, FILM_REFLECTED_R + channel);
         if (film->odd)
             average_light(film->odd, FILM_REFLECTED_R + channel);
+        if (film->half)
+            average_light(film->half, FILM_REFLECTED_R + channel);
     }
     if (!film->planes[FILM_DEPTH])
         return;

@@ -1,7 +1,6 @@
-/* film.h: the sums of a render's passes.
+/* film.h: what a pass gives, or several passes do (film_sum.h).
  *
- * Planes of float, row-major, top row first. Passes are added in their order, so a film is a
- * function of its passes alone; normalization and averaging happen when it is resolved.
+ * Planes of float, row-major, top row first. Normalization and averaging happen when the film is resolved.
  */
 #ifndef FILM_FILM_H
 #define FILM_FILM_H
@@ -39,17 +38,20 @@ enum film_plane {
 
 struct film {
     size_t width, height;
-    uint32_t passes;
+    uint32_t passes; /* that it holds */
+    uint32_t number; /* of the pass that is being added, or was last */
     float *planes[FILM_PLANES]; /* each width * height, owned */
+    bool has[FILM_PLANES];      /* which of them it has, or had before they were taken */
     uint32_t *object,
-        *material; /* what pixels see in the first pass; owned, NULL where nobody asks */
-    /* Light, weight and coverage of the odd passes alone; or of a single pass the direct light by the second half of
-     * the shadow rays, or of the samples where they met gloss, `half_of_pass`. Owned; NULL where nobody asks. */
-    struct film *odd;
-    bool half_of_pass; /* this is such an odd film */
+        *material; /* what pixels see in pass 0; owned, NULL where nobody asks */
+    /* Owned; NULL where nobody asks. */
+    struct film *odd;  /* light of the odd passes alone */
+    struct film *half; /* direct light by the second half of each pass's shadow rays, or, where they met gloss, of
+                          its samples of a pixel */
+    bool is_half; /* this is such a half */
 };
 
-/* A film without passes. Without `surfaces` it keeps the light alone: planes from FILM_ALBEDO_R to FILM_DEPTH
+/* A film of no pass. Without `surfaces` it keeps the light alone: planes from FILM_ALBEDO_R to FILM_DEPTH
  * stay NULL. */
 ps_result film_create(size_t width, size_t height, bool surfaces, struct film *film,
                       struct error *error);
@@ -60,19 +62,22 @@ ps_result film_add_ids(struct film *film, struct error *error);
 ps_result film_add_halves(struct film *film, struct error *error);
 
 /* Lets it keep the direct light that is reflected apart from what is emitted, and half of it: of the passes, or of
- * its only pass. */
-ps_result film_add_reflected(struct film *film, bool single_pass, struct error *error);
+ * each of them. */
+ps_result film_add_reflected(struct film *film, bool half_of_pass, struct error *error);
 
 /* Lets it tell gloss from diffuse surfaces. */
 ps_result film_add_gloss(struct film *film, struct error *error);
+
+/* Empties the film for a pass, and makes the planes anew that were taken out of it. */
+ps_result film_begin_pass(struct film *film, uint32_t number, struct error *error);
 
 void film_release(struct film *film);
 size_t film_bytes(const struct film *film);
 /* With all planes but those on request. */
 size_t film_most_bytes(size_t width, size_t height);
 
-/* Adds what one tile of a finished pass gathered, but for the lanes that are `left_out` (NULL: none);
- * call for every tile, then count the pass. Tiles may be added by different threads at once: they touch
+/* Adds what one tile of the pass gathered, but for the lanes that are `left_out` (NULL: none);
+ * call for every tile, then end the pass. Tiles may be added by different threads at once: they touch
  * different pixels. */
 void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t tile,
                    const bool left_out[PS_TILE_PIXELS]);
@@ -81,7 +86,10 @@ void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t ti
  * (x, y) of the film, whose own lane was left out. They are all of that pixel's. */
 void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t first,
                       uint32_t count, float share, size_t x, size_t y);
-void film_count_pass(struct film *film);
+void film_end_pass(struct film *film);
+
+/* Keeps which objects and materials the lanes of a tile see, where the film asks. */
+void film_keep_ids(struct film *film, const struct gbuffer *gbuffer, uint32_t tile);
 
 /* Turns the sums of geometry and direct light into means: per pass for light, per covered pass for
  * geometry. A pixel that never saw a surface gets depth INFINITY and zeros. */

@@ -114,8 +114,7 @@ void host_tell_progress(const ps_host *host, double fraction)
     const struct render *render = render_of(host);
     const struct render_callbacks *callbacks = render->callbacks;
     if (callbacks->progress)
-        callbacks->progress(callbacks->user, "indirect light",
-                            (render->pass.number + fraction) / render->settings->passes);
+        callbacks->progress(callbacks->user, "indirect light", render_fraction(render, fraction));
 }
 
 /* Streams from PS_STREAM_PLUGIN on are apart for each kind. */

@@ -93,13 +93,26 @@ static uint32_t interleave_of(const struct render *render, uint32_t n, uint32_t 
     return n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
 }
 
-/* Short-range light stays as noisy when splats become small, and is averaged as widely. */
+static void drop_splatter(struct render *render)
+{
+    render_report_splatter(render->statistics, &render->splatter);
+    count_lit(render, &render->splatter, -1.0);
+    splatter_release(&render->splatter);
+    render->has_splatter = false;
+}
+
+/* Makes the splatter, or keeps that of the pass before. Short-range light stays as noisy when splats become small,
+ * and is averaged as widely. */
 static ps_result begin_interleaved(struct render *render, uint32_t n, struct error *error)
 {
     bool many = render->photons.path_count > MANY_PATHS;
     uint32_t most = many ? MOST_FOR_MANY : PS_MOST_INTERLEAVE;
     render->gather_interleave = interleave_of(render, n, PS_MOST_INTERLEAVE);
     n = render->counts_splats ? 1 : interleave_of(render, n, most);
+    if (render->has_splatter && render->splatter.lit.interleave == n)
+        return PS_OK;
+    if (render->has_splatter)
+        drop_splatter(render);
     ps_result result =
         create_splatter(render, interleaved_layout(&render->gbuffer, n), &render->splatter, error);
     render->has_splatter = result == PS_OK;
@@ -109,7 +122,7 @@ static ps_result begin_interleaved(struct render *render, uint32_t n, struct err
 ps_result splats_begin(struct render *render, uint32_t n, struct error *error)
 {
     ps_result result = photon_stream_prepare(&render->photons, error);
-    if (result == PS_OK && !render->has_splatter)
+    if (result == PS_OK)
         result = begin_interleaved(render, n, error);
     if (result != PS_OK)
         return result;

@@ -82,6 +82,16 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
     direct_light_tile(&lighting, &render->gbuffer, tile, render->settings->seed, &runs, samples);
 }
 
+static void find_edges_of_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct tile_work *work = user;
+    struct render *render = work->render;
+    if (render->edges)
+        edges_find(&render->gbuffer, (uint32_t)index, render->edges + index * PS_TILE_PIXELS);
+    film_keep_ids(&render->film, &render->gbuffer, (uint32_t)index);
+}
+
 static void add_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
@@ -238,7 +248,7 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
 {
     set_pass(render, number);
     render->splatting = false;
-    report_progress(render, "direct light", (double)number / render->settings->passes);
+    report_progress(render, "direct light", render_fraction(render, 0.0));
     struct tile_work work = {
         render,
         {.scene = render->scene,
@@ -253,23 +263,90 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
     return work;
 }
 
+/* Pass 0 tells which pixels are edges, and what they see, whoever renders it. */
+static void find_edges(struct tile_work *work)
+{
+    over_tiles(work, "edges", find_edges_of_tile);
+}
+
 static void end_pass(struct tile_work *work, bool smooth)
 {
     over_tiles(work, smooth ? "edges" : "film", smooth ? smooth_tile : add_tile);
-    film_count_pass(&work->render->film);
+    film_end_pass(&work->render->film);
+}
+
+/* Cancelled where nothing else is there: its direct light alone makes a picture. */
+static void keep_direct_light(struct render *render, struct tile_work *work)
+{
+    gbuffer_clear_indirect(&render->gbuffer);
+    end_pass(work, false);
+    render->unfinished = true;
+}
+
+static ps_result add_to_sum(struct render *render, struct error *error)
+{
+    struct film_sum *sum = render->sum;
+    ps_result result = PS_OK;
+    double start = clock_seconds();
+    if (!sum->planes[FILM_COLOR_R].high)
+        result = film_sum_create(&render->film, sum, error);
+    if (result == PS_OK)
+        result = film_sum_add(sum, &render->film, render->settings->workers, error);
+    statistics_add_seconds(render->statistics, "film", clock_seconds() - start);
+    statistics_set_bytes(render->statistics, "sums", (double)film_sum_bytes(sum));
+    return result;
 }
 
 static ps_result run_pass(struct render *render, uint32_t number, struct error *error)
 {
     struct tile_work work = begin_pass(render, number);
-    ps_result result = render_estimate(render, error);
+    if (number == 0)
+        find_edges(&work);
+    ps_result result = film_begin_pass(&render->film, number, error);
+    if (result == PS_OK)
+        result = render_estimate(render, error);
     if (result == PS_OK)
         result = end_estimate(render, error);
-    if (result == PS_CANCELLED && number == 0)
-        gbuffer_clear_indirect(&render->gbuffer);
-    else if (result != PS_OK)
-        return result;
-    end_pass(&work, render->edges && result == PS_OK);
+    if (result == PS_OK) {
+        end_pass(&work, render->edges != NULL);
+        result = render->sum ? add_to_sum(render, error) : PS_OK;
+    } else if (result == PS_CANCELLED && render_passes_done(render) == 0) {
+        keep_direct_light(render, &work);
+    }
+    return result;
+}
+
+/* Of a pass that is another's, where there is something to see for. */
+static void look_at_first_pass(struct render *render)
+{
+    if (!render->edges && !render->film.object)
+        return;
+    struct tile_work work = begin_pass(render, 0);
+    find_edges(&work);
+}
+
+static bool goes_on(struct render *render)
+{
+    const struct render_callbacks *callbacks = render->callbacks;
+    return !callbacks->go_on || callbacks->go_on(callbacks->user, render);
+}
+
+static ps_result run_each_pass(struct render *render, struct error *error)
+{
+    const struct render_settings *settings = render->settings;
+    ps_result result = PS_OK;
+    bool looked = false;
+    for (uint32_t number = settings->first_pass; number < settings->passes && result == PS_OK;
+         number++) {
+        if (render->sum && pass_set_has(&render->sum->passes, number))
+            continue;
+        if (!goes_on(render))
+            break;
+        if (number > 0 && !looked)
+            look_at_first_pass(render);
+        looked = true;
+        result = run_pass(render, number, error);
+    }
     return result;
 }
 
@@ -278,36 +355,51 @@ static ps_result run_passes(struct render *render, struct error *error)
     set_pass(render, 0);
     render->has_tiles = true;
     ps_result result = begin_estimates(render, error);
-    for (uint32_t pass = 0; pass < render->settings->passes && result == PS_OK; pass++)
-        result = run_pass(render, pass, error);
+    if (result == PS_OK)
+        result = run_each_pass(render, error);
     end_estimates(render);
-    if (result != PS_OK && result != PS_CANCELLED && render->film.passes > 0)
+    uint32_t passes = render_passes_done(render);
+    if (result != PS_OK && result != PS_CANCELLED && passes > 0)
         own_host(render)->log(own_host(render), PS_LOG_WARNING,
                               "a pass failed; the picture holds those before it");
-    /* An unfinished first pass gives its direct light, but was no pass. */
-    bool unfinished = result == PS_CANCELLED && render->pass.number == 0;
-    statistics_count(render->statistics, "passes", unfinished ? 0 : render->film.passes);
+    statistics_count(render->statistics, "passes", passes);
     return result;
+}
+
+ps_result render_picture(struct render *render, struct image *image, struct error *error)
+{
+    *image = (struct image){0};
+    if (render->sum && !render->unfinished) {
+        ps_result result = film_begin_pass(&render->film, 0, error);
+        if (result != PS_OK)
+            return result;
+        film_sum_round(render->sum, &render->film, render->settings->workers);
+    }
+    return resolve_image(render, image, error);
 }
 
 ps_result render_run(const struct scene *scene, struct render_settings *settings,
                      const struct render_callbacks *callbacks, struct statistics *statistics,
-                     struct image *image, struct error *error)
+                     struct film_sum *film, struct image *image, struct error *error)
 {
     struct render render = {
         .scene = scene,
         .settings = settings,
         .callbacks = callbacks,
         .statistics = statistics,
+        .sum = film,
     };
     *image = (struct image){0};
+    if (!film && settings->passes - settings->first_pass > 1)
+        render.sum = &render.own_sum;
     host_create(&render);
     ps_result result = render_create(&render, error);
     if (result == PS_OK)
         result = run_passes(&render, error);
-    if (result == PS_OK || result == PS_CANCELLED || render.film.passes > 0) {
+    if (render_passes_done(&render) > 0 || render.unfinished) {
         struct error reason;
-        ps_result resolved = resolve_image(&render, image, &reason);
+        ps_result resolved = render_picture(&render, image, &reason);
+        statistics_count(statistics, "pixels without weight", render.dark_pixels);
         if (resolved != PS_OK && (result == PS_OK || image->width == 0)) {
             result = resolved;
             *error = reason;
@@ -330,11 +422,13 @@ ps_result render_inspect(const struct scene *scene, struct render_settings *sett
         .callbacks = callbacks,
         .statistics = statistics,
     };
+    settings->first_pass = 0;
     settings->passes = settings->aa_samples = 1;
     host_create(&render);
     ps_result result = render_create(&render, error);
     if (result == PS_OK) {
         struct tile_work work = begin_pass(&render, 0);
+        find_edges(&work);
         end_pass(&work, false);
         film_average(&render.film);
         render.has_tiles = render.estimating = true;

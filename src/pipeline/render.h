@@ -3,13 +3,14 @@
  *     pass by pass: G-buffer -> direct light -> estimator -> film
  *     at the end:   normalization -> denoiser -> combine
  *
- * A pass is a function of (scene, settings, seed, pass number); the film is the sum of the passes
- * in their order.
+ * A pass is a function of (scene, settings, seed, pass number); the film is the sum of passes, in whatever
+ * order and groups.
  */
 #ifndef PIPELINE_RENDER_H
 #define PIPELINE_RENDER_H
 
 #include "base/statistics.h"
+#include "film/film_sum.h"
 #include "image/image.h"
 #include "render/callbacks.h"
 #include "render/settings.h"
@@ -29,15 +30,21 @@ ps_result render_check_memory(size_t width, size_t height, struct error *error);
 bool render_makes_layer(const char *name, size_t length);
 
 /* Renders into `image` (the layers of psplat(1)); the caller releases it. Starts the strategies of
- * `settings`, which may be used for one render only. When cancelled, the passes that were complete
+ * `settings`, which may be used for one render only. `film`, where it is not NULL, holds passes that were rendered
+ * before with the same scene and settings, or none; the others of the settings are added to it. It has all planes
+ * then, for whatever denoiser; the caller releases it. When cancelled, the passes that were complete
  * make the picture and the result is PS_CANCELLED; without any, the picture holds the direct light.
  * Where a pass fails, those before it make the picture; where the normalization or the denoiser fails, it is
  * made without that: the result is their failure. There is no picture where `image` is 0 x 0. */
 ps_result render_run(const struct scene *scene, struct render_settings *settings,
                      const struct render_callbacks *callbacks, struct statistics *statistics,
-                     struct image *image, struct error *error);
+                     struct film_sum *film, struct image *image, struct error *error);
 
 struct render;
+
+/* The picture of the passes that a render of several has so far, of which there is at least one; likewise. From
+ * render_callbacks.go_on alone. */
+ps_result render_picture(struct render *render, struct image *image, struct error *error);
 
 /* Looks at a render whose first pass has all but its indirect light: the G-buffer and direct light,
  * in the tiles and, averaged, in the film. May use the services as an estimator does. */

@@ -40,10 +40,17 @@ static ps_result create_shadow_maps(struct render *render, struct error *error)
     return PS_OK;
 }
 
-/* Those planes of the film are half of its memory, and of the time that adding to it takes. */
-static bool wants_surfaces(const struct render_settings *settings)
+/* The caller's film has all planes, so that any denoiser may resolve it. */
+static bool keeps_film(const struct render *render)
 {
-    return !settings->picture_alone ||
+    return render->sum && render->sum != &render->own_sum;
+}
+
+/* Those planes of the film are half of its memory, and of the time that adding to it takes. */
+static bool wants_surfaces(const struct render *render)
+{
+    const struct render_settings *settings = render->settings;
+    return keeps_film(render) || !settings->picture_alone ||
            settings->strategies[PS_DENOISER].type->table.denoiser.filter != NULL;
 }
 
@@ -66,34 +73,40 @@ static ps_result create_edges(struct render *render, struct error *error)
                : PS_OK;
 }
 
-/* Where a denoiser may smooth it: it has noise, which halves of it tell, and nothing else smooths it. */
+/* Where a denoiser may smooth the direct light: it has noise, which halves of it tell, and nothing else smooths it.
+ * Halves of each pass are best, since its samples look at the same places; but one shadow ray, or one sample of
+ * gloss, has no halves, and then passes are. */
 static ps_result create_reflected(struct render *render, struct error *error)
 {
     const struct scene *scene = render->scene;
     const struct render_settings *settings = render->settings;
-    bool single_pass = settings->passes == 1;
-    bool noisy_shadows = scene->has_area_lights && !settings->discontinuity_buffer &&
-                         !(single_pass && scene->light_samples == 1);
-    bool noisy_gloss = render->gbuffer.glossy && !(single_pass && settings->aa_samples == 1);
+    bool shadows = scene->has_area_lights && !settings->discontinuity_buffer;
+    bool gloss = render->gbuffer.glossy != NULL;
+    bool halved_shadows = shadows && scene->light_samples > 1;
+    bool halved_gloss = gloss && settings->aa_samples > 1;
+    bool halves = (halved_shadows || halved_gloss) &&
+                  (!render->sum || (shadows == halved_shadows && gloss == halved_gloss));
     ps_result result = PS_OK;
-    if (!noisy_shadows && !noisy_gloss)
+    if ((!shadows && !gloss) || (!halves && !render->sum))
         return PS_OK;
-    if (single_pass && noisy_shadows)
+    if (halves && halved_shadows)
         result = gbuffer_prepare_direct_half(&render->gbuffer, error);
-    return result == PS_OK ? film_add_reflected(&render->film, single_pass, error) : result;
+    return result == PS_OK ? film_add_reflected(&render->film, halves, error) : result;
 }
 
 /* What the tables of some strategies ask for. */
 static ps_result create_for_strategies(struct render *render, struct error *error)
 {
     uint32_t estimator = strategy_in(render, PS_ESTIMATOR)->type->table.estimator.flags;
-    uint32_t denoiser = strategy_in(render, PS_DENOISER)->type->table.denoiser.flags;
+    uint32_t denoiser = keeps_film(render)
+                            ? UINT32_MAX
+                            : strategy_in(render, PS_DENOISER)->type->table.denoiser.flags;
     ps_result result = PS_OK;
     if (estimator & PS_ESTIMATOR_RADIANCE)
         result = gbuffer_prepare_radiance(&render->gbuffer, error);
     if (result == PS_OK && denoiser & PS_DENOISER_IDS)
         result = film_add_ids(&render->film, error);
-    if (result == PS_OK && denoiser & PS_DENOISER_HALVES && render->settings->passes > 1)
+    if (result == PS_OK && denoiser & PS_DENOISER_HALVES && render->sum)
         result = film_add_halves(&render->film, error);
     if (result == PS_OK && denoiser & PS_DENOISER_DIRECT)
         result = create_reflected(render, error);
@@ -113,9 +126,9 @@ ps_result render_create(struct render *render, struct error *error)
     if (result == PS_OK)
         result = gbuffer_create(scene->width, scene->height, &render->gbuffer, error);
     if (result == PS_OK)
-        result = film_create(scene->width, scene->height, wants_surfaces(render->settings),
+        result = film_create(scene->width, scene->height, wants_surfaces(render),
                              &render->film, error);
-    if (result == PS_OK && scene->microfacets && wants_surfaces(render->settings))
+    if (result == PS_OK && scene->microfacets && wants_surfaces(render))
         result = create_gloss(render, error);
     if (result == PS_OK && render->settings->discontinuity_buffer && scene->has_area_lights)
         result = gbuffer_prepare_join(&render->gbuffer, error);
@@ -147,6 +160,7 @@ void render_destroy(struct render *render)
         strategy_stop(&render->settings->strategies[kind]);
     render_report_kept(render);
     free(render->edges);
+    film_sum_release(&render->own_sum);
     film_release(&render->film);
     gbuffer_release(&render->gbuffer);
     shadow_maps_destroy(render->shadow_maps);

@@ -177,7 +177,7 @@ static void fill_ambient(struct render *render, struct rgb_planes out)
         out.b[i] = covered * render->settings->ambient.b;
         dark += covered > 0.0f;
     }
-    statistics_count(render->statistics, "pixels without weight", (double)dark);
+    render->dark_pixels = (double)dark;
 }
 
 /* The indirect light of even and of odd passes, for a denoiser that asks: six planes in one piece of memory, of
@@ -185,6 +185,7 @@ static void fill_ambient(struct render *render, struct rgb_planes out)
 struct halves {
     float *light;
     struct rgb_planes even, odd;
+    float odd_share; /* of the passes, or of the samples */
 };
 
 static struct rgb_planes planes_at(float *first, size_t pixels)
@@ -219,6 +220,7 @@ static ps_result normalize_halves(struct render *render, float *sums, struct hal
     size_t pixels = pixels_of(render);
     struct film even;
     subtract_odd(film, sums, &even);
+    halves->odd_share = (float)film->odd->passes / (float)film->passes;
     halves->even = planes_at(halves->light, pixels);
     halves->odd = planes_at(halves->light + 3 * pixels, pixels);
     ps_result result = normalize_film(render, &even, halves->even, error);
@@ -228,10 +230,12 @@ static ps_result normalize_halves(struct render *render, float *sums, struct hal
 static ps_result make_halves(struct render *render, struct halves *halves, struct error *error)
 {
     const struct film *film = &render->film;
+    uint32_t flags = strategy_in(render, PS_DENOISER)->type->table.denoiser.flags;
     size_t plane = pixels_of(render) * sizeof(float);
     ps_result result = PS_OK;
     *halves = (struct halves){.light = NULL};
-    if (plane == 0 || !film->odd || !film->odd->planes[FILM_COLOR_R] || film->odd->passes == 0)
+    if (!(flags & PS_DENOISER_HALVES) || !film->odd || !film->odd->planes[FILM_COLOR_R] || film->odd->passes == 0 ||
+        film->odd->passes == film->passes)
         return PS_OK;
     float *sums = malloc(5 * plane);
     halves->light = malloc(6 * plane);
@@ -279,6 +283,7 @@ static ps_image_view image_of(const struct render *render, struct rgb_planes ind
         .odd_b = halves->odd.b,
         .gloss = planes[FILM_GLOSS],
         .error = error,
+        .odd_share = halves->odd_share,
     };
 }
 
@@ -324,23 +329,34 @@ static struct rgb_planes reflected_of(const struct film *film)
                                film->planes[FILM_REFLECTED_B]};
 }
 
-/* What the other half leaves of a mean over `all` passes, or two halves of one, of which `odd` are in that half. */
-static void mean_of_rest(const float *mean, const float *odd_mean, float all, float odd,
-                         size_t pixels, float *rest)
+/* What the odd share leaves of a mean. */
+static void mean_of_rest(const float *mean, const float *odd_mean, float odd_share, size_t pixels,
+                         float *rest)
 {
     for (size_t i = 0; i < pixels; i++)
-        rest[i] = fmaxf((all * mean[i] - odd * odd_mean[i]) / (all - odd), 0.0f);
+        rest[i] = fmaxf((mean[i] - odd_share * odd_mean[i]) / (1.0f - odd_share), 0.0f);
 }
 
+/* The film has them by half of each pass, or by the odd passes. */
 static struct halves halves_of_reflected(const struct film *film, float *even)
 {
     size_t pixels = film->width * film->height;
-    float all = film->odd->half_of_pass ? 2.0f : (float)film->passes;
-    float odd = film->odd->half_of_pass ? 1.0f : (float)film->odd->passes;
+    const struct film *odd = film->half ? film->half : film->odd;
+    float odd_share = film->half ? 0.5f : (float)odd->passes / (float)film->passes;
     for (int c = 0; c < 3; c++)
-        mean_of_rest(film->planes[FILM_REFLECTED_R + c], film->odd->planes[FILM_REFLECTED_R + c],
-                     all, odd, pixels, even + (size_t)c * pixels);
-    return (struct halves){.even = planes_at(even, pixels), .odd = reflected_of(film->odd)};
+        mean_of_rest(film->planes[FILM_REFLECTED_R + c], odd->planes[FILM_REFLECTED_R + c],
+                     odd_share, pixels, even + (size_t)c * pixels);
+    return (struct halves){
+        .even = planes_at(even, pixels), .odd = reflected_of(odd), .odd_share = odd_share};
+}
+
+static bool denoises_reflected(const struct render *render)
+{
+    const struct film *film = &render->film;
+    uint32_t flags = strategy_in(render, PS_DENOISER)->type->table.denoiser.flags;
+    if (!(flags & PS_DENOISER_DIRECT) || !film->planes[FILM_REFLECTED_R])
+        return false;
+    return film->half || (film->odd->passes > 0 && film->odd->passes < film->passes);
 }
 
 static void replace(float *restrict sum, const float *restrict old, const float *restrict new,
@@ -356,7 +372,7 @@ static ps_result denoise_direct(struct render *render, struct rgb_planes copy, s
     struct film *film = &render->film;
     struct rgb_planes reflected = reflected_of(film);
     size_t pixels = pixels_of(render);
-    if (!reflected.r || film->odd->passes == 0)
+    if (!denoises_reflected(render))
         return PS_OK;
     float *even = malloc(3 * pixels * sizeof *even);
     if (!even)

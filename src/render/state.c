@@ -3,6 +3,19 @@
 #include <stdio.h>
 #include <string.h>
 
+uint32_t render_passes_done(const struct render *render)
+{
+    if (render->sum)
+        return pass_set_size(&render->sum->passes);
+    return render->unfinished ? 0 : render->film.passes;
+}
+
+double render_fraction(const struct render *render, double of_pass)
+{
+    double all = (double)render->settings->passes - (double)render->settings->first_pass;
+    return (render_passes_done(render) + of_pass) / all;
+}
+
 /* The first one counts. */
 static void take_reason(struct render *render, ps_result result, const char *why, bool named)
 {

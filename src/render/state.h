@@ -4,7 +4,7 @@
 
 #include "base/statistics.h"
 #include "direct/shadow_maps.h"
-#include "film/film.h"
+#include "film/film_sum.h"
 #include "gather/gathered_light.h"
 #include "render/callbacks.h"
 #include "render/photons.h"
@@ -46,6 +46,10 @@ struct render {
     struct shadow_maps *shadow_maps; /* for the direct light of the picture; NULL: shadow rays */
     struct gbuffer gbuffer;
     struct film film;
+    struct film_sum *sum; /* of the passes; NULL where there is one pass, which the film itself holds */
+    struct film_sum own_sum; /* where the caller has none; owned */
+    bool unfinished;         /* the film holds the direct light of a pass without its indirect light */
+    double dark_pixels;      /* of the last picture: without weight */
     bool *edges; /* pixels that take several samples (edges.h), owned; NULL: none does */
     struct photon_stream photons;
     struct kernel_variant kernel;
@@ -92,6 +96,12 @@ static inline struct strategy *strategy_in(const struct render *render, ps_kind 
 {
     return &render->settings->strategies[kind];
 }
+
+/* Share of the render that is done, with so much of the pass under way. */
+double render_fraction(const struct render *render, double of_pass);
+
+/* How many passes the sum or the film holds. */
+uint32_t render_passes_done(const struct render *render);
 
 /* Takes the first reason why the callback under way fails; any thread. Returns `result`, or PS_ERROR_INVALID in
  * place of PS_OK. */

@@ -249,9 +249,7 @@ static void look_again(const struct edge_pass *pass, uint32_t tile, const bool *
 void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *film)
 {
     assert(tile < pass->gbuffer->tile_count);
-    bool *edges = &pass->edges[(size_t)tile * PS_TILE_PIXELS];
-    if (pass->number == 0)
-        edges_find(pass->gbuffer, tile, edges);
+    const bool *edges = &pass->edges[(size_t)tile * PS_TILE_PIXELS];
     film_add_tile(film, pass->gbuffer, tile, edges);
     if (has_edges(edges))
         look_again(pass, tile, edges, film);

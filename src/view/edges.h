@@ -9,7 +9,7 @@
  * estimators are not asked again. All pixels look at the same places in them. Tracing at a higher resolution would
  * cost everywhere.
  *
- * The first pass decides for all. If each decided for itself, looks that are rare (at things thinner than a
+ * Pass 0 decides for all, whether it is rendered here or not. If each decided for itself, looks that are rare (at things thinner than a
  * pixel, at what glass mirrors) would be replaced by a mean, and common ones kept: light would go missing,
  * however many the passes. Pixels whose look is a matter of chance count as edges: those seen through a
  * lens, in gloss, or in a surface that mirrors and lets through. A single pass still misses things too thin
@@ -28,7 +28,7 @@
 struct edge_pass {
     const struct lighting *lighting;
     const struct gbuffer *gbuffer;
-    bool *edges; /* which lanes of its tiles are edges; set by the first pass */
+    const bool *edges; /* which lanes of its tiles are edges, by edges_find in pass 0 */
     uint64_t seed;
     uint32_t number;  /* of the pass */
     uint32_t samples; /* of a pixel at an edge, at most MOST_AA_SAMPLES */

@@ -59,6 +59,15 @@ static int is_near(float a, float b)
     return fabsf(a - b) < 1e-5f;
 }
 
+static float share_of(const ps_image_view *image)
+{
+#if PS_ABI_MINOR >= 4
+    return image->odd_share;
+#else
+    return (float)(image->passes / 2) / (float)image->passes;
+#endif
+}
+
 /* The passes' radiance, all of them together, the even and the odd ones. A pixel at an edge sees a surface in some. */
 static int is_whole(const ps_image_view *image, size_t i)
 {
@@ -69,7 +78,8 @@ static int is_whole(const ps_image_view *image, size_t i)
     return is_near(image->r[i], mean) && is_near(image->b[i], 1) && is_near(image->g[i], 0) &&
            (!image->even_r ||
             (is_near(image->even_r[i], 0.25f) && is_near(image->odd_r[i], 0.75f) &&
-             is_near(image->even_b[i], 1) && is_near(image->odd_g[i], 0)));
+             is_near(image->even_b[i], 1) && is_near(image->odd_g[i], 0) &&
+             is_near(share_of(image), (float)odd / (float)image->passes)));
 }
 
 static ps_result filter(const void *state, const ps_host *host, const ps_image_view *image)

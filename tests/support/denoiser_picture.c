@@ -102,6 +102,7 @@ static void denoise_or_stop(struct picture *picture, const char *choice, uint32_
         .odd_r = picture->halves ? picture->halves[1][0] : NULL,
         .odd_g = picture->halves ? picture->halves[1][1] : NULL,
         .odd_b = picture->halves ? picture->halves[1][2] : NULL,
+        .odd_share = 0.5f,
     };
     bare_host_create(&bare, threads);
     bare.cancelled = cancelled;

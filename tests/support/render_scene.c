@@ -97,7 +97,7 @@ void inspect_text(const char *text, const char *const choices[],
 {
     struct prepared prepared;
     struct statistics statistics;
-    struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
+    struct render_callbacks callbacks = {.user = NULL};
     struct error error;
     prepare_text(text, 2, 100, choices, &prepared);
     statistics_init(&statistics);
@@ -115,12 +115,12 @@ struct rendering render_text_in_batches(const char *text, uint32_t threads, size
 {
     struct prepared prepared;
     struct rendering rendering = {.image = {0}};
-    struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
+    struct render_callbacks callbacks = {.user = NULL};
     struct error error;
     prepare_text(text, threads, batch, choices, &prepared);
     statistics_init(&rendering.statistics);
     ps_result result = render_run(&prepared.scene, &prepared.settings, &callbacks,
-                                  &rendering.statistics, &rendering.image, &error);
+                                  &rendering.statistics, NULL, &rendering.image, &error);
     if (result != PS_OK)
         print_error("%s\n", error.text);
     assert_int_equal(result, PS_OK);

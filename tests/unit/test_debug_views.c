@@ -25,7 +25,7 @@ static ps_result view(const char *name, const char *text, const struct debug_opt
 {
     struct prepared prepared;
     struct statistics statistics;
-    struct render_callbacks callbacks = {NULL, NULL, NULL, NULL};
+    struct render_callbacks callbacks = {.user = NULL};
     struct debug_request request = {.options = *options};
     prepare_text(text, 2, 4096, choices, &prepared);
     statistics_init(&statistics);

@@ -1,5 +1,5 @@
 /* test_film.c: sums and means over passes, pixels seen in some passes or none, and the tiles. */
-#include "film/film.h"
+#include "film/film_sum.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -15,7 +15,8 @@
 
 struct bench {
     struct gbuffer gbuffer;
-    struct film film;
+    struct film film;    /* a pass, and then the sum of those so far */
+    struct film_sum sum; /* made with the first pass */
 };
 
 static struct bench bench;
@@ -32,6 +33,7 @@ static int open_bench(void **state)
 static int close_bench(void **state)
 {
     (void)state;
+    film_sum_release(&bench.sum);
     film_release(&bench.film);
     gbuffer_release(&bench.gbuffer);
     return 0;
@@ -72,9 +74,12 @@ static float pixel_value(uint32_t x, uint32_t y)
     return (float)(1 + x + 100 * y);
 }
 
-/* One pass: pixels from column `first` on see something, `factor` times their own value. */
+/* One more pass: pixels from column `first` on see something, `factor` times their own value. */
 static void add_pass(uint32_t first, float factor)
 {
+    struct error error;
+    uint32_t number = pass_set_size(&bench.sum.passes);
+    assert_int_equal(film_begin_pass(&bench.film, number, &error), PS_OK);
     for (uint32_t tile = 0; tile < bench.gbuffer.tile_count; tile++) {
         gbuffer_clear_tile(&bench.gbuffer, tile);
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
@@ -89,7 +94,11 @@ static void add_pass(uint32_t first, float factor)
         }
         film_add_tile(&bench.film, &bench.gbuffer, tile, NULL);
     }
-    film_count_pass(&bench.film);
+    film_end_pass(&bench.film);
+    if (number == 0)
+        assert_int_equal(film_sum_create(&bench.film, &bench.sum, &error), PS_OK);
+    assert_int_equal(film_sum_add(&bench.sum, &bench.film, NULL, &error), PS_OK);
+    film_sum_round(&bench.sum, &bench.film, NULL);
 }
 
 static void expect_in(const struct film *film, enum film_plane plane, uint32_t x, uint32_t y,
@@ -272,6 +281,7 @@ static void test_film_of_light_alone(void **state)
     add_pass(10, 1);
     film_average(&bench.film);
     struct film whole = bench.film;
+    film_sum_release(&bench.sum);
     assert_int_equal(film_create(WIDTH, HEIGHT, false, &bench.film, &error), PS_OK);
     add_pass(10, 1);
     film_average(&bench.film);
@@ -302,8 +312,8 @@ static void test_reflected_light_apart(void **state)
     assert_null(bench.film.odd->planes[FILM_COLOR_R]);
 }
 
-/* Of a single pass, `odd` has what half of its shadow rays found. */
-static void test_half_of_a_single_pass(void **state)
+/* In `half` is what half of each pass's shadow rays found. */
+static void test_half_of_a_pass(void **state)
 {
     (void)state;
     struct error error;
@@ -312,10 +322,12 @@ static void test_half_of_a_single_pass(void **state)
     for (size_t i = 0; i < (size_t)bench.gbuffer.tile_count * PS_TILE_PIXELS; i++)
         bench.gbuffer.direct_half[i] = (ps_rgb){1, 2, 3};
     add_pass(0, 1);
-    assert_int_equal(bench.film.odd->passes, 1);
+    add_pass(0, 3);
+    assert_int_equal(bench.film.half->passes, 2);
+    assert_null(bench.film.odd);
     film_average(&bench.film);
-    expect(FILM_REFLECTED_G, 12, 2, 0.25 / PI * 6 * pixel_value(12, 2));
-    expect_in(bench.film.odd, FILM_REFLECTED_G, 12, 2, 0.25 / PI * 2);
+    expect(FILM_REFLECTED_G, 12, 2, 2 * 0.25 / PI * 6 * pixel_value(12, 2));
+    expect_in(bench.film.half, FILM_REFLECTED_G, 12, 2, 0.25 / PI * 2);
 }
 
 /* A lane whose path met gloss, of depth 8 and reflectance 1/2, with value 2 in all that it is. */
@@ -344,7 +356,7 @@ static void test_first_glossy_surface(void **state)
     meet_gloss(1);
     meet_gloss(2);
     film_add_tile(&bench.film, &bench.gbuffer, 0, NULL);
-    film_count_pass(&bench.film);
+    film_end_pass(&bench.film);
     film_average(&bench.film);
     double reflected = 0.5 / PI * 5;
     expect(FILM_POSITION_X, 0, 0, 1);
@@ -365,7 +377,7 @@ static void test_first_glossy_surface(void **state)
     assert_true(bench.gbuffer.glossy[0].depth[1] == 0);
 }
 
-/* Of a pixel's samples the second half is in `odd` if all met gloss; else half of the shadow rays. */
+/* Of a pixel's samples the second half is in `half` if all met gloss; else half of the shadow rays. */
 static void test_halves_of_glossy_samples(void **state)
 {
     (void)state;
@@ -380,11 +392,11 @@ static void test_halves_of_glossy_samples(void **state)
     for (uint32_t lane = 1; lane < 5; lane++)
         meet_gloss(lane);
     film_add_samples(&bench.film, &bench.gbuffer, 0, 5, 0.2f, 2, 0);
-    expect_in(bench.film.odd, FILM_REFLECTED_R, 2, 0, 3.0 * 4 / 5); /* no shadow rays lit */
+    expect_in(bench.film.half, FILM_REFLECTED_R, 2, 0, 3.0 * 4 / 5); /* no shadow rays lit */
     meet_gloss(0);
     film_add_samples(&bench.film, &bench.gbuffer, 0, 5, 0.2f, 1, 0);
     expect(FILM_REFLECTED_R, 1, 0, mean);
-    expect_in(bench.film.odd, FILM_REFLECTED_R, 1, 0, 0.5 / PI * 5 * (3 + 4 + 5) / 3 + 3);
+    expect_in(bench.film.half, FILM_REFLECTED_R, 1, 0, 0.5 / PI * 5 * (3 + 4 + 5) / 3 + 3);
 }
 
 static void test_clear_indirect(void **state)
@@ -415,7 +427,7 @@ int main(void)
         FILM_TEST(test_emission_is_added),
         FILM_TEST(test_film_of_light_alone),
         FILM_TEST(test_reflected_light_apart),
-        FILM_TEST(test_half_of_a_single_pass),
+        FILM_TEST(test_half_of_a_pass),
         FILM_TEST(test_clear_indirect),
         FILM_TEST(test_samples_take_the_place_of_a_lane),
         FILM_TEST(test_many_samples_of_a_pixel),

@@ -1,0 +1,153 @@
+#include "film/film_sum.h"
+
+#include <assert.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+static float *plane_of(const struct film *film, int plane)
+{
+    if (plane < FILM_SUM_OF_ODD)
+        return film->planes[plane];
+    if (plane < FILM_SUM_OF_HALF)
+        return film->odd ? film->odd->planes[plane - FILM_SUM_OF_ODD] : NULL;
+    return film->half ? film->half->planes[plane - FILM_SUM_OF_HALF] : NULL;
+}
+
+static ps_result copy_ids(const uint32_t *from, size_t count, uint32_t **ids, struct error *error)
+{
+    if (!from)
+        return PS_OK;
+    *ids = malloc(count * sizeof **ids);
+    if (!*ids)
+        return error_memory(error, count * sizeof **ids, "ids of pixels");
+    memcpy(*ids, from, count * sizeof **ids);
+    return PS_OK;
+}
+
+ps_result film_sum_create(const struct film *film, struct film_sum *sum, struct error *error)
+{
+    size_t pixels = film->width * film->height;
+    *sum = (struct film_sum){
+        .width = film->width,
+        .height = film->height,
+    };
+    for (int plane = 0; plane < FILM_SUM_PLANES; plane++) {
+        bool wanted = plane == FILM_SUM_OF_SQUARES || plane_of(film, plane);
+        if (wanted && !exact_plane_create(pixels, &sum->planes[plane]))
+            return error_memory(error, pixels * sizeof(double), "sums of passes");
+    }
+    ps_result result = copy_ids(film->object, pixels, &sum->object, error);
+    return result == PS_OK ? copy_ids(film->material, pixels, &sum->material, error) : result;
+}
+
+void film_sum_release(struct film_sum *sum)
+{
+    for (int plane = 0; plane < FILM_SUM_PLANES; plane++)
+        exact_plane_release(&sum->planes[plane]);
+    free(sum->object);
+    free(sum->material);
+    pass_set_release(&sum->passes);
+    *sum = (struct film_sum){.width = 0};
+}
+
+size_t film_sum_bytes(const struct film_sum *sum)
+{
+    size_t bytes = sum->object ? 2 * sum->width * sum->height * sizeof *sum->object : 0;
+    for (int plane = 0; plane < FILM_SUM_PLANES; plane++)
+        bytes += exact_plane_bytes(&sum->planes[plane]);
+    return bytes;
+}
+
+/* Planes are shared out among workers. */
+struct plane_work {
+    struct film_sum *sum;
+    const struct film *film;
+    const struct film_sum *other;
+    _Atomic(bool) out_of_memory;
+};
+
+static bool add_squares(struct exact_plane *squares, const struct film *film)
+{
+    const float *r = film->planes[FILM_COLOR_R], *g = film->planes[FILM_COLOR_G],
+                *b = film->planes[FILM_COLOR_B];
+    float *values = malloc(squares->size * sizeof *values);
+    for (size_t i = 0; values && i < squares->size; i++)
+        values[i] = r[i] * r[i] + g[i] * g[i] + b[i] * b[i];
+    bool added = values && exact_plane_add(squares, values);
+    free(values);
+    return added;
+}
+
+static void add_plane(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    struct plane_work *work = user;
+    struct exact_plane *sums = &work->sum->planes[index];
+    const struct film *film = work->film;
+    bool added = true;
+    if (!sums->high)
+        return;
+    if (index == FILM_SUM_OF_SQUARES)
+        added = add_squares(sums, film);
+    else if (index < FILM_SUM_OF_ODD || index >= FILM_SUM_OF_HALF || film->odd->passes > 0)
+        added = exact_plane_add(sums, plane_of(film, (int)index));
+    if (!added)
+        atomic_store(&work->out_of_memory, true);
+}
+
+static void merge_plane(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    struct plane_work *work = user;
+    struct exact_plane *sums = &work->sum->planes[index];
+    if (sums->high && !exact_plane_merge(sums, &work->other->planes[index]))
+        atomic_store(&work->out_of_memory, true);
+}
+
+static void round_plane(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct plane_work *work = user;
+    if (index != FILM_SUM_OF_SQUARES && work->sum->planes[index].high)
+        exact_plane_round(&work->sum->planes[index], plane_of(work->film, (int)index));
+}
+
+static ps_result over_planes(struct plane_work *work, parallel_body body, struct workers *workers,
+                             struct error *error)
+{
+    parallel_for(workers, FILM_SUM_PLANES, body, work);
+    return atomic_load(&work->out_of_memory)
+               ? error_memory(error, work->sum->width * work->sum->height * sizeof(double),
+                              "sums of passes")
+               : PS_OK;
+}
+
+ps_result film_sum_add(struct film_sum *sum, const struct film *film, struct workers *workers,
+                       struct error *error)
+{
+    struct plane_work work = {.sum = sum, .film = film};
+    assert(film->passes == 1 && !pass_set_has(&sum->passes, film->number));
+    ps_result result = pass_set_add(&sum->passes, film->number, film->number + 1, error);
+    return result == PS_OK ? over_planes(&work, add_plane, workers, error) : result;
+}
+
+ps_result film_sum_merge(struct film_sum *sum, const struct film_sum *other,
+                         struct workers *workers, struct error *error)
+{
+    struct plane_work work = {.sum = sum, .other = other};
+    ps_result result = pass_set_add_all(&sum->passes, &other->passes, error);
+    return result == PS_OK ? over_planes(&work, merge_plane, workers, error) : result;
+}
+
+void film_sum_round(const struct film_sum *sum, struct film *film, struct workers *workers)
+{
+    struct film_sum view = *sum;
+    struct plane_work work = {.sum = &view, .film = film};
+    parallel_for(workers, FILM_SUM_PLANES, round_plane, &work);
+    film->passes = pass_set_size(&sum->passes);
+    if (film->odd)
+        film->odd->passes = pass_set_odd_size(&sum->passes);
+    if (film->half)
+        film->half->passes = film->passes;
+}
