@@ -8,7 +8,8 @@
 
 const struct command *const commands[] = {&command_render, &command_check,   &command_plugins,
                                           &command_info,   &command_compare, &command_diff,
-                                          &command_view,   &command_schema,  &command_debug};
+                                          &command_view,   &command_schema,  &command_debug,
+                                          &command_merge,  &command_resolve};
 const size_t command_count = sizeof commands / sizeof commands[0];
 
 void print_error(const char *message)
@@ -134,4 +135,19 @@ bool parse_rectangle(const char *option, const char *text, struct rectangle *rec
         fprintf(stderr, "psplat: error: --%s: expected X,Y,W,H in whole pixels, got '%s'\n", option,
                 text);
     return i == 4;
+}
+
+bool parse_exposure(const char *text, double *stops)
+{
+    if (text_to_number(text, stops) && *stops >= -20 && *stops <= 20)
+        return true;
+    fprintf(stderr, "psplat: error: --exposure: expected a number -20..20, got '%s'\n", text);
+    return false;
+}
+
+int status_of(ps_result result)
+{
+    return result == PS_OK              ? STATUS_OK
+           : result == PS_ERROR_INVALID ? STATUS_USAGE
+                                        : STATUS_FAILED;
 }

@@ -3,12 +3,18 @@
 #define CLI_COMMAND_H
 
 #include "image/rectangle.h"
+#include <psplat/types.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
 
 /* Exit status, as in psplat(1). */
-enum status { STATUS_OK = 0, STATUS_FAILED = 1, STATUS_USAGE = 2 };
+enum status {
+    STATUS_OK = 0,
+    STATUS_FAILED = 1,
+    STATUS_USAGE = 2,
+    STATUS_SIGNAL = 128 /* plus the number of the signal that ended it */
+};
 
 struct option {
     char letter;          /* 0: none */
@@ -33,7 +39,8 @@ struct command {
 };
 
 extern const struct command command_render, command_check, command_plugins, command_info,
-    command_compare, command_diff, command_view, command_schema, command_debug;
+    command_compare, command_diff, command_view, command_schema, command_debug, command_merge,
+    command_resolve;
 
 /* All commands; the first is what runs when none is named. */
 extern const struct command *const commands[];
@@ -63,6 +70,12 @@ void print_warning(const char *message);
  */
 bool parse_whole_number(const char *option, const char *text, double minimum, double maximum,
                         double *value);
+
+/* Stops of exposure; likewise. */
+bool parse_exposure(const char *text, double *stops);
+
+/* Status of a command that ended so: bad input is the user's to mend. */
+int status_of(ps_result result);
 
 /* "X,Y,W,H" in whole pixels; false, and an error that names the option, otherwise. */
 bool parse_rectangle(const char *option, const char *text, struct rectangle *rectangle);

@@ -6,6 +6,7 @@
 #include "debug/debug.h"
 
 #include "base/text.h"
+#include "job/facts.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -136,7 +137,7 @@ static ps_result write_canvas(const struct job *job, const struct canvas *canvas
                               const struct render_settings *settings, struct error *error)
 {
     struct image facts = {0};
-    ps_result result = output_describe_settings(&facts, job->options.scene_path, settings, error);
+    ps_result result = facts_of_settings(&facts, job->options.scene_path, settings, error);
     if (result == PS_OK)
         result = image_set_attribute(&facts, "psplat.debug", job->view, error);
     if (result == PS_OK)

@@ -1,45 +1,40 @@
 /* command_render.c: psplat render: a scene becomes a picture. */
 #include "base/clock.h"
 #include "cli/command.h"
-#include "cli/layers.h"
-#include "cli/output.h"
+#include "cli/long_job.h"
+#include "cli/output_list.h"
 #include "cli/preview.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
 
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#define MOST_OUTPUTS 16
-
 static const struct option options[] = {
-    {'o', "output", "FILE", "write FILE (.exr or .png); may be given several times"},
-    {0, "layers", "NAME,...", "layers of EXR files beside the picture; or all (default), none"},
-    {0, "compression", "NAME",
-     "compression of EXR files, all lossless: " IMAGE_COMPRESSIONS "; default: zip"},
+    OUTPUT_OPTIONS,
     RENDER_OPTIONS,
     {0, "preview", NULL, "a quick look: small, few light paths, coarse shadows"},
-    {0, "passes", "N", "number of passes; more smooth edges and lessen noise"},
+    LONG_JOB_OPTIONS,
     {0, "stats", "FILE.json", "write what each stage took in time and memory"},
 };
 
 struct job {
     struct render_options options;
-    const char *outputs[MOST_OUTPUTS];
-    size_t output_count;
-    char *default_outputs[2];    /* owned */
-    const char *layers;          /* a list of layers.h */
-    struct output_format format; /* its exposure is the scene's */
+    struct output_list outputs;
+    struct long_job passes;
     const char *stats_path;
-    double passes; /* negative: not given */
     struct progress progress;
+    const struct scene_description *description; /* while it renders */
+    struct render_settings *settings;
 };
 
-/* A signal handler can reach nothing else: the one variable of the program that is not constant. */
-static volatile sig_atomic_t interrupted;
+/* A signal handler can reach nothing else: the only variables of the program that are not constant. The first is the
+ * number of the signal. */
+static volatile sig_atomic_t interrupted, write_now;
 
 static void handle_signals(void (*handler)(int signal_number))
 {
@@ -57,11 +52,16 @@ static void interrupt(int signal_number)
 {
     static const char message[] = "\npsplat: interrupted: finishing this batch, then writing the "
                                   "picture without what is left; a second signal ends at once\n";
-    (void)signal_number;
     handle_signals(SIG_DFL);
-    interrupted = 1;
+    interrupted = signal_number;
     ssize_t written = write(STDERR_FILENO, message, sizeof message - 1);
     (void)written;
+}
+
+static void ask_for_picture(int signal_number)
+{
+    (void)signal_number;
+    write_now = 1;
 }
 
 static bool was_interrupted(void *user)
@@ -70,59 +70,16 @@ static bool was_interrupted(void *user)
     return interrupted != 0;
 }
 
-static bool take_output(struct job *job, const char *path)
-{
-    if (!output_is_writable_format(path)) {
-        fprintf(stderr, "psplat: error: --output: '%s' ends neither in .exr nor in .png\n", path);
-        return false;
-    }
-    if (job->output_count == MOST_OUTPUTS) {
-        print_error("--output: too many files");
-        return false;
-    }
-    job->outputs[job->output_count++] = path;
-    return true;
-}
-
-static bool take_compression(struct job *job, const char *name)
-{
-    if (image_compression_named(name, &job->format.compression))
-        return true;
-    fprintf(stderr,
-            "psplat: error: --compression: expected one of " IMAGE_COMPRESSIONS ", got '%s'\n",
-            name);
-    return false;
-}
-
-static bool take_option(struct job *job, const struct argument *argument)
-{
-    const char *name = argument->option->name, *value = argument->value;
-    if (strcmp(name, "output") == 0)
-        return take_output(job, value);
-    if (strcmp(name, "layers") == 0) {
-        job->layers = value;
-        return layers_check(value);
-    }
-    if (strcmp(name, "compression") == 0)
-        return take_compression(job, value);
-    if (strcmp(name, "stats") == 0)
-        job->stats_path = value;
-    else if (strcmp(name, "passes") == 0)
-        return parse_whole_number(name, value, 1, 1e6, &job->passes);
-    return true;
-}
-
 static bool take_arguments(struct job *job, const struct argument *arguments, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        if (arguments[i].option) {
-            if (!take_option(job, &arguments[i]))
-                return false;
-        } else if (job->options.scene_path) {
+        if (argument_is(&arguments[i], "stats")) {
+            job->stats_path = arguments[i].value;
+        } else if (!arguments[i].option && job->options.scene_path) {
             fprintf(stderr, "psplat: error: one scene at a time: '%s' after '%s'\n",
                     arguments[i].value, job->options.scene_path);
             return false;
-        } else {
+        } else if (!arguments[i].option) {
             job->options.scene_path = arguments[i].value;
         }
     }
@@ -131,32 +88,30 @@ static bool take_arguments(struct job *job, const struct argument *arguments, si
     return job->options.scene_path != NULL;
 }
 
-/* Without --output: the scene's name with both suffixes. */
+/* Part of the passes makes no picture that anybody waits for, unless it is named. */
 static bool choose_outputs(struct job *job)
 {
-    static const char *const suffixes[2] = {".exr", ".png"};
-    if (job->output_count > 0)
+    if (job->outputs.count > 0)
         return true;
-    for (int i = 0; i < 2; i++) {
-        job->default_outputs[i] = output_default_path(job->options.scene_path, suffixes[i]);
-        if (!job->default_outputs[i]) {
-            print_error("out of memory");
-            return false;
-        }
-        job->outputs[job->output_count++] = job->default_outputs[i];
-    }
-    return true;
+    if (!job->passes.is_shard)
+        return output_list_add_defaults(&job->outputs, job->options.scene_path);
+    if (!job->passes.checkpoint)
+        print_error("--passes A:B: where to? Name the film with --checkpoint, or a picture with "
+                    "--output.");
+    return job->passes.checkpoint != NULL;
 }
 
 /* Finds out before the render what can be told by then. */
 static bool check_outputs(const struct job *job)
 {
     struct error error;
-    bool good = true;
-    for (size_t i = 0; i < job->output_count && good; i++)
-        good = output_check(job->outputs[i], &error);
-    if (good && job->stats_path)
+    bool good = output_list_check(&job->outputs);
+    if (!good)
+        return false;
+    if (job->stats_path)
         good = output_check(job->stats_path, &error);
+    if (good && job->passes.checkpoint)
+        good = output_check(job->passes.checkpoint, &error);
     if (!good)
         print_error(error.text);
     return good;
@@ -171,21 +126,68 @@ static void tell_of_dark_pixels(const struct job *job, const struct statistics *
                 dark == 1.0 ? "" : "s");
 }
 
-/* Writes all that can be written; the error is the first one's. */
-static ps_result write_files(struct job *job, const struct image *image, struct workers *workers,
-                             struct statistics *statistics, struct error *error)
+/* Those that the picture holds: what was interrupted is repeated by asking for the passes that were done. */
+static struct render_settings settings_of_picture(const struct job *job, uint32_t passes)
 {
+    struct render_settings settings = *job->settings;
+    settings.passes = settings.first_pass + passes;
+    return settings;
+}
+
+/* Writes all files that can be written. */
+static ps_result write_picture(struct job *job, struct image *image, uint32_t passes, bool quiet,
+                               struct error *error)
+{
+    const struct scene_description *description = job->description;
+    struct render_settings settings = settings_of_picture(job, passes);
+    ps_result result = output_describe(image, description->path, &job->options.scene, &settings,
+                                       description->image.exposure, error);
+    job->outputs.format.exposure = description->image.exposure;
+    return result == PS_OK
+               ? output_list_write(&job->outputs, image, settings.workers, quiet, error)
+               : result;
+}
+
+static ps_result write_picture_on_the_way(void *user, struct image *image, struct error *error)
+{
+    struct job *job = user;
+    return write_picture(job, image, job->passes.passes_seen, true, error);
+}
+
+static void show_progress(void *user, const char *stage, double fraction)
+{
+    struct job *job = user;
+    if (long_job_has_budget(&job->passes))
+        fraction = fmax(fraction, schedule_fraction(&job->passes.schedule, clock_seconds()));
+    progress_update(&job->progress, stage, fraction);
+}
+
+static void show_message(void *user, ps_log_level level, const char *message)
+{
+    const struct job *job = user;
+    progress_message(&job->progress, level, message);
+}
+
+static bool goes_on(void *user, struct render *render)
+{
+    struct job *job = user;
+    return long_job_goes_on(&job->passes, render);
+}
+
+/* What can be written is; the error is the first one's. */
+static ps_result write_files(struct job *job, struct image *image, struct statistics *statistics,
+                             struct error *error)
+{
+    struct error reason;
     double start = clock_seconds();
     ps_result first = PS_OK;
-    for (size_t i = 0; i < job->output_count; i++) {
-        struct error reason;
-        ps_result result = output_write(image, job->outputs[i], &job->format, workers, &reason);
-        if (result == PS_OK && !job->options.quiet)
-            fprintf(stderr, "psplat: wrote %s\n", job->outputs[i]);
-        if (result != PS_OK && first == PS_OK) {
-            first = result;
-            *error = reason;
-        }
+    if (image->width > 0)
+        first = write_picture(job, image, (uint32_t)statistics_counter(statistics, "passes"),
+                              job->options.quiet, error);
+    ps_result kept = long_job_write_film(&job->passes, &reason);
+    if (kept != PS_OK && first == PS_OK) {
+        first = kept;
+        *error = reason;
     }
     if (first != PS_OK)
         return first;
@@ -194,38 +196,38 @@ static ps_result write_files(struct job *job, const struct image *image, struct 
     return job->stats_path ? statistics_write(statistics, job->stats_path, error) : PS_OK;
 }
 
-static ps_result render_and_write(struct job *job, const struct scene_description *description,
-                                  const struct scene *scene, struct render_settings *settings,
+static ps_result render_and_write(struct job *job, const struct scene *scene,
                                   struct statistics *statistics, struct error *error)
 {
-    struct render_callbacks callbacks = progress_callbacks(&job->progress);
-    callbacks.cancelled = was_interrupted;
+    const struct render_callbacks callbacks = {
+        .user = job,
+        .progress = show_progress,
+        .log = show_message,
+        .cancelled = was_interrupted,
+        .go_on = goes_on,
+    };
     struct image image = {0};
+    struct film_sum *film = job->passes.checkpoint ? &job->passes.film : NULL;
     handle_signals(interrupt);
-    ps_result result = render_run(scene, settings, &callbacks, statistics, NULL, &image, error);
+    signal(SIGUSR1, ask_for_picture);
+    ps_result result =
+        render_run(scene, job->settings, &callbacks, statistics, film, &image, error);
     progress_clear(&job->progress);
     if (image.width == 0)
         return result;
     tell_of_dark_pixels(job, statistics);
-    /* An interrupted render is repeated by asking for the passes that were done. */
-    double passes = statistics_counter(statistics, "passes");
-    settings->passes = (uint32_t)passes;
-    ps_result written = output_describe(&image, description->path, &job->options.scene, settings,
-                                        description->image.exposure, error);
-    layers_keep(&image, job->layers);
-    job->format.exposure = description->image.exposure;
-    if (written == PS_OK)
-        written = write_files(job, &image, settings->workers, statistics, error);
+    struct error reason;
+    ps_result written = write_files(job, &image, statistics, &reason);
     image_release(&image);
-    if (written == PS_OK && result == PS_CANCELLED)
-        return error_set(error, PS_CANCELLED,
-                         "interrupted: the picture holds what was done by then");
+    if (written != PS_OK)
+        *error = reason;
+    else if (result == PS_CANCELLED)
+        error_set(error, PS_CANCELLED, "interrupted: the picture holds what was done by then");
     return written == PS_OK ? result : written;
 }
 
-static int render_job(struct job *job, struct scene_input *input, struct render_settings *settings)
+static int render_job(struct job *job, struct scene_input *input)
 {
-    const struct scene_description *description = &input->description;
     struct scene scene;
     struct statistics statistics;
     struct error error;
@@ -235,35 +237,23 @@ static int render_job(struct job *job, struct scene_input *input, struct render_
     ps_result result = scene_input_build_to_render(input, &scene, &error);
     statistics_add_seconds(&statistics, "scene", clock_seconds() - start);
     if (result == PS_OK) {
-        result = render_and_write(job, description, &scene, settings, &statistics, &error);
+        result = long_job_begin(&job->passes, &input->description, &scene, job->settings, &error);
+        if (result == PS_OK)
+            result = render_and_write(job, &scene, &statistics, &error);
         scene_release(&scene);
     }
     statistics_destroy(&statistics);
-    if (result == PS_OK)
-        return STATUS_OK;
-    if (error.text[0])
+    if (result != PS_OK && error.text[0])
         print_error(error.text);
-    return result == PS_ERROR_INVALID ? STATUS_USAGE : STATUS_FAILED;
+    return result == PS_CANCELLED && interrupted ? STATUS_SIGNAL + interrupted : status_of(result);
 }
 
-static bool wants_layers(const struct job *job)
+/* What is made for others to see: layers of EXR files, and the error for whoever asks. */
+static void set_wishes(const struct job *job, struct render_settings *settings)
 {
-    bool wanted = false;
-    for (size_t i = 0; i < job->output_count; i++)
-        wanted |= output_holds_layers(job->outputs[i]);
-    return wanted && strcmp(job->layers, "none") != 0;
-}
-
-static bool denoiser_makes_layers(const struct job *job, const struct render_settings *settings)
-{
-    const struct strategy_type *denoiser = settings->strategies[PS_DENOISER].type;
-    if (!layers_name(job->layers, "error") || denoiser->table.denoiser.flags & PS_DENOISER_ERROR)
-        return true;
-    fprintf(stderr,
-            "psplat: error: --layers: denoiser '%s' does not estimate its error; "
-            "denoiser=regression does\n",
-            denoiser->name);
-    return false;
+    bool error = job->passes.schedule.error > 0.0;
+    settings->picture_alone = !output_list_wants_layers(&job->outputs) && !error;
+    settings->no_error_layer = !output_list_wants_error(&job->outputs) && !error;
 }
 
 static int load_and_render(struct job *job)
@@ -272,13 +262,13 @@ static int load_and_render(struct job *job)
     struct render_settings settings;
     int status = STATUS_USAGE;
     if (render_options_load(&job->options, &input, &settings)) {
-        if (job->passes > 0)
-            settings.passes = (uint32_t)job->passes;
-        settings.picture_alone = !wants_layers(job);
-        settings.no_error_layer =
-            strcmp(job->layers, "all") != 0 && !layers_name(job->layers, "error");
-        if (denoiser_makes_layers(job, &settings))
-            status = render_job(job, &input, &settings);
+        job->settings = &settings;
+        job->description = &input.description;
+        job->passes.workers = settings.workers;
+        set_wishes(job, &settings);
+        if (output_list_suits(&job->outputs, &settings) &&
+            long_job_set_passes(&job->passes, &settings))
+            status = render_job(job, &input);
         settings_release(&settings);
     }
     scene_input_release(&input);
@@ -287,18 +277,26 @@ static int load_and_render(struct job *job)
 
 static int run_arguments(const struct argument *arguments, size_t count)
 {
-    struct job job = {.layers = "all", .passes = -1};
+    struct job job = {.stats_path = NULL};
     int status = STATUS_USAGE;
     if (render_options_take(&job.options, arguments, count) &&
-        take_arguments(&job, arguments, count)) {
+        output_list_take(&job.outputs, arguments, count) &&
+        long_job_take(&job.passes, arguments, count) && take_arguments(&job, arguments, count) &&
+        choose_outputs(&job)) {
         status = STATUS_FAILED;
         progress_start(&job.progress, job.options.quiet);
-        if (choose_outputs(&job) && check_outputs(&job))
+        job.passes.schedule.start = job.progress.start;
+        job.passes.compression = job.outputs.format.compression;
+        job.passes.quiet = job.options.quiet;
+        job.passes.write_now = &write_now;
+        job.passes.write_picture = write_picture_on_the_way;
+        job.passes.user = &job;
+        if (check_outputs(&job))
             status = load_and_render(&job);
     }
+    long_job_release(&job.passes);
+    output_list_release(&job.outputs);
     render_options_release(&job.options);
-    free(job.default_outputs[0]);
-    free(job.default_outputs[1]);
     return status;
 }
 

@@ -2,8 +2,8 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
-#include "base/version.h"
 #include "image/tonemap.h"
+#include "job/facts.h"
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -26,6 +26,16 @@ bool output_is_writable_format(const char *path)
 bool output_holds_layers(const char *path)
 {
     return has_suffix(path, ".exr");
+}
+
+bool output_parse_compression(const char *name, enum image_compression *compression)
+{
+    if (image_compression_named(name, compression))
+        return true;
+    fprintf(stderr,
+            "psplat: error: --compression: expected one of " IMAGE_COMPRESSIONS ", got '%s'\n",
+            name);
+    return false;
 }
 
 char *output_default_path(const char *scene_path, const char *suffix)
@@ -149,8 +159,10 @@ static void print_command(FILE *stream, const struct image *image, const char *s
     fprintf(stream, "psplat render");
     print_next(stream, strcmp(scene_path, "<stdin>") == 0 ? "-" : scene_path);
     scene_options_each_word(options, print_next, stream);
-    fprintf(stream, " --size %zux%zu --passes %" PRIu32 " --seed %" PRIu64, image->width,
-            image->height, settings->passes, settings->seed);
+    fprintf(stream, " --size %zux%zu --passes ", image->width, image->height);
+    if (settings->first_pass > 0)
+        fprintf(stream, "%" PRIu32 ":", settings->first_pass);
+    fprintf(stream, "%" PRIu32 " --seed %" PRIu64, settings->passes, settings->seed);
     char bounces[32];
     format_bounces(settings, bounces, sizeof bounces);
     fprintf(stream, " --bounces %s", bounces);
@@ -190,46 +202,17 @@ static ps_result set_command(struct image *image, const char *scene_path,
     return result;
 }
 
-ps_result output_describe_settings(struct image *image, const char *scene_path,
-                                   const struct render_settings *settings, struct error *error)
-{
-    char seed[32], passes[32], bounces[32], direct[64] = "rays", indirect[32], ambient[64];
-    snprintf(seed, sizeof seed, "%" PRIu64, settings->seed);
-    snprintf(passes, sizeof passes, "%" PRIu32, settings->passes);
-    format_bounces(settings, bounces, sizeof bounces);
-    if (settings->direct == DIRECT_SHADOWMAP)
-        snprintf(direct, sizeof direct, "shadowmap:resolution=%" PRIu32,
-                 settings->direct_resolution);
-    text_from_number(settings->indirect_exposure, indirect, sizeof indirect);
-    snprintf(ambient, sizeof ambient, "[%.9g, %.9g, %.9g]", (double)settings->ambient.r,
-             (double)settings->ambient.g, (double)settings->ambient.b);
-    const char *const facts[][2] = {{"psplat.version", PSPLAT_VERSION},
-                                    {"psplat.scene", scene_path},
-                                    {"psplat.seed", seed},
-                                    {"psplat.passes", passes},
-                                    {"psplat.bounces", bounces},
-                                    {"psplat.direct", direct},
-                                    {"psplat.indirect_exposure", indirect},
-                                    {"psplat.ambient", ambient}};
-    ps_result result = PS_OK;
-    for (size_t i = 0; i < sizeof facts / sizeof facts[0] && result == PS_OK; i++)
-        result = image_set_attribute(image, facts[i][0], facts[i][1], error);
-    for (int kind = 0; kind < PS_KINDS && result == PS_OK; kind++) {
-        char name[64], value[2048];
-        snprintf(name, sizeof name, "psplat.%s", kinds[kind].name);
-        strategy_format(&settings->strategies[kind], value, sizeof value);
-        result = image_set_attribute(image, name, value, error);
-    }
-    return result;
-}
-
 ps_result output_describe(struct image *image, const char *scene_path,
                           const struct scene_options *options,
                           const struct render_settings *settings, double exposure,
                           struct error *error)
 {
-    ps_result result = output_describe_settings(image, scene_path, settings, error);
-    if (result != PS_OK || settings->passes == 0)
+    char passes[32];
+    snprintf(passes, sizeof passes, "%" PRIu32, settings->passes - settings->first_pass);
+    ps_result result = facts_of_settings(image, scene_path, settings, error);
+    if (result == PS_OK)
+        result = image_set_attribute(image, "psplat.passes", passes, error);
+    if (result != PS_OK || settings->passes == settings->first_pass)
         return result; /* what was interrupted in its first pass can't be repeated */
     return set_command(image, scene_path, options, settings, exposure, error);
 }

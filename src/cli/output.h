@@ -13,6 +13,9 @@ bool output_is_writable_format(const char *path);
 /* Whether files of that name hold layers beside the picture. */
 bool output_holds_layers(const char *path);
 
+/* The compression of that name; false, printed, where there is none. */
+bool output_parse_compression(const char *name, enum image_compression *compression);
+
 /* The scene's name with another suffix, in the current folder; "-" gives "stdin". The caller frees
  * it. */
 char *output_default_path(const char *scene_path, const char *suffix);
@@ -34,10 +37,6 @@ ps_result output_describe(struct image *image, const char *scene_path,
                           const struct scene_options *options,
                           const struct render_settings *settings, double exposure,
                           struct error *error);
-
-/* The same, without the command: what was drawn with these settings is no rendered picture. */
-ps_result output_describe_settings(struct image *image, const char *scene_path,
-                                   const struct render_settings *settings, struct error *error);
 
 /* Whether the folder of a file that is to be written is there and can be written to; the message
  * says what is wrong. */

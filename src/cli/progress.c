@@ -77,13 +77,17 @@ static void show_progress(void *user, const char *stage, double fraction)
     progress_update(user, stage, fraction);
 }
 
-static void show_message(void *user, ps_log_level level, const char *message)
+void progress_message(const struct progress *progress, ps_log_level level, const char *message)
 {
-    const struct progress *progress = user;
     if (level == PS_LOG_WARNING)
         print_warning(message);
     else if (level == PS_LOG_INFO && !progress->quiet)
         fprintf(stderr, "psplat: %s\n", message);
+}
+
+static void show_message(void *user, ps_log_level level, const char *message)
+{
+    progress_message(user, level, message);
 }
 
 struct render_callbacks progress_callbacks(struct progress *progress)

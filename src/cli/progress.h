@@ -17,6 +17,9 @@ struct progress {
 void progress_start(struct progress *progress, bool quiet);
 void progress_update(struct progress *progress, const char *stage, double fraction);
 
+/* A message of the render or a plugin. */
+void progress_message(const struct progress *progress, ps_log_level level, const char *message);
+
 /* What a render tells, shown; warnings too. Nothing interrupts it. `progress` must outlive them. */
 struct render_callbacks progress_callbacks(struct progress *progress);
 

@@ -79,17 +79,6 @@ static bool override_size(const char *text, struct image_description *image)
     return true;
 }
 
-static bool override_exposure(const char *text, double *exposure)
-{
-    double stops;
-    if (!text_to_number(text, &stops) || stops < -20 || stops > 20) {
-        fprintf(stderr, "psplat: error: --exposure: expected a number -20..20, got '%s'\n", text);
-        return false;
-    }
-    *exposure = stops;
-    return true;
-}
-
 /* As the render section of a file reads it. */
 static bool override_setting(const char *key, const char *text, struct render_description *render)
 {
@@ -129,7 +118,7 @@ static bool override(const struct render_options *options, struct scene_input *i
         preview_shrink(&description->image);
     return (!options->size || override_size(options->size, &description->image)) &&
            (!options->exposure ||
-            override_exposure(options->exposure, &description->image.exposure)) &&
+            parse_exposure(options->exposure, &description->image.exposure)) &&
            override_setting("bounces", options->bounces, &description->render) &&
            override_setting("quality", options->quality, &description->render) &&
            (!options->direct || override_direct(options->direct, &description->render.direct));

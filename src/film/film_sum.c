@@ -41,6 +41,42 @@ ps_result film_sum_create(const struct film *film, struct film_sum *sum, struct 
     return result == PS_OK ? copy_ids(film->material, pixels, &sum->material, error) : result;
 }
 
+/* Makes the part of a film whose planes are those of the sum from `first` on, where it has any. */
+static ps_result create_part(const struct film_sum *sum, int first, struct film **part,
+                             struct error *error)
+{
+    bool any = false;
+    struct film planes = {
+        .width = sum->width, .height = sum->height, .is_half = first == FILM_SUM_OF_HALF};
+    for (int plane = 0; plane < FILM_PLANES; plane++)
+        any |= planes.has[plane] = sum->planes[first + plane].high != NULL;
+    if (!any)
+        return PS_OK;
+    *part = malloc(sizeof **part);
+    if (!*part)
+        return error_memory(error, sizeof **part, "half the film");
+    **part = planes;
+    return PS_OK;
+}
+
+ps_result film_sum_create_film(const struct film_sum *sum, struct film *film, struct error *error)
+{
+    size_t pixels = sum->width * sum->height;
+    *film = (struct film){.width = sum->width, .height = sum->height};
+    for (int plane = 0; plane < FILM_PLANES; plane++)
+        film->has[plane] = sum->planes[plane].high != NULL;
+    ps_result result = create_part(sum, FILM_SUM_OF_ODD, &film->odd, error);
+    if (result == PS_OK)
+        result = create_part(sum, FILM_SUM_OF_HALF, &film->half, error);
+    if (result == PS_OK)
+        result = film_begin_pass(film, 0, error);
+    if (result == PS_OK)
+        result = copy_ids(sum->object, pixels, &film->object, error);
+    if (result == PS_OK)
+        result = copy_ids(sum->material, pixels, &film->material, error);
+    return result;
+}
+
 void film_sum_release(struct film_sum *sum)
 {
     for (int plane = 0; plane < FILM_SUM_PLANES; plane++)
@@ -130,6 +166,14 @@ ps_result film_sum_add(struct film_sum *sum, const struct film *film, struct wor
     assert(film->passes == 1 && !pass_set_has(&sum->passes, film->number));
     ps_result result = pass_set_add(&sum->passes, film->number, film->number + 1, error);
     return result == PS_OK ? over_planes(&work, add_plane, workers, error) : result;
+}
+
+bool film_sum_is_alike(const struct film_sum *a, const struct film_sum *b)
+{
+    bool alike = a->width == b->width && a->height == b->height && !a->object == !b->object;
+    for (int plane = 0; plane < FILM_SUM_PLANES; plane++)
+        alike &= !a->planes[plane].high == !b->planes[plane].high;
+    return alike;
 }
 
 ps_result film_sum_merge(struct film_sum *sum, const struct film_sum *other,

@@ -30,6 +30,9 @@ struct film_sum {
 
 /* The sum of no passes, with the planes of a film. The caller releases it where that fails, too. */
 ps_result film_sum_create(const struct film *film, struct film_sum *sum, struct error *error);
+/* A film of no pass with the planes of a sum, for film_sum_round. */
+ps_result film_sum_create_film(const struct film_sum *sum, struct film *film, struct error *error);
+
 void film_sum_release(struct film_sum *sum);
 size_t film_sum_bytes(const struct film_sum *sum);
 
@@ -37,6 +40,9 @@ size_t film_sum_bytes(const struct film_sum *sum);
  * PS_ERROR_MEMORY, the sum is lost. */
 ps_result film_sum_add(struct film_sum *sum, const struct film *film, struct workers *workers,
                        struct error *error);
+
+/* Whether both have the same size and planes. */
+bool film_sum_is_alike(const struct film_sum *a, const struct film_sum *b);
 
 /* Adds another sum, of other passes and the same planes; likewise. */
 ps_result film_sum_merge(struct film_sum *sum, const struct film_sum *other,

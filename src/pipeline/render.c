@@ -366,6 +366,11 @@ static ps_result run_passes(struct render *render, struct error *error)
     return result;
 }
 
+const struct film_sum *render_film(const struct render *render)
+{
+    return render->sum;
+}
+
 ps_result render_picture(struct render *render, struct image *image, struct error *error)
 {
     *image = (struct image){0};
@@ -407,6 +412,43 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
     }
     if (render.has_splatter)
         render_report_splatter(statistics, &render.splatter);
+    render_report_refused(&render);
+    render_destroy(&render);
+    return result;
+}
+
+static ps_result start_resolving(struct render *render, struct error *error)
+{
+    static const ps_kind needed[] = {PS_NORMALIZATION, PS_DENOISER};
+    ps_result result = trace_create(render->scene, render->settings->isa, &render->trace, error);
+    if (result == PS_OK)
+        result = film_sum_create_film(render->sum, &render->film, error);
+    for (size_t i = 0; i < sizeof needed / sizeof needed[0] && result == PS_OK; i++) {
+        result = strategy_start(strategy_in(render, needed[i]), &render->hosts[needed[i]].host);
+        result = render_judge(render, needed[i], result, error);
+    }
+    return result;
+}
+
+ps_result render_resolve(struct film_sum *film, const struct camera *camera,
+                         struct render_settings *settings,
+                         const struct render_callbacks *callbacks, struct statistics *statistics,
+                         struct image *image, struct error *error)
+{
+    const struct scene scene = {
+        .camera = *camera, .width = film->width, .height = film->height};
+    struct render render = {
+        .scene = &scene,
+        .settings = settings,
+        .callbacks = callbacks,
+        .statistics = statistics,
+        .sum = film,
+    };
+    *image = (struct image){0};
+    host_create(&render);
+    ps_result result = start_resolving(&render, error);
+    if (result == PS_OK)
+        result = render_picture(&render, image, error);
     render_report_refused(&render);
     render_destroy(&render);
     return result;

@@ -42,9 +42,19 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
 
 struct render;
 
+/* The sum of the passes so far; NULL where a render of one pass keeps none. Of the pixels of no pass, nothing is there. */
+const struct film_sum *render_film(const struct render *render);
+
 /* The picture of the passes that a render of several has so far, of which there is at least one; likewise. From
  * render_callbacks.go_on alone. */
 ps_result render_picture(struct render *render, struct image *image, struct error *error);
+
+/* The picture of a film, by normalization and denoiser of `settings`, whose strategies it starts. Of the scene they
+ * know the camera alone. Results are those of render_run. */
+ps_result render_resolve(struct film_sum *film, const struct camera *camera,
+                         struct render_settings *settings,
+                         const struct render_callbacks *callbacks, struct statistics *statistics,
+                         struct image *image, struct error *error);
 
 /* Looks at a render whose first pass has all but its indirect light: the G-buffer and direct light,
  * in the tiles and, averaged, in the film. May use the services as an estimator does. */

@@ -1,0 +1,275 @@
+/* command_resolve.c: psplat resolve: a film becomes a picture, without rendering. */
+#include "base/param.h"
+#include "base/text.h"
+#include "cli/command.h"
+#include "cli/output_list.h"
+#include "cli/progress.h"
+#include "cli/render_options.h"
+#include "job/facts.h"
+#include "job/film_file.h"
+#include "parser/schema/schema.h"
+#include "plugin/kind.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static const struct option options[] = {
+    OUTPUT_OPTIONS,
+    {'p', "plugin", "KIND=NAME[:KEY=VALUE,...]",
+     "another normalization or denoiser, or other parameters"},
+    {0, "exposure", "STOPS", "brightness of the PNG: a factor of 2^STOPS"},
+    {'t', "threads", "N", "threads; the picture does not depend on them"},
+    {'q', "quiet", NULL, "print nothing but errors"},
+};
+
+struct job {
+    const char *film_path;
+    struct output_list outputs;
+    const struct argument *arguments;
+    size_t count;
+    double threads; /* negative: not given */
+    double exposure;
+    bool has_exposure, quiet;
+    struct film_sum film;
+    struct image facts;
+    struct loader *loader;
+    struct render_description description;
+};
+
+static bool take_option(struct job *job, const struct argument *argument)
+{
+    if (argument_is(argument, "quiet"))
+        job->quiet = true;
+    else if (argument_is(argument, "threads"))
+        return parse_whole_number("threads", argument->value, 1, 1024, &job->threads);
+    else if (argument_is(argument, "exposure"))
+        return job->has_exposure = parse_exposure(argument->value, &job->exposure);
+    return true;
+}
+
+static bool take_arguments(struct job *job)
+{
+    for (size_t i = 0; i < job->count; i++) {
+        const struct argument *argument = &job->arguments[i];
+        if (argument->option && !take_option(job, argument))
+            return false;
+        if (!argument->option && job->film_path) {
+            fprintf(stderr, "psplat: error: one film at a time: '%s' after '%s'\n", argument->value,
+                    job->film_path);
+            return false;
+        }
+        if (!argument->option)
+            job->film_path = argument->value;
+    }
+    if (!job->film_path)
+        print_error("which film? Try 'psplat resolve --help'.");
+    else if (job->outputs.count == 0)
+        print_error("where to? Name the picture with --output.");
+    return job->film_path && job->outputs.count > 0;
+}
+
+/* A picture in place of its film would be a loss. */
+static bool spares_film(const struct job *job)
+{
+    struct stat film, output;
+    for (size_t i = 0; i < job->outputs.count; i++) {
+        const char *path = job->outputs.paths[i];
+        if (stat(job->film_path, &film) == 0 && stat(path, &output) == 0 &&
+            film.st_dev == output.st_dev && film.st_ino == output.st_ino) {
+            fprintf(stderr, "psplat: error: --output: '%s' is the film itself\n", path);
+            return false;
+        }
+    }
+    return true;
+}
+
+/* --- settings --------------------------------------------------------------------------------------- */
+
+static ps_result set_number(struct render_description *render, const char *key, const char *text,
+                            struct error *error)
+{
+    struct param_table table = schema_table(schema_only("render"));
+    return text ? param_set(param_find(&table, key), render, text, error) : PS_OK;
+}
+
+static ps_result choose(struct job *job, ps_kind kind, const char *text, struct error *error)
+{
+    struct strategy_choice choice;
+    ps_result result = settings_parse_choice(text, &choice, error);
+    return result == PS_OK
+               ? settings_override(&job->description.strategies[kind], &choice, error)
+               : result;
+}
+
+/* What the film was to be resolved with. */
+static ps_result take_facts(struct job *job, struct error *error)
+{
+    const struct image *facts = &job->facts;
+    struct param_table table = schema_table(schema_only("render"));
+    const char *normalization = image_attribute(facts, "psplat.normalization");
+    const char *denoiser = image_attribute(facts, "psplat.denoiser");
+    const char *exposure = image_attribute(facts, "psplat.exposure");
+    ps_result result = param_set_defaults(&table, &job->description, 1.0, error);
+    if (result == PS_OK && normalization)
+        result = choose(job, PS_NORMALIZATION, normalization, error);
+    if (result == PS_OK && denoiser)
+        result = choose(job, PS_DENOISER, denoiser, error);
+    if (result == PS_OK)
+        result = set_number(&job->description, "indirect_exposure",
+                            image_attribute(facts, "psplat.indirect_exposure"), error);
+    if (result == PS_OK)
+        result = set_number(&job->description, "ambient", image_attribute(facts, "psplat.ambient"),
+                            error);
+    if (!job->has_exposure && exposure)
+        text_to_number(exposure, &job->exposure);
+    return result;
+}
+
+static bool is_last_stage(ps_kind kind)
+{
+    return kind == PS_NORMALIZATION || kind == PS_DENOISER;
+}
+
+static ps_result override(struct job *job, const char *text, struct error *error)
+{
+    const char *wanted;
+    ps_kind kind = kind_parse(text, &wanted);
+    if (kind == PS_KINDS || !wanted || !is_last_stage(kind))
+        return error_set(error, PS_ERROR_INVALID,
+                         "--plugin: expected normalization=NAME or denoiser=NAME, got '%.200s'; the "
+                         "other strategies have made the film",
+                         text);
+    return choose(job, kind, wanted, error);
+}
+
+static void report(void *user, const struct origin *origin, const char *message)
+{
+    (void)user;
+    (void)origin;
+    print_error(message);
+}
+
+/* Errors that were printed leave no text. */
+static ps_result load_settings(struct job *job, struct render_settings *settings,
+                               struct error *error)
+{
+    uint32_t threads = job->threads > 0 ? (uint32_t)job->threads : parallel_processor_count();
+    ps_result result = take_facts(job, error);
+    for (size_t i = 0; i < job->count && result == PS_OK; i++)
+        if (argument_is(&job->arguments[i], "plugin"))
+            result = override(job, job->arguments[i].value, error);
+    if (result == PS_OK)
+        result = loader_create(&job->loader, error);
+    if (result != PS_OK)
+        return result;
+    error->text[0] = '\0';
+    return settings_resolve(job->loader, &job->description, threads, 1, report, NULL, settings);
+}
+
+/* --- picture ---------------------------------------------------------------------------------------- */
+
+static ps_result describe(const struct job *job, const struct render_settings *settings,
+                          struct image *image, struct error *error)
+{
+    ps_result result = PS_OK;
+    char passes[32];
+    for (size_t i = 0; i < job->facts.attribute_count && result == PS_OK; i++) {
+        const struct image_attribute *fact = &job->facts.attributes[i];
+        if (strcmp(fact->name, "psplat.film") != 0)
+            result = image_set_attribute(image, fact->name, fact->value, error);
+    }
+    for (int kind = PS_NORMALIZATION; kind <= PS_DENOISER && result == PS_OK; kind++)
+        result = facts_set_strategy(image, &settings->strategies[kind], error);
+    snprintf(passes, sizeof passes, "%" PRIu32, pass_set_size(&job->film.passes));
+    return result == PS_OK ? image_set_attribute(image, "psplat.passes", passes, error) : result;
+}
+
+static ps_result resolve_with(struct job *job, struct render_settings *settings,
+                              struct error *error)
+{
+    struct progress progress;
+    struct statistics statistics;
+    struct image image;
+    struct camera camera;
+    struct error reason;
+    ps_result result = facts_camera(&job->facts, &camera, error);
+    if (result != PS_OK)
+        return result;
+    progress_start(&progress, job->quiet);
+    struct render_callbacks callbacks = progress_callbacks(&progress);
+    statistics_init(&statistics);
+    result =
+        render_resolve(&job->film, &camera, settings, &callbacks, &statistics, &image, error);
+    progress_clear(&progress);
+    if (image.width > 0) {
+        job->outputs.format.exposure = job->exposure;
+        ps_result written = describe(job, settings, &image, &reason);
+        if (written == PS_OK)
+            written = output_list_write(&job->outputs, &image, settings->workers, job->quiet,
+                                        &reason);
+        if (written != PS_OK && result == PS_OK) {
+            result = written;
+            *error = reason;
+        }
+    }
+    image_release(&image);
+    statistics_destroy(&statistics);
+    return result;
+}
+
+static ps_result resolve(struct job *job, struct error *error)
+{
+    struct render_settings settings;
+    ps_result result = film_file_read(job->film_path, &job->film, &job->facts, error);
+    if (result == PS_OK)
+        result = load_settings(job, &settings, error);
+    if (result != PS_OK)
+        return result;
+    settings.picture_alone = !output_list_wants_layers(&job->outputs);
+    settings.no_error_layer = !output_list_wants_error(&job->outputs);
+    if (output_list_suits(&job->outputs, &settings))
+        result = resolve_with(job, &settings, error);
+    else
+        result = PS_ERROR_INVALID;
+    settings_release(&settings);
+    return result;
+}
+
+static void release(struct job *job)
+{
+    film_sum_release(&job->film);
+    image_release(&job->facts);
+    render_description_release(&job->description);
+    loader_destroy(job->loader);
+    output_list_release(&job->outputs);
+}
+
+static int run(const struct argument *arguments, size_t count)
+{
+    struct job job = {.arguments = arguments, .count = count, .threads = -1};
+    struct error error = {.text = ""};
+    int status = STATUS_USAGE;
+    if (output_list_take(&job.outputs, arguments, count) && take_arguments(&job) &&
+        spares_film(&job)) {
+        ps_result result = PS_ERROR_IO;
+        if (output_list_check(&job.outputs))
+            result = resolve(&job, &error);
+        if (result != PS_OK && error.text[0])
+            print_error(error.text);
+        status = status_of(result);
+    }
+    release(&job);
+    return status;
+}
+
+const struct command command_resolve = {
+    .name = "resolve",
+    .operands = "FILM.exr",
+    .summary = "makes a picture of a film, without rendering again",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
+    .run = run,
+};

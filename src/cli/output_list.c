@@ -1,0 +1,115 @@
+#include "cli/output_list.h"
+
+#include "cli/layers.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool take_path(struct output_list *list, const char *path)
+{
+    if (!output_is_writable_format(path)) {
+        fprintf(stderr, "psplat: error: --output: '%s' ends neither in .exr nor in .png\n", path);
+        return false;
+    }
+    if (list->count == MOST_OUTPUTS) {
+        print_error("--output: too many files");
+        return false;
+    }
+    list->paths[list->count++] = path;
+    return true;
+}
+
+static bool take_option(struct output_list *list, const struct argument *argument)
+{
+    if (argument_is(argument, "output"))
+        return take_path(list, argument->value);
+    if (argument_is(argument, "compression"))
+        return output_parse_compression(argument->value, &list->format.compression);
+    if (!argument_is(argument, "layers"))
+        return true; /* another's */
+    list->layers = argument->value;
+    return layers_check(argument->value);
+}
+
+bool output_list_take(struct output_list *list, const struct argument *arguments, size_t count)
+{
+    *list = (struct output_list){.layers = "all"};
+    for (size_t i = 0; i < count; i++)
+        if (!take_option(list, &arguments[i]))
+            return false;
+    return true;
+}
+
+void output_list_release(struct output_list *list)
+{
+    free(list->defaults[0]);
+    free(list->defaults[1]);
+}
+
+bool output_list_add_defaults(struct output_list *list, const char *scene_path)
+{
+    static const char *const suffixes[2] = {".exr", ".png"};
+    for (int i = 0; i < 2; i++) {
+        list->defaults[i] = output_default_path(scene_path, suffixes[i]);
+        if (!list->defaults[i]) {
+            print_error("out of memory");
+            return false;
+        }
+        list->paths[list->count++] = list->defaults[i];
+    }
+    return true;
+}
+
+bool output_list_check(const struct output_list *list)
+{
+    struct error error;
+    bool good = true;
+    for (size_t i = 0; i < list->count && good; i++)
+        good = output_check(list->paths[i], &error);
+    if (!good)
+        print_error(error.text);
+    return good;
+}
+
+bool output_list_wants_layers(const struct output_list *list)
+{
+    bool wanted = false;
+    for (size_t i = 0; i < list->count; i++)
+        wanted |= output_holds_layers(list->paths[i]);
+    return wanted && strcmp(list->layers, "none") != 0;
+}
+
+bool output_list_wants_error(const struct output_list *list)
+{
+    return strcmp(list->layers, "all") == 0 || layers_name(list->layers, "error");
+}
+
+bool output_list_suits(const struct output_list *list, const struct render_settings *settings)
+{
+    const struct strategy_type *denoiser = settings->strategies[PS_DENOISER].type;
+    if (!layers_name(list->layers, "error") || denoiser->table.denoiser.flags & PS_DENOISER_ERROR)
+        return true;
+    fprintf(stderr,
+            "psplat: error: --layers: denoiser '%s' does not estimate its error; "
+            "denoiser=regression does\n",
+            denoiser->name);
+    return false;
+}
+
+ps_result output_list_write(const struct output_list *list, struct image *image,
+                            struct workers *workers, bool quiet, struct error *error)
+{
+    ps_result first = PS_OK;
+    layers_keep(image, list->layers);
+    for (size_t i = 0; i < list->count; i++) {
+        struct error reason;
+        ps_result result = output_write(image, list->paths[i], &list->format, workers, &reason);
+        if (result == PS_OK && !quiet)
+            fprintf(stderr, "psplat: wrote %s\n", list->paths[i]);
+        if (result != PS_OK && first == PS_OK) {
+            first = result;
+            *error = reason;
+        }
+    }
+    return first;
+}

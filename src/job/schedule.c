@@ -1,0 +1,78 @@
+#include "job/schedule.h"
+
+#include <math.h>
+
+void schedule_start(struct schedule *schedule, double now)
+{
+    schedule->start = now;
+    schedule->pass_start = schedule->last_checkpoint = now;
+    schedule->last_picture = -INFINITY;
+    schedule->pass_seconds = schedule->picture_seconds = 0.0;
+    schedule->next_look = 1;
+    schedule->estimate = -1.0;
+}
+
+void schedule_begin_pass(struct schedule *schedule, double now)
+{
+    schedule->pass_start = now;
+}
+
+void schedule_end_pass(struct schedule *schedule, double now)
+{
+    schedule->pass_seconds = now - schedule->pass_start;
+}
+
+bool schedule_has_time(const struct schedule *schedule, double now)
+{
+    double needed = schedule->pass_seconds + schedule->picture_seconds;
+    return now - schedule->start + needed <= schedule->seconds;
+}
+
+bool schedule_wants_picture(const struct schedule *schedule, double now)
+{
+    return schedule->write_every < INFINITY &&
+           now - schedule->last_picture >= schedule->write_every;
+}
+
+bool schedule_wants_checkpoint(const struct schedule *schedule, double now)
+{
+    return now - schedule->last_checkpoint >= schedule->checkpoint_every;
+}
+
+void schedule_note_picture(struct schedule *schedule, double start, double now)
+{
+    schedule->picture_seconds = now - start;
+    schedule->last_picture = now;
+}
+
+void schedule_note_checkpoint(struct schedule *schedule, double now)
+{
+    schedule->last_checkpoint = now;
+}
+
+bool schedule_wants_error(const struct schedule *schedule, uint32_t passes)
+{
+    return schedule->error > 0.0 && passes >= schedule->next_look;
+}
+
+/* At most twice the passes, since the rate is a guess. */
+void schedule_note_error(struct schedule *schedule, uint32_t passes, double estimate)
+{
+    double ratio = estimate < 0.0 ? 1.0 : estimate / schedule->error;
+    double next = fmin(fmax((double)passes * ratio * ratio, passes + 1.0), 2.0 * passes + 1.0);
+    schedule->next_look = (uint32_t)fmin(next, (double)UINT32_MAX);
+    schedule->estimate = estimate;
+}
+
+bool schedule_is_good_enough(const struct schedule *schedule)
+{
+    return schedule->estimate >= 0.0 && schedule->estimate <= schedule->error;
+}
+
+double schedule_fraction(const struct schedule *schedule, double now)
+{
+    double of_time = (now - schedule->start) / schedule->seconds, of_error = 0.0;
+    if (schedule->estimate > 0.0)
+        of_error = schedule->error * schedule->error / (schedule->estimate * schedule->estimate);
+    return fmin(fmax(of_time, of_error), 1.0);
+}
