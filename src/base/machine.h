@@ -2,7 +2,14 @@
 #ifndef BASE_MACHINE_H
 #define BASE_MACHINE_H
 
-/* Bytes of physical memory; infinite where the system does not tell. */
+/* Bytes of memory that this process may use: the physical memory, or less where its control group (cgroups(7)) or
+ * one above it has a limit; infinite where the system does not tell. */
 double machine_memory(void);
+
+/* The limit of its control groups alone, by what /proc and /sys say under `root` ("": the machine's). */
+double machine_memory_of_groups(const char *root);
+
+/* Bytes that this process has in memory now; 0 where the system does not tell. */
+double machine_memory_of_process(void);
 
 #endif

@@ -137,6 +137,23 @@ bool parse_rectangle(const char *option, const char *text, struct rectangle *rec
     return i == 4;
 }
 
+bool parse_bytes(const char *option, const char *text, double *bytes)
+{
+    static const char units[] = "KMGT";
+    char number[64];
+    size_t length = strlen(text);
+    const char *unit = length > 1 ? strchr(units, text[length - 1]) : NULL;
+    length -= unit != NULL;
+    snprintf(number, sizeof number, "%.*s", (int)(length < 63 ? length : 63), text);
+    if (text_to_number(number, bytes) && *bytes > 0.0) {
+        *bytes *= pow(1024.0, unit ? (double)(unit - units + 1) : 0.0);
+        return true;
+    }
+    fprintf(stderr, "psplat: error: --%s: expected a size such as 500M or 8G, got '%s'\n", option,
+            text);
+    return false;
+}
+
 bool parse_exposure(const char *text, double *stops)
 {
     if (text_to_number(text, stops) && *stops >= -20 && *stops <= 20)

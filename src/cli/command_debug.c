@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "job/facts.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -172,7 +173,11 @@ static int draw_job(struct job *job, struct scene_input *input, struct render_se
     struct scene scene;
     struct error error;
     job->request.options.exposure = input->description.image.exposure;
-    ps_result result = scene_input_build_to_render(input, &scene, &error);
+    const struct render_size size = {.width = (size_t)input->description.image.width,
+                                     .height = (size_t)input->description.image.height};
+    ps_result result = render_check_memory(&size, INFINITY, &error);
+    if (result == PS_OK)
+        result = scene_input_build(input, &scene, &error);
     if (result == PS_OK) {
         result = draw_and_write(job, &scene, settings, &error);
         scene_release(&scene);
@@ -204,7 +209,7 @@ static int run(const struct argument *arguments, size_t count)
     if (render_options_take(&job.options, arguments, count) &&
         take_arguments(&job, arguments, count) && find_view(&job)) {
         status = STATUS_FAILED;
-        progress_start(&job.progress, job.options.quiet);
+        progress_start(&job.progress, PROGRESS_AUTO, job.options.quiet);
         if (choose_output(&job))
             status = load_and_draw(&job);
     }

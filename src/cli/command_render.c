@@ -19,6 +19,8 @@ static const struct option options[] = {
     RENDER_OPTIONS,
     {0, "preview", NULL, "a quick look: small, few light paths, coarse shadows"},
     LONG_JOB_OPTIONS,
+    PROGRESS_OPTION,
+    {0, "memory-limit", "SIZE", "refuse what takes more, as 500M or 8G; default: the machine's"},
     {0, "stats", "FILE.json", "write what each stage took in time and memory"},
 };
 
@@ -27,6 +29,8 @@ struct job {
     struct output_list outputs;
     struct long_job passes;
     const char *stats_path;
+    enum progress_mode progress_mode;
+    double memory_limit; /* bytes; INFINITY: none of the user's */
     struct progress progress;
     const struct scene_description *description; /* while it renders */
     struct render_settings *settings;
@@ -70,16 +74,28 @@ static bool was_interrupted(void *user)
     return interrupted != 0;
 }
 
+static bool take_option(struct job *job, const struct argument *argument)
+{
+    if (argument_is(argument, "stats"))
+        job->stats_path = argument->value;
+    else if (argument_is(argument, "progress"))
+        return progress_parse_mode(argument->value, &job->progress_mode);
+    else if (argument_is(argument, "memory-limit"))
+        return parse_bytes("memory-limit", argument->value, &job->memory_limit);
+    return true; /* another's */
+}
+
 static bool take_arguments(struct job *job, const struct argument *arguments, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        if (argument_is(&arguments[i], "stats")) {
-            job->stats_path = arguments[i].value;
-        } else if (!arguments[i].option && job->options.scene_path) {
+        if (arguments[i].option) {
+            if (!take_option(job, &arguments[i]))
+                return false;
+        } else if (job->options.scene_path) {
             fprintf(stderr, "psplat: error: one scene at a time: '%s' after '%s'\n",
                     arguments[i].value, job->options.scene_path);
             return false;
-        } else if (!arguments[i].option) {
+        } else {
             job->options.scene_path = arguments[i].value;
         }
     }
@@ -168,10 +184,13 @@ static void show_message(void *user, ps_log_level level, const char *message)
     progress_message(&job->progress, level, message);
 }
 
-static bool goes_on(void *user, struct render *render)
+static bool go_on(void *user, struct render *render)
 {
     struct job *job = user;
-    return long_job_goes_on(&job->passes, render);
+    bool goes_on = long_job_goes_on(&job->passes, render);
+    job->progress.passes = job->passes.passes_seen;
+    job->progress.error = job->passes.schedule.estimate;
+    return goes_on;
 }
 
 /* What can be written is; the error is the first one's. */
@@ -204,7 +223,7 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
         .progress = show_progress,
         .log = show_message,
         .cancelled = was_interrupted,
-        .go_on = goes_on,
+        .go_on = go_on,
     };
     struct image image = {0};
     struct film_sum *film = job->passes.checkpoint ? &job->passes.film : NULL;
@@ -212,6 +231,7 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
     signal(SIGUSR1, ask_for_picture);
     ps_result result =
         render_run(scene, job->settings, &callbacks, statistics, film, &image, error);
+    job->progress.passes = (uint32_t)statistics_counter(statistics, "passes");
     progress_clear(&job->progress);
     if (image.width == 0)
         return result;
@@ -226,6 +246,19 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
     return written == PS_OK ? result : written;
 }
 
+static ps_result check_memory(const struct job *job, const struct scene_input *input,
+                              struct error *error)
+{
+    bool keeps_film = job->passes.checkpoint != NULL;
+    const struct render_size size = {
+        .width = (size_t)input->description.image.width,
+        .height = (size_t)input->description.image.height,
+        .several_passes = keeps_film || job->settings->passes - job->settings->first_pass > 1,
+        .keeps_film = keeps_film,
+    };
+    return render_check_memory(&size, job->memory_limit, error);
+}
+
 static int render_job(struct job *job, struct scene_input *input)
 {
     struct scene scene;
@@ -234,7 +267,9 @@ static int render_job(struct job *job, struct scene_input *input)
     statistics_init(&statistics);
     double start = clock_seconds();
     statistics_add_seconds(&statistics, "load", start - job->progress.start);
-    ps_result result = scene_input_build_to_render(input, &scene, &error);
+    ps_result result = check_memory(job, input, &error);
+    if (result == PS_OK)
+        result = scene_input_build(input, &scene, &error);
     statistics_add_seconds(&statistics, "scene", clock_seconds() - start);
     if (result == PS_OK) {
         result = long_job_begin(&job->passes, &input->description, &scene, job->settings, &error);
@@ -245,6 +280,7 @@ static int render_job(struct job *job, struct scene_input *input)
     statistics_destroy(&statistics);
     if (result != PS_OK && error.text[0])
         print_error(error.text);
+    progress_end(&job->progress);
     return result == PS_CANCELLED && interrupted ? STATUS_SIGNAL + interrupted : status_of(result);
 }
 
@@ -277,14 +313,14 @@ static int load_and_render(struct job *job)
 
 static int run_arguments(const struct argument *arguments, size_t count)
 {
-    struct job job = {.stats_path = NULL};
+    struct job job = {.memory_limit = INFINITY};
     int status = STATUS_USAGE;
     if (render_options_take(&job.options, arguments, count) &&
         output_list_take(&job.outputs, arguments, count) &&
         long_job_take(&job.passes, arguments, count) && take_arguments(&job, arguments, count) &&
         choose_outputs(&job)) {
         status = STATUS_FAILED;
-        progress_start(&job.progress, job.options.quiet);
+        progress_start(&job.progress, job.progress_mode, job.options.quiet);
         job.passes.schedule.start = job.progress.start;
         job.passes.compression = job.outputs.format.compression;
         job.passes.quiet = job.options.quiet;

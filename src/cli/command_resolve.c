@@ -198,7 +198,7 @@ static ps_result resolve_with(struct job *job, struct render_settings *settings,
     ps_result result = facts_camera(&job->facts, &camera, error);
     if (result != PS_OK)
         return result;
-    progress_start(&progress, job->quiet);
+    progress_start(&progress, PROGRESS_AUTO, job->quiet);
     struct render_callbacks callbacks = progress_callbacks(&progress);
     statistics_init(&statistics);
     result =

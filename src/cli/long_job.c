@@ -230,9 +230,9 @@ static void look_at_picture(struct long_job *job, struct render *render, bool wr
     ps_result result = render_picture(render, &image, &error);
     if (schedule->error > 0.0) {
         double estimate = error_estimate_of_picture(&image);
-        schedule_note_error(schedule, passes,
-                            estimate >= 0.0 ? estimate
-                                            : error_estimate_of_film(render_film(render)));
+        if (estimate < 0.0)
+            estimate = error_estimate_of_film(render_film(render));
+        schedule_note_error(schedule, passes, estimate, clock_seconds() - start);
     }
     if (write && image.width > 0)
         result = job->write_picture(job->user, &image, &error);

@@ -1,7 +1,6 @@
 #include "cli/scene_input.h"
 
 #include "cli/command.h"
-#include "pipeline/render.h"
 #include "plugin/kind.h"
 #include <stdio.h>
 #include <string.h>
@@ -98,14 +97,6 @@ ps_result scene_input_build(struct scene_input *input, struct scene *scene, stru
     }
     diagnostics_print(input->sink, stderr);
     return result;
-}
-
-ps_result scene_input_build_to_render(struct scene_input *input, struct scene *scene,
-                                      struct error *error)
-{
-    const struct image_description *image = &input->description.image;
-    ps_result result = render_check_memory((size_t)image->width, (size_t)image->height, error);
-    return result == PS_OK ? scene_input_build(input, scene, error) : result;
 }
 
 void scene_input_release(struct scene_input *input)

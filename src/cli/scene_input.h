@@ -29,10 +29,6 @@ bool scene_input_resolve(struct scene_input *input, uint32_t threads, size_t bat
  * too, and its text is empty then. */
 ps_result scene_input_build(struct scene_input *input, struct scene *scene, struct error *error);
 
-/* The same for a scene that is to be rendered, whose picture must fit into the machine's memory. */
-ps_result scene_input_build_to_render(struct scene_input *input, struct scene *scene,
-                                      struct error *error);
-
 void scene_input_release(struct scene_input *input);
 
 #endif

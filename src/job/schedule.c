@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#define SHARE_FOR_LOOKING 0.2
+
 void schedule_start(struct schedule *schedule, double now)
 {
     schedule->start = now;
@@ -55,12 +57,17 @@ bool schedule_wants_error(const struct schedule *schedule, uint32_t passes)
     return schedule->error > 0.0 && passes >= schedule->next_look;
 }
 
-/* At most twice the passes, since the rate is a guess. */
-void schedule_note_error(struct schedule *schedule, uint32_t passes, double estimate)
+/* The rate is a guess: at most twice the passes. */
+void schedule_note_error(struct schedule *schedule, uint32_t passes, double estimate,
+                         double seconds)
 {
     double ratio = estimate < 0.0 ? 1.0 : estimate / schedule->error;
-    double next = fmin(fmax((double)passes * ratio * ratio, passes + 1.0), 2.0 * passes + 1.0);
-    schedule->next_look = (uint32_t)fmin(next, (double)UINT32_MAX);
+    double next = fmin((double)passes * ratio * ratio, 2.0 * passes);
+    double cheap = schedule->pass_seconds > 0.0
+                       ? ceil(seconds / (SHARE_FOR_LOOKING * schedule->pass_seconds))
+                       : 1.0;
+    next = fmax(next, passes + fmax(cheap, 1.0));
+    schedule->next_look = (uint32_t)fmin(ceil(next), (double)UINT32_MAX);
     schedule->estimate = estimate;
 }
 

@@ -2,7 +2,8 @@
  *
  * Times are seconds of clock.h. A budget of time is kept by expecting the next pass to take as long as the last one,
  * and the last picture as long as the last one did; one pass is always made. A budget of error is looked at when, at
- * the rate of Monte Carlo (1 / sqrt(passes)), it may be met, since looking means to denoise.
+ * the rate of Monte Carlo (1 / sqrt(passes)), it may be met, and no more often than that costs a fifth of the time,
+ * since looking means to denoise.
  */
 #ifndef JOB_SCHEDULE_H
 #define JOB_SCHEDULE_H
@@ -39,9 +40,10 @@ bool schedule_wants_checkpoint(const struct schedule *schedule, double now);
 void schedule_note_picture(struct schedule *schedule, double start, double now);
 void schedule_note_checkpoint(struct schedule *schedule, double now);
 
-/* Whether the error ought to be looked at after so many passes; and what it is then. */
+/* Whether the error ought to be looked at after so many passes; and what it is then, which took some time to tell. */
 bool schedule_wants_error(const struct schedule *schedule, uint32_t passes);
-void schedule_note_error(struct schedule *schedule, uint32_t passes, double estimate);
+void schedule_note_error(struct schedule *schedule, uint32_t passes, double estimate,
+                         double seconds);
 bool schedule_is_good_enough(const struct schedule *schedule);
 
 /* Share of the budgets that is used up, 0..1: the largest. */

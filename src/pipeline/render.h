@@ -16,12 +16,18 @@
 #include "render/settings.h"
 #include "scene/scene.h"
 
-/* Bytes that grow with the picture: G-buffer, film and the picture, which has all layers. */
-double render_bytes(size_t width, size_t height);
+/* What of a render its memory grows with. */
+struct render_size {
+    size_t width, height;
+    bool several_passes, keeps_film; /* whose file is made of it */
+};
 
-/* PS_ERROR_MEMORY where a picture of that size takes more than this machine's physical memory.
- * Allocates nothing. */
-ps_result render_check_memory(size_t width, size_t height, struct error *error);
+/* Bytes that grow with the picture: G-buffer, film and the picture, which has all layers. */
+double render_bytes(const struct render_size *size);
+
+/* PS_ERROR_MEMORY where that is more than this machine lends, or than `limit` bytes (INFINITY: none). Allocates
+ * nothing. */
+ps_result render_check_memory(const struct render_size *size, double limit, struct error *error);
 
 /* The layers of a picture, beside R, G and B. */
 #define RENDER_LAYERS "albedo, direct, error, indirect, N, P, weight, Z"

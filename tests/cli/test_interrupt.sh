@@ -1,22 +1,22 @@
 # Renders that are stopped, or whose stages fail: what was done by then is written, and it is said what is missing.
 . "$PSPLAT_SOURCE/tests/cli/lib.sh"
 
-# interrupt SIGNAL N WORD...: starts psplat, waits until it begins with indirect light for the Nth time, which
-# it does once a pass, and sends the signal.
+# interrupt SIGNAL STATUS PASSES WORD...: starts psplat, waits until it is at indirect light and has so many passes, and
+# sends the signal.
 interrupt() {
-    signal=$1 times=$2
-    shift 2
+    signal=$1 status=$2 passes=$3
+    shift 3
     last="psplat $* and SIG$signal"
     rm -rf new && mkdir new
-    : >err # the last one's lines don't count
-    "$PSPLAT" "$@" --stats new/a.json -o new/a.exr -o new/a.png "$cornell" >out 2>err &
+    : >out # the last one's lines don't count
+    "$PSPLAT" "$@" --progress json --stats new/a.json -o new/a.exr -o new/a.png "$cornell" >out 2>err &
     process=$!
-    while [ "$(grep -c "indirect light" err)" -lt "$times" ] && kill -0 $process; do
+    while ! grep -q "indirect light.*\"passes\": $passes" out && kill -0 $process; do
         sleep 0.1
     done
     kill "-$signal" $process || fail "it ended before the signal"
     wait $process
-    check_status $? 1
+    check_status $? "$status"
     expect_text err "psplat: interrupted: finishing this batch, then writing the picture without what is left"
     expect_text err "psplat: error: interrupted: the picture holds what was done by then"
     expect_files a.exr a.png a.json
@@ -26,13 +26,13 @@ interrupt() {
 }
 
 # Many passes: those that were complete make the picture.
-interrupt INT 2 --size 48x27 --passes 1000000 -p injection=photon:count=5000
+interrupt INT 130 "[1-9]" --size 48x27 --passes 1000000 -p injection=photon:count=5000
 expect_match new/a.json '"passes": [0-9]+'
 expect_no_text new/a.json '"passes": 0'
 expect_no_text new/a.json '"passes": 1000000'
 
 # One endless pass: direct light alone, which is what black indirect light gives.
-interrupt TERM 1 --size 48x27 -p estimator=splat -p injection=photon:count=2000000000
+interrupt TERM 143 0 --size 48x27 -p estimator=splat -p injection=photon:count=2000000000
 expect_match new/a.json '"passes": 0,?$'
 expect_text out "psplat.passes: 0"
 expect_text out "interrupted in its first pass"
@@ -94,7 +94,7 @@ while ! grep -q waiting err && kill -0 $process; do
 done
 kill -TERM $process
 wait $process
-check_status $? 1
+check_status $? 143
 expect_text err "psplat: warning: denoiser failing was stopped; the picture is not denoised"
 expect_same_pixels whole.exr stopped.exr
 

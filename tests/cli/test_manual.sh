@@ -105,7 +105,7 @@ splats="-p estimator=splat"
 photon="$splats -p injection=photon:count=200"
 gather_statistics $splats -p injection=rsm:resolution=8
 gather_statistics $splats -p injection=voxel:resolution=8
-gather_statistics $photon --set render.aa_samples=1
+gather_statistics $photon --set render.aa_samples=1 --passes 2
 for choice in stratification=cascade estimator=splat estimator=photonmap estimator=vpl:lights=8 estimator=ssao estimator=gather:samples=1 \
     denoiser=gaussian visibility=imperfect:points=1000; do
     gather_statistics $photon -p $choice --direct shadowmap --direct-resolution 8
@@ -131,6 +131,18 @@ agree "layers of psplat(1)"
 } >program
 part "$man/psplat.1" ".Ss OpenEXR" | sed -n 's/^\.It Cm \(psplat\..*\)/\1/p' >page
 agree "attributes of psplat(1)"
+
+# Those of a film beyond.
+cp page picture
+run 0 -q --size 16x9 --passes 0:1 --checkpoint film.exr "$cornell"
+run 0 info film.exr
+sed -n 's/^\(psplat\.[a-z_.]*\): .*/\1/p' out | grep -vxF -f picture >program
+part "$man/psplat-film.5" ".Ss Attributes" | sed -n 's/^\.It Cm \(psplat\..*\)/\1/p' >page
+agree "attributes of psplat-film(5)"
+sed -n 's/^channels: //p' out | tr ' ' '\n' | sed -n 's/^sum\.//p' | grep -v '^odd\.\|^half\.' >program
+part "$man/psplat-film.5" ".Ss Sums" | sed -n 's/^\.It Cm //p' | tr -d ' ' | tr , '\n' |
+    grep -v '^odd\.\|^half\.\|^reflected\|^gloss' >page
+agree "channels of psplat-film(5)"
 
 # --- examples of scenes are scenes ---
 

@@ -67,18 +67,23 @@ static void test_error(void **state)
     assert_false(schedule_wants_error(&schedule, 1));
     schedule.error = 0.02;
     assert_true(schedule_wants_error(&schedule, 1));
-    schedule_note_error(&schedule, 1, -1); /* not known */
+    schedule_note_error(&schedule, 1, -1, 0); /* not known */
     assert_false(schedule_is_good_enough(&schedule));
     assert_true(schedule_wants_error(&schedule, 2));
-    schedule_note_error(&schedule, 10, 0.024);
+    schedule_note_error(&schedule, 10, 0.024, 0);
     assert_false(schedule_is_good_enough(&schedule));
     assert_false(schedule_wants_error(&schedule, 13));
     assert_true(schedule_wants_error(&schedule, 15)); /* 14.4 */
-    schedule_note_error(&schedule, 10, 0.2);
+    schedule_note_error(&schedule, 10, 0.2, 0);
+    assert_true(schedule_wants_error(&schedule, 20));
+    schedule_note_error(&schedule, 20, 0.0201, 0);
     assert_true(schedule_wants_error(&schedule, 21));
-    schedule_note_error(&schedule, 21, 0.0201);
-    assert_true(schedule_wants_error(&schedule, 22));
-    schedule_note_error(&schedule, 22, 0.02);
+    schedule_begin_pass(&schedule, 1000);
+    schedule_end_pass(&schedule, 1001);
+    schedule_note_error(&schedule, 21, 0.0201, 0.5); /* costs half a pass */
+    assert_false(schedule_wants_error(&schedule, 23));
+    assert_true(schedule_wants_error(&schedule, 24));
+    schedule_note_error(&schedule, 24, 0.02, 0);
     assert_true(schedule_is_good_enough(&schedule));
 }
 
@@ -90,7 +95,7 @@ static void test_fraction(void **state)
     schedule.seconds = 100;
     assert_true(fabs(schedule_fraction(&schedule, 1025) - 0.25) < 1e-9);
     schedule.error = 0.01;
-    schedule_note_error(&schedule, 4, 0.0125);
+    schedule_note_error(&schedule, 4, 0.0125, 0);
     assert_true(fabs(schedule_fraction(&schedule, 1025) - 0.64) < 1e-9);
     assert_true(schedule_fraction(&schedule, 1200) == 1);
 }
