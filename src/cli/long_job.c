@@ -121,8 +121,10 @@ bool long_job_take(struct long_job *job, const struct argument *arguments, size_
             return false;
     if (!goes_together(job))
         return false;
-    if (job->checkpoint && !(job->schedule.checkpoint_every < INFINITY))
+    if (job->checkpoint && !(job->schedule.checkpoint_every < INFINITY)) {
         job->schedule.checkpoint_every = CHECKPOINT_EVERY;
+        job->schedule.checkpoints_are_cheap = true;
+    }
     return true;
 }
 
@@ -209,13 +211,14 @@ ps_result long_job_write_film(struct long_job *job, struct error *error)
 static void write_checkpoint(struct long_job *job)
 {
     struct error error;
+    double start = clock_seconds();
     if (film_file_write(job->checkpoint, &job->film, &job->facts, IMAGE_UNCOMPRESSED, job->workers,
                         &error) != PS_OK &&
         !job->film_failed) {
         print_warning(error.text);
         job->film_failed = true;
     }
-    schedule_note_checkpoint(&job->schedule, clock_seconds());
+    schedule_note_checkpoint(&job->schedule, start, clock_seconds());
 }
 
 /* --- between passes --------------------------------------------------------------------------------- */

@@ -9,7 +9,7 @@
 /* Adding and subtracting it rounds what is smaller than COARSE to a multiple of 2^-48; larger floats are such
  * multiples. */
 #define ROUNDER 24.0 /* 1.5 * 2^(52 - 48) */
-#define COARSE 8.0f
+#define COARSE 8.0
 
 /* Touched by one thread, as those of the film (film.c). */
 static double *zeros(size_t size)
@@ -51,6 +51,7 @@ static inline double two_sum(double a, double b, double *rest)
 static bool add_high(double *high, const double *values, double *rests, size_t n)
 {
     int inexact = 0;
+#pragma omp simd reduction(| : inexact)
     for (size_t i = 0; i < n; i++) {
         high[i] = two_sum(high[i], values[i], &rests[i]);
         inexact |= rests[i] != 0.0;
@@ -60,6 +61,7 @@ static bool add_high(double *high, const double *values, double *rests, size_t n
 
 static void add_low(double *high, double *low, const double *rests, size_t n)
 {
+#pragma omp simd
     for (size_t i = 0; i < n; i++)
         high[i] = two_sum(high[i], low[i] + rests[i], &low[i]);
 }
@@ -82,16 +84,22 @@ static size_t run_at(const struct exact_plane *plane, size_t first)
     return plane->size - first < RUN ? plane->size - first : RUN;
 }
 
+static void round_values(const float *values, double *rounded, size_t n)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double value = (double)values[i], coarse = (value + ROUNDER) - ROUNDER;
+        rounded[i] = fabs(value) < COARSE ? coarse : value;
+    }
+}
+
 bool exact_plane_add(struct exact_plane *plane, const float *values)
 {
     double run[RUN];
     bool there = true;
     for (size_t first = 0; first < plane->size && there; first += RUN) {
         size_t n = run_at(plane, first);
-        for (size_t i = 0; i < n; i++) {
-            double value = (double)values[first + i];
-            run[i] = fabsf(values[first + i]) < COARSE ? (value + ROUNDER) - ROUNDER : value;
-        }
+        round_values(values + first, run, n);
         there = add_run(plane, first, run, n);
     }
     return there;

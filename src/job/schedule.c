@@ -3,13 +3,14 @@
 #include <math.h>
 
 #define SHARE_FOR_LOOKING 0.2
+#define SHARE_FOR_CHECKPOINTS 0.02
 
 void schedule_start(struct schedule *schedule, double now)
 {
     schedule->start = now;
     schedule->pass_start = schedule->last_checkpoint = now;
     schedule->last_picture = -INFINITY;
-    schedule->pass_seconds = schedule->picture_seconds = 0.0;
+    schedule->pass_seconds = schedule->picture_seconds = schedule->checkpoint_seconds = 0.0;
     schedule->next_look = 1;
     schedule->estimate = -1.0;
 }
@@ -38,7 +39,10 @@ bool schedule_wants_picture(const struct schedule *schedule, double now)
 
 bool schedule_wants_checkpoint(const struct schedule *schedule, double now)
 {
-    return now - schedule->last_checkpoint >= schedule->checkpoint_every;
+    double every = schedule->checkpoint_every;
+    if (schedule->checkpoints_are_cheap)
+        every = fmax(every, schedule->checkpoint_seconds / SHARE_FOR_CHECKPOINTS);
+    return now - schedule->last_checkpoint >= every;
 }
 
 void schedule_note_picture(struct schedule *schedule, double start, double now)
@@ -47,8 +51,9 @@ void schedule_note_picture(struct schedule *schedule, double start, double now)
     schedule->last_picture = now;
 }
 
-void schedule_note_checkpoint(struct schedule *schedule, double now)
+void schedule_note_checkpoint(struct schedule *schedule, double start, double now)
 {
+    schedule->checkpoint_seconds = now - start;
     schedule->last_checkpoint = now;
 }
 

@@ -16,8 +16,10 @@ struct schedule {
     double error;            /* relative, that is good enough; 0: none is */
     double write_every;      /* a picture; INFINITY: at the end alone */
     double checkpoint_every; /* a film; likewise */
+    bool checkpoints_are_cheap; /* and no more often than that costs a fiftieth of the time */
     double start;
-    double pass_start, pass_seconds, picture_seconds, last_picture, last_checkpoint;
+    double pass_start, pass_seconds, picture_seconds, last_picture;
+    double last_checkpoint, checkpoint_seconds;
     uint32_t next_look; /* at the error: passes */
     double estimate;    /* of the error, when it was last looked at; negative: never */
 };
@@ -38,7 +40,7 @@ bool schedule_wants_checkpoint(const struct schedule *schedule, double now);
 
 /* Those were made, from `start` to `now`. */
 void schedule_note_picture(struct schedule *schedule, double start, double now);
-void schedule_note_checkpoint(struct schedule *schedule, double now);
+void schedule_note_checkpoint(struct schedule *schedule, double start, double now);
 
 /* Whether the error ought to be looked at after so many passes; and what it is then, which took some time to tell. */
 bool schedule_wants_error(const struct schedule *schedule, uint32_t passes);

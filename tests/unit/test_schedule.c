@@ -55,8 +55,12 @@ static void test_checkpoints(void **state)
     schedule.checkpoint_every = 60;
     assert_false(schedule_wants_checkpoint(&schedule, 1059));
     assert_true(schedule_wants_checkpoint(&schedule, 1060));
-    schedule_note_checkpoint(&schedule, 1061);
-    assert_false(schedule_wants_checkpoint(&schedule, 1120));
+    schedule_note_checkpoint(&schedule, 1060, 1062);
+    assert_false(schedule_wants_checkpoint(&schedule, 1121));
+    assert_true(schedule_wants_checkpoint(&schedule, 1122));
+    schedule.checkpoints_are_cheap = true; /* 2 seconds are a fiftieth of 100 */
+    assert_false(schedule_wants_checkpoint(&schedule, 1161));
+    assert_true(schedule_wants_checkpoint(&schedule, 1162));
 }
 
 /* Looked at after the first pass, and then when it may be met; at most twice as many passes later. */
