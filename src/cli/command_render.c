@@ -70,8 +70,8 @@ static void ask_for_picture(int signal_number)
 
 static bool was_interrupted(void *user)
 {
-    (void)user;
-    return interrupted != 0;
+    const struct job *job = user;
+    return interrupted != 0 || long_job_was_stopped(&job->passes);
 }
 
 static bool take_option(struct job *job, const struct argument *argument)
@@ -126,7 +126,7 @@ static bool check_outputs(const struct job *job)
         return false;
     if (job->stats_path)
         good = output_check(job->stats_path, &error);
-    if (good && job->passes.checkpoint)
+    if (good && job->passes.checkpoint && long_job_is_first(&job->passes))
         good = output_check(job->passes.checkpoint, &error);
     if (!good)
         print_error(error.text);
@@ -173,6 +173,10 @@ static ps_result write_picture_on_the_way(void *user, struct image *image, struc
 static void show_progress(void *user, const char *stage, double fraction)
 {
     struct job *job = user;
+    job->progress.passes = long_job_passes_done(&job->passes);
+    if (job->passes.team)
+        fraction = (double)job->progress.passes /
+                   (double)(job->settings->passes - job->settings->first_pass);
     if (long_job_has_budget(&job->passes))
         fraction = fmax(fraction, schedule_fraction(&job->passes.schedule, clock_seconds()));
     progress_update(&job->progress, stage, fraction);
@@ -184,13 +188,18 @@ static void show_message(void *user, ps_log_level level, const char *message)
     progress_message(&job->progress, level, message);
 }
 
-static bool go_on(void *user, struct render *render)
+static bool next_pass(void *user, struct render *render, uint32_t *number)
 {
     struct job *job = user;
-    bool goes_on = long_job_goes_on(&job->passes, render);
-    job->progress.passes = job->passes.passes_seen;
+    bool another = long_job_next_pass(&job->passes, render, number);
     job->progress.error = job->passes.schedule.estimate;
-    return goes_on;
+    return another;
+}
+
+static ps_result end_passes(void *user, ps_result result, struct error *error)
+{
+    struct job *job = user;
+    return long_job_end_passes(&job->passes, result, error);
 }
 
 /* What can be written is; the error is the first one's. */
@@ -223,10 +232,11 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
         .progress = show_progress,
         .log = show_message,
         .cancelled = was_interrupted,
-        .go_on = go_on,
+        .next_pass = next_pass,
+        .end_passes = end_passes,
     };
     struct image image = {0};
-    struct film_sum *film = job->passes.checkpoint ? &job->passes.film : NULL;
+    struct film_sum *film = long_job_keeps_film(&job->passes) ? &job->passes.film : NULL;
     handle_signals(interrupt);
     signal(SIGUSR1, ask_for_picture);
     ps_result result =
@@ -249,7 +259,7 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
 static ps_result check_memory(const struct job *job, const struct scene_input *input,
                               struct error *error)
 {
-    bool keeps_film = job->passes.checkpoint != NULL;
+    bool keeps_film = long_job_keeps_film(&job->passes);
     const struct render_size size = {
         .width = (size_t)input->description.image.width,
         .height = (size_t)input->description.image.height,
@@ -263,7 +273,7 @@ static int render_job(struct job *job, struct scene_input *input)
 {
     struct scene scene;
     struct statistics statistics;
-    struct error error;
+    struct error error = {.text = ""};
     statistics_init(&statistics);
     double start = clock_seconds();
     statistics_add_seconds(&statistics, "load", start - job->progress.start);
@@ -281,6 +291,8 @@ static int render_job(struct job *job, struct scene_input *input)
     if (result != PS_OK && error.text[0])
         print_error(error.text);
     progress_end(&job->progress);
+    if (result == PS_CANCELLED && !long_job_is_first(&job->passes))
+        return STATUS_OK; /* the first process tells what became of the job */
     return result == PS_CANCELLED && interrupted ? STATUS_SIGNAL + interrupted : status_of(result);
 }
 
@@ -311,6 +323,29 @@ static int load_and_render(struct job *job)
     return status;
 }
 
+/* Processes beside the first only render. */
+static void write_nothing(struct job *job)
+{
+    job->outputs.count = 0;
+    job->stats_path = NULL;
+    job->options.quiet = true;
+    job->progress_mode = PROGRESS_NONE;
+}
+
+static int run_job(struct job *job)
+{
+    if (!long_job_is_first(&job->passes))
+        write_nothing(job);
+    progress_start(&job->progress, job->progress_mode, job->options.quiet);
+    job->passes.schedule.start = job->progress.start;
+    job->passes.compression = job->outputs.format.compression;
+    job->passes.quiet = job->options.quiet;
+    job->passes.write_now = &write_now;
+    job->passes.write_picture = write_picture_on_the_way;
+    job->passes.user = job;
+    return check_outputs(job) ? load_and_render(job) : STATUS_FAILED;
+}
+
 static int run_arguments(const struct argument *arguments, size_t count)
 {
     struct job job = {.memory_limit = INFINITY};
@@ -320,15 +355,9 @@ static int run_arguments(const struct argument *arguments, size_t count)
         long_job_take(&job.passes, arguments, count) && take_arguments(&job, arguments, count) &&
         choose_outputs(&job)) {
         status = STATUS_FAILED;
-        progress_start(&job.progress, job.progress_mode, job.options.quiet);
-        job.passes.schedule.start = job.progress.start;
-        job.passes.compression = job.outputs.format.compression;
-        job.passes.quiet = job.options.quiet;
-        job.passes.write_now = &write_now;
-        job.passes.write_picture = write_picture_on_the_way;
-        job.passes.user = &job;
-        if (check_outputs(&job))
-            status = load_and_render(&job);
+        if (long_job_join(&job.passes))
+            status = run_job(&job);
+        long_job_leave(&job.passes);
     }
     long_job_release(&job.passes);
     output_list_release(&job.outputs);

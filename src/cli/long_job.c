@@ -5,11 +5,13 @@
 #include "job/error_estimate.h"
 #include "job/facts.h"
 #include "job/film_file.h"
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #define MOST_PASSES 1000000
 #define CHECKPOINT_EVERY 60.0
@@ -93,6 +95,8 @@ static bool take_option(struct long_job *job, const struct argument *argument)
         job->checkpoint = value;
     else if (argument_is(argument, "resume"))
         job->resume = true;
+    else if (argument_is(argument, "mpi"))
+        job->wants_mpi = true;
     return true; /* another's */
 }
 
@@ -115,6 +119,7 @@ bool long_job_take(struct long_job *job, const struct argument *arguments, size_
     *job = (struct long_job){
         .schedule = {.seconds = INFINITY, .write_every = INFINITY, .checkpoint_every = INFINITY},
         .lock = {.descriptor = -1},
+        .muted = -1,
     };
     for (size_t i = 0; i < count; i++)
         if (arguments[i].option && !take_option(job, &arguments[i]))
@@ -158,6 +163,94 @@ bool long_job_set_passes(const struct long_job *job, struct render_settings *set
     return true;
 }
 
+/* --- processes -------------------------------------------------------------------------------------- */
+
+bool long_job_is_first(const struct long_job *job)
+{
+    return job->transport.rank == 0;
+}
+
+bool long_job_keeps_film(const struct long_job *job)
+{
+    return job->checkpoint || job->transport.size > 0;
+}
+
+/* What is wrong with a scene is told by the first process alone. */
+static void mute(struct long_job *job)
+{
+    int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    job->muted = null >= 0 ? fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1) : -1;
+    if (job->muted >= 0)
+        dup2(null, STDERR_FILENO);
+    if (null >= 0)
+        close(null);
+}
+
+static void unmute(struct long_job *job)
+{
+    if (job->muted < 0)
+        return;
+    dup2(job->muted, STDERR_FILENO);
+    close(job->muted);
+    job->muted = -1;
+}
+
+bool long_job_join(struct long_job *job)
+{
+    struct error error;
+    if (job->wants_mpi && transport_load_mpi(&job->transport, &error) != PS_OK) {
+        print_error(error.text);
+        return false;
+    }
+    if (!long_job_is_first(job))
+        mute(job);
+    return true;
+}
+
+#define NO_JOB 0 /* digest of a process that failed before it had one */
+
+/* Rank 0 tells what is wrong, unless it failed itself. */
+static ps_result agree(struct long_job *job, uint64_t digest, struct error *error)
+{
+    int odd_rank;
+    job->has_agreed = true;
+    bool agreed = team_agrees(&job->transport, digest, &odd_rank);
+    unmute(job);
+    if (agreed)
+        return PS_OK;
+    if (digest == NO_JOB)
+        return PS_ERROR_INVALID;
+    if (job->transport.rank > 0)
+        error->text[0] = '\0';
+    else
+        error_set(error, PS_ERROR_INVALID,
+                  "--mpi: process %d can't load the scene, or has another scene, other settings or "
+                  "another instruction set (see --isa)",
+                  odd_rank);
+    return PS_ERROR_INVALID;
+}
+
+bool long_job_was_stopped(const struct long_job *job)
+{
+    return job->team && long_job_is_first(job) && team_was_stopped(job->team);
+}
+
+uint32_t long_job_passes_done(const struct long_job *job)
+{
+    return job->team && long_job_is_first(job) ? team_passes_done(job->team) : job->passes_seen;
+}
+
+void long_job_leave(struct long_job *job)
+{
+    struct error error;
+    if (job->transport.size == 0)
+        return;
+    if (!job->has_agreed)
+        agree(job, NO_JOB, &error);
+    long_job_end_passes(job, PS_ERROR_INVALID, &error); /* where a render did not come so far */
+    job->transport.end();
+}
+
 /* --- films ------------------------------------------------------------------------------------------ */
 
 static ps_result resume(struct long_job *job, struct error *error)
@@ -179,17 +272,13 @@ static ps_result resume(struct long_job *job, struct error *error)
     return result;
 }
 
-ps_result long_job_begin(struct long_job *job, const struct scene_description *description,
-                         const struct scene *scene, const struct render_settings *settings,
-                         struct error *error)
+/* What is rank 0's to do. */
+static ps_result open_checkpoint(struct long_job *job, struct error *error)
 {
     struct stat status;
-    schedule_start(&job->schedule, job->schedule.start);
-    if (!job->checkpoint)
+    if (!job->checkpoint || !long_job_is_first(job))
         return PS_OK;
-    ps_result result = facts_of_job(&job->facts, description, scene, settings, error);
-    if (result == PS_OK)
-        result = lock_file_take(&job->lock, job->checkpoint, error);
+    ps_result result = lock_file_take(&job->lock, job->checkpoint, error);
     if (result != PS_OK || stat(job->checkpoint, &status) != 0)
         return result;
     if (job->resume)
@@ -197,6 +286,25 @@ ps_result long_job_begin(struct long_job *job, const struct scene_description *d
     return error_set(error, PS_ERROR_INVALID,
                      "--checkpoint: '%s' is there already; --resume goes on with it",
                      job->checkpoint);
+}
+
+ps_result long_job_begin(struct long_job *job, const struct scene_description *description,
+                         const struct scene *scene, const struct render_settings *settings,
+                         struct error *error)
+{
+    schedule_start(&job->schedule, job->schedule.start);
+    if (!long_job_keeps_film(job))
+        return PS_OK;
+    ps_result result = facts_of_job(&job->facts, description, scene, settings, error);
+    if (result == PS_OK)
+        result = open_checkpoint(job, error);
+    if (job->transport.size == 0)
+        return result;
+    ps_result agreed = agree(job, result == PS_OK ? facts_digest(&job->facts) : NO_JOB, error);
+    result = result == PS_OK ? agreed : result;
+    return result == PS_OK ? team_create(&job->transport, &job->film, settings->first_pass,
+                                         settings->passes, &job->team, error)
+                           : result;
 }
 
 ps_result long_job_write_film(struct long_job *job, struct error *error)
@@ -249,16 +357,22 @@ static void look_at_picture(struct long_job *job, struct render *render, bool wr
 static void do_what_is_due(struct long_job *job, struct render *render, uint32_t passes)
 {
     double now = clock_seconds();
+    struct error error;
     bool now_wanted = *job->write_now != 0;
     bool write = now_wanted || schedule_wants_picture(&job->schedule, now);
+    bool look = write || schedule_wants_error(&job->schedule, passes);
+    bool keep = job->checkpoint && (now_wanted || schedule_wants_checkpoint(&job->schedule, now));
     *job->write_now = 0;
-    if (write || schedule_wants_error(&job->schedule, passes))
+    if ((look || keep) && job->team && team_gather(job->team, &error) != PS_OK)
+        return; /* the film is lost, which team_end tells */
+    if (look)
         look_at_picture(job, render, write);
-    if (job->checkpoint && (now_wanted || schedule_wants_checkpoint(&job->schedule, now)))
+    if (keep)
         write_checkpoint(job);
 }
 
-bool long_job_goes_on(struct long_job *job, struct render *render)
+/* Where no budget is used up. */
+static bool goes_on(struct long_job *job, struct render *render)
 {
     const struct film_sum *film = render_film(render);
     uint32_t passes = film ? pass_set_size(&film->passes) : 0;
@@ -273,6 +387,24 @@ bool long_job_goes_on(struct long_job *job, struct render *render)
                    (!has_new || schedule_has_time(&job->schedule, now));
     schedule_begin_pass(&job->schedule, now);
     return goes_on;
+}
+
+bool long_job_next_pass(struct long_job *job, struct render *render, uint32_t *number)
+{
+    if (job->team)
+        return (!long_job_is_first(job) || goes_on(job, render)) &&
+               team_next_pass(job->team, number);
+    return render_missing_pass(render, number) && goes_on(job, render);
+}
+
+ps_result long_job_end_passes(struct long_job *job, ps_result result, struct error *error)
+{
+    if (!job->team)
+        return PS_OK;
+    ps_result ended = team_end(job->team, result != PS_OK, error);
+    team_destroy(job->team);
+    job->team = NULL;
+    return ended;
 }
 
 void long_job_release(struct long_job *job)

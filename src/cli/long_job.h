@@ -7,6 +7,7 @@
 #include "cli/output_list.h"
 #include "film/film_sum.h"
 #include "job/schedule.h"
+#include "job/team.h"
 #include "pipeline/render.h"
 #include <signal.h>
 
@@ -19,8 +20,9 @@
         {0, "write-every", "TIME", "write the picture so far after the first pass, then so often"}, \
         {0, "checkpoint", "FILE.exr", "keep the film in FILE, to resume, merge or resolve"},       \
         {0, "checkpoint-every", "TIME", "how often, beside the end; default: 60s"},                \
+        {0, "resume", NULL, "go on with the film of --checkpoint, where there is one"},            \
     {                                                                                              \
-        0, "resume", NULL, "go on with the film of --checkpoint, where there is one"               \
+        0, "mpi", NULL, "share the passes with the other processes that mpirun started"            \
     }
 
 struct long_job {
@@ -28,10 +30,15 @@ struct long_job {
     uint32_t first, end;       /* of --passes */
     const char *checkpoint;    /* NULL: no film is kept */
     bool resume;
+    bool wants_mpi;
     struct schedule schedule;
     /* While it runs. */
-    struct film_sum film;   /* with `checkpoint` */
-    struct image facts;     /* of the film */
+    struct transport transport; /* size 0: none */
+    struct team *team;          /* NULL: this process is alone, or the team has ended */
+    bool has_agreed;            /* or disagreed, with the others */
+    int muted;                  /* standard error, while it leads nowhere; negative: it does not */
+    struct film_sum film;       /* with `checkpoint`, or others */
+    struct image facts;         /* of the film */
     struct lock_file lock;  /* on the checkpoint */
     uint32_t passes_before; /* in the film that was resumed */
     uint32_t passes_seen;   /* when the schedule last looked */
@@ -55,13 +62,33 @@ bool long_job_has_budget(const struct long_job *job);
  * for. */
 bool long_job_set_passes(const struct long_job *job, struct render_settings *settings);
 
-/* Locks the checkpoint, and reads it where it is to be resumed. */
+/* Whether this process writes files and shows how far the job is. */
+bool long_job_is_first(const struct long_job *job);
+
+/* Joins the other processes, where --mpi asks for it. False, printed, where that fails. */
+bool long_job_join(struct long_job *job);
+
+/* Whether the render needs the job's film. */
+bool long_job_keeps_film(const struct long_job *job);
+
+/* Locks the checkpoint, and reads it where it is to be resumed; sees to it that all processes have the same job. An
+ * error without a text is another process's to tell. */
 ps_result long_job_begin(struct long_job *job, const struct scene_description *description,
                          const struct scene *scene, const struct render_settings *settings,
                          struct error *error);
 
-/* See render_callbacks.go_on. */
-bool long_job_goes_on(struct long_job *job, struct render *render);
+/* Does what is due between passes. See render_callbacks.next_pass and end_passes. */
+bool long_job_next_pass(struct long_job *job, struct render *render, uint32_t *number);
+ps_result long_job_end_passes(struct long_job *job, ps_result result, struct error *error);
+
+/* Whether another process was told to stop, or failed. */
+bool long_job_was_stopped(const struct long_job *job);
+
+/* Passes that are done in all processes. */
+uint32_t long_job_passes_done(const struct long_job *job);
+
+/* Parts from the other processes, whatever became of the job; after all else. */
+void long_job_leave(struct long_job *job);
 
 /* Writes the film where one is kept and has a pass. */
 ps_result long_job_write_film(struct long_job *job, struct error *error);

@@ -33,6 +33,14 @@ void exact_plane_release(struct exact_plane *plane)
     *plane = (struct exact_plane){.high = NULL};
 }
 
+void exact_plane_clear(struct exact_plane *plane)
+{
+    if (plane->high)
+        memset(plane->high, 0, plane->size * sizeof *plane->high);
+    free(plane->low);
+    plane->low = NULL;
+}
+
 size_t exact_plane_bytes(const struct exact_plane *plane)
 {
     return plane->size * sizeof(double) * ((plane->high != NULL) + (plane->low != NULL));

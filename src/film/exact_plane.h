@@ -27,6 +27,7 @@ struct exact_plane {
 /* Sums that are 0; false when out of memory. */
 bool exact_plane_create(size_t size, struct exact_plane *plane);
 void exact_plane_release(struct exact_plane *plane);
+void exact_plane_clear(struct exact_plane *plane); /* to sums that are 0 */
 size_t exact_plane_bytes(const struct exact_plane *plane);
 
 /* Adds a value to each sum. False when out of memory: the sums are lost. */

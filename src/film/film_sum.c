@@ -87,6 +87,13 @@ void film_sum_release(struct film_sum *sum)
     *sum = (struct film_sum){.width = 0};
 }
 
+void film_sum_clear(struct film_sum *sum)
+{
+    for (int plane = 0; plane < FILM_SUM_PLANES; plane++)
+        exact_plane_clear(&sum->planes[plane]);
+    sum->passes.count = 0;
+}
+
 size_t film_sum_bytes(const struct film_sum *sum)
 {
     size_t bytes = sum->object ? 2 * sum->width * sum->height * sizeof *sum->object : 0;

@@ -34,6 +34,9 @@ ps_result film_sum_create(const struct film *film, struct film_sum *sum, struct 
 ps_result film_sum_create_film(const struct film_sum *sum, struct film *film, struct error *error);
 
 void film_sum_release(struct film_sum *sum);
+
+/* Makes it the sum of no passes again; ids stay. */
+void film_sum_clear(struct film_sum *sum);
 size_t film_sum_bytes(const struct film_sum *sum);
 
 /* Adds a film that holds pass `film->number` alone, which is not in the sum yet. When out of memory,

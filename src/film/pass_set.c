@@ -85,6 +85,14 @@ bool pass_set_meets(const struct pass_set *a, const struct pass_set *b, uint32_t
     return false;
 }
 
+uint32_t pass_set_next_missing(const struct pass_set *set, uint32_t first)
+{
+    for (size_t i = 0; i < set->count; i++)
+        if (set->runs[i].first <= first && first < set->runs[i].end)
+            first = set->runs[i].end;
+    return first;
+}
+
 uint32_t pass_set_size(const struct pass_set *set)
 {
     uint32_t size = 0;

@@ -1,5 +1,6 @@
 #include "job/facts.h"
 
+#include "base/digest.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "scene/scene_digest.h"
@@ -206,6 +207,16 @@ ps_result facts_of_job(struct image *image, const struct scene_description *desc
     if (result == PS_OK)
         result = set_versions(image, settings, error);
     return result == PS_OK ? set_digests(image, description, scene, error) : result;
+}
+
+uint64_t facts_digest(const struct image *facts)
+{
+    uint64_t digest = DIGEST_START;
+    for (size_t i = 0; i < sizeof binding / sizeof binding[0]; i++) {
+        const char *value = image_attribute(facts, binding[i].key);
+        digest_add(&digest, value ? value : "", value ? strlen(value) + 1 : 1);
+    }
+    return digest;
 }
 
 bool facts_agree(const struct image *a, const struct image *b, char *difference, size_t size)

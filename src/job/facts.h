@@ -28,6 +28,9 @@ ps_result facts_of_job(struct image *image, const struct scene_description *desc
 /* The camera of a film's job, which denoisers ask for. PS_ERROR_INVALID where the facts do not tell it. */
 ps_result facts_camera(const struct image *facts, struct camera *camera, struct error *error);
 
+/* A number that two films of one job have in common. */
+uint64_t facts_digest(const struct image *facts);
+
 /* Whether the passes of two films are those of one job. If not, `difference` says what differs first: "the seed, 1
  * and 2". */
 bool facts_agree(const struct image *a, const struct image *b, char *difference, size_t size);

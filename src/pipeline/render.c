@@ -325,23 +325,30 @@ static void look_at_first_pass(struct render *render)
     find_edges(&work);
 }
 
-static bool goes_on(struct render *render)
+bool render_missing_pass(const struct render *render, uint32_t *number)
+{
+    const struct render_settings *settings = render->settings;
+    *number = settings->first_pass;
+    if (render->sum)
+        *number = pass_set_next_missing(&render->sum->passes, *number);
+    else
+        *number += render->film.passes;
+    return *number < settings->passes;
+}
+
+static bool next_pass(struct render *render, uint32_t *number)
 {
     const struct render_callbacks *callbacks = render->callbacks;
-    return !callbacks->go_on || callbacks->go_on(callbacks->user, render);
+    return callbacks->next_pass ? callbacks->next_pass(callbacks->user, render, number)
+                                : render_missing_pass(render, number);
 }
 
 static ps_result run_each_pass(struct render *render, struct error *error)
 {
-    const struct render_settings *settings = render->settings;
     ps_result result = PS_OK;
     bool looked = false;
-    for (uint32_t number = settings->first_pass; number < settings->passes && result == PS_OK;
-         number++) {
-        if (render->sum && pass_set_has(&render->sum->passes, number))
-            continue;
-        if (!goes_on(render))
-            break;
+    uint32_t number;
+    while (result == PS_OK && next_pass(render, &number)) {
         if (number > 0 && !looked)
             look_at_first_pass(render);
         looked = true;
@@ -358,6 +365,14 @@ static ps_result run_passes(struct render *render, struct error *error)
     if (result == PS_OK)
         result = run_each_pass(render, error);
     end_estimates(render);
+    if (render->callbacks->end_passes) {
+        struct error reason;
+        ps_result ended = render->callbacks->end_passes(render->callbacks->user, result, &reason);
+        if (result == PS_OK && ended != PS_OK) {
+            result = ended;
+            *error = reason;
+        }
+    }
     uint32_t passes = render_passes_done(render);
     if (result != PS_OK && result != PS_CANCELLED && passes > 0)
         own_host(render)->log(own_host(render), PS_LOG_WARNING,

@@ -51,8 +51,11 @@ struct render;
 /* The sum of the passes so far; NULL where a render of one pass keeps none. Of the pixels of no pass, nothing is there. */
 const struct film_sum *render_film(const struct render *render);
 
+/* The first pass of the settings that the film lacks; false where it has them all. */
+bool render_missing_pass(const struct render *render, uint32_t *number);
+
 /* The picture of the passes that a render of several has so far, of which there is at least one; likewise. From
- * render_callbacks.go_on alone. */
+ * render_callbacks.next_pass alone. */
 ps_result render_picture(struct render *render, struct image *image, struct error *error);
 
 /* The picture of a film, by normalization and denoiser of `settings`, whose strategies it starts. Of the scene they

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #define LONGEST_ATTEMPTS 3400
-#define LOADER_LONGEST_PATH 4096
 #define SUFFIX ".so"
 
 /* Modules that are linked into the program; NULL-terminated. Empty in ordinary builds. */
@@ -65,20 +64,25 @@ static ps_result add_environment(struct loader *loader, struct error *error)
     return PS_OK;
 }
 
-/* psplat's own plugins are found from the program's folder, so that an installed tree runs from any place; where
- * the system does not tell what that is, at the place that the build was made for. */
-static bool add_own_folder(struct loader *loader)
+bool loader_own_folder(char path[LOADER_LONGEST_PATH])
 {
     static const char from_program[] = PSPLAT_PLUGINS_FROM_PROGRAM;
     static const char installed[] = PSPLAT_PLUGINS_INSTALLED;
-    char path[LOADER_LONGEST_PATH];
-    ssize_t length = readlink("/proc/self/exe", path, sizeof path);
+    ssize_t length = readlink("/proc/self/exe", path, LOADER_LONGEST_PATH);
     while (length > 0 && path[length - 1] != '/')
         length--;
-    if (length <= 0 || (size_t)length + sizeof from_program > sizeof path)
-        return add_folder(loader, installed, strlen(installed));
-    memcpy(path + length, from_program, sizeof from_program);
-    return add_folder(loader, path, strlen(path));
+    if (length > 0 && (size_t)length + sizeof from_program <= LOADER_LONGEST_PATH) {
+        memcpy(path + length, from_program, sizeof from_program);
+        return true;
+    }
+    snprintf(path, LOADER_LONGEST_PATH, "%s", installed);
+    return sizeof installed <= LOADER_LONGEST_PATH;
+}
+
+static bool add_own_folder(struct loader *loader)
+{
+    char path[LOADER_LONGEST_PATH];
+    return loader_own_folder(path) && add_folder(loader, path, strlen(path));
 }
 
 ps_result loader_create(struct loader **created, struct error *error)

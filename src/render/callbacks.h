@@ -2,6 +2,7 @@
 #ifndef RENDER_CALLBACKS_H
 #define RENDER_CALLBACKS_H
 
+#include "base/error.h"
 #include <psplat/host.h>
 #include <stdbool.h>
 
@@ -14,9 +15,11 @@ struct render_callbacks {
                      double fraction); /* of the whole render, 0..1 */
     void (*log)(void *user, ps_log_level level, const char *message);
     bool (*cancelled)(void *user); /* any thread */
-    /* Before each pass: whether there is to be another; it is the first of the settings' that the film lacks. May
-     * look at the picture so far (pipeline/render.h). */
-    bool (*go_on)(void *user, struct render *render);
+    /* Before each pass: its number, which the film must lack; false: there is to be no other. Without it, those of the
+     * settings are made in their order. May look at the picture so far (pipeline/render.h). */
+    bool (*next_pass)(void *user, struct render *render, uint32_t *number);
+    /* After the last one, before the picture is made; `result` is what they ended with. */
+    ps_result (*end_passes)(void *user, ps_result result, struct error *error);
 };
 
 #endif

@@ -56,6 +56,9 @@ static void test_what_is_in_it(void **state)
     assert_int_equal(pass_set_odd_size(&set), 3); /* 1, 3, 9 */
     for (uint32_t i = 0; i < 12; i++)
         assert_int_equal(pass_set_has(&set, i), (i >= 1 && i < 4) || i == 6 || i == 9);
+    assert_int_equal(pass_set_next_missing(&set, 0), 0);
+    assert_int_equal(pass_set_next_missing(&set, 2), 4);
+    assert_int_equal(pass_set_next_missing(&set, 9), 10);
     pass_set_release(&set);
 }
 
