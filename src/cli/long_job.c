@@ -402,6 +402,8 @@ ps_result long_job_end_passes(struct long_job *job, ps_result result, struct err
     if (!job->team)
         return PS_OK;
     ps_result ended = team_end(job->team, result != PS_OK, error);
+    if (ended == PS_OK && long_job_was_stopped(job))
+        ended = error_set(error, PS_CANCELLED, "another process was told to stop, or failed");
     team_destroy(job->team);
     job->team = NULL;
     return ended;
