@@ -37,7 +37,7 @@ typedef struct ps_pass {
     uint32_t size;
     uint32_t number;        /* from 0 */
     uint64_t seed;          /* of the render */
-    uint32_t passes;        /* of the render */
+    uint32_t passes;        /* of the render, at most: a budget may end it sooner */
     uint32_t tile_count;    /* tiles of the G-buffer */
     uint32_t width, height; /* of the picture */
     uint32_t thread_count;

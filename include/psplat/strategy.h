@@ -128,8 +128,8 @@ typedef struct ps_filter_vtable {
 typedef struct ps_estimator_vtable {
     uint32_t size;
     uint32_t flags; /* PS_ESTIMATOR_... */
-    /* Adds the pass's indirect light and its weight to the tiles. What is kept in the state lasts through
-     * the render. [main thread] */
+    /* Adds the pass's indirect light and its weight to the tiles, as a function of the pass alone: others may be made
+     * elsewhere, or in another order. What is kept in the state lasts through the render. [main thread] */
     ps_result (*accumulate)(void *state, const ps_host *host, const ps_pass *pass);
     /* Optional. Once, before the first pass; `pass` describes it. [main thread] */
     ps_result (*begin)(void *state, const ps_host *host, const ps_pass *pass);
@@ -205,7 +205,8 @@ typedef struct ps_image_view {
 typedef struct ps_denoiser_vtable {
     uint32_t size;
     uint32_t flags; /* PS_DENOISER_... */
-    /* Optional; without, the picture stays as it is. Filters in place. [main thread] */
+    /* Optional; without, the picture stays as it is. Filters in place. `psplat resolve` calls it without a scene: of the
+     * services, camera and project know what they did, rays meet nothing, and there are no lights. [main thread] */
     ps_result (*filter)(const void *state, const ps_host *host, const ps_image_view *image);
 } ps_denoiser_vtable;
 

@@ -164,7 +164,5 @@ bool parse_exposure(const char *text, double *stops)
 
 int status_of(ps_result result)
 {
-    return result == PS_OK              ? STATUS_OK
-           : result == PS_ERROR_INVALID ? STATUS_USAGE
-                                        : STATUS_FAILED;
+    return result == PS_OK ? STATUS_OK : result == PS_ERROR_INVALID ? STATUS_USAGE : STATUS_FAILED;
 }

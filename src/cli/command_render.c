@@ -159,9 +159,8 @@ static ps_result write_picture(struct job *job, struct image *image, uint32_t pa
     ps_result result = output_describe(image, description->path, &job->options.scene, &settings,
                                        description->image.exposure, error);
     job->outputs.format.exposure = description->image.exposure;
-    return result == PS_OK
-               ? output_list_write(&job->outputs, image, settings.workers, quiet, error)
-               : result;
+    return result == PS_OK ? output_list_write(&job->outputs, image, settings.workers, quiet, error)
+                           : result;
 }
 
 static ps_result write_picture_on_the_way(void *user, struct image *image, struct error *error)
@@ -317,8 +316,10 @@ static int load_and_render(struct job *job)
         if (output_list_suits(&job->outputs, &settings) &&
             long_job_set_passes(&job->passes, &settings))
             status = render_job(job, &input);
+        job->settings = NULL;
         settings_release(&settings);
     }
+    job->description = NULL;
     scene_input_release(&input);
     return status;
 }

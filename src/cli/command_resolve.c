@@ -99,9 +99,8 @@ static ps_result choose(struct job *job, ps_kind kind, const char *text, struct 
 {
     struct strategy_choice choice;
     ps_result result = settings_parse_choice(text, &choice, error);
-    return result == PS_OK
-               ? settings_override(&job->description.strategies[kind], &choice, error)
-               : result;
+    return result == PS_OK ? settings_override(&job->description.strategies[kind], &choice, error)
+                           : result;
 }
 
 /* What the film was to be resolved with. */
@@ -138,10 +137,11 @@ static ps_result override(struct job *job, const char *text, struct error *error
     const char *wanted;
     ps_kind kind = kind_parse(text, &wanted);
     if (kind == PS_KINDS || !wanted || !is_last_stage(kind))
-        return error_set(error, PS_ERROR_INVALID,
-                         "--plugin: expected normalization=NAME or denoiser=NAME, got '%.200s'; the "
-                         "other strategies have made the film",
-                         text);
+        return error_set(
+            error, PS_ERROR_INVALID,
+            "--plugin: expected normalization=NAME or denoiser=NAME, got '%.200s'; the "
+            "other strategies have made the film",
+            text);
     return choose(job, kind, wanted, error);
 }
 
@@ -201,15 +201,14 @@ static ps_result resolve_with(struct job *job, struct render_settings *settings,
     progress_start(&progress, PROGRESS_AUTO, job->quiet);
     struct render_callbacks callbacks = progress_callbacks(&progress);
     statistics_init(&statistics);
-    result =
-        render_resolve(&job->film, &camera, settings, &callbacks, &statistics, &image, error);
+    result = render_resolve(&job->film, &camera, settings, &callbacks, &statistics, &image, error);
     progress_clear(&progress);
     if (image.width > 0) {
         job->outputs.format.exposure = job->exposure;
         ps_result written = describe(job, settings, &image, &reason);
         if (written == PS_OK)
-            written = output_list_write(&job->outputs, &image, settings->workers, job->quiet,
-                                        &reason);
+            written =
+                output_list_write(&job->outputs, &image, settings->workers, job->quiet, &reason);
         if (written != PS_OK && result == PS_OK) {
             result = written;
             *error = reason;

@@ -311,8 +311,8 @@ ps_result long_job_write_film(struct long_job *job, struct error *error)
 {
     if (!job->checkpoint || job->film.passes.count == 0)
         return PS_OK;
-    return film_file_write(job->checkpoint, &job->film, &job->facts, job->compression,
-                           job->workers, error);
+    return film_file_write(job->checkpoint, &job->film, &job->facts, job->compression, job->workers,
+                           error);
 }
 
 /* On the way; a disk that is full now may have room later. */

@@ -17,7 +17,8 @@
      "number of passes, which smooth edges and lessen noise; or those from A to before B"},        \
         {0, "time", "TIME", "passes until so much time is used up: 90, 90s, 10m, 2h"},             \
         {0, "error", "PERCENT", "passes until the indirect light is no farther off, by estimate"}, \
-        {0, "write-every", "TIME", "write the picture so far after the first pass, then so often"}, \
+        {0, "write-every", "TIME",                                                                 \
+         "write the picture so far after the first pass, then so often"},                          \
         {0, "checkpoint", "FILE.exr", "keep the film in FILE, to resume, merge or resolve"},       \
         {0, "checkpoint-every", "TIME", "how often, beside the end; default: 60s"},                \
         {0, "resume", NULL, "go on with the film of --checkpoint, where there is one"},            \
@@ -39,10 +40,10 @@ struct long_job {
     int muted;                  /* standard error, while it leads nowhere; negative: it does not */
     struct film_sum film;       /* with `checkpoint`, or others */
     struct image facts;         /* of the film */
-    struct lock_file lock;  /* on the checkpoint */
-    uint32_t passes_before; /* in the film that was resumed */
-    uint32_t passes_seen;   /* when the schedule last looked */
-    bool film_failed;       /* a checkpoint could not be written, and that was said */
+    struct lock_file lock;      /* on the checkpoint */
+    uint32_t passes_before;     /* in the film that was resumed */
+    uint32_t passes_seen;       /* when the schedule last looked */
+    bool film_failed;           /* a checkpoint could not be written, and that was said */
     enum image_compression compression;
     struct workers *workers; /* borrowed, as those that follow */
     bool quiet;

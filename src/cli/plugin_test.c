@@ -138,9 +138,8 @@ static ps_result render(void *user, const struct scene *scene, struct render_set
     };
     struct statistics statistics;
     statistics_init(&statistics);
-    ps_result result =
-        render_run(scene, settings, &callbacks, &statistics, NULL, &rendering->outcome->image,
-                   error);
+    ps_result result = render_run(scene, settings, &callbacks, &statistics, NULL,
+                                  &rendering->outcome->image, error);
     rendering->outcome->refused = statistics_counter(&statistics, "refused");
     rendering->outcome->kept = statistics_counter(&statistics, "kept blocks");
     statistics_destroy(&statistics);

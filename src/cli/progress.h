@@ -37,7 +37,7 @@ struct progress {
     enum progress_mode mode; /* not PROGRESS_AUTO, once it is started */
     bool quiet;              /* messages, too, but errors and warnings */
     double start;            /* seconds */
-    double next_update;      /* seconds; nothing is shown before, but another tenth by plain lines */
+    double next_update; /* seconds; nothing is shown before, but another tenth by plain lines */
     int last_tenth;
     uint32_t passes; /* that are done, and */
     double error;    /* what the error is then; negative: not known */

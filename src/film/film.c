@@ -94,9 +94,8 @@ ps_result film_add_reflected(struct film *film, bool half_of_pass, struct error 
     ps_result result = add_part(film, half_of_pass, error);
     if (result == PS_OK)
         result = add_planes(film, is_reflected, error);
-    return result == PS_OK
-               ? add_planes(half_of_pass ? film->half : film->odd, is_reflected, error)
-               : result;
+    return result == PS_OK ? add_planes(half_of_pass ? film->half : film->odd, is_reflected, error)
+                           : result;
 }
 
 static bool is_gloss(int plane)

@@ -38,15 +38,15 @@ enum film_plane {
 
 struct film {
     size_t width, height;
-    uint32_t passes; /* that it holds */
-    uint32_t number; /* of the pass that is being added, or was last */
-    float *planes[FILM_PLANES]; /* each width * height, owned */
-    bool has[FILM_PLANES];      /* which of them it has, or had before they were taken */
-    uint32_t *object,
-        *material; /* what pixels see in pass 0; owned, NULL where nobody asks */
+    uint32_t passes;             /* that it holds */
+    uint32_t number;             /* of the pass that is being added, or was last */
+    float *planes[FILM_PLANES];  /* each width * height, owned */
+    bool has[FILM_PLANES];       /* which of them it has, or had before they were taken */
+    uint32_t *object, *material; /* what pixels see in pass 0; owned, NULL where nobody asks */
     /* Owned; NULL where nobody asks. */
-    struct film *odd;  /* light of the odd passes alone */
-    struct film *half; /* direct light by the second half of each pass's shadow rays, or, where they met gloss, of
+    struct film *odd; /* light of the odd passes alone */
+    struct film *
+        half; /* direct light by the second half of each pass's shadow rays, or, where they met gloss, of
                           its samples of a pixel */
     bool is_half; /* this is such a half */
 };

@@ -25,7 +25,7 @@ struct film_sum {
     size_t width, height;
     struct pass_set passes;
     struct exact_plane planes[FILM_SUM_PLANES]; /* high is NULL where the film has no such plane */
-    uint32_t *object, *material; /* of pass 0, owned; NULL where the film has none */
+    uint32_t *object, *material;                /* of pass 0, owned; NULL where the film has none */
 };
 
 /* The sum of no passes, with the planes of a film. The caller releases it where that fails, too. */

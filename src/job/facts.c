@@ -24,7 +24,7 @@ static const struct fact binding[] = {
 #define ROW(part_, name_) {"psplat.digest." name_, "the scene's " name_},
     SCENE_PARTS(ROW)
 #undef ROW
-    {"psplat.seed", "the seed"},
+        {"psplat.seed", "the seed"},
     {"psplat.bounces", "bounces"},
     {"psplat.direct", "direct"},
     {"psplat.light_samples", "light_samples"},
@@ -153,11 +153,10 @@ static ps_result set_camera(struct image *image, const struct camera *camera, st
     float *numbers[CAMERA_NUMBERS];
     char text[1024];
     camera_numbers(&copy, numbers);
-    int length = snprintf(text, sizeof text, "%s",
-                          camera->orthographic ? "orthographic" : "perspective");
+    int length =
+        snprintf(text, sizeof text, "%s", camera->orthographic ? "orthographic" : "perspective");
     for (int i = 0; i < CAMERA_NUMBERS; i++)
-        length += snprintf(text + length, sizeof text - (size_t)length, " %a",
-                           (double)*numbers[i]);
+        length += snprintf(text + length, sizeof text - (size_t)length, " %a", (double)*numbers[i]);
     return image_set_attribute(image, "psplat.camera", text, error);
 }
 
@@ -173,8 +172,7 @@ ps_result facts_camera(const struct image *facts, struct camera *camera, struct 
         *numbers[i] = strtof(rest, &end);
         rest = end > rest && isfinite(*numbers[i]) ? end : NULL;
     }
-    return rest ? PS_OK
-                : error_set(error, PS_ERROR_INVALID, "the film does not tell its camera");
+    return rest ? PS_OK : error_set(error, PS_ERROR_INVALID, "the film does not tell its camera");
 }
 
 ps_result facts_of_job(struct image *image, const struct scene_description *description,

@@ -12,10 +12,10 @@
 #include <stdint.h>
 
 struct schedule {
-    double seconds;          /* that it may take; INFINITY: any */
-    double error;            /* relative, that is good enough; 0: none is */
-    double write_every;      /* a picture; INFINITY: at the end alone */
-    double checkpoint_every; /* a film; likewise */
+    double seconds;             /* that it may take; INFINITY: any */
+    double error;               /* relative, that is good enough; 0: none is */
+    double write_every;         /* a picture; INFINITY: at the end alone */
+    double checkpoint_every;    /* a film; likewise */
     bool checkpoints_are_cheap; /* and no more often than that costs a fiftieth of the time */
     double start;
     double pass_start, pass_seconds, picture_seconds, last_picture;

@@ -39,8 +39,8 @@ struct team {
     pthread_mutex_t lock; /* of what follows */
     struct member *members;
     struct pass_set before; /* passes that need not be made */
-    uint32_t next, end; /* to be dealt */
-    enum order_kind call;      /* what ranks are called to; ORDER_PASS: to work */
+    uint32_t next, end;     /* to be dealt */
+    enum order_kind call;   /* what ranks are called to; ORDER_PASS: to work */
     _Atomic(bool) stopped;
     _Atomic(uint32_t) done;
 };
@@ -102,7 +102,8 @@ static void *answer_requests(void *user)
         atomic_fetch_add(&team->done, request.done);
         if (request.stopped)
             atomic_store(&team->stopped, true);
-        if (rank > 0) { /* else rank 0 has called to the end, and some may have been told of it by that */
+        if (rank >
+            0) { /* else rank 0 has called to the end, and some may have been told of it by that */
             team->members[rank].waits = true;
             answer(team, rank);
         }

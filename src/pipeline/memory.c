@@ -25,7 +25,8 @@ static double bytes_of_passes(const struct render_size *size)
     double film = pixels * MORE_PLANES * sizeof(float);
     double sums = pixels * (planes + squares) * sizeof(double);
     /* A file's channels: those planes in two floats each, three for viewers, four of ids. */
-    double file = size->keeps_film ? pixels * (2.0 * (planes + squares) + 7.0) * sizeof(float) : 0.0;
+    double file =
+        size->keeps_film ? pixels * (2.0 * (planes + squares) + 7.0) * sizeof(float) : 0.0;
     return film + sums + file;
 }
 

@@ -446,12 +446,10 @@ static ps_result start_resolving(struct render *render, struct error *error)
 }
 
 ps_result render_resolve(struct film_sum *film, const struct camera *camera,
-                         struct render_settings *settings,
-                         const struct render_callbacks *callbacks, struct statistics *statistics,
-                         struct image *image, struct error *error)
+                         struct render_settings *settings, const struct render_callbacks *callbacks,
+                         struct statistics *statistics, struct image *image, struct error *error)
 {
-    const struct scene scene = {
-        .camera = *camera, .width = film->width, .height = film->height};
+    const struct scene scene = {.camera = *camera, .width = film->width, .height = film->height};
     struct render render = {
         .scene = &scene,
         .settings = settings,

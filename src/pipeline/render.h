@@ -61,9 +61,8 @@ ps_result render_picture(struct render *render, struct image *image, struct erro
 /* The picture of a film, by normalization and denoiser of `settings`, whose strategies it starts. Of the scene they
  * know the camera alone. Results are those of render_run. */
 ps_result render_resolve(struct film_sum *film, const struct camera *camera,
-                         struct render_settings *settings,
-                         const struct render_callbacks *callbacks, struct statistics *statistics,
-                         struct image *image, struct error *error);
+                         struct render_settings *settings, const struct render_callbacks *callbacks,
+                         struct statistics *statistics, struct image *image, struct error *error);
 
 /* Looks at a render whose first pass has all but its indirect light: the G-buffer and direct light,
  * in the tiles and, averaged, in the film. May use the services as an estimator does. */

@@ -126,8 +126,8 @@ ps_result render_create(struct render *render, struct error *error)
     if (result == PS_OK)
         result = gbuffer_create(scene->width, scene->height, &render->gbuffer, error);
     if (result == PS_OK)
-        result = film_create(scene->width, scene->height, wants_surfaces(render),
-                             &render->film, error);
+        result =
+            film_create(scene->width, scene->height, wants_surfaces(render), &render->film, error);
     if (result == PS_OK && scene->microfacets && wants_surfaces(render))
         result = create_gloss(render, error);
     if (result == PS_OK && render->settings->discontinuity_buffer && scene->has_area_lights)

@@ -234,7 +234,8 @@ static ps_result make_halves(struct render *render, struct halves *halves, struc
     size_t plane = pixels_of(render) * sizeof(float);
     ps_result result = PS_OK;
     *halves = (struct halves){.light = NULL};
-    if (!(flags & PS_DENOISER_HALVES) || !film->odd || !film->odd->planes[FILM_COLOR_R] || film->odd->passes == 0 ||
+    if (plane == 0 || !(flags & PS_DENOISER_HALVES) || !film->odd ||
+        !film->odd->planes[FILM_COLOR_R] || film->odd->passes == 0 ||
         film->odd->passes == film->passes)
         return PS_OK;
     float *sums = malloc(5 * plane);

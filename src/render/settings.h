@@ -14,9 +14,9 @@
 struct render_settings {
     struct strategy strategies[PS_KINDS];
     uint32_t first_pass, passes; /* numbers: from the first to before `passes` */
-    uint32_t bounces;          /* see ps_pass */
-    bool discontinuity_buffer; /* see discontinuity_buffer.h */
-    uint32_t aa_samples;       /* of a pixel at an edge, in each pass; 1: as everywhere */
+    uint32_t bounces;            /* see ps_pass */
+    bool discontinuity_buffer;   /* see discontinuity_buffer.h */
+    uint32_t aa_samples;         /* of a pixel at an edge, in each pass; 1: as everywhere */
     uint64_t seed;
     struct workers *workers; /* owned */
     const char *isa; /* instruction set, a name of kernel.h, borrowed; NULL: the best there is */

@@ -46,11 +46,12 @@ struct render {
     struct shadow_maps *shadow_maps; /* for the direct light of the picture; NULL: shadow rays */
     struct gbuffer gbuffer;
     struct film film;
-    struct film_sum *sum; /* of the passes; NULL where there is one pass, which the film itself holds */
+    struct film_sum
+        *sum; /* of the passes; NULL where there is one pass, which the film itself holds */
     struct film_sum own_sum; /* where the caller has none; owned */
-    bool unfinished;         /* the film holds the direct light of a pass without its indirect light */
-    double dark_pixels;      /* of the last picture: without weight */
-    bool *edges; /* pixels that take several samples (edges.h), owned; NULL: none does */
+    bool unfinished;    /* the film holds the direct light of a pass without its indirect light */
+    double dark_pixels; /* of the last picture: without weight */
+    bool *edges;        /* pixels that take several samples (edges.h), owned; NULL: none does */
     struct photon_stream photons;
     struct kernel_variant kernel;
     struct splatter splatter; /* onto pixels; made when an estimator first splats */

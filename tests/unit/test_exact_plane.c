@@ -20,7 +20,8 @@ static float any_number(uint32_t *state, int range, int top)
     *state = *state * 1664525u + 1013904223u;
     float mantissa = 1.0f + (float)(*state >> 9) * 0x1p-23f;
     *state = *state * 1664525u + 1013904223u;
-    return ldexpf(*state & 64 ? -mantissa : mantissa, top - (int)((*state >> 10) % (uint32_t)range));
+    return ldexpf(*state & 64 ? -mantissa : mantissa,
+                  top - (int)((*state >> 10) % (uint32_t)range));
 }
 
 static float (*any_numbers(int range, int top))[SIZE]

@@ -113,8 +113,8 @@ static void test_what_is_no_set(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_runs_join), cmocka_unit_test(test_what_is_in_it),
-        cmocka_unit_test(test_meeting),   cmocka_unit_test(test_sets_add_up),
+        cmocka_unit_test(test_runs_join),      cmocka_unit_test(test_what_is_in_it),
+        cmocka_unit_test(test_meeting),        cmocka_unit_test(test_sets_add_up),
         cmocka_unit_test(test_what_is_no_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -76,8 +76,7 @@ static void expect_all_bytes_count(digester digest, void *thing, size_t size,
                 sizeof(((struct type *)0)->member)                                                 \
     }
 #define PIGMENT_GAPS(of)                                                                           \
-    {offsetof(struct material_description, of) +                                                   \
-         offsetof(struct pigment_description, colors) +                                            \
+    {offsetof(struct material_description, of) + offsetof(struct pigment_description, colors) +    \
          sizeof(((struct pigment_description *)0)->colors),                                        \
      4},                                                                                           \
         {offsetof(struct material_description, of) +                                               \
@@ -92,15 +91,21 @@ static void expect_all_bytes_count(digester digest, void *thing, size_t size,
 static void test_materials(void **state)
 {
     (void)state;
-    static const struct range free[] = {
-        MEMBER(material_description, name),       MEMBER(material_description, components),
-        MEMBER(material_description, weights),    MEMBER(material_description, component_count),
-        MEMBER(material_description, origin),     GAP(material_description, kind, color),
-        GAP(material_description, absorption, emission), GAP(material_description, emission_both, opacity),
-        PIGMENT_GAPS(color),                      PIGMENT_GAPS(specular),
-        PIGMENT_GAPS(roughness),                  PIGMENT_GAPS(emission),
-        PIGMENT_GAPS(opacity),                    PIGMENT_GAPS(bump),
-        {SIZE_MAX, 0}};
+    static const struct range free[] = {MEMBER(material_description, name),
+                                        MEMBER(material_description, components),
+                                        MEMBER(material_description, weights),
+                                        MEMBER(material_description, component_count),
+                                        MEMBER(material_description, origin),
+                                        GAP(material_description, kind, color),
+                                        GAP(material_description, absorption, emission),
+                                        GAP(material_description, emission_both, opacity),
+                                        PIGMENT_GAPS(color),
+                                        PIGMENT_GAPS(specular),
+                                        PIGMENT_GAPS(roughness),
+                                        PIGMENT_GAPS(emission),
+                                        PIGMENT_GAPS(opacity),
+                                        PIGMENT_GAPS(bump),
+                                        {SIZE_MAX, 0}};
     struct material_description material;
     memset(&material, 0, sizeof material);
     expect_all_bytes_count(of_material, &material, sizeof material, free);
@@ -131,13 +136,17 @@ static void test_lights(void **state)
 static void test_objects(void **state)
 {
     (void)state;
-    static const struct range free[] = {
-        MEMBER(object_description, vertices),        MEMBER(object_description, vertex_count),
-        MEMBER(object_description, triangles),       MEMBER(object_description, triangle_count),
-        MEMBER(object_description, origin),          GAP(object_description, kind, material),
-        GAP(object_description, placement, vertices), GAP(object_description, normal, radius),
-        GAP(object_description, smooth, segments),   GAP(object_description, hidden, origin),
-        {SIZE_MAX, 0}};
+    static const struct range free[] = {MEMBER(object_description, vertices),
+                                        MEMBER(object_description, vertex_count),
+                                        MEMBER(object_description, triangles),
+                                        MEMBER(object_description, triangle_count),
+                                        MEMBER(object_description, origin),
+                                        GAP(object_description, kind, material),
+                                        GAP(object_description, placement, vertices),
+                                        GAP(object_description, normal, radius),
+                                        GAP(object_description, smooth, segments),
+                                        GAP(object_description, hidden, origin),
+                                        {SIZE_MAX, 0}};
     struct object_description object;
     memset(&object, 0, sizeof object);
     expect_all_bytes_count(of_object, &object, sizeof object, free);

@@ -107,8 +107,10 @@ static void test_fraction(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_time_for_another_pass), cmocka_unit_test(test_pictures_on_the_way),
-        cmocka_unit_test(test_checkpoints),           cmocka_unit_test(test_error),
+        cmocka_unit_test(test_time_for_another_pass),
+        cmocka_unit_test(test_pictures_on_the_way),
+        cmocka_unit_test(test_checkpoints),
+        cmocka_unit_test(test_error),
         cmocka_unit_test(test_fraction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
