@@ -32,6 +32,8 @@ struct job {
     enum progress_mode progress_mode;
     double memory_limit; /* bytes; INFINITY: none of the user's */
     struct progress progress;
+    bool
+        has_stopped; /* passes ended by a signal, which does not stop what makes the picture of them */
     const struct scene_description *description; /* while it renders */
     struct render_settings *settings;
 };
@@ -71,7 +73,7 @@ static void ask_for_picture(int signal_number)
 static bool was_interrupted(void *user)
 {
     const struct job *job = user;
-    return interrupted != 0 || long_job_was_stopped(&job->passes);
+    return (interrupted != 0 && !job->has_stopped) || long_job_was_stopped(&job->passes);
 }
 
 static bool take_option(struct job *job, const struct argument *argument)
@@ -198,6 +200,7 @@ static bool next_pass(void *user, struct render *render, uint32_t *number)
 static ps_result end_passes(void *user, ps_result result, struct error *error)
 {
     struct job *job = user;
+    job->has_stopped = interrupted != 0;
     return long_job_end_passes(&job->passes, result, error);
 }
 

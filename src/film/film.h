@@ -43,11 +43,9 @@ struct film {
     float *planes[FILM_PLANES];  /* each width * height, owned */
     bool has[FILM_PLANES];       /* which of them it has, or had before they were taken */
     uint32_t *object, *material; /* what pixels see in pass 0; owned, NULL where nobody asks */
-    /* Owned; NULL where nobody asks. */
-    struct film *odd; /* light of the odd passes alone */
-    struct film *
-        half; /* direct light by the second half of each pass's shadow rays, or, where they met gloss, of
-                          its samples of a pixel */
+    /* Parts of it, owned; NULL where nobody asks: the light of the odd passes alone; and the direct light by the second
+     * half of each pass's shadow rays, or, where they met gloss, of its samples of a pixel. */
+    struct film *odd, *half;
     bool is_half; /* this is such a half */
 };
 

@@ -166,6 +166,14 @@ static ps_result over_planes(struct plane_work *work, parallel_body body, struct
                : PS_OK;
 }
 
+bool film_sum_fits(const struct film_sum *sum, const struct film *film)
+{
+    bool fits = sum->width == film->width && sum->height == film->height;
+    for (int plane = 0; plane < FILM_SUM_OF_SQUARES; plane++)
+        fits &= !sum->planes[plane].high == !plane_of(film, plane);
+    return fits && sum->planes[FILM_SUM_OF_SQUARES].high;
+}
+
 ps_result film_sum_add(struct film_sum *sum, const struct film *film, struct workers *workers,
                        struct error *error)
 {

@@ -39,7 +39,10 @@ void film_sum_release(struct film_sum *sum);
 void film_sum_clear(struct film_sum *sum);
 size_t film_sum_bytes(const struct film_sum *sum);
 
-/* Adds a film that holds pass `film->number` alone, which is not in the sum yet. When out of memory,
+/* Whether a film has the size and the planes of the sum. */
+bool film_sum_fits(const struct film_sum *sum, const struct film *film);
+
+/* Adds a film that fits and holds pass `film->number` alone, which is not in the sum yet. When out of memory,
  * PS_ERROR_MEMORY, the sum is lost. */
 ps_result film_sum_add(struct film_sum *sum, const struct film *film, struct workers *workers,
                        struct error *error);

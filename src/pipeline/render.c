@@ -357,6 +357,15 @@ static ps_result run_each_pass(struct render *render, struct error *error)
     return result;
 }
 
+/* A film of the caller's that has passes must be one of this render's. */
+static ps_result check_film(const struct render *render, struct error *error)
+{
+    if (!render->sum || render->sum->passes.count == 0 || film_sum_fits(render->sum, &render->film))
+        return PS_OK;
+    return error_set(error, PS_ERROR_INVALID,
+                     "the film to go on with does not have the layers of this render");
+}
+
 static ps_result run_passes(struct render *render, struct error *error)
 {
     set_pass(render, 0);
@@ -415,8 +424,11 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
     host_create(&render);
     ps_result result = render_create(&render, error);
     if (result == PS_OK)
+        result = check_film(&render, error);
+    bool sound = result == PS_OK;
+    if (sound)
         result = run_passes(&render, error);
-    if (render_passes_done(&render) > 0 || render.unfinished) {
+    if (sound && (render_passes_done(&render) > 0 || render.unfinished)) {
         struct error reason;
         ps_result resolved = render_picture(&render, image, &reason);
         statistics_count(statistics, "pixels without weight", render.dark_pixels);

@@ -30,6 +30,7 @@ interrupt INT 130 "[1-9]" --size 48x27 --passes 1000000 -p injection=photon:coun
 expect_match new/a.json '"passes": [0-9]+'
 expect_no_text new/a.json '"passes": 0'
 expect_no_text new/a.json '"passes": 1000000'
+expect_no_text err "is not denoised"
 
 # One endless pass: direct light alone, which is what black indirect light gives.
 interrupt TERM 143 0 --size 48x27 -p estimator=splat -p injection=photon:count=2000000000
