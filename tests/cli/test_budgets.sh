@@ -1,0 +1,120 @@
+# Budgets of time, error and memory; pictures on the way; how progress is shown.
+. "$PSPLAT_SOURCE/tests/cli/lib.sh"
+
+job="--size 96x54 -p injection=photon:count=3000 $cornell"
+
+# passes_of FILE: how many passes the picture has.
+passes_of() {
+    "$PSPLAT" info "$1" | sed -n 's/^psplat.passes: //p'
+}
+
+# --- time ---
+
+# On whatever machine: it ends long before the passes that it might make, and not before the first; the command that the
+# picture names makes it again.
+# shellcheck disable=SC2086
+run 0 -q $job --time 1s -o a.exr
+made=$(passes_of a.exr)
+[ "$made" -ge 1 ] && [ "$made" -lt 1000000 ] || fail "$made passes"
+run 0 info a.exr
+tail -n 1 out >command
+expect_match command "--passes $made "
+# shellcheck disable=SC2086
+run 0 -q $job --passes "$made" -o same.exr
+expect_same_pixels a.exr same.exr
+# A budget that is no time at all has one pass; fewer passes come first.
+# shellcheck disable=SC2086
+run 0 -q $job --time 0.000001 -o a.exr
+[ "$(passes_of a.exr)" -eq 1 ] || fail "$(passes_of a.exr) passes in no time"
+# shellcheck disable=SC2086
+run 0 -q $job --time 2h --passes 3 -o a.exr
+[ "$(passes_of a.exr)" -eq 3 ] || fail "$(passes_of a.exr) passes of 3"
+
+# --- error ---
+
+# Less error takes more passes; the estimate of the last picture is below what was asked for, and the error itself is
+# near it.
+# shellcheck disable=SC2086
+run 0 -q $job -p estimator=pathtrace:samples=16 -p denoiser=none --seed 5 --passes 64 -o truth.exr
+for wanted in 20 8; do
+    # shellcheck disable=SC2086
+    run 0 $job -p estimator=pathtrace:samples=2 -p denoiser=none --error $wanted% --progress json -o $wanted.exr
+    grep '"done"' out >last_line
+    expect_match last_line "\"passes\": $(passes_of $wanted.exr),"
+    sed 's/.*"error": \([0-9.e+-]*\),.*/\1/' last_line >estimate
+    awk -v most=$wanted '{ exit !($1 > 0 && $1 <= most / 100) }' estimate || fail "an estimate of $(cat estimate)"
+    run 0 compare truth.exr $wanted.exr --layer indirect --metric rel_rmse --fail "rel_rmse>$(awk -v most=$wanted 'BEGIN { print 1.5 * most / 100 }')"
+done
+[ "$(passes_of 20.exr)" -lt "$(passes_of 8.exr)" ] || fail "$(passes_of 20.exr) passes for 20 %, $(passes_of 8.exr) for 8 %"
+# By the denoiser's estimate.
+# shellcheck disable=SC2086
+run 0 -q $job --error 50% -o a.exr
+[ "$(passes_of a.exr)" -eq 1 ] || fail "$(passes_of a.exr) passes for 50 %"
+# shellcheck disable=SC2086
+run 2 -q $job --error 2% -p denoiser=gaussian -o no.exr
+expect_text err "--error: denoiser 'gaussian' does not estimate its error"
+
+# --- pictures on the way ---
+
+# shellcheck disable=SC2086
+"$PSPLAT" -q $job --passes 1000000 --write-every 1h -o way.exr -o way.png >out 2>err &
+process=$!
+for i in $(seq 50); do
+    [ -e way.png ] && break
+    sleep 0.1
+done
+kill -0 $process || fail "it ended"
+expect_picture way.exr way.png
+[ "$(passes_of way.exr)" -eq 1 ] || fail "the first picture has $(passes_of way.exr) passes"
+kill -INT $process
+wait $process
+check_status $? 130
+[ "$(passes_of way.exr)" -gt 1 ] || fail "the last picture has $(passes_of way.exr) passes"
+
+# --- memory ---
+
+# shellcheck disable=SC2086
+run 1 $job --memory-limit 1M -o no.exr
+expect_match err "^psplat: error: a picture of 96x54 pixels takes 0.0 GiB of memory to render, and --memory-limit is 0.0 GiB"
+# shellcheck disable=SC2086
+run 0 -q $job --memory-limit 1T -o a.exr
+
+# --- progress ---
+
+# shellcheck disable=SC2086
+run 0 $job --passes 2 --progress json -o a.exr
+expect_match out '^{"stage": "direct light", "fraction": 0.0000, "passes": 0, "error": null, "seconds": [0-9.e+-]+, "seconds_left": null, "bytes": [0-9]+}$'
+expect_match out '^{"stage": "done", "fraction": 1.0000, "passes": 2, "error": null, "seconds": [0-9.e+-]+, "seconds_left": [0-9.nul]+, "bytes": [0-9]+}$'
+expect_no_text err "%"
+# shellcheck disable=SC2086
+run 0 $job --passes 2 --progress plain -o a.exr
+expect_match err '^psplat:  50 % '
+expect_empty out
+# shellcheck disable=SC2086
+run 0 $job --passes 2 --progress bar -o a.exr
+expect_text err "]   0 %  -:-- left  direct light"
+# shellcheck disable=SC2086
+run 0 $job --progress none -o a.exr
+[ "$(cat err)" = "psplat: wrote a.exr" ] || fail "more than the file's name was said"
+
+# --- what is no budget ---
+
+for wrong in time=0 time=x time=5w time=-1s write-every=0s checkpoint-every=1x; do
+    # shellcheck disable=SC2086
+    run 2 $job --$wrong -o no.exr
+    expect_text err "--${wrong%%=*}: expected a time such as 90s, 10m or 2h, got '${wrong#*=}'"
+done
+for wrong in 0 -1% 101% x%; do
+    # shellcheck disable=SC2086
+    run 2 $job --error=$wrong -o no.exr
+    expect_text err "--error: expected percent such as 2%, got '$wrong'"
+done
+# shellcheck disable=SC2086
+run 2 $job --memory-limit 5X -o no.exr
+expect_text err "--memory-limit: expected a size such as 500M or 8G, got '5X'"
+# shellcheck disable=SC2086
+run 2 $job --progress often -o no.exr
+expect_text err "--progress: expected auto, bar, plain, json or none, got 'often'"
+[ ! -e no.exr ] || fail "no.exr was written"
+
+finish
