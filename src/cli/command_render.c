@@ -158,8 +158,10 @@ static ps_result write_picture(struct job *job, struct image *image, uint32_t pa
 {
     const struct scene_description *description = job->description;
     struct render_settings settings = settings_of_picture(job, passes);
+    /* What was interrupted in its first pass, or has gaps, no command repeats. */
+    bool is_run = passes > 0 && long_job_has_run(&job->passes, settings.first_pass, passes);
     ps_result result = output_describe(image, description->path, &job->options.scene, &settings,
-                                       description->image.exposure, error);
+                                       description->image.exposure, is_run, error);
     job->outputs.format.exposure = description->image.exposure;
     return result == PS_OK ? output_list_write(&job->outputs, image, settings.workers, quiet, error)
                            : result;
@@ -245,17 +247,20 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
         render_run(scene, job->settings, &callbacks, statistics, film, &image, error);
     job->progress.passes = (uint32_t)statistics_counter(statistics, "passes");
     progress_clear(&job->progress);
-    if (image.width == 0)
+    if (image.width == 0 && job->passes.film.passes.count == 0)
         return result;
     tell_of_dark_pixels(job, statistics);
     struct error reason;
     ps_result written = write_files(job, &image, statistics, &reason);
     image_release(&image);
-    if (written != PS_OK)
-        *error = reason;
-    else if (result == PS_CANCELLED)
+    if (result == PS_CANCELLED)
         error_set(error, PS_CANCELLED, "interrupted: the picture holds what was done by then");
-    return written == PS_OK ? result : written;
+    if (written == PS_OK)
+        return result;
+    if (result != PS_OK && result != PS_CANCELLED)
+        print_error(error->text);
+    *error = reason;
+    return written;
 }
 
 static ps_result check_memory(const struct job *job, const struct scene_input *input,

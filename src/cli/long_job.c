@@ -240,6 +240,13 @@ uint32_t long_job_passes_done(const struct long_job *job)
     return job->team && long_job_is_first(job) ? team_passes_done(job->team) : job->passes_seen;
 }
 
+bool long_job_has_run(const struct long_job *job, uint32_t first, uint32_t passes)
+{
+    const struct pass_set *set = &job->film.passes;
+    return set->count == 0 ||
+           (set->count == 1 && set->runs[0].first == first && set->runs[0].end == first + passes);
+}
+
 void long_job_leave(struct long_job *job)
 {
     struct error error;

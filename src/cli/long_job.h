@@ -88,6 +88,9 @@ bool long_job_was_stopped(const struct long_job *job);
 /* Passes that are done in all processes. */
 uint32_t long_job_passes_done(const struct long_job *job);
 
+/* Whether the passes that are done are so many from `first` on; known where a film is kept. */
+bool long_job_has_run(const struct long_job *job, uint32_t first, uint32_t passes);
+
 /* Parts from the other processes, whatever became of the job; after all else. */
 void long_job_leave(struct long_job *job);
 

@@ -204,7 +204,7 @@ static ps_result set_command(struct image *image, const char *scene_path,
 
 ps_result output_describe(struct image *image, const char *scene_path,
                           const struct scene_options *options,
-                          const struct render_settings *settings, double exposure,
+                          const struct render_settings *settings, double exposure, bool repeatable,
                           struct error *error)
 {
     char passes[32];
@@ -212,7 +212,7 @@ ps_result output_describe(struct image *image, const char *scene_path,
     ps_result result = facts_of_settings(image, scene_path, settings, error);
     if (result == PS_OK)
         result = image_set_attribute(image, "psplat.passes", passes, error);
-    if (result != PS_OK || settings->passes == settings->first_pass)
-        return result; /* what was interrupted in its first pass can't be repeated */
-    return set_command(image, scene_path, options, settings, exposure, error);
+    return result == PS_OK && repeatable
+               ? set_command(image, scene_path, options, settings, exposure, error)
+               : result;
 }

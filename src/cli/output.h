@@ -31,11 +31,11 @@ ps_result output_write(const struct image *image, const char *path,
                        const struct output_format *format, struct workers *workers,
                        struct error *error);
 
-/* Attributes that say how the picture was made: version, scene, every setting, and the command that
- * repeats it. */
+/* Attributes that say how the picture was made: version, scene, every setting, and, where it can be repeated, the
+ * command that does so. */
 ps_result output_describe(struct image *image, const char *scene_path,
                           const struct scene_options *options,
-                          const struct render_settings *settings, double exposure,
+                          const struct render_settings *settings, double exposure, bool repeatable,
                           struct error *error);
 
 /* Whether the folder of a file that is to be written is there and can be written to; the message

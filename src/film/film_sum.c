@@ -156,14 +156,16 @@ static void round_plane(void *user, uint64_t index, uint32_t worker)
         exact_plane_round(&work->sum->planes[index], plane_of(work->film, (int)index));
 }
 
+/* What was added to some planes and not to others is no sum of passes. */
 static ps_result over_planes(struct plane_work *work, parallel_body body, struct workers *workers,
                              struct error *error)
 {
     parallel_for(workers, FILM_SUM_PLANES, body, work);
-    return atomic_load(&work->out_of_memory)
-               ? error_memory(error, work->sum->width * work->sum->height * sizeof(double),
-                              "sums of passes")
-               : PS_OK;
+    if (!atomic_load(&work->out_of_memory))
+        return PS_OK;
+    work->sum->passes.count = 0;
+    return error_memory(error, work->sum->width * work->sum->height * sizeof(double),
+                        "sums of passes");
 }
 
 bool film_sum_fits(const struct film_sum *sum, const struct film *film)

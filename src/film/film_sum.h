@@ -43,7 +43,7 @@ size_t film_sum_bytes(const struct film_sum *sum);
 bool film_sum_fits(const struct film_sum *sum, const struct film *film);
 
 /* Adds a film that fits and holds pass `film->number` alone, which is not in the sum yet. When out of memory,
- * PS_ERROR_MEMORY, the sum is lost. */
+ * PS_ERROR_MEMORY, the sum is lost: it is of no passes then. */
 ps_result film_sum_add(struct film_sum *sum, const struct film *film, struct workers *workers,
                        struct error *error);
 

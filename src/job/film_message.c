@@ -134,7 +134,9 @@ ps_result film_message_merge(const struct transport *transport, int from, int ta
         take_ids(&reception, &film->object);
         take_ids(&reception, &film->material);
     }
-    return result == PS_OK && reception.out_of_memory
-               ? error_memory(error, reception.pixels * sizeof(double), "the films of other ranks")
-               : result;
+    if (reception.out_of_memory)
+        result = error_memory(error, reception.pixels * sizeof(double), "the films of other ranks");
+    if (result != PS_OK)
+        film->passes.count = 0;
+    return result;
 }

@@ -13,7 +13,7 @@ void film_message_send(const struct transport *transport, int to, int tag,
                        const struct film_sum *film);
 
 /* Receives a film of the same job and adds it to `film`, which may have no planes yet. When out of memory,
- * PS_ERROR_MEMORY, the message is received to its end, and the film is lost. */
+ * PS_ERROR_MEMORY, the message is received to its end, and the film is lost: it is of no passes then. */
 ps_result film_message_merge(const struct transport *transport, int from, int tag,
                              struct film_sum *film, struct error *error);
 

@@ -65,6 +65,19 @@ run 0 $job --passes $more --checkpoint part.exr --resume -o more.png
 run 0 info part.exr
 expect_match out "^psplat.pass_set: 0:$more\$"
 
+# Of passes with gaps, no command makes the picture again.
+# shellcheck disable=SC2086
+run 0 $job --passes 1:2 --checkpoint gap.exr
+# shellcheck disable=SC2086
+run 0 $job --passes 3:4 --checkpoint gap.exr --resume -o gap_picture.exr
+run 0 info gap_picture.exr
+expect_text out "psplat.passes: 2"
+expect_text out "no command repeats it"
+# shellcheck disable=SC2086
+run 0 $job --passes 1:4 --checkpoint gap.exr --resume -o gap_picture.exr
+run 0 info gap_picture.exr
+expect_text out " --passes 1:4 "
+
 # SIGUSR1 writes now, and the render goes on.
 rm -f ./*.exr ./*.png
 # shellcheck disable=SC2086
