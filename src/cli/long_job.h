@@ -26,6 +26,8 @@
         0, "mpi", NULL, "share the passes with the other processes that mpirun started"            \
     }
 
+#define LONG_JOB_MOST_PASSES 1000000
+
 struct long_job {
     bool has_passes, is_shard; /* --passes; A:B */
     uint32_t first, end;       /* of --passes */

@@ -13,6 +13,19 @@ void render_destroy(struct render *render);
 /* Starts all strategies; destroying the render stops them. */
 ps_result render_start_strategies(struct render *render, struct error *error);
 
+/* Tells plugins of a pass. */
+void pass_describe(struct render *render, uint32_t number);
+
+/* Renders a pass, and adds it to the sum where there is one. Where the user stops the first of them, the film holds its
+ * direct light (struct render). */
+ps_result pass_run(struct render *render, uint32_t number, struct error *error);
+
+/* Looks at pass 0, which is another's, for what it tells of all: edges, and numbers of objects. */
+void pass_look_at_first(struct render *render);
+
+/* Pass 0 without indirect light: in the tiles and, averaged, in the film. */
+void pass_light_first(struct render *render);
+
 /* Makes what is no number, or negative, 0; returns how many values there were. */
 uint64_t mend_plane(float *plane, size_t n);
 
