@@ -64,7 +64,7 @@ END
     slurmctld_process=$!
     slurmd -D -N localhost >spool/out 2>&1 &
     slurmd_process=$!
-    for i in $(seq 100); do
+    for i in $(seq 300); do
         sinfo -h -o %T 2>sinfo_err | grep -q idle && return 0
         kill -0 $slurmctld_process 2>sinfo_err && kill -0 $slurmd_process 2>sinfo_err || return 1
         sleep 0.2

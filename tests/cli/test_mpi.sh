@@ -18,7 +18,7 @@ run_ranks() {
     expected=$1 ranks=$2
     shift 2
     last="mpirun -n $ranks psplat $*"
-    timeout 60 mpirun -n "$ranks" "$PSPLAT" "$@" >out 2>err </dev/null
+    timeout 200 mpirun -n "$ranks" "$PSPLAT" "$@" >out 2>err </dev/null
     check_status $? "$expected"
 }
 
@@ -66,7 +66,7 @@ run_ranks 2 2 $job --checkpoint one.exr -o no.png "$glossy"
 expect_text err "--checkpoint: 'one.exr' is there already"
 last="two processes with different seeds"
 # shellcheck disable=SC2086
-timeout 60 mpirun -n 1 "$PSPLAT" $job -o no.png "$glossy" : -n 1 "$PSPLAT" $job --seed 1 -o no.png "$glossy" >out 2>err
+timeout 200 mpirun -n 1 "$PSPLAT" $job -o no.png "$glossy" : -n 1 "$PSPLAT" $job --seed 1 -o no.png "$glossy" >out 2>err
 check_status $? 2
 expect_text err "--mpi: process 1 can't load the scene, or has another scene"
 [ ! -e no.png ] || fail "no.png was written"
