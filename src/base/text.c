@@ -66,6 +66,16 @@ bool text_to_number(const char *text, double *value)
     return isfinite(*value);
 }
 
+bool text_part_to_number(const char *text, size_t length, double *value)
+{
+    char part[64];
+    if (length >= sizeof part)
+        return false;
+    memcpy(part, text, length);
+    part[length] = '\0';
+    return text_to_number(part, value);
+}
+
 /* Gives a text that printf wrote the decimal point '.'. */
 static void delocalize(char *text)
 {

@@ -9,6 +9,9 @@
  * hexadecimal, inf or nan; false where anything else stands in the text, or the value overflows. */
 bool text_to_number(const char *text, double *value);
 
+/* The same of the first `length` characters, of which there may be 63. */
+bool text_part_to_number(const char *text, size_t length, double *value);
+
 /* Write the shortest decimal text, of a few precisions, that reads back as the same value. */
 void text_from_number(double value, char *text, size_t size);
 void text_from_float(float value, char *text, size_t size);

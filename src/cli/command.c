@@ -140,12 +140,10 @@ bool parse_rectangle(const char *option, const char *text, struct rectangle *rec
 bool parse_bytes(const char *option, const char *text, double *bytes)
 {
     static const char units[] = "KMGT";
-    char number[64];
     size_t length = strlen(text);
     const char *unit = length > 1 ? strchr(units, text[length - 1]) : NULL;
     length -= unit != NULL;
-    snprintf(number, sizeof number, "%.*s", (int)(length < 63 ? length : 63), text);
-    if (text_to_number(number, bytes) && *bytes > 0.0) {
+    if (text_part_to_number(text, length, bytes) && *bytes > 0.0) {
         *bytes *= pow(1024.0, unit ? (double)(unit - units + 1) : 0.0);
         return true;
     }

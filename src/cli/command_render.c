@@ -32,8 +32,7 @@ struct job {
     enum progress_mode progress_mode;
     double memory_limit; /* bytes; INFINITY: none of the user's */
     struct progress progress;
-    bool
-        has_stopped; /* passes ended by a signal, which does not stop what makes the picture of them */
+    bool has_stopped; /* passes ended by a signal; their picture is made all the same */
     const struct scene_description *description; /* while it renders */
     struct render_settings *settings;
 };
@@ -167,10 +166,10 @@ static ps_result write_picture(struct job *job, struct image *image, uint32_t pa
                            : result;
 }
 
-static ps_result write_picture_on_the_way(void *user, struct image *image, struct error *error)
+static ps_result write_picture_on_the_way(void *user, struct image *image, uint32_t passes,
+                                          struct error *error)
 {
-    struct job *job = user;
-    return write_picture(job, image, job->passes.passes_seen, true, error);
+    return write_picture(user, image, passes, true, error);
 }
 
 static void show_progress(void *user, const char *stage, double fraction)
@@ -178,8 +177,7 @@ static void show_progress(void *user, const char *stage, double fraction)
     struct job *job = user;
     job->progress.passes = long_job_passes_done(&job->passes);
     if (job->passes.team)
-        fraction = (double)job->progress.passes /
-                   (double)(job->settings->passes - job->settings->first_pass);
+        fraction = (double)job->progress.passes / settings_pass_count(job->settings);
     if (long_job_has_budget(&job->passes))
         fraction = fmax(fraction, schedule_fraction(&job->passes.schedule, clock_seconds()));
     progress_update(&job->progress, stage, fraction);
@@ -270,7 +268,7 @@ static ps_result check_memory(const struct job *job, const struct scene_input *i
     const struct render_size size = {
         .width = (size_t)input->description.image.width,
         .height = (size_t)input->description.image.height,
-        .several_passes = keeps_film || job->settings->passes - job->settings->first_pass > 1,
+        .several_passes = keeps_film || settings_pass_count(job->settings) > 1,
         .keeps_film = keeps_film,
     };
     return render_check_memory(&size, job->memory_limit, error);

@@ -230,7 +230,7 @@ static void look_at_picture(struct long_job *job, struct render *render, bool wr
         schedule_note_error(schedule, passes, estimate, clock_seconds() - start);
     }
     if (write && image.width > 0)
-        result = job->write_picture(job->user, &image, &error);
+        result = job->write_picture(job->user, &image, passes, &error);
     if (result != PS_OK && result != PS_CANCELLED)
         print_warning(error.text);
     image_release(&image);

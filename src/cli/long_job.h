@@ -50,7 +50,8 @@ struct long_job {
     struct workers *workers; /* borrowed, as those that follow */
     bool quiet;
     volatile sig_atomic_t *write_now; /* set by a signal */
-    ps_result (*write_picture)(void *user, struct image *image, struct error *error);
+    ps_result (*write_picture)(void *user, struct image *image, uint32_t passes,
+                               struct error *error);
     void *user;
 };
 

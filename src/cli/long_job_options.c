@@ -14,7 +14,6 @@ static bool parse_time(const char *option, const char *text, double *seconds)
         char letter;
         double seconds;
     } units[] = {{'s', 1}, {'m', 60}, {'h', 3600}, {'d', 86400}};
-    char number[64];
     size_t length = strlen(text);
     double unit = 1.0;
     for (size_t i = 0; i < sizeof units / sizeof units[0] && length > 1; i++)
@@ -23,8 +22,7 @@ static bool parse_time(const char *option, const char *text, double *seconds)
             length--;
             break;
         }
-    snprintf(number, sizeof number, "%.*s", (int)(length < 63 ? length : 63), text);
-    if (text_to_number(number, seconds) && *seconds > 0.0) {
+    if (text_part_to_number(text, length, seconds) && *seconds > 0.0) {
         *seconds *= unit;
         return true;
     }
@@ -35,11 +33,9 @@ static bool parse_time(const char *option, const char *text, double *seconds)
 
 static bool parse_percent(const char *text, double *share)
 {
-    char number[64];
     size_t length = strlen(text);
     length -= length > 1 && text[length - 1] == '%';
-    snprintf(number, sizeof number, "%.*s", (int)(length < 63 ? length : 63), text);
-    if (text_to_number(number, share) && *share > 0.0 && *share <= 100.0) {
+    if (text_part_to_number(text, length, share) && *share > 0.0 && *share <= 100.0) {
         *share *= 0.01;
         return true;
     }

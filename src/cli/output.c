@@ -144,14 +144,6 @@ static void print_next(void *stream, const char *word)
     print_word(stream, word);
 }
 
-static void format_bounces(const struct render_settings *settings, char *text, size_t size)
-{
-    if (settings->bounces == PS_ALL_BOUNCES)
-        snprintf(text, size, "all");
-    else
-        snprintf(text, size, "%" PRIu32, settings->bounces);
-}
-
 static void print_command(FILE *stream, const struct image *image, const char *scene_path,
                           const struct scene_options *options,
                           const struct render_settings *settings, double exposure)
@@ -163,9 +155,7 @@ static void print_command(FILE *stream, const struct image *image, const char *s
     if (settings->first_pass > 0)
         fprintf(stream, "%" PRIu32 ":", settings->first_pass);
     fprintf(stream, "%" PRIu32 " --seed %" PRIu64, settings->passes, settings->seed);
-    char bounces[32];
-    format_bounces(settings, bounces, sizeof bounces);
-    fprintf(stream, " --bounces %s", bounces);
+    fprintf(stream, " --bounces %s", image_attribute(image, "psplat.bounces"));
     if (settings->isa)
         fprintf(stream, " --isa %s", settings->isa);
     if (settings->direct == DIRECT_SHADOWMAP)
@@ -208,7 +198,7 @@ ps_result output_describe(struct image *image, const char *scene_path,
                           struct error *error)
 {
     char passes[32];
-    snprintf(passes, sizeof passes, "%" PRIu32, settings->passes - settings->first_pass);
+    snprintf(passes, sizeof passes, "%" PRIu32, settings_pass_count(settings));
     ps_result result = facts_of_settings(image, scene_path, settings, error);
     if (result == PS_OK)
         result = image_set_attribute(image, "psplat.passes", passes, error);

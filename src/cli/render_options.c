@@ -64,13 +64,11 @@ void render_options_release(struct render_options *options)
 
 static bool override_size(const char *text, struct image_description *image)
 {
-    char width[32];
     size_t length = strcspn(text, "x");
     double w, h;
-    snprintf(width, sizeof width, "%.*s", (int)(length < 31 ? length : 31), text);
-    if (!text[length] || !text_to_number(width, &w) || !text_to_number(text + length + 1, &h) ||
-        w < 1 || h < 1 || w > 65536 || h > 65536 || w != (double)(int64_t)w ||
-        h != (double)(int64_t)h) {
+    if (!text[length] || !text_part_to_number(text, length, &w) ||
+        !text_to_number(text + length + 1, &h) || w < 1 || h < 1 || w > 65536 || h > 65536 ||
+        w != (double)(int64_t)w || h != (double)(int64_t)h) {
         fprintf(stderr, "psplat: error: --size: expected WxH, each 1..65536, got '%s'\n", text);
         return false;
     }

@@ -28,10 +28,7 @@ static ps_result copy_ids(const uint32_t *from, size_t count, uint32_t **ids, st
 ps_result film_sum_create(const struct film *film, struct film_sum *sum, struct error *error)
 {
     size_t pixels = film->width * film->height;
-    *sum = (struct film_sum){
-        .width = film->width,
-        .height = film->height,
-    };
+    *sum = (struct film_sum){.width = film->width, .height = film->height};
     for (int plane = 0; plane < FILM_SUM_PLANES; plane++) {
         bool wanted = plane == FILM_SUM_OF_SQUARES || plane_of(film, plane);
         if (wanted && !exact_plane_create(pixels, &sum->planes[plane]))
@@ -104,9 +101,9 @@ size_t film_sum_bytes(const struct film_sum *sum)
 
 /* Planes are shared out among workers. */
 struct plane_work {
-    struct film_sum *sum;
+    struct film_sum *sum; /* that changes */
     const struct film *film;
-    const struct film_sum *other;
+    const struct film_sum *other; /* that is read */
     _Atomic(bool) out_of_memory;
 };
 
@@ -152,8 +149,9 @@ static void round_plane(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct plane_work *work = user;
-    if (index != FILM_SUM_OF_SQUARES && work->sum->planes[index].high)
-        exact_plane_round(&work->sum->planes[index], plane_of(work->film, (int)index));
+    const struct exact_plane *sums = &work->other->planes[index];
+    if (index != FILM_SUM_OF_SQUARES && sums->high)
+        exact_plane_round(sums, plane_of(work->film, (int)index));
 }
 
 /* What was added to some planes and not to others is no sum of passes. */
@@ -203,8 +201,7 @@ ps_result film_sum_merge(struct film_sum *sum, const struct film_sum *other,
 
 void film_sum_round(const struct film_sum *sum, struct film *film, struct workers *workers)
 {
-    struct film_sum view = *sum;
-    struct plane_work work = {.sum = &view, .film = film};
+    struct plane_work work = {.other = sum, .film = film};
     parallel_for(workers, FILM_SUM_PLANES, round_plane, &work);
     film->passes = pass_set_size(&sum->passes);
     if (film->odd)

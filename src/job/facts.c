@@ -72,6 +72,16 @@ static ps_result set_strategies(struct image *image, const struct render_setting
     return result;
 }
 
+/* `facts`: keys and values. */
+static ps_result set_texts(struct image *image, const char *const facts[][2], size_t count,
+                           struct error *error)
+{
+    ps_result result = PS_OK;
+    for (size_t i = 0; i < count && result == PS_OK; i++)
+        result = image_set_attribute(image, facts[i][0], facts[i][1], error);
+    return result;
+}
+
 ps_result facts_of_settings(struct image *image, const char *scene_path,
                             const struct render_settings *settings, struct error *error)
 {
@@ -87,9 +97,7 @@ ps_result facts_of_settings(struct image *image, const char *scene_path,
                                     {"psplat.direct", direct},
                                     {"psplat.indirect_exposure", indirect},
                                     {"psplat.ambient", ambient}};
-    ps_result result = PS_OK;
-    for (size_t i = 0; i < sizeof facts / sizeof facts[0] && result == PS_OK; i++)
-        result = image_set_attribute(image, facts[i][0], facts[i][1], error);
+    ps_result result = set_texts(image, facts, sizeof facts / sizeof facts[0], error);
     if (result == PS_OK)
         result = set_number(image, "psplat.seed", settings->seed, error);
     if (result == PS_OK)
@@ -181,27 +189,25 @@ ps_result facts_of_job(struct image *image, const struct scene_description *desc
 {
     struct kernel_variant kernel;
     char size[64], exposure[32];
-    ps_result result = facts_of_settings(image, description->path, settings, error);
-    if (result == PS_OK && !kernel_choose(settings->isa, &kernel))
-        return error_set(error, PS_ERROR_INVALID, "this processor has no instruction set '%s'",
-                         settings->isa);
+    ps_result result = settings_choose_kernel(settings, &kernel, error);
+    if (result != PS_OK)
+        return result;
     snprintf(size, sizeof size, "%zux%zu", scene->width, scene->height);
-    if (result == PS_OK)
-        result = image_set_attribute(image, "psplat.size", size, error);
     text_from_number(description->image.exposure, exposure, sizeof exposure);
+    const char *const facts[][2] = {
+        {"psplat.size", size},
+        {"psplat.exposure", exposure},
+        {"psplat.isa", kernel.name},
+        {"psplat.discontinuity_buffer", settings->discontinuity_buffer ? "yes" : "no"}};
+    result = facts_of_settings(image, description->path, settings, error);
     if (result == PS_OK)
-        result = image_set_attribute(image, "psplat.exposure", exposure, error);
+        result = set_texts(image, facts, sizeof facts / sizeof facts[0], error);
     if (result == PS_OK)
         result = set_camera(image, &scene->camera, error);
-    if (result == PS_OK)
-        result = image_set_attribute(image, "psplat.isa", kernel.name, error);
     if (result == PS_OK)
         result = set_number(image, "psplat.light_samples", scene->light_samples, error);
     if (result == PS_OK)
         result = set_number(image, "psplat.aa_samples", settings->aa_samples, error);
-    if (result == PS_OK)
-        result = image_set_attribute(image, "psplat.discontinuity_buffer",
-                                     settings->discontinuity_buffer ? "yes" : "no", error);
     if (result == PS_OK)
         result = set_versions(image, settings, error);
     return result == PS_OK ? set_digests(image, description, scene, error) : result;

@@ -102,8 +102,8 @@ static void *answer_requests(void *user)
         atomic_fetch_add(&team->done, request.done);
         if (request.stopped)
             atomic_store(&team->stopped, true);
-        if (rank >
-            0) { /* else rank 0 has called to the end, and some may have been told of it by that */
+        /* Rank 0 sends one when it has called to the end, of which some may have been told by that. */
+        if (rank > 0) {
             team->members[rank].waits = true;
             answer(team, rank);
         }

@@ -118,7 +118,7 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
         .sum = film,
     };
     *image = (struct image){0};
-    if (!film && settings->passes - settings->first_pass > 1)
+    if (!film && settings_pass_count(settings) > 1)
         render.sum = &render.own_sum;
     host_create(&render);
     ps_result result = render_create(&render, error);

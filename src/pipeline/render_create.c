@@ -16,14 +16,6 @@ ps_result render_start_strategies(struct render *render, struct error *error)
     return PS_OK;
 }
 
-static ps_result choose_instruction_set(struct render *render, struct error *error)
-{
-    const char *isa = render->settings->isa;
-    if (kernel_choose(isa, &render->kernel))
-        return PS_OK;
-    return error_set(error, PS_ERROR_INVALID, "this processor has no instruction set '%s'", isa);
-}
-
 static ps_result create_shadow_maps(struct render *render, struct error *error)
 {
     const struct render_settings *settings = render->settings;
@@ -117,7 +109,7 @@ ps_result render_create(struct render *render, struct error *error)
 {
     const struct scene *scene = render->scene;
     double start = clock_seconds();
-    ps_result result = choose_instruction_set(render, error);
+    ps_result result = settings_choose_kernel(render->settings, &render->kernel, error);
     if (result == PS_OK)
         result = trace_create(scene, render->settings->isa, &render->trace, error);
     statistics_add_seconds(render->statistics, "build", clock_seconds() - start);

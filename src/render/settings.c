@@ -1,6 +1,7 @@
 #include "render/settings.h"
 
 #include "settings/quality.h"
+#include "splat/kernel.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -87,6 +88,15 @@ static void resolve_choice(struct resolution *resolution, ps_kind kind,
     for (size_t i = 0; i < choice->parameter_count; i++)
         set_parameter(resolution, strategy, &choice->parameters[i]);
     check_required(resolution, strategy, choice);
+}
+
+ps_result settings_choose_kernel(const struct render_settings *settings,
+                                 struct kernel_variant *kernel, struct error *error)
+{
+    return kernel_choose(settings->isa, kernel)
+               ? PS_OK
+               : error_set(error, PS_ERROR_INVALID, "this processor has no instruction set '%s'",
+                           settings->isa);
 }
 
 ps_result settings_resolve(struct loader *loader, const struct render_description *description,

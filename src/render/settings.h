@@ -11,6 +11,8 @@
 #include "plugin/strategy.h"
 #include "scene/description.h"
 
+struct kernel_variant;
+
 struct render_settings {
     struct strategy strategies[PS_KINDS];
     uint32_t first_pass, passes; /* numbers: from the first to before `passes` */
@@ -28,6 +30,15 @@ struct render_settings {
     double indirect_exposure;
     ps_rgb ambient;
 };
+
+static inline uint32_t settings_pass_count(const struct render_settings *settings)
+{
+    return settings->passes - settings->first_pass;
+}
+
+/* The kernel of the instruction set that is asked for, or of the best. PS_ERROR_INVALID where this processor lacks it. */
+ps_result settings_choose_kernel(const struct render_settings *settings,
+                                 struct kernel_variant *kernel, struct error *error);
 
 /* Called for each problem; `origin` has line 0 where it came from the command line. */
 typedef void (*settings_report)(void *user, const struct origin *origin, const char *message);

@@ -12,8 +12,7 @@ uint32_t render_passes_done(const struct render *render)
 
 double render_fraction(const struct render *render, double of_pass)
 {
-    double all = (double)render->settings->passes - (double)render->settings->first_pass;
-    return (render_passes_done(render) + of_pass) / all;
+    return (render_passes_done(render) + of_pass) / settings_pass_count(render->settings);
 }
 
 /* The first one counts. */

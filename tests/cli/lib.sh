@@ -22,6 +22,19 @@ cd "$scratch" || exit 1
 cornell=$PSPLAT_SOURCE/scenes/cornell.psd
 small="--size 48x27 --plugin injection=photon:count=500 --plugin estimator=splat --plugin denoiser=none --set render.aa_samples=1"
 
+# small_choice KIND=NAME: that strategy with numbers that are few, and yet photons that fill more than one batch.
+small_choice() {
+    case $1 in
+    injection=photon) echo "$1:count=5000" ;;
+    injection=rsm) echo "$1:count=5000,resolution=32" ;;
+    injection=voxel) echo "$1:resolution=32" ;;
+    estimator=pathtrace) echo "$1:samples=4" ;;
+    estimator=vpl) echo "$1:lights=50" ;;
+    visibility=imperfect) echo "$1:points=5000" ;;
+    *) echo "$1" ;;
+    esac
+}
+
 fail() {
     echo "FAILED: $*"
     [ -z "$last" ] || echo "    after: $last"

@@ -6,16 +6,7 @@
 [ "$(wc -l <strategies)" -ge 27 ] || fail "not all strategies are listed"
 
 while read -r strategy; do
-    # Photons that are few, and yet fill more than one batch; several bounces where there can be.
-    case $strategy in
-    injection=photon) choice=$strategy:count=5000 ;;
-    injection=rsm) choice=$strategy:count=5000,resolution=32 ;;
-    injection=voxel) choice=$strategy:resolution=32 ;;
-    estimator=pathtrace) choice=$strategy:samples=4 ;;
-    estimator=vpl) choice=$strategy:lights=50 ;;
-    visibility=imperfect) choice=$strategy:points=5000 ;;
-    *) choice=$strategy ;;
-    esac
+    choice=$(small_choice "$strategy")
     case $strategy in
     injection=*) scene="--size 60x34 --passes 2 $cornell" ;;
     *) scene="--size 60x34 --passes 2 -p injection=photon:count=5000 $cornell" ;;

@@ -11,15 +11,7 @@ few="-q --size 60x34 -p injection=photon:count=2000"
 "$PSPLAT" plugins | awk '/^[a-z]/ { kind = $1 } /^  [a-z]/ { print kind "=" $1 }' |
     grep -v -e normalization= -e denoiser= >strategies
 while read -r strategy; do
-    choice="-p estimator=splat -p $strategy"
-    case $strategy in
-    injection=photon) choice=$choice:count=3000 ;;
-    injection=rsm) choice=$choice:count=3000,resolution=32 ;;
-    injection=voxel) choice=$choice:resolution=32 ;;
-    estimator=pathtrace) choice=$choice:samples=2 ;;
-    estimator=vpl) choice=$choice:lights=50 ;;
-    visibility=imperfect) choice=$choice:points=5000 ;;
-    esac
+    choice="-p estimator=splat -p $(small_choice "$strategy")"
     rm -f ./*.exr
     # shellcheck disable=SC2086
     run 0 $few $choice --passes 3 --checkpoint all.exr -o all.png "$area"

@@ -47,6 +47,20 @@ static void test_reads_numbers(void **state)
     read_numbers();
 }
 
+static void test_reads_parts(void **state)
+{
+    (void)state;
+    char digits[80];
+    double value;
+    assert_true(text_part_to_number("12.5s", 4, &value) && value == 12.5);
+    assert_true(text_part_to_number("640x360", 3, &value) && value == 640);
+    assert_false(text_part_to_number("12.5s", 5, &value));
+    assert_false(text_part_to_number("12", 0, &value));
+    memset(digits, '1', sizeof digits);
+    assert_true(text_part_to_number(digits, 63, &value) && value > 1e62);
+    assert_false(text_part_to_number(digits, 64, &value)); /* not the first of its digits */
+}
+
 static void refuse_others(void)
 {
     static const char *const texts[] = {
@@ -287,11 +301,17 @@ static void test_near_words(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reads_numbers),      cmocka_unit_test(test_refuses_what_is_no_number),
-        cmocka_unit_test(test_long_texts),         cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_shortest_text),      LOCALE_TEST(test_comma_locale),
-        LOCALE_TEST(test_wide_point_locale),       cmocka_unit_test(test_distances),
-        cmocka_unit_test(test_long_words_are_far), cmocka_unit_test(test_near_words),
+        cmocka_unit_test(test_reads_parts),
+        cmocka_unit_test(test_reads_numbers),
+        cmocka_unit_test(test_refuses_what_is_no_number),
+        cmocka_unit_test(test_long_texts),
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_shortest_text),
+        LOCALE_TEST(test_comma_locale),
+        LOCALE_TEST(test_wide_point_locale),
+        cmocka_unit_test(test_distances),
+        cmocka_unit_test(test_long_words_are_far),
+        cmocka_unit_test(test_near_words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
