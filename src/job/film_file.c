@@ -231,24 +231,50 @@ static ps_result read_ids(const char *path, const struct image *image, const cha
     return PS_OK;
 }
 
-/* All that a film of the driver has in any case. */
+static bool has_planes(const struct film_sum *sum, int first, int end)
+{
+    bool has = true;
+    for (int plane = first; plane < end; plane++)
+        has &= sum->planes[plane].high != NULL;
+    return has;
+}
+
+static bool has_reflected(const struct film_sum *sum, int part)
+{
+    return has_planes(sum, part + FILM_REFLECTED_R, part + FILM_REFLECTED_B + 1);
+}
+
+/* All that a film of the driver has: the light of the odd passes in any case, and where the reflected light is apart,
+ * half of it. */
 static bool has_what_it_needs(const struct film_sum *sum)
 {
-    bool whole = sum->planes[FILM_SUM_OF_SQUARES].high != NULL;
-    for (int plane = 0; plane < FILM_ON_REQUEST; plane++)
-        whole &= sum->planes[plane].high != NULL;
-    return whole;
+    static const int odd = FILM_SUM_OF_ODD;
+    bool reflects = sum->planes[FILM_REFLECTED_R].high != NULL;
+    bool halved = has_reflected(sum, FILM_SUM_OF_ODD) || has_reflected(sum, FILM_SUM_OF_HALF);
+    return has_planes(sum, 0, FILM_ON_REQUEST) && sum->planes[FILM_SUM_OF_SQUARES].high &&
+           has_planes(sum, odd + FILM_COLOR_R, odd + FILM_WEIGHT + 1) &&
+           sum->planes[odd + FILM_COVERAGE].high &&
+           (!reflects || (has_reflected(sum, 0) && halved));
+}
+
+static ps_result read_passes(const char *path, const struct image *image, struct pass_set *passes,
+                             struct error *error)
+{
+    const char *text = image_attribute(image, "psplat.pass_set");
+    struct error reason;
+    ps_result result = pass_set_parse(text ? text : "", passes, &reason);
+    if (result != PS_OK)
+        return error_set(error, result, "cannot read '%s': psplat.pass_set: %.600s", path,
+                         reason.text);
+    return passes->count > 0 ? PS_OK : damaged(path, "it says of no passes", error);
 }
 
 static ps_result take_sums(const char *path, const struct image *image, struct film_sum *sum,
                            struct error *error)
 {
-    const char *passes = image_attribute(image, "psplat.pass_set");
     sum->width = image->width;
     sum->height = image->height;
-    ps_result result = pass_set_parse(passes ? passes : "", &sum->passes, error);
-    if (result == PS_OK && sum->passes.count == 0)
-        return damaged(path, "it says of no passes", error);
+    ps_result result = read_passes(path, image, &sum->passes, error);
     for (int plane = 0; plane < FILM_SUM_PLANES && result == PS_OK; plane++)
         result = read_plane(image, plane, &sum->planes[plane], error);
     if (result == PS_OK && !has_what_it_needs(sum))

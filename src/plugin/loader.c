@@ -227,7 +227,7 @@ static void note_hidden(const struct loader *loader, size_t first, ps_kind kind,
     }
 }
 
-/* Searches the folders in order; NULL where none has it. */
+/* Searches what is linked into the program, then the folders in order; NULL where none has it. */
 static struct strategy_type *search(const struct loader *loader, ps_kind kind, const char *name,
                                     struct trail *trail)
 {
@@ -237,6 +237,9 @@ static struct strategy_type *search(const struct loader *loader, ps_kind kind, c
     const ps_descriptor *linked = find_static(kind, name);
     if (linked && strategy_type_create(linked, NULL, &type, &reason) == PS_OK)
         return type;
+    if (linked)
+        snprintf(trail->attempts, sizeof trail->attempts, "; tried the program's own: %s",
+                 reason.text);
     for (size_t i = 0; i < loader->folder_count && !type; i++) {
         char path[LOADER_LONGEST_PATH];
         path_of(loader, i, kind, name, path);

@@ -144,6 +144,28 @@ static void drop_weight(struct image *image)
     image_keep_channels(image, is_no_weight, NULL);
 }
 
+static bool is_no_odd_weight(const void *user, const char *name)
+{
+    (void)user;
+    return strcmp(name, "sum.odd.weight") != 0;
+}
+
+static void drop_odd_weight(struct image *image)
+{
+    image_keep_channels(image, is_no_odd_weight, NULL);
+}
+
+static bool is_no_half(const void *user, const char *name)
+{
+    (void)user;
+    return strstr(name, ".half.") == NULL;
+}
+
+static void drop_half(struct image *image)
+{
+    image_keep_channels(image, is_no_half, NULL);
+}
+
 static bool is_no_object(const void *user, const char *name)
 {
     (void)user;
@@ -178,9 +200,11 @@ static void spoil_material(struct image *image)
 static void test_what_is_no_whole_film(void **state)
 {
     expect_refused(state, set_version, "format '2'");
-    expect_refused(state, set_passes, "expected runs of passes");
+    expect_refused(state, set_passes, "film.exr': psplat.pass_set: expected runs of passes");
     expect_refused(state, set_no_passes, "it says of no passes");
     expect_refused(state, drop_weight, "layers are missing");
+    expect_refused(state, drop_odd_weight, "layers are missing");
+    expect_refused(state, drop_half, "layers are missing");
     expect_refused(state, drop_objects, "numbers of objects are missing");
     expect_refused(state, spoil_object, "numbers of objects are none");
     expect_refused(state, spoil_material, "numbers of objects are none");
