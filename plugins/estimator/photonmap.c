@@ -1,39 +1,17 @@
 /* photonmap.c: photon mapping, the reference of the thesis (Hoet 2014, section 4.5).
  *
  * Jensen 1996. Every photon is traced to the surface it lights and stored there; at
- * each pixel the k nearest photons estimate the irradiance, with r the distance of the k-th:
- *
- *     E(p) = sum over photons nearer than r of Phi * w(d / r) / (pi r^2 W)
- *     W    = 2 * integral of w(s) s ds over 0..1
- *
- * No cosine: the photons' density in the surface already falls with the slope of the light, unlike
- * a splat's kernel, which lies across the bundle. The k-th photon sets r and is not counted itself,
- * or the estimate would be k / (k - 1) too large. Neighbourhoods are discs: photons off the tangent
- * plane weigh less, and those that arrive from behind the surface nothing.
+ * each pixel the nearest photons estimate the irradiance (photon_map.h).
  *
  * With `gather`, photons stay where they leave a surface, with the power that leaves the surface, and
  * the estimate is looked up where cosine-distributed rays from the pixel land (final gather), after
  * mirrors, gloss and glass on their way.
- *
- * FLANN's single kd-tree is exact and deterministic; its default parameters are neither. Its
- * searches only read the index, and the one global that a call touches is the log level, always
- * with the same value, so tiles are searched on all threads at once.
  */
-#include <psplat/plugin.h>
-
-#include <flann/flann.h>
-#include <limits.h>
-#include <string.h>
-
-#define LEAF_SIZE 16
-/* Photons higher above the tangent plane than this times r do not count; up to half of it they
- * count fully, so that curved surfaces keep their light. */
-#define FLATNESS 0.25f
+#include "photonmap/photon_map.h"
 
 /* Sets of the random numbers that choose points on lights; directions take 0, 1, 2, ... */
 #define LIGHT_SETS 0x10000u
 
-enum filter { FILTER_BOX, FILTER_CONE, FILTER_GAUSSIAN };
 static const char *const filter_choices[] = {"box", "cone", "gaussian", NULL};
 static const char *const radius_choices[] = {"none", NULL};
 
@@ -44,230 +22,13 @@ struct state {
     int64_t gather;
 };
 
-struct stored_photon {
-    ps_vec3 direction; /* of arrival */
-    ps_vec3 normal;    /* of the surface it lies on */
-    ps_rgb power;      /* W */
-};
-
-struct map {
-    float *positions; /* three for each photon: what FLANN searches */
-    struct stored_photon *photons;
-    size_t count, capacity;
-    flann_index_t index;
-    struct FLANNParameters parameters;
-    int neighbours; /* at most count */
-};
-
 struct work {
     const struct state *state;
     const ps_host *host;
     const ps_pass *pass;
-    const struct map *map;
-    int *indices;     /* neighbours of a tile's points, for each worker */
-    float *distances; /* squared */
+    struct photon_map map;
+    struct photon_estimate how;
 };
-
-static void map_release(const ps_host *host, struct map *map)
-{
-    if (map->index)
-        flann_free_index_float(map->index, &map->parameters);
-    host->release(host, map->positions);
-    host->release(host, map->photons);
-}
-
-static ps_result map_reserve(const ps_host *host, struct map *map, size_t more)
-{
-    if (map->count + more <= map->capacity)
-        return PS_OK;
-    size_t capacity = 2 * map->capacity + more;
-    float *positions = host->allocate(host, capacity * 3 * sizeof *positions, "photon map");
-    struct stored_photon *photons = host->allocate(host, capacity * sizeof *photons, "photon map");
-    if (!positions || !photons) {
-        host->release(host, positions);
-        host->release(host, photons);
-        return PS_ERROR_MEMORY;
-    }
-    if (map->count) {
-        memcpy(positions, map->positions, map->count * 3 * sizeof *positions);
-        memcpy(photons, map->photons, map->count * sizeof *photons);
-    }
-    host->release(host, map->positions);
-    host->release(host, map->photons);
-    map->positions = positions;
-    map->photons = photons;
-    map->capacity = capacity;
-    return PS_OK;
-}
-
-static void map_add(struct map *map, ps_vec3 position, ps_vec3 normal, ps_vec3 direction,
-                    ps_rgb power)
-{
-    float *to = map->positions + 3 * map->count;
-    to[0] = position.x;
-    to[1] = position.y;
-    to[2] = position.z;
-    map->photons[map->count++] = (struct stored_photon){direction, normal, power};
-}
-
-/* The photons' density in a surface falls with the slope to the surface itself; irradiance is meant
- * for the smoothed or bent normal. */
-static float shading_factor(const ps_ray *ray, const ps_hit *hit)
-{
-    if (ps_same(hit->normal, hit->geometric_normal))
-        return 1.0f;
-    float cosine = -ps_dot(ray->direction, hit->geometric_normal);
-    return fmaxf(0.0f, -ps_dot(ray->direction, hit->normal)) / fmaxf(cosine, 1e-4f);
-}
-
-/* Where the light of photons arrives. */
-static void store_arrivals(const ps_host *host, const ps_pass *pass, const ps_photon *photons,
-                           size_t n, struct map *map)
-{
-    ps_ray rays[PS_PATH_CHUNK];
-    ps_hit hits[PS_PATH_CHUNK];
-    for (size_t i = 0; i < n; i++)
-        rays[i] = ps_leave_surface(photons[i].position, photons[i].normal, photons[i].direction,
-                                   pass->surface_offset);
-    host->intersect(host, rays, n, hits);
-    for (size_t i = 0; i < n; i++)
-        if (hits[i].distance < INFINITY)
-            map_add(map, hits[i].position, hits[i].geometric_normal, photons[i].direction,
-                    ps_rgb_scale(photons[i].power, shading_factor(&rays[i], &hits[i])));
-}
-
-/* Where it leaves diffuse surfaces: the direction does not matter then. */
-static void store_departures(const ps_photon *photons, size_t n, struct map *map)
-{
-    for (size_t i = 0; i < n; i++)
-        if (photons[i].lobe == PS_DIFFUSE)
-            map_add(map, photons[i].position, photons[i].normal, ps_scale(photons[i].normal, -1.0f),
-                    photons[i].power);
-}
-
-static ps_result store_photons(const struct state *state, const ps_host *host, const ps_pass *pass,
-                               struct map *map)
-{
-    const ps_photon *photons;
-    size_t n;
-    double progress;
-    ps_result result;
-    do {
-        result = host->next_photons(host, &photons, &n, &progress);
-        if (result == PS_OK)
-            result = map_reserve(host, map, n);
-        for (size_t first = 0; result == PS_OK && first < n; first += PS_PATH_CHUNK) {
-            size_t count = n - first < PS_PATH_CHUNK ? n - first : PS_PATH_CHUNK;
-            if (state->gather)
-                store_departures(photons + first, count, map);
-            else
-                store_arrivals(host, pass, photons + first, count, map);
-        }
-    } while (result == PS_OK && n > 0);
-    return result;
-}
-
-/* Builds the tree; a map of no photons has none. */
-static ps_result map_build(const struct state *state, struct map *map)
-{
-    if (map->count == 0 || map->count > INT_MAX)
-        return map->count ? PS_ERROR_INVALID : PS_OK;
-    map->parameters = DEFAULT_FLANN_PARAMETERS;
-    map->parameters.algorithm = FLANN_INDEX_KDTREE_SINGLE;
-    map->parameters.leaf_max_size = LEAF_SIZE;
-    map->parameters.checks = -1; /* exact */
-    map->parameters.sorted = 1;
-    map->parameters.cores = 1;
-    map->parameters.random_seed = 0;
-    float speedup;
-    map->index =
-        flann_build_index_float(map->positions, (int)map->count, 3, &speedup, &map->parameters);
-    /* One more than counts: the farthest sets the radius. Asking for more than there are leaves
-     * rubbish. */
-    size_t wanted = (size_t)state->neighbours + 1;
-    map->neighbours = (int)(wanted < map->count ? wanted : map->count);
-    return map->index ? PS_OK : PS_ERROR_MEMORY;
-}
-
-/* Weight at squared relative radius s, and its mean over the disc. */
-static float filter_weight(int32_t filter, float s)
-{
-    switch (filter) {
-    case FILTER_CONE:
-        return 1.0f - sqrtf(s);
-    case FILTER_GAUSSIAN:
-        return expf(-2.0f * s);
-    default:
-        return 1.0f;
-    }
-}
-
-static float filter_mean(int32_t filter)
-{
-    switch (filter) {
-    case FILTER_CONE:
-        return 1.0f / 3.0f;
-    case FILTER_GAUSSIAN:
-        return 0.5f * (1.0f - expf(-2.0f));
-    default:
-        return 1.0f;
-    }
-}
-
-/* Irradiance at a point from its neighbours in order of distance. */
-static ps_rgb estimate(const struct work *work, ps_vec3 position, ps_vec3 normal,
-                       const int *indices, const float *distances)
-{
-    const struct state *state = work->state;
-    const struct map *map = work->map;
-    int count = map->neighbours - 1;
-    float radius2 = distances[count];
-    if (state->max_radius.choice < 0) {
-        float limit2 = (float)(state->max_radius.number * state->max_radius.number);
-        if (radius2 > limit2)
-            radius2 = limit2;
-    }
-    ps_rgb sum = {0, 0, 0};
-    float highest = FLATNESS * sqrtf(radius2);
-    for (int i = 0; i < count && distances[i] < radius2; i++) {
-        const struct stored_photon *photon = &map->photons[indices[i]];
-        const float *at = map->positions + 3 * (size_t)indices[i];
-        ps_vec3 offset = {at[0] - position.x, at[1] - position.y, at[2] - position.z};
-        float height = fabsf(ps_dot(offset, normal)) / highest;
-        int behind = ps_dot(photon->direction, normal) >= 0 || ps_dot(photon->normal, normal) <= 0;
-        if (behind || !(height < 1.0f))
-            continue;
-        float flat = fminf(1.0f, 2.0f * (1.0f - height));
-        float weight = flat * filter_weight(state->filter, distances[i] / radius2);
-        sum = ps_rgb_add(sum, ps_rgb_scale(photon->power, weight));
-    }
-    float area = PS_PI * radius2 * filter_mean(state->filter);
-    return radius2 > 0.0f ? ps_rgb_scale(sum, 1.0f / area) : (ps_rgb){0, 0, 0};
-}
-
-/* Irradiance at up to PS_TILE_PIXELS points. */
-static void estimate_points(const struct work *work, uint32_t worker, const ps_vec3 *positions,
-                            const ps_vec3 *normals, size_t n, ps_rgb *irradiance)
-{
-    const struct map *map = work->map;
-    size_t room = (size_t)PS_TILE_PIXELS * (size_t)map->neighbours * worker;
-    int *indices = work->indices + room;
-    float *distances = work->distances + room;
-    float queries[3 * PS_TILE_PIXELS];
-    for (size_t i = 0; i < n; i++) {
-        queries[3 * i] = positions[i].x;
-        queries[3 * i + 1] = positions[i].y;
-        queries[3 * i + 2] = positions[i].z;
-    }
-    struct FLANNParameters parameters = map->parameters;
-    if (n > 0)
-        flann_find_nearest_neighbors_index_float(map->index, queries, (int)n, indices, distances,
-                                                 map->neighbours, &parameters);
-    for (size_t i = 0; i < n; i++)
-        irradiance[i] =
-            estimate(work, positions[i], normals[i], indices + i * (size_t)map->neighbours,
-                     distances + i * (size_t)map->neighbours);
-}
 
 static void estimate_tile(void *user, uint64_t index, uint32_t worker)
 {
@@ -276,7 +37,8 @@ static void estimate_tile(void *user, uint64_t index, uint32_t worker)
     ps_points points;
     ps_rgb irradiance[PS_TILE_PIXELS];
     ps_collect_points(tile, &points);
-    estimate_points(work, worker, points.positions, points.normals, points.count, irradiance);
+    photon_map_estimate(&work->map, &work->how, worker, points.positions, points.normals,
+                        points.count, irradiance);
     for (size_t i = 0; i < points.count; i++)
         ps_add_irradiance(tile, points.lanes[i], irradiance[i]);
 }
@@ -376,7 +138,7 @@ static void look_up_or_go_on(const struct work *work, uint32_t worker, uint32_t 
         g->pdfs[left++] = on->pdf;
     }
     g->count = left;
-    estimate_points(work, worker, positions, normals, ended, exitance);
+    photon_map_estimate(&work->map, &work->how, worker, positions, normals, ended, exitance);
     for (size_t i = 0; i < ended; i++)
         sums[targets[i]] = ps_rgb_add(sums[targets[i]], ps_rgb_multiply(share[i], exitance[i]));
 }
@@ -415,40 +177,23 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
         ps_add_irradiance(tile, points.lanes[i], ps_rgb_scale(sums[i], 1.0f / (float)rays));
 }
 
-static ps_result search(const struct state *state, const ps_host *host, const ps_pass *pass,
-                        const struct map *map)
-{
-    size_t room = (size_t)pass->thread_count * PS_TILE_PIXELS * (size_t)map->neighbours;
-    struct work work = {state,
-                        host,
-                        pass,
-                        map,
-                        host->allocate(host, room * sizeof(int), "photon queries"),
-                        host->allocate(host, room * sizeof(float), "photon queries")};
-    ps_result result = PS_ERROR_MEMORY;
-    if (work.indices && work.distances)
-        result = host->for_each_tile(host, state->gather ? gather_tile : estimate_tile, &work);
-    host->release(host, work.indices);
-    host->release(host, work.distances);
-    return result;
-}
-
 static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
 {
     const struct state *state = opaque;
-    struct map map = {.count = 0};
-    ps_result result = store_photons(state, host, pass, &map);
-    if (result == PS_OK)
-        result = map_build(state, &map);
-    if (map.index)
-        host->count(host, "photon tree bytes", (double)flann_used_memory_float(map.index));
-    host->count(host, "photons stored", (double)map.count);
-    /* One photon can't tell a density. */
-    if (result == PS_OK && map.count < 2)
-        host->log(host, PS_LOG_WARNING, "fewer than two photons: no indirect light");
-    if (result == PS_OK && map.count > 1)
-        result = search(state, host, pass, &map);
-    map_release(host, &map);
+    struct work work = {
+        .state = state,
+        .host = host,
+        .pass = pass,
+        .how = {.filter = state->filter,
+                .max_radius =
+                    state->max_radius.choice < 0 ? (float)state->max_radius.number : INFINITY,
+                .shrink = 1.0f},
+    };
+    enum photon_end end = state->gather ? PHOTONS_LEAVE : PHOTONS_ARRIVE;
+    ps_result result = photon_map_create(host, pass, end, state->neighbours, &work.map);
+    if (result == PS_OK && work.map.index)
+        result = host->for_each_tile(host, state->gather ? gather_tile : estimate_tile, &work);
+    photon_map_release(&work.map);
     return result;
 }
 

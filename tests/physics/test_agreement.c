@@ -68,6 +68,7 @@ static void test_single_bounce(void **state)
          0.025},
         {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",
          "injection=photon:count=300000", NULL, 0.02},
+        {"sppm", "estimator=sppm", "injection=photon:count=300000", NULL, 0.025},
         {"vpl", "estimator=vpl:lights=2048,clamp=5", "injection=photon:count=2048", NULL, 0.02},
         {"gather", "estimator=gather:samples=64", "injection=photon:count=1000", NULL, 0.01},
     };
@@ -85,6 +86,7 @@ static void test_all_bounces(void **state)
          0.03},
         {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",
          "injection=photon:count=300000", NULL, 0.02},
+        {"sppm", "estimator=sppm", "injection=photon:count=300000", NULL, 0.03},
         {"vpl", "estimator=vpl:lights=4096,clamp=5", "injection=photon:count=1500", NULL, 0.03},
         {"gather", "estimator=gather:samples=64", "injection=photon:count=50000", NULL, 0.01},
     };

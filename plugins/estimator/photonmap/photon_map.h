@@ -1,0 +1,64 @@
+/* photon_map.h: photons where they arrive or leave, and the irradiance that the nearest of them give.
+ *
+ * Jensen 1996. The k nearest photons estimate the irradiance, with r the distance of the k-th:
+ *
+ *     E(p) = sum over photons nearer than r of Phi * w(d / r) / (pi r^2 W)
+ *     W    = 2 * integral of w(s) s ds over 0..1
+ *
+ * No cosine: the photons' density in the surface already falls with the slope of the light, unlike
+ * a splat's kernel, which lies across the bundle. The k-th photon sets r and is not counted itself,
+ * or the estimate would be k / (k - 1) too large. Neighbourhoods are discs: photons off the tangent
+ * plane weigh less, and those that arrive from behind the surface nothing.
+ *
+ * FLANN's single kd-tree is exact and deterministic; its default parameters are neither. Its
+ * searches only read the index, and the one global that a call touches is the log level, always
+ * with the same value, so tiles are searched on all threads at once.
+ */
+#ifndef PSPLAT_ESTIMATOR_PHOTON_MAP_H
+#define PSPLAT_ESTIMATOR_PHOTON_MAP_H
+
+#include <psplat/plugin.h>
+
+#include <flann/flann.h>
+
+enum photon_filter { PHOTON_FILTER_BOX, PHOTON_FILTER_CONE, PHOTON_FILTER_GAUSSIAN };
+
+struct stored_photon;
+
+struct photon_map {
+    const ps_host *host;
+    float *positions; /* three for each photon: what FLANN searches */
+    struct stored_photon *photons;
+    size_t count, capacity;
+    flann_index_t index;
+    struct FLANNParameters parameters;
+    int neighbours;   /* that are searched, at most `count` */
+    int *indices;     /* room for the neighbours of a tile's points, for each worker */
+    float *distances; /* squared */
+};
+
+/* How photons near a point become irradiance. */
+struct photon_estimate {
+    int32_t filter;   /* enum photon_filter */
+    float max_radius; /* photons farther away do not count; INFINITY: all do */
+    float shrink;     /* r is so many times the distance of the k-th photon, 0..1 */
+};
+
+/* Which end of the photons' ways is stored. */
+enum photon_end {
+    PHOTONS_ARRIVE, /* where their light lands */
+    PHOTONS_LEAVE /* where it leaves diffuse surfaces, with the power that leaves: for final gathering */
+};
+
+/* Makes the map of the pass's photons, for `neighbours` of them to an estimate. A map of fewer than two photons has no
+ * estimate: `index` is NULL, and a warning was logged. Release it whatever the result. */
+ps_result photon_map_create(const ps_host *host, const ps_pass *pass, enum photon_end end,
+                            int64_t neighbours, struct photon_map *map);
+void photon_map_release(struct photon_map *map);
+
+/* Irradiance, or exitance where photons leave, in W/m^2, at up to PS_TILE_PIXELS points. */
+void photon_map_estimate(const struct photon_map *map, const struct photon_estimate *how,
+                         uint32_t worker, const ps_vec3 *positions, const ps_vec3 *normals,
+                         size_t n, ps_rgb *irradiance);
+
+#endif
