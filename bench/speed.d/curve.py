@@ -59,3 +59,11 @@ def ratio_text(peer, ours):
     if peer.kind == NEVER:
         return "> " + ratio
     return "< " + ratio if ours.kind == AT else "both at once"
+
+
+def exponent(points):
+    """Slope of the line through the points (x, y) in the logarithms, by least squares."""
+    logs = [(math.log(x), math.log(y)) for x, y in points if y > 0]
+    mean_x, mean_y = (sum(column) / len(logs) for column in zip(*logs))
+    spread = sum((x - mean_x) ** 2 for x, _ in logs)
+    return sum((x - mean_x) * (y - mean_y) for x, y in logs) / spread if spread else math.nan

@@ -53,9 +53,20 @@ def _digest(scene):
     return digest.hexdigest()
 
 
-def make(psplat, folder, scene, size, bounces, samples, say):
+SMOOTH_SAMPLES = 32  # of a pass, of a smooth reference
+
+
+def _words(scene, samples, smooth):
+    """Of one half: those of a measured picture, whose pixels see one point, or means over pixels by many passes."""
+    if smooth:
+        return [scene.file, "--plugin", "denoiser=none", "--passes", str(max(1, samples // 2 // SMOOTH_SAMPLES)),
+                "--plugin", f"estimator=pathtrace:samples={min(SMOOTH_SAMPLES, samples // 2)}"]
+    return [*scene.words, "--plugin", f"estimator=pathtrace:samples={max(1, samples // 2 // scene.passes)}"]
+
+
+def make(psplat, folder, scene, size, bounces, samples, say, smooth=False):
     """Reads the reference from the folder, or renders what of it is not there (or no longer right)."""
-    name = f"{scene.name}-{size}-{bounces}"
+    name = f"{scene.name}-{size}-{bounces}{'-smooth' if smooth else ''}"
     stamp_path = os.path.join(folder, f"{name}.json")
     stamp = {"samples": samples, "scene": _digest(scene)}
     halves = [os.path.join(folder, f"{name}-{letter}.exr") for letter in "ab"]
@@ -74,7 +85,7 @@ def make(psplat, folder, scene, size, bounces, samples, say):
         if os.path.exists(path):
             say(f"reference {os.path.basename(path)}: reused")
             continue
-        estimator = f"estimator=pathtrace:samples={max(1, samples // 2 // scene.passes)}"
-        run = psplat.render([*scene.words, "--size", size, "--seed", str(seed), "--bounces", bounces, "--plugin", estimator], path)
+        words = _words(scene, samples, smooth)
+        run = psplat.render([*words, "--size", size, "--seed", str(seed), "--bounces", bounces], path)
         say(f"reference {os.path.basename(path)}: {run.wall:.1f} s")
     return Reference(psplat, halves, samples)

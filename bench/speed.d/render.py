@@ -99,6 +99,14 @@ class Psplat:
         numbers = {line.split()[0]: [float(word) for word in line.split()[1:]] for line in text.splitlines()}
         return numbers["rel_rmse"][0], numbers["bias"]
 
+    def resolve(self, film, picture, *choices):
+        """A film's picture, by other normalization or denoiser."""
+        words = [word for choice in choices for word in ("--plugin", choice)]
+        self._wait([self.program, "resolve", "--quiet", film, *words, "--output", picture])
+
+    def info(self, path):
+        return self._wait([self.program, "info", path])[2]
+
     def version(self):
         return self._wait([self.program, "--version"])[2].strip()
 

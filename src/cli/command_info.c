@@ -1,9 +1,32 @@
 /* command_info.c: psplat info: how a picture was made. */
 #include "cli/command.h"
-#include "image/image.h"
+#include "job/error_estimate.h"
+#include "job/film_file.h"
 
 #include <stdio.h>
 #include <string.h>
+
+/* What is estimated of a picture by its layer, of a film by the variance of its passes. */
+static ps_result print_error_estimate(const char *path, const struct image *image,
+                                      struct error *error)
+{
+    double estimate = error_estimate_of_picture(image);
+    const char *undenoised = "";
+    if (image_attribute(image, "psplat.film")) {
+        struct film_sum film;
+        struct image facts;
+        ps_result result = film_file_read(path, &film, &facts, error);
+        if (result != PS_OK)
+            return result;
+        estimate = error_estimate_of_film(&film);
+        undenoised = ", not denoised";
+        film_sum_release(&film);
+        image_release(&facts);
+    }
+    if (estimate >= 0.0)
+        printf("estimated error of the indirect light%s: %.3g %%\n", undenoised, 100.0 * estimate);
+    return PS_OK;
+}
 
 static void print_info(const char *path, const struct image *image)
 {
@@ -15,6 +38,10 @@ static void print_info(const char *path, const struct image *image)
     for (size_t i = 0; i < image->attribute_count; i++)
         if (strcmp(image->attributes[i].name, "psplat.command") != 0)
             printf("%s: %s\n", image->attributes[i].name, image->attributes[i].value);
+}
+
+static void print_command(const struct image *image)
+{
     const char *command = image_attribute(image, "psplat.command");
     if (command)
         printf("to repeat it:\n%s\n", command);
@@ -34,12 +61,18 @@ static int run(const struct argument *arguments, size_t count)
     for (size_t i = 0; i < count; i++) {
         struct image image = {0};
         struct error error;
-        if (image_read_exr(arguments[i].value, &image, &error) != PS_OK) {
+        ps_result result = image_read_exr(arguments[i].value, &image, &error);
+        if (result == PS_OK) {
+            print_info(arguments[i].value, &image);
+            result = print_error_estimate(arguments[i].value, &image, &error);
+        }
+        if (result == PS_OK)
+            print_command(&image);
+        image_release(&image);
+        if (result != PS_OK) {
             print_error(error.text);
             return STATUS_FAILED;
         }
-        print_info(arguments[i].value, &image);
-        image_release(&image);
     }
     return STATUS_OK;
 }

@@ -199,11 +199,10 @@ ps_result long_job_write_film(struct long_job *job, struct error *error)
                            error);
 }
 
-/* On the way; a disk that is full now may have room later. */
-static void write_checkpoint(struct long_job *job)
+/* On the way, since `start`, with what made it ready; a disk that is full now may have room later. */
+static void write_checkpoint(struct long_job *job, double start)
 {
     struct error error;
-    double start = clock_seconds();
     if (film_file_write(job->checkpoint, &job->film, &job->facts, IMAGE_UNCOMPRESSED, job->workers,
                         &error) != PS_OK &&
         !job->film_failed) {
@@ -249,10 +248,11 @@ static void do_what_is_due(struct long_job *job, struct render *render, uint32_t
     *job->write_now = 0;
     if ((look || keep) && job->team && team_gather(job->team, &error) != PS_OK)
         return; /* the film is lost, which team_end tells */
+    double gathering = clock_seconds() - now;
     if (look)
         look_at_picture(job, render, write);
     if (keep)
-        write_checkpoint(job);
+        write_checkpoint(job, clock_seconds() - gathering);
 }
 
 /* Where no budget is used up. */

@@ -106,8 +106,10 @@ static struct mesh_file *find_companion(struct mesh_job *job, char *path)
 {
     struct error ignored;
     struct mesh_file *file = NULL;
-    if (read_file(job, path, &file, &ignored) == PS_OK)
+    ps_result result = read_file(job, path, &file, &ignored);
+    if (result == PS_OK)
         return file;
+    job->out_of_memory |= result == PS_ERROR_MEMORY;
     mesh_decode_percent(path);
     return read_file(job, path, &file, &ignored) == PS_OK ? file : NULL;
 }
@@ -131,8 +133,10 @@ static struct aiFile *open_stream(struct aiFileIO *io, const char *path, const c
         job->library = file;
     }
     struct stream *stream = calloc(1, sizeof *stream);
-    if (!stream)
+    if (!stream) {
+        job->out_of_memory = true;
         return NULL;
+    }
     *stream = (struct stream){
         .functions = {.ReadProc = read_stream,
                       .WriteProc = write_stream,
@@ -180,6 +184,8 @@ ps_result mesh_source_open(struct mesh_job *job)
     if (result != PS_OK)
         return result;
     job->scene = aiImportFileEx(job->request->path, 0, &io);
+    if (job->out_of_memory)
+        return mesh_out_of_memory(job, sizeof(struct stream));
     return job->scene ? PS_OK : report_assimp(job);
 }
 

@@ -47,6 +47,8 @@ static void *keep(struct assembly *assembly, void *array)
     void **owned = realloc(scene->owned, (scene->owned_count + 1) * sizeof *owned);
     if (owned)
         scene->owned = owned;
+    else
+        error_memory(assembly->error, (scene->owned_count + 1) * sizeof *owned, "the scene");
     if (!array || !owned) {
         free(array);
         return NULL;

@@ -43,6 +43,12 @@ run 0 info resolved.exr
 expect_text out "psplat.passes: 8"
 expect_match out "^psplat.denoiser: regression"
 
+expect_match out '^estimated error of the indirect light: [0-9.]+ %$'
+run 0 info sum.exr
+expect_match out '^estimated error of the indirect light, not denoised: [0-9.]+ %$'
+run 0 info 4.exr # of a single pass nothing is known
+expect_no_text out 'estimated error'
+
 # Another denoiser, normalization and exposure, without rendering.
 run 0 $few --passes 8 -p denoiser=gaussian:size=7x7 -p normalization=intensity --exposure 2 -o other.png -o other.exr "$glossy"
 run 0 resolve sum.exr -q -p denoiser=gaussian:size=7x7 -p normalization=intensity --exposure 2 -o same.png -o same.exr --threads 1

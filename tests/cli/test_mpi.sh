@@ -56,6 +56,46 @@ run_ranks 0 2 -q $job --passes 1000 --error 4% --checkpoint error.exr -o error.p
 run 0 info error.exr
 expect_match out '^psplat.pass_set: 0:[0-9]+$'
 
+# --- two hosts ---
+
+# Two network namespaces with a wire between them, whose processes have a host name each and reach each other by TCP alone.
+cat >agent <<'AGENT'
+#!/bin/sh
+host=$1
+shift
+exec ip netns exec "$host" unshare --uts sh -c "hostname $host; $*"
+AGENT
+chmod +x agent
+cat >two_hosts.sh <<'HOSTS'
+set -e
+mount -t tmpfs tmpfs /run
+printf '10.9.0.1 one\n10.9.0.2 two\n' >hosts
+mount --bind hosts /etc/hosts
+ip netns add one
+ip netns add two
+ip link add to_two netns one type veth peer name to_one netns two
+ip -n one addr add 10.9.0.1/24 dev to_two
+ip -n two addr add 10.9.0.2/24 dev to_one
+for host in one two; do
+    ip -n $host link set lo up
+done
+ip -n one link set to_two up
+ip -n two link set to_one up
+hostname one
+export OMPI_MCA_btl=self,tcp OMPI_MCA_btl_tcp_if_include=10.9.0.0/24 OMPI_MCA_oob_tcp_if_include=10.9.0.0/24
+exec ip netns exec one timeout 200 mpirun --mca plm rsh --mca plm_rsh_agent "$PWD/agent" --host one:1,two:1 -n 2 "$@"
+HOSTS
+if unshare -rmnu sh two_hosts.sh hostname >out 2>err && [ "$(sort out | tr '\n' ' ')" = 'one two ' ]; then
+    last="psplat on two hosts"
+    rm -f two.exr
+    # shellcheck disable=SC2086
+    unshare -rmnu sh two_hosts.sh "$PSPLAT" -q $job --checkpoint two.exr --checkpoint-every 0.01s "$glossy" >out 2>err
+    check_status $? 0
+    expect_same one.exr two.exr
+else
+    echo "two hosts can't be had here: $(tail -n 1 err)"
+fi
+
 # --- what is wrong is said once ---
 
 # shellcheck disable=SC2086

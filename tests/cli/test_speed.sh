@@ -1,4 +1,4 @@
-# The measurements of bench/speed, bench/marks, bench/preview, bench/scaling and bench/throughput run, at small
+# The measurements of bench/speed, bench/marks, bench/preview, bench/scaling, bench/passes, bench/ranks and bench/throughput run, at small
 # sizes, and say what they should of times that are made up. No time is asserted.
 . "$PSPLAT_SOURCE/tests/cli/lib.sh"
 
@@ -166,6 +166,25 @@ expect_match results/scaling.csv '^series,x,threads,photons,'
 expect_match results/scaling.csv '^pixels,32400,2,'
 expect_text results/scaling.md "| indirect seconds with paths | 3162 to 10000 |"
 expect_drawing results/scaling.svg
+
+# --- bench/passes ---
+
+measure 0 passes --quick
+[ "$(wc -l <results/passes.csv)" -eq 7 ] || fail "passes.csv has not 6 points"
+expect_match results/passes.csv '^0,none,1,[0-9.]+,NaN$'
+expect_match results/passes.csv '^0,none,4,[0-9.]+,[0-9.]+$'
+expect_match results/passes.md '^\| regression \| 4 \| [0-9.]+ % \| [0-9.]+ % \| [0-9.]+ \|$'
+true_of "the rate of Monte Carlo" "-0.7 < $(sed -n 's/^Exponent with denoiser=none: \(.*\)\.$/\1/p' results/passes.md) < -0.3"
+expect_drawing results/passes.svg
+
+# --- bench/ranks ---
+
+if command -v mpirun >/dev/null && [ -n "$(find "$PSPLAT_BUILD" -path '*/psplat/mpi.so')" ] && ! is_on PSPLAT_SANITIZE; then
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl=self,vader
+    measure 0 ranks --quick --ranks 1,2
+    expect_match results/ranks.md '^\| 2 \| [0-9.]+ s \| [0-9.]+ s \| [0-9.]+ \|$'
+    expect_match results/ranks.md '^\| 100 \| [0-9.]+% \| [0-9]+ \| (0\.9|1\.0)[0-9]+ \|' # the model, beside the simulation
+fi
 
 # --- bench/throughput ---
 
