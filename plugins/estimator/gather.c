@@ -20,15 +20,12 @@
  * asks for it (allocation.h). A tile's rays of a round share a run of the Sobol sequence along a Z curve, as in
  * pathtrace.c.
  */
-#include "gather/allocation.h"
-#include "gather/rays.h"
-
-#include <string.h>
+#include "gather/surfels.h"
+#include "shared/gather_picture.h"
 
 #define MOST_PATHS 32       /* of a surfel, by default */
 #define FEWEST_SURFELS 2000 /* of a picture */
 #define THINNED_TOGETHER 4  /* paths */
-#define MOST_OF_SAMPLES 4   /* times the samples, that a tile takes at most */
 
 struct state {
     int64_t samples;
@@ -45,10 +42,6 @@ struct work {
     struct surfels surfels;
     /* When they are corrected: the surfels' irradiance by paths, and by the first half of each one's paths. */
     ps_rgb *traced, *half;
-    /* When tiles take samples by their need: what the first round found in each, and how many it takes. */
-    struct first_round *first_rounds;
-    struct tile_pilot *pilots;
-    uint32_t *allocated;
 };
 
 /* --- photons --- */
@@ -202,6 +195,7 @@ static ps_result splat(struct work *work)
         result = correct_cache(work);
     if (result == PS_OK)
         result = surfels_build(surfels);
+    work->setting.lookup = surfels_lookup;
     work->setting.cache = surfels;
     return result;
 }
@@ -214,120 +208,13 @@ static uint32_t surfels_of_tile(const struct state *state, const ps_pass *pass)
     return (uint32_t)(rays < PS_TILE_PIXELS ? rays : PS_TILE_PIXELS);
 }
 
-/* --- the picture --- */
-
-/* What a tile's first round found, kept until it is known how many more samples it takes. */
-struct first_round {
-    ps_rgb irradiance[PS_TILE_PIXELS];
-    float found[GATHER_GUIDES][GUIDE_RINGS][GUIDE_SECTORS];
-};
-
-static bool begin_tile(const struct work *work, uint64_t index, struct gather *gather)
-{
-    const ps_host *host = work->setting.paths.host;
-    *gather = (struct gather){.setting = &work->setting, .index = index};
-    ps_collect_points(host->tile(host, (uint32_t)index), &gather->points);
-    if (gather->points.count > 0)
-        gather_begin(gather);
-    return gather->points.count > 0;
-}
-
-/* In the brightness that a pixel has of it. */
-static struct tile_pilot pilot_of(const struct gather *gather, const ps_tile *tile)
-{
-    float found[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
-    for (size_t i = 0; i < gather->points.count; i++) {
-        uint32_t lane = gather->points.lanes[i];
-        float albedo = ps_luminance(ps_tile_reflectance(tile, lane));
-        found[i] = albedo * ps_luminance(gather->irradiance[i]);
-        half[i] = 2.0f * albedo * ps_luminance(gather->half[i]);
-    }
-    return tile_pilot(gather->points.lanes, found, half, gather->points.count);
-}
-
-static void take_first_round(void *user, uint64_t index, uint32_t worker)
-{
-    (void)worker;
-    const struct work *work = user;
-    const ps_host *host = work->setting.paths.host;
-    struct first_round *first = &work->first_rounds[index];
-    struct gather gather;
-    work->pilots[index] = (struct tile_pilot){0};
-    if (!begin_tile(work, index, &gather))
-        return;
-    gather.goes_on = true;
-    gather_samples(&gather, GATHER_FIRST);
-    memcpy(first->irradiance, gather.irradiance, sizeof first->irradiance);
-    for (uint32_t i = 0; i < gather.guide_count; i++)
-        memcpy(first->found[i], gather.guides[i].found, sizeof first->found[i]);
-    work->pilots[index] = pilot_of(&gather, host->tile(host, (uint32_t)index));
-}
-
-static void resume(const struct first_round *first, struct gather *gather)
-{
-    memcpy(gather->irradiance, first->irradiance, sizeof first->irradiance);
-    for (uint32_t i = 0; i < gather->guide_count; i++)
-        memcpy(gather->guides[i].found, first->found[i], sizeof first->found[i]);
-    gather_update_guides(gather);
-    gather->done = GATHER_FIRST;
-}
-
-static void gather_tile(void *user, uint64_t index, uint32_t worker)
-{
-    (void)worker;
-    const struct work *work = user;
-    const ps_host *host = work->setting.paths.host;
-    ps_tile *tile = host->tile(host, (uint32_t)index);
-    uint64_t samples = work->allocated ? work->allocated[index] : (uint64_t)work->state->samples;
-    struct gather gather;
-    if (!begin_tile(work, index, &gather))
-        return;
-    if (work->allocated)
-        resume(&work->first_rounds[index], &gather);
-    gather_samples(&gather, samples);
-    for (size_t i = 0; i < gather.points.count; i++)
-        ps_add_irradiance(tile, gather.points.lanes[i],
-                          ps_rgb_scale(gather.irradiance[i], 1.0f / (float)samples));
-}
-
-/* The first round may have missed all that there is to be found in a tile: half of the samples are taken everywhere. */
-static ps_result share_out_samples(struct work *work, const ps_pass *pass)
-{
-    const ps_host *host = work->setting.paths.host;
-    size_t tiles = pass->tile_count;
-    work->first_rounds = host->allocate(host, tiles * sizeof *work->first_rounds, "first round");
-    work->pilots = host->allocate(host, tiles * sizeof *work->pilots, "first round");
-    work->allocated = host->allocate(host, tiles * sizeof *work->allocated, "first round");
-    if (!work->first_rounds || !work->pilots || !work->allocated)
-        return PS_ERROR_MEMORY;
-    ps_result result = host->for_each_tile(host, take_first_round, work);
-    uint64_t samples = (uint64_t)work->state->samples, half = samples / 2;
-    uint64_t least = half > GATHER_FIRST ? half : GATHER_FIRST;
-    if (result == PS_OK)
-        allocate_samples(work->pilots, tiles, least, samples, work->setting.most, work->allocated);
-    return result;
-}
-
-static ps_result gather_picture(struct work *work, const ps_pass *pass)
-{
-    const ps_host *host = work->setting.paths.host;
-    bool adapts = work->state->adaptive && work->state->samples > GATHER_FIRST;
-    ps_result result = adapts ? share_out_samples(work, pass) : PS_OK;
-    if (result == PS_OK)
-        result = host->for_each_tile(host, gather_tile, work);
-    host->release(host, work->first_rounds);
-    host->release(host, work->pilots);
-    host->release(host, work->allocated);
-    return result;
-}
-
 static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
 {
     const struct state *state = opaque;
     struct work work = {
         .state = state,
         .setting = {.paths = {host, pass, (uint32_t)state->roulette},
-                    .most = MOST_OF_SAMPLES * (uint64_t)state->samples,
+                    .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
                     .no_caustics = pass->specular != 0},
         .surfels = {.host = host},
     };
@@ -338,7 +225,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
         result = splat(&work);
     host->count(host, "surfels", (double)work.surfels.count);
     if (result == PS_OK)
-        result = gather_picture(&work, pass);
+        result = gather_picture(&work.setting, (uint64_t)state->samples, state->adaptive);
     surfels_release(&work.surfels);
     return result;
 }

@@ -10,7 +10,7 @@
  * Z curve (ps_tile_sample). So not only those of a pixel are stratified, but those of squares of pixels as well, and
  * what one pixel has too much of its neighbours have too little: a denoiser finds less noise.
  */
-#include "paths.h"
+#include "shared/paths.h"
 
 struct state {
     int64_t samples;

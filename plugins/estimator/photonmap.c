@@ -7,7 +7,7 @@
  * the estimate is looked up where cosine-distributed rays from the pixel land (final gather), after
  * mirrors, gloss and glass on their way.
  */
-#include "photonmap/photon_map.h"
+#include "shared/photon_map.h"
 
 /* Sets of the random numbers that choose points on lights; directions take 0, 1, 2, ... */
 #define LIGHT_SETS 0x10000u
@@ -38,7 +38,7 @@ static void estimate_tile(void *user, uint64_t index, uint32_t worker)
     ps_rgb irradiance[PS_TILE_PIXELS];
     ps_collect_points(tile, &points);
     photon_map_estimate(&work->map, &work->how, worker, points.positions, points.normals,
-                        points.count, irradiance);
+                        points.count, irradiance, NULL);
     for (size_t i = 0; i < points.count; i++)
         ps_add_irradiance(tile, points.lanes[i], irradiance[i]);
 }
@@ -138,7 +138,7 @@ static void look_up_or_go_on(const struct work *work, uint32_t worker, uint32_t 
         g->pdfs[left++] = on->pdf;
     }
     g->count = left;
-    photon_map_estimate(&work->map, &work->how, worker, positions, normals, ended, exitance);
+    photon_map_estimate(&work->map, &work->how, worker, positions, normals, ended, exitance, NULL);
     for (size_t i = 0; i < ended; i++)
         sums[targets[i]] = ps_rgb_add(sums[targets[i]], ps_rgb_multiply(share[i], exitance[i]));
 }

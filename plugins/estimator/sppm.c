@@ -14,7 +14,7 @@
  * stays a function of its number. Photons within s of that distance are as dense as those within it, so that shrinking
  * brings no bias of its own.
  */
-#include "photonmap/photon_map.h"
+#include "shared/photon_map.h"
 
 static const char *const filter_choices[] = {"box", "cone", "gaussian", NULL};
 
@@ -38,7 +38,7 @@ static void estimate_tile(void *user, uint64_t index, uint32_t worker)
     ps_rgb irradiance[PS_TILE_PIXELS];
     ps_collect_points(tile, &points);
     photon_map_estimate(&work->map, &work->how, worker, points.positions, points.normals,
-                        points.count, irradiance);
+                        points.count, irradiance, NULL);
     for (size_t i = 0; i < points.count; i++)
         ps_add_irradiance(tile, points.lanes[i], irradiance[i]);
 }

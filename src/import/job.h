@@ -30,7 +30,8 @@ struct mesh_job {
     struct affine to_scene; /* what the request says, from the file's space */
     double scale;           /* the factor of to_scene on lengths (the mean one) */
     size_t *materials;      /* in the fragment, for each of assimp's; or NO_INDEX */
-    bool out_of_memory;     /* while assimp asked for a file, which it takes for one that is not there */
+    /* While assimp asked for a file, which it takes for one that is not there. */
+    bool out_of_memory;
 };
 
 /* Adds a sentence to the report's notes, as far as there is room. */

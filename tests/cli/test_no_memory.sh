@@ -10,7 +10,7 @@ LD_PRELOAD=./failing.so FAIL_COUNT=count "$PSPLAT" --version >out 2>err
 [ -s count ] || skip "psplat can't be run with a library preloaded"
 
 # Every allocation of a command takes minutes: every so many of them, and in the whole run more.
-stride=1
+stride=29
 [ -n "${PSPLAT_QUICK:-}" ] || stride=3
 ! is_on PSPLAT_SANITIZE || stride=$((stride * 5))
 
@@ -71,7 +71,7 @@ offset=0
 
 few="-t 1 -q --size 32x18 -p injection=photon:count=500"
 every $few -o new/a.exr -o new/a.png --passes 2 --checkpoint new/film.exr "$cornell"
-for estimator in splat pathtrace photonmap sppm vpl ssao; do
+for estimator in splat pathtrace photonmap sppm final_gather vpl ssao; do
     every $few -p "$(small_choice estimator=$estimator)" -o new/a.exr "$cornell"
 done
 every $few -p estimator=splat -p injection=rsm:count=500,resolution=16 -p stratification=octree -o new/a.exr "$cornell"

@@ -69,6 +69,8 @@ static void test_single_bounce(void **state)
         {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",
          "injection=photon:count=300000", NULL, 0.02},
         {"sppm", "estimator=sppm", "injection=photon:count=300000", NULL, 0.025},
+        {"final_gather", "estimator=final_gather:samples=64", "injection=photon:count=1000", NULL,
+         0.01},
         {"vpl", "estimator=vpl:lights=2048,clamp=5", "injection=photon:count=2048", NULL, 0.02},
         {"gather", "estimator=gather:samples=64", "injection=photon:count=1000", NULL, 0.01},
     };
@@ -87,6 +89,8 @@ static void test_all_bounces(void **state)
         {"photonmap, final gather", "estimator=photonmap:neighbours=60,gather=64",
          "injection=photon:count=300000", NULL, 0.02},
         {"sppm", "estimator=sppm", "injection=photon:count=300000", NULL, 0.03},
+        {"final_gather", "estimator=final_gather:samples=64", "injection=photon:count=50000", NULL,
+         0.015},
         {"vpl", "estimator=vpl:lights=4096,clamp=5", "injection=photon:count=1500", NULL, 0.03},
         {"gather", "estimator=gather:samples=64", "injection=photon:count=50000", NULL, 0.01},
     };

@@ -57,6 +57,7 @@ static const char *const methods[][5] = {
     {"estimator=splat", "injection=photon:count=20000", "bounces=all",
      "visibility=shadowmap:radius=0.1", NULL},
     {"estimator=photonmap:neighbours=60", "injection=photon:count=20000", "bounces=all", NULL},
+    {"estimator=final_gather:samples=16", "injection=photon:count=20000", "bounces=all", NULL},
     {"estimator=vpl:lights=200,clamp=0.05", "injection=photon:count=500", "bounces=all", NULL},
     {"estimator=gather:samples=16", "injection=photon:count=20000", "bounces=all", NULL},
 };

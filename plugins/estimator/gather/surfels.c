@@ -344,23 +344,24 @@ static ps_vec3 move(ps_vec3 p, ps_vec3 normal, float side, const float numbers[2
                      p.z + (axis == 2 ? 0.0f : b)};
 }
 
-int surfels_lookup(const struct surfels *surfels, ps_vec3 position, ps_vec3 normal, float length,
-                   const float numbers[2], ps_rgb *irradiance)
+bool surfels_lookup(const void *opaque, ps_vec3 position, ps_vec3 normal, float length,
+                    const float numbers[2], ps_rgb *irradiance)
 {
+    const struct surfels *surfels = opaque;
     uint64_t direction = normal_key(normal);
     uint32_t level = level_of(surfels, BY_LENGTH * length);
     for (;; level--) {
         float side = surfels->largest / (float)(1u << level);
         if (side > MOST_BY_LENGTH * length)
-            return 0;
+            return false;
         ps_vec3 moved = move(position, normal, side, numbers);
         const struct surfel_cell *cell =
             cell_at(surfels, cell_key(surfels, moved, direction, level));
         if (cell->count >= ENOUGH || (cell->count > 0 && level == 0)) {
             *irradiance = ps_rgb_scale(cell->sum, 1.0f / (float)cell->count);
-            return 1;
+            return true;
         }
         if (level == 0)
-            return 0;
+            return false;
     }
 }

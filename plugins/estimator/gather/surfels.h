@@ -11,6 +11,7 @@
 #define PSPLAT_ESTIMATOR_GATHER_SURFELS_H
 
 #include <psplat/plugin.h>
+#include <stdbool.h>
 
 struct surfel_cell;
 
@@ -43,9 +44,8 @@ ps_result surfels_build(struct surfels *surfels);
 
 void surfels_release(struct surfels *surfels);
 
-/* The irradiance at a point that a ray of that length met, with two numbers of [0, 1); 0 where the cache knows none. Any
- * thread. */
-int surfels_lookup(const struct surfels *surfels, ps_vec3 position, ps_vec3 normal, float length,
-                   const float numbers[2], ps_rgb *irradiance);
+/* As a gather_lookup (shared/gather_rays.h); `surfels` is a struct surfels. */
+bool surfels_lookup(const void *surfels, ps_vec3 position, ps_vec3 normal, float length,
+                    const float numbers[2], ps_rgb *irradiance);
 
 #endif

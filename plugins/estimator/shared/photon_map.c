@@ -96,30 +96,27 @@ static void store_departures(const ps_photon *photons, size_t n, struct photon_m
                     photons[i].power);
 }
 
-static ps_result store_photons(const ps_pass *pass, enum photon_end end, struct photon_map *map)
+void photon_map_begin(const ps_host *host, struct photon_map *map)
 {
-    const ps_host *host = map->host;
-    const ps_photon *photons;
-    size_t n;
-    double progress;
-    ps_result result;
-    do {
-        result = host->next_photons(host, &photons, &n, &progress);
-        if (result == PS_OK)
-            result = map_reserve(map, n);
-        for (size_t first = 0; result == PS_OK && first < n; first += PS_PATH_CHUNK) {
-            size_t count = n - first < PS_PATH_CHUNK ? n - first : PS_PATH_CHUNK;
-            if (end == PHOTONS_LEAVE)
-                store_departures(photons + first, count, map);
-            else
-                store_arrivals(pass, photons + first, count, map);
-        }
-    } while (result == PS_OK && n > 0);
+    *map = (struct photon_map){.host = host};
+}
+
+ps_result photon_map_add(struct photon_map *map, const ps_pass *pass, enum photon_end end,
+                         const ps_photon *photons, size_t n)
+{
+    ps_result result = map_reserve(map, n);
+    for (size_t first = 0; result == PS_OK && first < n; first += PS_PATH_CHUNK) {
+        size_t count = n - first < PS_PATH_CHUNK ? n - first : PS_PATH_CHUNK;
+        if (end == PHOTONS_LEAVE)
+            store_departures(photons + first, count, map);
+        else
+            store_arrivals(pass, photons + first, count, map);
+    }
     return result;
 }
 
 /* Builds the tree. */
-static ps_result map_build(int64_t neighbours, struct photon_map *map)
+static ps_result build_tree(int64_t neighbours, struct photon_map *map)
 {
     if (map->count > INT_MAX)
         return PS_ERROR_INVALID;
@@ -149,22 +146,53 @@ static ps_result make_room(uint32_t workers, struct photon_map *map)
     return map->indices && map->distances ? PS_OK : PS_ERROR_MEMORY;
 }
 
+ps_result photon_map_build(struct photon_map *map, const ps_pass *pass, int64_t neighbours)
+{
+    map->host->count(map->host, "photons stored", (double)map->count);
+    if (map->count < 2)
+        return PS_OK;
+    ps_result result = build_tree(neighbours, map);
+    if (map->index)
+        map->host->count(map->host, "photon tree bytes",
+                         (double)flann_used_memory_float(map->index));
+    return result == PS_OK ? make_room(pass->thread_count, map) : result;
+}
+
 ps_result photon_map_create(const ps_host *host, const ps_pass *pass, enum photon_end end,
                             int64_t neighbours, struct photon_map *map)
 {
-    *map = (struct photon_map){.host = host};
-    ps_result result = store_photons(pass, end, map);
-    host->count(host, "photons stored", (double)map->count);
-    /* One photon can't tell a density. */
-    if (result == PS_OK && map->count < 2) {
-        host->log(host, PS_LOG_WARNING, "fewer than two photons: no indirect light");
-        return PS_OK;
+    const ps_photon *photons;
+    size_t n = 1;
+    double progress;
+    ps_result result = PS_OK;
+    photon_map_begin(host, map);
+    while (result == PS_OK && n > 0) {
+        result = host->next_photons(host, &photons, &n, &progress);
+        if (result == PS_OK)
+            result = photon_map_add(map, pass, end, photons, n);
     }
-    if (result == PS_OK)
-        result = map_build(neighbours, map);
-    if (map->index)
-        host->count(host, "photon tree bytes", (double)flann_used_memory_float(map->index));
-    return result == PS_OK ? make_room(pass->thread_count, map) : result;
+    if (result == PS_OK && map->count < 2)
+        host->log(host, PS_LOG_WARNING, "fewer than two photons: no indirect light");
+    return result == PS_OK ? photon_map_build(map, pass, neighbours) : result;
+}
+
+ps_vec3 photon_map_position(const struct photon_map *map, size_t i)
+{
+    const float *at = map->positions + 3 * i;
+    return (ps_vec3){at[0], at[1], at[2]};
+}
+
+ps_vec3 photon_map_normal(const struct photon_map *map, size_t i)
+{
+    return map->photons[i].normal;
+}
+
+void photon_map_nearest(const struct photon_map *map, ps_vec3 position, int n, int *indices)
+{
+    struct FLANNParameters parameters = map->parameters;
+    float query[3] = {position.x, position.y, position.z}, distances[PS_TILE_PIXELS];
+    flann_find_nearest_neighbors_index_float(map->index, query, 1, indices, distances, n,
+                                             &parameters);
 }
 
 /* Weight at squared relative radius s, and its mean over the disc. */
@@ -192,13 +220,19 @@ static float filter_mean(int32_t filter)
     }
 }
 
+static float radius2_of(const struct photon_map *map, const struct photon_estimate *how,
+                        const float *distances)
+{
+    return ps_min(how->shrink * how->shrink * distances[map->neighbours - 1],
+                  how->max_radius * how->max_radius);
+}
+
 /* Irradiance at a point from its neighbours in order of distance. */
 static ps_rgb estimate(const struct photon_map *map, const struct photon_estimate *how,
                        ps_vec3 position, ps_vec3 normal, const int *indices, const float *distances)
 {
     int count = map->neighbours - 1;
-    float radius2 =
-        ps_min(how->shrink * how->shrink * distances[count], how->max_radius * how->max_radius);
+    float radius2 = radius2_of(map, how, distances);
     ps_rgb sum = {0, 0, 0};
     float highest = FLATNESS * sqrtf(radius2);
     for (int i = 0; i < count && distances[i] < radius2; i++) {
@@ -219,7 +253,7 @@ static ps_rgb estimate(const struct photon_map *map, const struct photon_estimat
 
 void photon_map_estimate(const struct photon_map *map, const struct photon_estimate *how,
                          uint32_t worker, const ps_vec3 *positions, const ps_vec3 *normals,
-                         size_t n, ps_rgb *irradiance)
+                         size_t n, ps_rgb *irradiance, float *radii)
 {
     size_t room = (size_t)PS_TILE_PIXELS * (size_t)map->neighbours * worker;
     int *indices = map->indices + room;
@@ -238,4 +272,6 @@ void photon_map_estimate(const struct photon_map *map, const struct photon_estim
         irradiance[i] =
             estimate(map, how, positions[i], normals[i], indices + i * (size_t)map->neighbours,
                      distances + i * (size_t)map->neighbours);
+    for (size_t i = 0; i < n && radii; i++)
+        radii[i] = sqrtf(radius2_of(map, how, distances + i * (size_t)map->neighbours));
 }

@@ -1,15 +1,14 @@
-/* rays.h: the final gather of a group of points: the pixels of a tile, or surfels.
+/* gather_rays.h: the final gather of a group of points: the pixels of a tile, or surfels.
  *
- * Paths leave the points (../paths.h) and go on until a cache of irradiance knows the rest, or to their end. Their first
+ * Paths leave the points (paths.h) and go on until a cache of irradiance knows the rest, or to their end. Their first
  * directions are drawn where those before them found light (guide.h).
  */
 #ifndef PSPLAT_ESTIMATOR_GATHER_RAYS_H
 #define PSPLAT_ESTIMATOR_GATHER_RAYS_H
 
 #include "guide.h"
-#include "surfels.h"
 
-#include "../paths.h"
+#include "paths.h"
 #include <stdbool.h>
 
 /* Guides of a group, one for each way that its surfaces face. */
@@ -18,11 +17,17 @@ enum { GATHER_GUIDES = 4 };
 /* Samples of the first round, after which rays are guided. */
 enum { GATHER_FIRST = 4 };
 
+/* The irradiance (W/m^2), of light that met other surfaces before, where a ray of that length landed, with two random
+ * numbers of [0, 1); false where the cache knows none, or the ray is too short for it: the path goes on. Any thread. */
+typedef bool (*gather_lookup)(const void *cache, ps_vec3 position, ps_vec3 normal, float length,
+                              const float numbers[2], ps_rgb *irradiance);
+
 struct gather_setting {
     struct paths_setting paths;
     uint64_t most; /* samples from each point, of any group: random numbers are counted by it */
-    const struct surfels *cache; /* NULL: none */
-    bool no_caustics;            /* on the points: somebody else adds them */
+    gather_lookup lookup; /* NULL: there is no cache, and paths go on to their ends */
+    const void *cache;
+    bool no_caustics; /* on the points: somebody else adds them */
 };
 
 struct gather {

@@ -7,8 +7,8 @@
  * what counts is neither the absolute error alone, by which dark walls would stay noisy, nor the relative one.
  * The other samples go where that is large.
  */
-#ifndef PSPLAT_ESTIMATOR_GATHER_ALLOCATION_H
-#define PSPLAT_ESTIMATOR_GATHER_ALLOCATION_H
+#ifndef PSPLAT_ESTIMATOR_ALLOCATION_H
+#define PSPLAT_ESTIMATOR_ALLOCATION_H
 
 #include <psplat/plugin.h>
 

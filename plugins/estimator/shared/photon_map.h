@@ -50,15 +50,32 @@ enum photon_end {
     PHOTONS_LEAVE /* where it leaves diffuse surfaces, with the power that leaves: for final gathering */
 };
 
-/* Makes the map of the pass's photons, for `neighbours` of them to an estimate. A map of fewer than two photons has no
- * estimate: `index` is NULL, and a warning was logged. Release it whatever the result. */
-ps_result photon_map_create(const ps_host *host, const ps_pass *pass, enum photon_end end,
-                            int64_t neighbours, struct photon_map *map);
+/* Begins a map of no photons. Release it, whatever comes of it. */
+void photon_map_begin(const ps_host *host, struct photon_map *map);
 void photon_map_release(struct photon_map *map);
 
-/* Irradiance, or exitance where photons leave, in W/m^2, at up to PS_TILE_PIXELS points. */
+ps_result photon_map_add(struct photon_map *map, const ps_pass *pass, enum photon_end end,
+                         const ps_photon *photons, size_t n);
+
+/* Ends it, for `neighbours` photons to an estimate. A map of fewer than two photons, which can't tell a density, has no
+ * estimate: its `index` is NULL. */
+ps_result photon_map_build(struct photon_map *map, const ps_pass *pass, int64_t neighbours);
+
+/* All of this with all photons of the pass; warns where there are fewer than two. */
+ps_result photon_map_create(const ps_host *host, const ps_pass *pass, enum photon_end end,
+                            int64_t neighbours, struct photon_map *map);
+
+/* Where photon i lies, and the normal of the surface there. */
+ps_vec3 photon_map_position(const struct photon_map *map, size_t i);
+ps_vec3 photon_map_normal(const struct photon_map *map, size_t i);
+
+/* The `n` photons next to a point, nearest first; n is at most the map's `neighbours`. Any thread. */
+void photon_map_nearest(const struct photon_map *map, ps_vec3 position, int n, int *indices);
+
+/* Irradiance, or exitance where photons leave, in W/m^2, at up to PS_TILE_PIXELS points; and r of each, where `radii` is
+ * not NULL. */
 void photon_map_estimate(const struct photon_map *map, const struct photon_estimate *how,
                          uint32_t worker, const ps_vec3 *positions, const ps_vec3 *normals,
-                         size_t n, ps_rgb *irradiance);
+                         size_t n, ps_rgb *irradiance, float *radii);
 
 #endif

@@ -1,4 +1,4 @@
-#include "rays.h"
+#include "gather_rays.h"
 
 #define SAME_FACING 0.8f /* cosine of two normals that share a guide */
 
@@ -82,9 +82,9 @@ static bool add_cached(struct gather *gather, const struct paths *paths, ps_rgb 
     ps_rgb irradiance;
     /* Where bounces are counted, the cache knows those that are left after one surface. */
     bool counted = setting->paths.pass->bounces != PS_ALL_BOUNCES;
-    if (!setting->cache || (counted && paths->bounces[i] > 0) ||
-        !surfels_lookup(setting->cache, hit->position, hit->normal, hit->distance,
-                        gather->places[paths->pixels[i]], &irradiance))
+    if (!setting->lookup || (counted && paths->bounces[i] > 0) ||
+        !setting->lookup(setting->cache, hit->position, hit->normal, hit->distance,
+                         gather->places[paths->pixels[i]], &irradiance))
         return false;
     ps_rgb *found = &gather->found[paths->pixels[i]];
     ps_rgb light = ps_rgb_scale(ps_rgb_multiply(weight, irradiance), 1.0f / PS_PI);

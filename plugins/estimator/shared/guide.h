@@ -7,8 +7,8 @@
  * what the histogram has missed is found (defensive sampling, Hesterberg 1995), and each ray is weighed by the
  * pdf of both together.
  */
-#ifndef PSPLAT_ESTIMATOR_GATHER_GUIDE_H
-#define PSPLAT_ESTIMATOR_GATHER_GUIDE_H
+#ifndef PSPLAT_ESTIMATOR_GUIDE_H
+#define PSPLAT_ESTIMATOR_GUIDE_H
 
 #include <psplat/plugin.h>
 

@@ -1,0 +1,118 @@
+#include "gather_picture.h"
+
+#include "allocation.h"
+#include <string.h>
+
+/* What a tile's first round found, kept until it is known how many more samples it takes. */
+struct first_round {
+    ps_rgb irradiance[PS_TILE_PIXELS];
+    float found[GATHER_GUIDES][GUIDE_RINGS][GUIDE_SECTORS];
+};
+
+struct work {
+    const struct gather_setting *setting;
+    uint64_t samples; /* of each point, on average */
+    /* When tiles take samples by their need: what the first round found in each, and how many it takes. */
+    struct first_round *first_rounds;
+    struct tile_pilot *pilots;
+    uint32_t *allocated;
+};
+
+static bool begin_tile(const struct work *work, uint64_t index, struct gather *gather)
+{
+    const ps_host *host = work->setting->paths.host;
+    *gather = (struct gather){.setting = work->setting, .index = index};
+    ps_collect_points(host->tile(host, (uint32_t)index), &gather->points);
+    if (gather->points.count > 0)
+        gather_begin(gather);
+    return gather->points.count > 0;
+}
+
+/* In the brightness that a pixel has of it. */
+static struct tile_pilot pilot_of(const struct gather *gather, const ps_tile *tile)
+{
+    float found[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
+    for (size_t i = 0; i < gather->points.count; i++) {
+        uint32_t lane = gather->points.lanes[i];
+        float albedo = ps_luminance(ps_tile_reflectance(tile, lane));
+        found[i] = albedo * ps_luminance(gather->irradiance[i]);
+        half[i] = 2.0f * albedo * ps_luminance(gather->half[i]);
+    }
+    return tile_pilot(gather->points.lanes, found, half, gather->points.count);
+}
+
+static void take_first_round(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    const ps_host *host = work->setting->paths.host;
+    struct first_round *first = &work->first_rounds[index];
+    struct gather gather;
+    work->pilots[index] = (struct tile_pilot){0};
+    if (!begin_tile(work, index, &gather))
+        return;
+    gather.goes_on = true;
+    gather_samples(&gather, GATHER_FIRST);
+    memcpy(first->irradiance, gather.irradiance, sizeof first->irradiance);
+    for (uint32_t i = 0; i < gather.guide_count; i++)
+        memcpy(first->found[i], gather.guides[i].found, sizeof first->found[i]);
+    work->pilots[index] = pilot_of(&gather, host->tile(host, (uint32_t)index));
+}
+
+static void resume(const struct first_round *first, struct gather *gather)
+{
+    memcpy(gather->irradiance, first->irradiance, sizeof first->irradiance);
+    for (uint32_t i = 0; i < gather->guide_count; i++)
+        memcpy(gather->guides[i].found, first->found[i], sizeof first->found[i]);
+    gather_update_guides(gather);
+    gather->done = GATHER_FIRST;
+}
+
+static void gather_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    const ps_host *host = work->setting->paths.host;
+    ps_tile *tile = host->tile(host, (uint32_t)index);
+    uint64_t samples = work->allocated ? work->allocated[index] : work->samples;
+    struct gather gather;
+    if (!begin_tile(work, index, &gather))
+        return;
+    if (work->allocated)
+        resume(&work->first_rounds[index], &gather);
+    gather_samples(&gather, samples);
+    for (size_t i = 0; i < gather.points.count; i++)
+        ps_add_irradiance(tile, gather.points.lanes[i],
+                          ps_rgb_scale(gather.irradiance[i], 1.0f / (float)samples));
+}
+
+/* The first round may have missed all that there is to be found in a tile: half of the samples are taken everywhere. */
+static ps_result share_out_samples(struct work *work)
+{
+    const ps_host *host = work->setting->paths.host;
+    size_t tiles = work->setting->paths.pass->tile_count;
+    work->first_rounds = host->allocate(host, tiles * sizeof *work->first_rounds, "first round");
+    work->pilots = host->allocate(host, tiles * sizeof *work->pilots, "first round");
+    work->allocated = host->allocate(host, tiles * sizeof *work->allocated, "first round");
+    if (!work->first_rounds || !work->pilots || !work->allocated)
+        return PS_ERROR_MEMORY;
+    ps_result result = host->for_each_tile(host, take_first_round, work);
+    uint64_t half = work->samples / 2, least = half > GATHER_FIRST ? half : GATHER_FIRST;
+    if (result == PS_OK)
+        allocate_samples(work->pilots, tiles, least, work->samples, work->setting->most,
+                         work->allocated);
+    return result;
+}
+
+ps_result gather_picture(const struct gather_setting *setting, uint64_t samples, bool adaptive)
+{
+    const ps_host *host = setting->paths.host;
+    struct work work = {.setting = setting, .samples = samples};
+    ps_result result = adaptive && samples > GATHER_FIRST ? share_out_samples(&work) : PS_OK;
+    if (result == PS_OK)
+        result = host->for_each_tile(host, gather_tile, &work);
+    host->release(host, work.first_rounds);
+    host->release(host, work.pilots);
+    host->release(host, work.allocated);
+    return result;
+}

@@ -1,0 +1,15 @@
+/* gather_picture.h: the final gather of a pass's pixels, with more samples in tiles that need them (allocation.h). */
+#ifndef PSPLAT_ESTIMATOR_GATHER_PICTURE_H
+#define PSPLAT_ESTIMATOR_GATHER_PICTURE_H
+
+#include "gather_rays.h"
+
+enum {
+    GATHER_MOST_OF_SAMPLES = 4
+}; /* times the samples, that a tile takes at most: setting->most */
+
+/* Adds what so many samples of each pixel find, on average over the picture; `adaptive`: more of them where they are
+ * needed. PS_ERROR_MEMORY or PS_CANCELLED. */
+ps_result gather_picture(const struct gather_setting *setting, uint64_t samples, bool adaptive);
+
+#endif
