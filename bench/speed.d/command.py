@@ -32,10 +32,12 @@ def percentages(text):
     return numbers
 
 
-def make_parser(description, files):
+def make_parser(description, files, repeats="runs of each, of which the median counts; default: 3"):
+    """`repeats`: what the option --repeats means; None where there is none."""
     parser = argparse.ArgumentParser(description=description)
     add = parser.add_argument
-    add("--repeats", type=int, metavar="N", help="runs of each, of which the median counts; default: 3")
+    if repeats:
+        add("--repeats", type=int, metavar="N", help=repeats)
     add("--quick", action="store_true", help="a small part, which shows that all works")
     add("--psplat", metavar="FILE", help="the program; default: $PSPLAT, or that in build/bin")
     add("--work", default=WORK, metavar="DIR", help="for pictures, which may be large; default: build/speed")
@@ -63,7 +65,7 @@ def parse(parser, full, quick):
     for name, value in (quick if plan.quick else full).items():
         if getattr(plan, name) is None:
             setattr(plan, name, value)
-    if plan.repeats < 1:
+    if hasattr(plan, "repeats") and plan.repeats < 1:
         fail("--repeats is at least 1")
     os.makedirs(plan.out, exist_ok=True)
     return plan

@@ -14,8 +14,8 @@
  * differ by what they look up alone. Caustics, which rays would find by chance, have a map of their own that is looked
  * at directly, with a cone filter.
  */
-#include "final_gather/kernel_share.h"
 #include "shared/gather_picture.h"
+#include "shared/kernel_share.h"
 #include "shared/photon_map.h"
 
 #define SPACING 4    /* light paths, of which one's photons are places of the cache */
@@ -163,19 +163,6 @@ static bool look_up(const void *opaque, ps_vec3 position, ps_vec3 normal, float 
 
 /* --- the picture --- */
 
-static void add_caustics_of_tile(void *user, uint64_t index, uint32_t worker)
-{
-    const struct work *work = user;
-    ps_tile *tile = work->host->tile(work->host, (uint32_t)index);
-    ps_points points;
-    ps_rgb irradiance[PS_TILE_PIXELS];
-    ps_collect_points(tile, &points);
-    photon_map_estimate(&work->caustics, &work->how, worker, points.positions, points.normals,
-                        points.count, irradiance, NULL);
-    for (size_t i = 0; i < points.count; i++)
-        ps_add_irradiance(tile, points.lanes[i], irradiance[i]);
-}
-
 static ps_result gather(const struct state *state, struct work *work)
 {
     const struct gather_setting setting = {
@@ -187,7 +174,7 @@ static ps_result gather(const struct state *state, struct work *work)
     };
     ps_result result = gather_picture(&setting, (uint64_t)state->samples, state->adaptive);
     if (result == PS_OK && work->caustics.index)
-        result = work->host->for_each_tile(work->host, add_caustics_of_tile, work);
+        result = photon_map_light_pixels(&work->caustics, &work->how);
     return result;
 }
 

@@ -30,19 +30,6 @@ struct work {
     struct photon_estimate how;
 };
 
-static void estimate_tile(void *user, uint64_t index, uint32_t worker)
-{
-    const struct work *work = user;
-    ps_tile *tile = work->host->tile(work->host, (uint32_t)index);
-    ps_points points;
-    ps_rgb irradiance[PS_TILE_PIXELS];
-    ps_collect_points(tile, &points);
-    photon_map_estimate(&work->map, &work->how, worker, points.positions, points.normals,
-                        points.count, irradiance, NULL);
-    for (size_t i = 0; i < points.count; i++)
-        ps_add_irradiance(tile, points.lanes[i], irradiance[i]);
-}
-
 /* Rays of the final gather that are still under way, and where they have come. */
 struct gathering {
     size_t count;
@@ -192,7 +179,8 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     enum photon_end end = state->gather ? PHOTONS_LEAVE : PHOTONS_ARRIVE;
     ps_result result = photon_map_create(host, pass, end, state->neighbours, &work.map);
     if (result == PS_OK && work.map.index)
-        result = host->for_each_tile(host, state->gather ? gather_tile : estimate_tile, &work);
+        result = state->gather ? host->for_each_tile(host, gather_tile, &work)
+                               : photon_map_light_pixels(&work.map, &work.how);
     photon_map_release(&work.map);
     return result;
 }

@@ -24,25 +24,6 @@ struct state {
     int32_t filter;
 };
 
-struct work {
-    const ps_host *host;
-    struct photon_map map;
-    struct photon_estimate how;
-};
-
-static void estimate_tile(void *user, uint64_t index, uint32_t worker)
-{
-    const struct work *work = user;
-    ps_tile *tile = work->host->tile(work->host, (uint32_t)index);
-    ps_points points;
-    ps_rgb irradiance[PS_TILE_PIXELS];
-    ps_collect_points(tile, &points);
-    photon_map_estimate(&work->map, &work->how, worker, points.positions, points.normals,
-                        points.count, irradiance, NULL);
-    for (size_t i = 0; i < points.count; i++)
-        ps_add_irradiance(tile, points.lanes[i], irradiance[i]);
-}
-
 static float shrink_of(uint32_t pass, double alpha)
 {
     double square = 1.0;
@@ -54,16 +35,14 @@ static float shrink_of(uint32_t pass, double alpha)
 static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
 {
     const struct state *state = opaque;
-    struct work work = {
-        .host = host,
-        .how = {.filter = state->filter,
-                .max_radius = INFINITY,
-                .shrink = shrink_of(pass->number, state->alpha)},
-    };
-    ps_result result = photon_map_create(host, pass, PHOTONS_ARRIVE, state->neighbours, &work.map);
-    if (result == PS_OK && work.map.index)
-        result = host->for_each_tile(host, estimate_tile, &work);
-    photon_map_release(&work.map);
+    const struct photon_estimate how = {.filter = state->filter,
+                                        .max_radius = INFINITY,
+                                        .shrink = shrink_of(pass->number, state->alpha)};
+    struct photon_map map;
+    ps_result result = photon_map_create(host, pass, PHOTONS_ARRIVE, state->neighbours, &map);
+    if (result == PS_OK && map.index)
+        result = photon_map_light_pixels(&map, &how);
+    photon_map_release(&map);
     return result;
 }
 

@@ -14,14 +14,12 @@ static ps_result print_error_estimate(const char *path, const struct image *imag
     const char *undenoised = "";
     if (image_attribute(image, "psplat.film")) {
         struct film_sum film;
-        struct image facts;
-        ps_result result = film_file_read(path, &film, &facts, error);
+        ps_result result = film_file_sums(path, image, &film, error);
         if (result != PS_OK)
             return result;
         estimate = error_estimate_of_film(&film);
         undenoised = ", not denoised";
         film_sum_release(&film);
-        image_release(&facts);
     }
     if (estimate >= 0.0)
         printf("estimated error of the indirect light%s: %.3g %%\n", undenoised, 100.0 * estimate);

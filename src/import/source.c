@@ -102,16 +102,22 @@ static ps_result read_file(struct mesh_job *job, const char *path, struct mesh_f
     return result;
 }
 
-static struct mesh_file *find_companion(struct mesh_job *job, char *path)
+static struct mesh_file *read_companion(struct mesh_job *job, const char *path)
 {
     struct error ignored;
     struct mesh_file *file = NULL;
     ps_result result = read_file(job, path, &file, &ignored);
-    if (result == PS_OK)
-        return file;
     job->out_of_memory |= result == PS_ERROR_MEMORY;
+    return result == PS_OK ? file : NULL;
+}
+
+static struct mesh_file *find_companion(struct mesh_job *job, char *path)
+{
+    struct mesh_file *file = read_companion(job, path);
+    if (file)
+        return file;
     mesh_decode_percent(path);
-    return read_file(job, path, &file, &ignored) == PS_OK ? file : NULL;
+    return read_companion(job, path);
 }
 
 static struct mesh_file *find_file(struct mesh_job *job, const char *path)

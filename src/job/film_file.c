@@ -284,6 +284,18 @@ static ps_result take_sums(const char *path, const struct image *image, struct f
     return result == PS_OK ? read_ids(path, image, "material", &sum->material, error) : result;
 }
 
+ps_result film_file_sums(const char *path, const struct image *image, struct film_sum *sum,
+                         struct error *error)
+{
+    *sum = (struct film_sum){.width = 0};
+    ps_result result = check_format(path, image, error);
+    if (result == PS_OK)
+        result = take_sums(path, image, sum, error);
+    if (result != PS_OK)
+        film_sum_release(sum);
+    return result;
+}
+
 static bool keeps_none(const void *user, const char *name)
 {
     (void)user;
@@ -298,14 +310,10 @@ ps_result film_file_read(const char *path, struct film_sum *sum, struct image *f
     *facts = (struct image){.width = 0};
     ps_result result = image_read_exr(path, facts, error);
     if (result == PS_OK)
-        result = check_format(path, facts, error);
+        result = film_file_sums(path, facts, sum, error);
     if (result == PS_OK)
-        result = take_sums(path, facts, sum, error);
-    if (result == PS_OK) {
         image_keep_channels(facts, keeps_none, NULL);
-        return PS_OK;
-    }
-    film_sum_release(sum);
-    image_release(facts);
+    else
+        image_release(facts);
     return result;
 }

@@ -21,4 +21,8 @@ ps_result film_file_write(const char *path, const struct film_sum *sum, const st
 ps_result film_file_read(const char *path, struct film_sum *sum, struct image *facts,
                          struct error *error);
 
+/* The sums of a film's file that was read as a picture; `path` is for messages. Likewise. */
+ps_result film_file_sums(const char *path, const struct image *image, struct film_sum *sum,
+                         struct error *error);
+
 #endif

@@ -157,6 +157,14 @@ is_on() {
     esac
 }
 
+# compile_preload NAME: NAME.so of tests/preload, for LD_PRELOAD; false, and why in the file `compiler`. Not watched by a
+# sanitizer, since it stands before one's own functions; its frames are kept for lsan.supp.
+compile_preload() {
+    ASAN_OPTIONS="verify_asan_link_order=0:${ASAN_OPTIONS:-}"
+    export ASAN_OPTIONS
+    "$CC" -std=c11 -O1 -fno-omit-frame-pointer -shared -fPIC -o "$1.so" "$PSPLAT_SOURCE/tests/preload/$1.c" -ldl 2>compiler
+}
+
 # compile_module INCLUDE SOURCE OUTPUT [FLAG...]
 compile_module() {
     include=$1 source=$2 output=$3

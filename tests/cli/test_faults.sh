@@ -71,10 +71,9 @@ run 0 $mine --passes 4 --resume room.psd
 
 # --- a clock that jumps ---
 
-"$CC" -std=c11 -shared -fPIC -o jumping.so "$PSPLAT_SOURCE/tests/preload/jumping_clock.c" -ldl 2>compiler
-export ASAN_OPTIONS="verify_asan_link_order=0:${ASAN_OPTIONS:-}"
+compile_preload jumping_clock || fail "no clock that jumps: $(head -n 1 compiler)"
 last="a job of a second, whose clock jumps"
-LD_PRELOAD=./jumping.so "$PSPLAT" $job --time 1s --checkpoint film-jumped.exr --checkpoint-every 0.2s --write-every 0.2s \
+LD_PRELOAD=./jumping_clock.so "$PSPLAT" $job --time 1s --checkpoint film-jumped.exr --checkpoint-every 0.2s --write-every 0.2s \
     --progress json -o jumped.exr -o jumped.png "$cornell" >out 2>err
 check_status $? 0
 seconds=$(sed -n '/"stage": "done"/s/.*"seconds": \([0-9.]*\).*/\1/p' out)

@@ -2,11 +2,8 @@
 # whole or as they were.
 . "$PSPLAT_SOURCE/tests/cli/lib.sh"
 
-# Not by compile_module: what stands before the allocator of a sanitizer is not to be watched by it.
-"$CC" -std=c11 -O1 -fno-omit-frame-pointer -shared -fPIC -o failing.so "$PSPLAT_SOURCE/tests/preload/failing_allocation.c" -ldl 2>compiler ||
-    skip "no library to preload can be made here: $(head -n 1 compiler)"
-export ASAN_OPTIONS="verify_asan_link_order=0:${ASAN_OPTIONS:-}"
-LD_PRELOAD=./failing.so FAIL_COUNT=count "$PSPLAT" --version >out 2>err
+compile_preload failing_allocation || skip "no library to preload can be made here: $(head -n 1 compiler)"
+LD_PRELOAD=./failing_allocation.so FAIL_COUNT=count "$PSPLAT" --version >out 2>err
 [ -s count ] || skip "psplat can't be run with a library preloaded"
 
 # Every allocation of a command takes minutes: every so many of them, and in the whole run more.
@@ -33,7 +30,7 @@ try() {
     shift
     last="psplat $* (allocation $number fails${FAIL_ON:+, and all that follow})"
     fill_new
-    LD_PRELOAD=./failing.so FAIL_AT=$number "$PSPLAT" "$@" >out 2>err </dev/null
+    LD_PRELOAD=./failing_allocation.so FAIL_AT=$number "$PSPLAT" "$@" >out 2>err </dev/null
     status=$?
     [ $status -eq 1 ] || [ $status -eq 2 ] || check_status $status 1
     expect_match err 'out of memory|Cannot allocate memory'
@@ -52,7 +49,7 @@ every() {
     fill_new
     rm -f count
     last="psplat $*"
-    LD_PRELOAD=./failing.so FAIL_COUNT=count "$PSPLAT" "$@" >out 2>err </dev/null
+    LD_PRELOAD=./failing_allocation.so FAIL_COUNT=count "$PSPLAT" "$@" >out 2>err </dev/null
     check_status $? 0
     most=$(cat count)
     [ "$most" -gt 10 ] || fail "only $most allocations"

@@ -4,10 +4,6 @@
 #include <string.h>
 
 #define LEAF_SIZE 16
-/* Photons higher above the tangent plane than this times r do not count; up to half of it they
- * count fully, so that curved surfaces keep their light. */
-#define FLATNESS 0.25f
-
 struct stored_photon {
     ps_vec3 direction; /* of arrival */
     ps_vec3 normal;    /* of the surface it lies on */
@@ -234,7 +230,7 @@ static ps_rgb estimate(const struct photon_map *map, const struct photon_estimat
     int count = map->neighbours - 1;
     float radius2 = radius2_of(map, how, distances);
     ps_rgb sum = {0, 0, 0};
-    float highest = FLATNESS * sqrtf(radius2);
+    float highest = PHOTON_MAP_FLATNESS * sqrtf(radius2);
     for (int i = 0; i < count && distances[i] < radius2; i++) {
         const struct stored_photon *photon = &map->photons[indices[i]];
         const float *at = map->positions + 3 * (size_t)indices[i];
@@ -243,6 +239,7 @@ static ps_rgb estimate(const struct photon_map *map, const struct photon_estimat
         int behind = ps_dot(photon->direction, normal) >= 0 || ps_dot(photon->normal, normal) <= 0;
         if (behind || !(height < 1.0f))
             continue;
+        /* Up to half of the height they count fully, so that curved surfaces keep their light. */
         float flat = fminf(1.0f, 2.0f * (1.0f - height));
         float weight = flat * filter_weight(how->filter, distances[i] / radius2);
         sum = ps_rgb_add(sum, ps_rgb_scale(photon->power, weight));
@@ -274,4 +271,29 @@ void photon_map_estimate(const struct photon_map *map, const struct photon_estim
                      distances + i * (size_t)map->neighbours);
     for (size_t i = 0; i < n && radii; i++)
         radii[i] = sqrtf(radius2_of(map, how, distances + i * (size_t)map->neighbours));
+}
+
+struct lighting {
+    const struct photon_map *map;
+    const struct photon_estimate *how;
+};
+
+static void light_tile(void *user, uint64_t index, uint32_t worker)
+{
+    const struct lighting *lighting = user;
+    const ps_host *host = lighting->map->host;
+    ps_tile *tile = host->tile(host, (uint32_t)index);
+    ps_points points;
+    ps_rgb irradiance[PS_TILE_PIXELS];
+    ps_collect_points(tile, &points);
+    photon_map_estimate(lighting->map, lighting->how, worker, points.positions, points.normals,
+                        points.count, irradiance, NULL);
+    for (size_t i = 0; i < points.count; i++)
+        ps_add_irradiance(tile, points.lanes[i], irradiance[i]);
+}
+
+ps_result photon_map_light_pixels(const struct photon_map *map, const struct photon_estimate *how)
+{
+    struct lighting lighting = {map, how};
+    return map->host->for_each_tile(map->host, light_tile, &lighting);
 }

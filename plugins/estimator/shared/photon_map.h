@@ -37,6 +37,9 @@ struct photon_map {
     float *distances; /* squared */
 };
 
+/* Photons higher above the tangent plane than this times r do not count. */
+#define PHOTON_MAP_FLATNESS 0.25f
+
 /* How photons near a point become irradiance. */
 struct photon_estimate {
     int32_t filter;   /* enum photon_filter */
@@ -77,5 +80,8 @@ void photon_map_nearest(const struct photon_map *map, ps_vec3 position, int n, i
 void photon_map_estimate(const struct photon_map *map, const struct photon_estimate *how,
                          uint32_t worker, const ps_vec3 *positions, const ps_vec3 *normals,
                          size_t n, ps_rgb *irradiance, float *radii);
+
+/* Adds the irradiance at all pixels. */
+ps_result photon_map_light_pixels(const struct photon_map *map, const struct photon_estimate *how);
 
 #endif

@@ -5,8 +5,8 @@
  * kernel weighs them, tell the share that is there: a ray along the surface reaches the point, and one from above it finds
  * the surface.
  */
-#ifndef PSPLAT_ESTIMATOR_FINAL_GATHER_KERNEL_SHARE_H
-#define PSPLAT_ESTIMATOR_FINAL_GATHER_KERNEL_SHARE_H
+#ifndef PSPLAT_ESTIMATOR_KERNEL_SHARE_H
+#define PSPLAT_ESTIMATOR_KERNEL_SHARE_H
 
 #include <psplat/plugin.h>
 

@@ -1,8 +1,9 @@
 #include "kernel_share.h"
 
+#include "photon_map.h"
+
 #define POINTS 8        /* of a disc */
 #define LIFT 0.125f     /* radii above the surface at which rays run along it */
-#define FLATNESS 0.25f  /* radii: photons farther off the plane do not count (photon_map.c) */
 #define TURN 2.3999632f /* the golden angle */
 
 /* So that the points have the density of the kernel, (1 - s) s over the radius: the inverse of 3 s^2 - 2 s^3. */
@@ -31,7 +32,7 @@ static ps_ray ray_along(ps_vec3 position, ps_vec3 normal, float radius, float tu
 static ps_ray ray_down(ps_ray along, ps_vec3 normal, float radius)
 {
     return (ps_ray){ps_add_scaled(along.origin, along.tfar, along.direction), 0.0f,
-                    ps_scale(normal, -1.0f), (LIFT + FLATNESS) * radius};
+                    ps_scale(normal, -1.0f), (LIFT + PHOTON_MAP_FLATNESS) * radius};
 }
 
 void kernel_shares(const ps_host *host, const ps_vec3 *positions, const ps_vec3 *normals,
@@ -39,12 +40,15 @@ void kernel_shares(const ps_host *host, const ps_vec3 *positions, const ps_vec3 
 {
     ps_ray along[PS_TILE_PIXELS], down[PS_TILE_PIXELS];
     ps_hit walls[PS_TILE_PIXELS], grounds[PS_TILE_PIXELS];
+    float turns[PS_TILE_PIXELS];
     uint32_t counts[PS_TILE_PIXELS] = {0};
+    for (size_t i = 0; i < n; i++)
+        turns[i] = first_turn(key + i);
     for (uint32_t k = 0; k < POINTS; k++) {
         float distance = radius_at(((float)k + 0.5f) / POINTS);
         for (size_t i = 0; i < n; i++) {
-            float turn = first_turn(key + i) + (float)k * TURN;
-            along[i] = ray_along(positions[i], normals[i], radii[i], turn, distance);
+            along[i] =
+                ray_along(positions[i], normals[i], radii[i], turns[i] + (float)k * TURN, distance);
             down[i] = ray_down(along[i], normals[i], radii[i]);
         }
         host->intersect(host, along, n, walls);
