@@ -238,7 +238,7 @@ static struct strategy_type *search(const struct loader *loader, ps_kind kind, c
     if (linked && strategy_type_create(linked, NULL, &type, &reason) == PS_OK)
         return type;
     if (linked)
-        snprintf(trail->attempts, sizeof trail->attempts, "; tried the program's own: %s",
+        snprintf(trail->attempts, sizeof trail->attempts, "; tried the program's own: %.1500s",
                  reason.text);
     for (size_t i = 0; i < loader->folder_count && !type; i++) {
         char path[LOADER_LONGEST_PATH];
