@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #define PIXEL_LIMIT (INT64_C(1) << 31)
 #define CHANNEL_LIMIT INT16_MAX /* the library's decoder counts them in 16 bits */
@@ -90,6 +91,19 @@ static ps_result check_compression(const struct exr_source *source)
     return explain(source, code);
 }
 
+/* What is no regular file may be of any size. */
+static ps_result check_expansion_of_file(const struct exr_source *source, uint64_t decoded,
+                                         uint64_t expansion)
+{
+    struct stat status;
+    char beginning[sizeof source->error->text];
+    if (stat(source->path, &status) != 0 || !S_ISREG(status.st_mode))
+        return PS_OK;
+    snprintf(beginning, sizeof beginning, "%s%s'", before_path(source), source->path);
+    const struct raster_source file = {.path = beginning, .size = (size_t)status.st_size};
+    return raster_check_expansion(&file, decoded, expansion, source->error);
+}
+
 /* A header of a few hundred bytes may claim gigabytes, which nobody should have to allocate first. */
 static ps_result check_expansion(const struct exr_source *source)
 {
@@ -104,9 +118,11 @@ static ps_result check_expansion(const struct exr_source *source)
     for (int i = 0; i < list->num_channels; i++)
         pixel_bytes += list->entries[i].pixel_type == EXR_PIXEL_HALF ? 2 : 4;
     bool blocks = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
-    return raster_check_expansion(
-        source->memory, (uint64_t)source->image.width * source->image.height * pixel_bytes,
-        blocks ? BLOCK_EXPANSION : FLOAT_EXPANSION, source->error);
+    uint64_t decoded = (uint64_t)source->image.width * source->image.height * pixel_bytes;
+    uint64_t expansion = blocks ? BLOCK_EXPANSION : FLOAT_EXPANSION;
+    return source->memory
+               ? raster_check_expansion(source->memory, decoded, expansion, source->error)
+               : check_expansion_of_file(source, decoded, expansion);
 }
 
 static ps_result check_form(const struct exr_source *source, exr_storage_t *storage)
@@ -311,7 +327,7 @@ static ps_result read_picture(struct exr_source *source)
     ps_result result = check_form(source, &storage);
     if (result == PS_OK)
         result = read_size(source);
-    if (result == PS_OK && source->memory)
+    if (result == PS_OK)
         result = check_expansion(source);
     if (result == PS_OK)
         result = add_channels(source);

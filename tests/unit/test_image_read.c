@@ -101,6 +101,13 @@ static void test_impossible_sizes(void **state)
     }
 }
 
+/* Before any memory is asked for. */
+static void test_more_than_file_holds(void **state)
+{
+    const struct form form = {.types = {FLOAT, FLOAT, FLOAT}, .width_claimed = 1 << 24};
+    assert_refused(state, &form, "ends too early");
+}
+
 static void test_every_truncation(void **state)
 {
     for (int tiled = 0; tiled < 2; tiled++) {
@@ -179,10 +186,10 @@ static void test_no_exr(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        SCRATCH_TEST(test_sample_types),     SCRATCH_TEST(test_refused_forms),
-        SCRATCH_TEST(test_impossible_sizes), SCRATCH_TEST(test_every_truncation),
-        SCRATCH_TEST(test_unfinished),       SCRATCH_TEST(test_every_changed_byte),
-        SCRATCH_TEST(test_no_exr),
+        SCRATCH_TEST(test_sample_types),       SCRATCH_TEST(test_refused_forms),
+        SCRATCH_TEST(test_impossible_sizes),   SCRATCH_TEST(test_more_than_file_holds),
+        SCRATCH_TEST(test_every_truncation),   SCRATCH_TEST(test_unfinished),
+        SCRATCH_TEST(test_every_changed_byte), SCRATCH_TEST(test_no_exr),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
