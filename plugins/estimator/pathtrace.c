@@ -22,61 +22,13 @@ struct work {
     struct paths_setting setting;
 };
 
-/* One sample of a tile's pixels. */
-static void start_paths(const struct work *work, const ps_points *points, const uint64_t *samples,
-                        struct paths *paths, struct paths_segment *segment)
-{
-    const ps_host *host = work->setting.host;
-    host->samples(host, PS_STREAM_PATH, 1, samples, points->count, segment->numbers);
-    paths->count = 0;
-    for (uint32_t i = 0; i < points->count; i++) {
-        ps_vec3 n = points->normals[i];
-        const float *numbers = segment->numbers[i];
-        ps_vec3 direction = ps_cosine_direction(n, numbers[0], numbers[1]);
-        paths_add(paths, i,
-                  ps_leave_surface(points->positions[i], n, direction,
-                                   work->setting.pass->surface_offset),
-                  PS_PI);
-    }
-}
-
-/* Sends the paths on from the surfaces that they met. */
-static void scatter_paths(const struct work *work, struct paths *paths,
-                          struct paths_segment *segment)
-{
-    const ps_host *host = work->setting.host;
-    ps_bsdf_sample scattered[PS_TILE_PIXELS];
-    host->sample_bsdf(host, PS_FROM_CAMERA, paths->rays, segment->hits,
-                      (const float(*)[4])segment->numbers, paths->count, scattered);
-    size_t alive = 0;
-    for (size_t i = 0; i < paths->count; i++)
-        if (paths_scatter(&work->setting, &scattered[i], segment, paths, i))
-            paths_move(paths, i, alive++);
-    paths->count = alive;
-}
-
-/* Follows all paths by one segment, to hits that are known: adds what the surfaces they meet emit and
- * reflect. */
-static void extend_paths(const struct work *work, uint32_t number, const uint64_t *samples,
-                         struct paths *paths, struct paths_segment *segment, ps_rgb *sums)
-{
-    paths_add_emission(&work->setting, paths, segment, sums);
-    paths_drop_lost(paths, segment);
-    paths_draw_numbers(&work->setting, number + 1, samples, paths, segment);
-    paths_add_direct(&work->setting, number, paths, segment, sums);
-    scatter_paths(work, paths, segment);
-}
-
 static void trace_sample(const struct work *work, const ps_points *points, const uint64_t *samples,
                          ps_rgb *sums)
 {
     struct paths paths;
     struct paths_segment segment;
-    start_paths(work, points, samples, &paths, &segment);
-    for (uint32_t number = 1; paths.count > 0; number++) {
-        paths_intersect(&work->setting, points, number, &paths, &segment);
-        extend_paths(work, number, samples, &paths, &segment, sums);
-    }
+    paths_start(&work->setting, points, samples, INFINITY, &paths, &segment);
+    paths_follow(&work->setting, points, samples, 1, &paths, &segment, sums);
 }
 
 static void trace_tile(void *user, uint64_t index, uint32_t worker)

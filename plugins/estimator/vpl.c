@@ -1,78 +1,146 @@
-/* vpl.c: instant radiosity: the photons as point lights over their hemispheres.
+/* vpl.c: instant radiosity: photons as point lights over their hemispheres (shared/virtual_lights.h).
  *
- * Keller 1997. A photon of power Phi (its direction is ignored) on a diffuse surface has intensity
- * Phi / pi * cos(theta_photon); at distance d it gives
- *
- *     E(p) += Phi / pi * G * V,   G = cos(theta_photon) * cos(theta_receiver) / d^2
- *
- * G has no bound as d goes to 0: bright blotches near the photons. Clamping d removes them, and the
- * light that corners get from close by with them. Without visibility it is splatting indirect
- * illumination (Dachsbacher and Stamminger 2006), and the left half of figure 5 in Hoet 2014.
- *
- * Photons on mirrors and glass shine into one direction and can't be point lights: caustics are left
- * out. They are counted in the statistics.
+ * Keller 1997. What a light reaches comes from a few rays of each light (vpl/hemisphere_map.h), or from a shadow ray for each
+ * light and pixel. Without either it is splatting indirect illumination (Dachsbacher and Stamminger 2006), and the left
+ * half of figure 5 in Hoet 2014. What corners lose by the clamp comes by short rays (shared/compensation.h).
  *
  * Cost is lights times pixels, so only `lights` photons, drawn at random from all, are used, with
  * the power of all.
  */
-#include <psplat/plugin.h>
+#include "shared/compensation.h"
+#include "shared/virtual_lights.h"
+#include "vpl/hemisphere_map.h"
 
-static const char *const clamp_choices[] = {"auto", NULL};
+enum { VISIBILITY_MAP, VISIBILITY_RAYS, VISIBILITY_NONE };
+
+static const char *const visibility_choices[] = {"map", "rays", "none", NULL};
 
 struct state {
     int64_t lights;
     int32_t visibility;
     ps_number_or_choice clamp;
+    int64_t compensation;
+    int64_t resolution;
 };
 
 struct work {
     const ps_host *host;
     const ps_pass *pass;
-    const ps_photon *lights;
-    size_t count;
-    float nearest2; /* squared; distances below count as this */
+    struct virtual_lights chosen; /* owned, as what follows */
+    struct hemisphere_map *maps;
+    struct hemisphere_hit *cells;
+    uint32_t resolution;
     int visibility;
+    struct compensation compensation;
 };
 
-/* Irradiance of a point by a light, were nothing in between; the shadow ray goes from the point. */
-static ps_rgb connect(const struct work *work, const ps_photon *light, ps_vec3 position,
-                      ps_vec3 normal, ps_ray *ray)
+/* The pixels of a tile, as points just above their surfaces. */
+struct receivers {
+    _Alignas(64) float x[PS_TILE_PIXELS], y[PS_TILE_PIXELS], z[PS_TILE_PIXELS];
+    float normal_x[PS_TILE_PIXELS], normal_y[PS_TILE_PIXELS],
+        normal_z[PS_TILE_PIXELS]; /* 0 where nothing is seen */
+};
+
+/* Those of a tile and one light. */
+struct connections {
+    _Alignas(64) float x[PS_TILE_PIXELS], y[PS_TILE_PIXELS],
+        z[PS_TILE_PIXELS];          /* from the light to the receiver */
+    float geometry[PS_TILE_PIXELS]; /* G * V */
+};
+
+/* Irradiance of the pixels. */
+struct sums {
+    _Alignas(64) float r[PS_TILE_PIXELS], g[PS_TILE_PIXELS], b[PS_TILE_PIXELS];
+};
+
+static void find_receivers(const ps_tile *tile, float offset, struct receivers *receivers)
 {
-    static const ps_rgb nothing = {0, 0, 0};
-    float offset = work->pass->surface_offset;
-    ps_vec3 from = ps_add_scaled(position, offset, normal);
-    ps_vec3 to = ps_add_scaled(light->position, offset, light->normal);
-    ps_vec3 between = ps_subtract(to, from);
-    float distance2 = ps_dot(between, between), distance = sqrtf(distance2);
-    ps_vec3 direction = ps_scale(between, 1.0f / distance);
-    float receiver = ps_dot(normal, direction), photon = -ps_dot(light->normal, direction);
-    if (!(receiver > 0.0f && photon > 0.0f))
-        return nothing;
-    *ray = (ps_ray){from, 0.0f, direction, distance};
-    float geometry = receiver * photon / fmaxf(distance2, work->nearest2);
-    return ps_rgb_scale(light->power, geometry / PS_PI);
+    for (int i = 0; i < PS_TILE_PIXELS; i++) {
+        receivers->normal_x[i] = tile->normal_x[i];
+        receivers->normal_y[i] = tile->normal_y[i];
+        receivers->normal_z[i] = tile->normal_z[i];
+        receivers->x[i] = tile->position_x[i] + offset * tile->normal_x[i];
+        receivers->y[i] = tile->position_y[i] + offset * tile->normal_y[i];
+        receivers->z[i] = tile->position_z[i] + offset * tile->normal_z[i];
+    }
 }
 
-/* Adds one light to all points of a tile. */
-static void add_light(const struct work *work, const ps_photon *light, const ps_points *points,
-                      ps_rgb *sums)
+static void connect(const ps_photon *light, ps_vec3 origin, float nearest,
+                    const struct receivers *restrict receivers,
+                    struct connections *restrict connections)
+{
+    const ps_vec3 normal = light->normal;
+#pragma omp simd
+    for (int i = 0; i < PS_TILE_PIXELS; i++) {
+        float x = receivers->x[i] - origin.x, y = receivers->y[i] - origin.y,
+              z = receivers->z[i] - origin.z;
+        float distance2 = x * x + y * y + z * z;
+        float photon = x * normal.x + y * normal.y + z * normal.z;
+        float receiver =
+            x * receivers->normal_x[i] + y * receivers->normal_y[i] + z * receivers->normal_z[i];
+        float cosines = ps_max(photon, 0.0f) * ps_max(-receiver, 0.0f) / distance2;
+        float geometry = cosines / ps_max(distance2, nearest * nearest);
+        connections->x[i] = x;
+        connections->y[i] = y;
+        connections->z[i] = z;
+        connections->geometry[i] = cosines > 0.0f ? geometry : 0.0f;
+    }
+}
+
+/* By a shadow ray from each receiver that the light faces. */
+static void cast_shadow_rays(const struct work *work, const struct receivers *receivers,
+                             struct connections *connections)
 {
     ps_ray rays[PS_TILE_PIXELS];
-    ps_rgb unshadowed[PS_TILE_PIXELS];
-    size_t targets[PS_TILE_PIXELS];
-    uint8_t blocked[PS_TILE_PIXELS] = {0};
-    size_t count = 0;
-    for (size_t i = 0; i < points->count; i++) {
-        unshadowed[count] =
-            connect(work, light, points->positions[i], points->normals[i], &rays[count]);
+    uint8_t blocked[PS_TILE_PIXELS];
+    size_t targets[PS_TILE_PIXELS], count = 0;
+    for (size_t i = 0; i < PS_TILE_PIXELS; i++) {
+        ps_vec3 between = {-connections->x[i], -connections->y[i], -connections->z[i]};
+        ps_vec3 origin = {receivers->x[i], receivers->y[i], receivers->z[i]};
+        float distance = ps_length(between);
         targets[count] = i;
-        count += ps_rgb_maximum(unshadowed[count]) > 0.0f;
+        rays[count] = (ps_ray){origin, 0.0f, ps_scale(between, 1.0f / distance), distance};
+        count += connections->geometry[i] > 0.0f;
     }
-    if (work->visibility)
-        work->host->occluded(work->host, rays, count, blocked);
+    work->host->occluded(work->host, rays, count, blocked);
     for (size_t i = 0; i < count; i++)
-        if (!blocked[i])
-            sums[targets[i]] = ps_rgb_add(sums[targets[i]], unshadowed[i]);
+        if (blocked[i])
+            connections->geometry[targets[i]] = 0.0f;
+}
+
+/* Adds what a light's connections carry. */
+static void add_irradiance(const ps_photon *light, const struct connections *restrict connections,
+                           struct sums *restrict sums)
+{
+    const ps_rgb intensity = ps_rgb_scale(light->power, 1.0f / PS_PI);
+#pragma omp simd
+    for (int i = 0; i < PS_TILE_PIXELS; i++) {
+        float geometry = connections->geometry[i];
+        sums->r[i] += intensity.r * geometry;
+        sums->g[i] += intensity.g * geometry;
+        sums->b[i] += intensity.b * geometry;
+    }
+}
+
+static void add_lights(const struct work *work, const ps_tile *tile, struct sums *sums)
+{
+    struct receivers receivers;
+    struct connections connections;
+    const struct hemisphere_points points = {
+        connections.x,      connections.y,      connections.z,
+        receivers.normal_x, receivers.normal_y, receivers.normal_z,
+    };
+    find_receivers(tile, work->pass->surface_offset, &receivers);
+    for (size_t i = 0; i < work->chosen.count; i++) {
+        const ps_photon *light = &work->chosen.lights[i];
+        connect(light, virtual_light_origin(work->pass, light), work->compensation.clamp,
+                &receivers, &connections);
+        if (work->visibility == VISIBILITY_RAYS)
+            cast_shadow_rays(work, &receivers, &connections);
+        else if (work->visibility == VISIBILITY_MAP)
+            hemisphere_map_occlude(&work->maps[i], &points, connections.geometry);
+        add_irradiance(light, &connections, sums);
+    }
 }
 
 static void light_tile(void *user, uint64_t index, uint32_t worker)
@@ -80,106 +148,82 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct work *work = user;
     ps_tile *tile = work->host->tile(work->host, (uint32_t)index);
+    struct sums sums = {{0}, {0}, {0}};
+    ps_rgb close[PS_TILE_PIXELS] = {{0, 0, 0}};
     ps_points points;
-    ps_rgb sums[PS_TILE_PIXELS] = {{0, 0, 0}};
     ps_collect_points(tile, &points);
-    for (size_t i = 0; i < work->count; i++)
-        add_light(work, &work->lights[i], &points, sums);
-    for (size_t i = 0; i < points.count; i++)
-        ps_add_irradiance(tile, points.lanes[i], sums[i]);
-}
-
-static int can_be_light(const ps_photon *photon)
-{
-    return photon->lobe == PS_DIFFUSE;
-}
-
-/* Of the photons that can be point lights; the others are counted. */
-static double total_power(const ps_photon *photons, size_t n, uint64_t *left_out)
-{
-    double total = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (can_be_light(&photons[i]))
-            total += ps_luminance(photons[i].power);
-        else
-            ++*left_out;
+    add_lights(work, tile, &sums);
+    compensation_add(&work->compensation, index, &points, close);
+    for (size_t i = 0; i < points.count; i++) {
+        uint32_t lane = points.lanes[i];
+        ps_rgb clamped = {sums.r[lane], sums.g[lane], sums.b[lane]};
+        ps_add_irradiance(tile, lane, ps_rgb_add(clamped, close[i]));
     }
-    return total;
 }
 
-/* Whether the next of `seen` photons enters the sample, and in whose place: every one ends up in it
- * with the same probability, whatever their number (reservoir sampling, Vitter 1985). */
-static size_t place_in_sample(const ps_host *host, const ps_pass *pass, uint64_t seen, size_t room)
+/* What the light of that number sees. */
+static void cast_map(void *user, uint64_t index, uint32_t worker)
 {
+    (void)worker;
+    const struct work *work = user;
+    const ps_photon *light = &work->chosen.lights[index];
+    struct hemisphere_map *map = &work->maps[index];
     float numbers[1][4];
-    uint64_t index = (uint64_t)pass->number << 40 | seen;
-    if (seen < room)
-        return (size_t)seen;
-    host->samples(host, PS_STREAM_ESTIMATOR, 0, &index, 1, numbers);
-    double place = ((double)numbers[0][0] + (double)numbers[0][1] * 0x1p-24) * (double)(seen + 1);
-    return place < (double)room ? (size_t)place : room;
+    uint64_t sample = (uint64_t)work->pass->number << 40 | index;
+    work->host->samples(work->host, PS_STREAM_ESTIMATOR, VIRTUAL_LIGHTS_SETS, &sample, 1, numbers);
+    map->resolution = work->resolution;
+    map->cells = work->cells + index * work->resolution * work->resolution;
+    hemisphere_map_cast(work->host,
+                        ps_add_scaled(light->position, work->pass->surface_offset, light->normal),
+                        light->normal, numbers[0][0], map);
 }
 
-/* Draws photons from all of the pass, and gives them the power of all. */
-static ps_result choose_lights(const struct state *state, const ps_host *host, const ps_pass *pass,
-                               ps_photon *lights, size_t *count)
+static ps_result cast_maps(struct work *work)
 {
-    const ps_photon *photons;
-    size_t n, room = (size_t)state->lights;
-    uint64_t seen = 0, left_out = 0;
-    double progress, power = 0;
-    ps_result result;
-    do {
-        result = host->next_photons(host, &photons, &n, &progress);
-        for (size_t i = 0; result == PS_OK && i < n; i++) {
-            if (!can_be_light(&photons[i]))
-                continue;
-            size_t place = place_in_sample(host, pass, seen++, room);
-            if (place < room)
-                lights[place] = photons[i];
-        }
-        power += result == PS_OK ? total_power(photons, n, &left_out) : 0;
-    } while (result == PS_OK && n > 0);
-    size_t taken = seen < room ? (size_t)seen : room;
-    double share = total_power(lights, taken, &left_out);
-    for (size_t i = 0; i < taken && share > 0; i++)
-        lights[i].power = ps_rgb_scale(lights[i].power, (float)(power / share));
-    host->count(host, "photons left out", (double)left_out);
-    *count = taken;
-    return result;
-}
-
-static float nearest_distance(const struct state *state, const ps_host *host)
-{
-    ps_vec3 center;
-    float radius;
-    host->scene_bounds(host, &center, &radius);
-    return state->clamp.choice >= 0 ? 0.05f * radius : (float)state->clamp.number;
+    const ps_host *host = work->host;
+    size_t count = work->chosen.count, cells = count * work->resolution * work->resolution;
+    work->maps = host->allocate(host, count * sizeof *work->maps, "virtual lights");
+    work->cells = host->allocate(host, cells * sizeof *work->cells, "virtual lights");
+    if (!work->maps || !work->cells)
+        return PS_ERROR_MEMORY;
+    host->parallel_for(host, count, cast_map, work);
+    return host->cancelled(host) ? PS_CANCELLED : PS_OK;
 }
 
 static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
 {
     const struct state *state = opaque;
-    ps_photon *lights =
-        host->allocate(host, (size_t)state->lights * sizeof *lights, "virtual lights");
-    if (!lights)
-        return PS_ERROR_MEMORY;
-    float nearest = nearest_distance(state, host);
-    struct work work = {host, pass, lights, 0, nearest * nearest, state->visibility};
-    ps_result result = choose_lights(state, host, pass, lights, &work.count);
+    struct work work = {
+        .host = host,
+        .pass = pass,
+        .resolution = (uint32_t)state->resolution,
+        .visibility = state->visibility,
+        .compensation = {{host, pass, COMPENSATION_ROULETTE},
+                         (uint64_t)state->compensation,
+                         virtual_lights_clamp(host, state->clamp)},
+    };
+    ps_result result = virtual_lights_choose(host, pass, (size_t)state->lights, &work.chosen);
+    if (result == PS_OK && work.chosen.count > 0 && state->visibility == VISIBILITY_MAP)
+        result = cast_maps(&work);
     if (result == PS_OK)
         result = host->for_each_tile(host, light_tile, &work);
-    host->count(host, "virtual lights", (double)work.count);
-    host->release(host, lights);
+    host->release(host, work.cells);
+    host->release(host, work.maps);
+    virtual_lights_release(&work.chosen);
     return result;
 }
 
 static const ps_param params[] = {
     PS_INT(struct state, lights, "256", 1, 10000000, "lights",
            "photons used as point lights; they are drawn from all and get the power of all"),
-    PS_BOOL(struct state, visibility, "yes", "whether shadow rays decide what a light reaches"),
-    PS_NUMBER_OR(struct state, clamp, "auto", 0, INFINITY, 0, clamp_choices, "scene units",
-                 "shorter distances count as this; auto: 5 % of the scene's radius; 0: none"),
+    PS_CHOICE(
+        struct state, visibility, "map", visibility_choices,
+        "what a light reaches, by: map: rays over its hemisphere; rays: a shadow ray for each "
+        "pixel; none: nothing is in the way"),
+    VIRTUAL_LIGHTS_CLAMP(struct state),
+    COMPENSATION_RAYS(struct state),
+    PS_ROW(struct state, resolution, PS_PARAM_INT, "32", 1, 1024, PS_PARAM_EXPERT, NULL, "rays",
+           "side of the square of rays of a map"),
 };
 
 static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};
@@ -190,7 +234,9 @@ static const ps_descriptor descriptor = {
     .name = "vpl",
     .version = "1.0",
     .summary = "instant radiosity: photons as point lights over the hemisphere",
-    .paper = "Keller 1997, Instant radiosity",
+    .paper =
+        "Keller 1997, Instant radiosity; Kollig and Keller 2006, Illumination in the presence of "
+        "weak singularities",
     .params = params,
     .param_count = sizeof params / sizeof params[0],
     .param_size = sizeof params[0],

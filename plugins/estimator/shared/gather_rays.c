@@ -124,39 +124,18 @@ static void scatter_paths(struct gather *gather, struct paths *paths, struct pat
     paths->count = alive;
 }
 
-/* Whether all surfaces on a path's way, from its point on, have mirrored or refracted. */
-static bool is_caustic(const struct paths *paths, size_t i)
-{
-    return paths->bounces[i] == 0;
-}
-
-/* Adds what surfaces that were met reflect of the lights diffusely; on the way of caustics that alone. */
-static void add_direct_without_caustics(struct gather *gather, uint32_t number,
-                                        const struct paths *paths, struct paths_segment *segment)
-{
-    uint32_t flags[PS_TILE_PIXELS] = {0};
-    for (size_t i = 0; i < paths->count; i++) {
-        flags[i] = segment->hits[i].flags;
-        if (is_caustic(paths, i))
-            segment->hits[i].flags &= ~PS_HIT_SPECULAR;
-    }
-    paths_add_direct(&gather->setting->paths, number, paths, segment, gather->found);
-    for (size_t i = 0; i < paths->count; i++)
-        segment->hits[i].flags = flags[i];
-}
-
 /* Adds what is emitted and reflected where paths land, but for caustics where they are left out. */
 static void add_light(struct gather *gather, uint32_t number, struct paths *paths,
                       struct paths_segment *segment)
 {
     const struct gather_setting *setting = gather->setting;
     for (size_t i = 0; i < paths->count && setting->no_caustics; i++)
-        paths->shines[i] &= !is_caustic(paths, i);
+        paths->shines[i] &= !paths_is_caustic(paths, i);
     paths_add_emission(&setting->paths, paths, segment, gather->found);
     paths_drop_lost(paths, segment);
     paths_find_indices(gather->samples, paths, segment);
     if (setting->no_caustics)
-        add_direct_without_caustics(gather, number, paths, segment);
+        paths_add_direct_without_caustics(&setting->paths, number, paths, segment, gather->found);
     else
         paths_add_direct(&setting->paths, number, paths, segment, gather->found);
 }

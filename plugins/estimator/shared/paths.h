@@ -15,6 +15,8 @@
 /* Sets of the random numbers that choose points on lights; directions take 1, 2, 3, ... */
 #define PATHS_LIGHT_SETS 0x10000u
 
+#define PATHS_ANY_LOBE UINT32_MAX
+
 struct paths_setting {
     const ps_host *host;
     const ps_pass *pass;
@@ -92,6 +94,26 @@ static inline void paths_add(struct paths *paths, uint32_t pixel, ps_ray ray, fl
     paths->shines[i] = 0;
 }
 
+/* One path from each point, by cos(theta) / pi: pi times the radiance along it is an estimate of irradiance. It meets
+ * nothing farther away than `reach`. */
+static inline void paths_start(const struct paths_setting *setting, const ps_points *points,
+                               const uint64_t *samples, float reach, struct paths *paths,
+                               struct paths_segment *segment)
+{
+    setting->host->samples(setting->host, PS_STREAM_PATH, 1, samples, points->count,
+                           segment->numbers);
+    paths->count = 0;
+    for (uint32_t i = 0; i < points->count; i++) {
+        ps_vec3 normal = points->normals[i];
+        ps_vec3 direction =
+            ps_cosine_direction(normal, segment->numbers[i][0], segment->numbers[i][1]);
+        ps_ray ray = ps_leave_surface(points->positions[i], normal, direction,
+                                      setting->pass->surface_offset);
+        ray.tfar = reach;
+        paths_add(paths, i, ray, PS_PI);
+    }
+}
+
 static inline void paths_add_radiance(const struct paths *paths, const ps_rgb *radiance,
                                       ps_rgb *sums)
 {
@@ -150,6 +172,28 @@ static inline void paths_add_direct(const struct paths_setting *setting, uint32_
     paths_add_radiance(paths, radiance, sums);
 }
 
+/* Whether all surfaces on a path's way, from its point on, have mirrored or refracted. */
+static inline int paths_is_caustic(const struct paths *paths, size_t i)
+{
+    return paths->bounces[i] == 0;
+}
+
+/* Adds what surfaces that were met reflect of the lights; on the way of caustics diffusely alone. */
+static inline void paths_add_direct_without_caustics(const struct paths_setting *setting,
+                                                     uint32_t number, const struct paths *paths,
+                                                     struct paths_segment *segment, ps_rgb *sums)
+{
+    uint32_t flags[PS_TILE_PIXELS] = {0};
+    for (size_t i = 0; i < paths->count; i++) {
+        flags[i] = segment->hits[i].flags;
+        if (paths_is_caustic(paths, i))
+            segment->hits[i].flags &= ~PS_HIT_SPECULAR;
+    }
+    paths_add_direct(setting, number, paths, segment, sums);
+    for (size_t i = 0; i < paths->count; i++)
+        segment->hits[i].flags = flags[i];
+}
+
 /* Whether a path goes on after a surface that scatters like this. */
 static inline int paths_goes_on(const struct paths_setting *setting,
                                 const ps_bsdf_sample *scattered, float number, struct paths *paths,
@@ -184,6 +228,37 @@ static inline int paths_scatter(const struct paths_setting *setting,
     paths->shines[i] = scattered->lobe != PS_DIFFUSE;
     paths->pdfs[i] = scattered->lobe == PS_GLOSSY ? scattered->pdf : 0.0f;
     return 1;
+}
+
+/* Sends the paths on from their hits. `lobes`: what they may go on by, 1 << PS_DIFFUSE and so on; the others end. */
+static inline void paths_scatter_all(const struct paths_setting *setting, uint32_t lobes,
+                                     struct paths *paths, struct paths_segment *segment)
+{
+    ps_bsdf_sample scattered[PS_TILE_PIXELS];
+    setting->host->sample_bsdf(setting->host, PS_FROM_CAMERA, paths->rays, segment->hits,
+                               (const float(*)[4])segment->numbers, paths->count, scattered);
+    size_t alive = 0;
+    for (size_t i = 0; i < paths->count; i++)
+        if (lobes >> scattered[i].lobe & 1u &&
+            paths_scatter(setting, &scattered[i], segment, paths, i))
+            paths_move(paths, i, alive++);
+    paths->count = alive;
+}
+
+/* Follows paths to their ends, from their segment of that number on: adds what the surfaces that they meet emit and
+ * reflect. */
+static inline void paths_follow(const struct paths_setting *setting, const ps_points *points,
+                                const uint64_t *samples, uint32_t number, struct paths *paths,
+                                struct paths_segment *segment, ps_rgb *sums)
+{
+    for (; paths->count > 0; number++) {
+        paths_intersect(setting, points, number, paths, segment);
+        paths_add_emission(setting, paths, segment, sums);
+        paths_drop_lost(paths, segment);
+        paths_draw_numbers(setting, number + 1, samples, paths, segment);
+        paths_add_direct(setting, number, paths, segment, sums);
+        paths_scatter_all(setting, PATHS_ANY_LOBE, paths, segment);
+    }
 }
 
 #endif

@@ -1,0 +1,48 @@
+#include "compensation.h"
+
+/* Weighs what rays met by the share of its light that lights leave out. */
+static void weigh_hits(float clamp, struct paths *paths, const struct paths_segment *segment)
+{
+    for (size_t i = 0; i < paths->count; i++) {
+        float distance = segment->hits[i].distance / clamp;
+        float left_out = ps_max(1.0f - distance * distance, 0.0f);
+        paths->throughput[i] = ps_rgb_scale(paths->throughput[i], left_out);
+    }
+}
+
+/* One ray from each point, which becomes a path at a surface close by: from there on by diffuse reflection alone, as
+ * virtual lights shine. */
+static void trace_sample(const struct compensation *compensation, const ps_points *points,
+                         const uint64_t *samples, ps_rgb *sums)
+{
+    const struct paths_setting *setting = &compensation->paths;
+    struct paths paths;
+    struct paths_segment segment;
+    paths_start(setting, points, samples, compensation->clamp, &paths, &segment);
+    paths_intersect(setting, points, 1, &paths, &segment);
+    paths_drop_lost(&paths, &segment);
+    weigh_hits(compensation->clamp, &paths, &segment);
+    paths_draw_numbers(setting, 2, samples, &paths, &segment);
+    paths_add_direct_without_caustics(setting, 1, &paths, &segment, sums);
+    paths_scatter_all(setting, 1u << PS_DIFFUSE, &paths, &segment);
+    paths_follow(setting, points, samples, 2, &paths, &segment, sums);
+}
+
+void compensation_add(const struct compensation *compensation, uint64_t tile,
+                      const ps_points *points, ps_rgb *irradiance)
+{
+    uint64_t samples[PS_TILE_PIXELS], count = compensation->rays;
+    ps_rgb sums[PS_TILE_PIXELS] = {{0, 0, 0}};
+    if (count == 0 || !(compensation->clamp > 0.0f))
+        return;
+    for (size_t i = 0; i < points->count; i++)
+        samples[i] =
+            ps_tile_sample(tile, points->lanes[i], compensation->paths.pass->number, count);
+    for (uint64_t sample = 0; sample < count; sample++) {
+        trace_sample(compensation, points, samples, sums);
+        for (size_t i = 0; i < points->count; i++)
+            samples[i]++;
+    }
+    for (size_t i = 0; i < points->count; i++)
+        irradiance[i] = ps_rgb_add(irradiance[i], ps_rgb_scale(sums[i], 1.0f / (float)count));
+}
