@@ -30,6 +30,7 @@ small_choice() {
     injection=voxel) echo "$1:resolution=32" ;;
     estimator=pathtrace) echo "$1:samples=4" ;;
     estimator=vpl) echo "$1:lights=50" ;;
+    estimator=lightcuts) echo "$1:lights=500" ;;
     visibility=imperfect) echo "$1:points=5000" ;;
     *) echo "$1" ;;
     esac

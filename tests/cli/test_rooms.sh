@@ -34,7 +34,7 @@ rooms_problems() {
             to = room_of(substr($2, 2))
             split($1, parts, "/")
             sub(/\.c$/, "", parts[3]) # plugins/KIND/NAME.c may have a folder NAME, and share plugins/KIND/shared
-            if (from == "plugins" && (index($2, "\"" parts[3] "/") == 1 || index($2, "\"shared/") == 1 || $2 !~ /\//)) next
+            if (from == "plugins" && (index($2, "\"" parts[3] "/") == 1 || index($2, "\"shared/") == 1 || (parts[4] != "" && index($2, "\"../shared/") == 1) || $2 !~ /\//)) next
             if (from == "plugins") { print $1 " includes " $2 "\": plugins include <psplat/...> and their own folder"; next }
             if (!(from in known)) print "rooms.txt: no room " from
             used[from " " to] = 1

@@ -49,6 +49,7 @@ static const struct method in_furnace[] = {
      {"estimator=photonmap:neighbours=50,gather=2", "injection=photon:count=40000", NULL},
      0.015},
     {"vpl", {"estimator=vpl:lights=2000,clamp=0", "injection=photon:count=800", NULL}, 0.002},
+    {"lightcuts", {"estimator=lightcuts:clamp=0", "injection=photon:count=2000", NULL}, 0.004},
     {"gather", {"estimator=gather:samples=8", "injection=photon:count=5000", NULL}, 0.003},
 };
 
@@ -114,6 +115,9 @@ static const struct method patch_methods[] = {
      0.02},
     {"vpl",
      {"estimator=vpl:lights=500,clamp=0", "injection=photon:count=500", "bounces=1", NULL},
+     0.01},
+    {"lightcuts",
+     {"estimator=lightcuts:clamp=0", "injection=photon:count=5000", "bounces=1", NULL},
      0.01},
     {"gather",
      {"estimator=gather:samples=512", "injection=photon:count=500", "bounces=1", NULL},

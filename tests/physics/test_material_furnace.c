@@ -132,12 +132,16 @@ static void test_photons_enclosed(void **state)
 static void test_virtual_lights(void **state)
 {
     (void)state;
-    static const struct method vpl = {
-        "vpl",
-        {"estimator=vpl:lights=500,clamp=0.02", "injection=photon:count=500", "bounces=all", NULL},
-        0.01};
-    check("enclosed", enclosure, &vpl, 1, "{diffuse: 1}");
-    check("enclosed", enclosure, &vpl, 1, HOLES);
+    static const struct method methods[] = {
+        {"vpl",
+         {"estimator=vpl:lights=500,clamp=0.02", "injection=photon:count=500", "bounces=all", NULL},
+         0.01},
+        {"lightcuts",
+         {"estimator=lightcuts:clamp=0.02", "injection=photon:count=500", "bounces=all", NULL},
+         0.01},
+    };
+    check("enclosed", enclosure, methods, COUNT(methods), "{diffuse: 1}");
+    check("enclosed", enclosure, methods, COUNT(methods), HOLES);
 }
 
 int main(void)

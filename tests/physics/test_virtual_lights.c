@@ -1,4 +1,5 @@
-/* test_virtual_lights.c: what maps over hemispheres hide of virtual lights is what shadow rays hide of them.
+/* test_virtual_lights.c: what maps over hemispheres hide of virtual lights is what shadow rays hide of them, and lightcuts
+ * find the light of all lights by few.
  *
  * Means, compensation included, are compared with path tracing in test_agreement.
  */
@@ -11,6 +12,8 @@
 
 #include <cmocka.h>
 
+#include "support/run_tests.h"
+
 #define WIDTH 96
 #define HEIGHT 54
 #define ACROSS 6 /* blocks of pixels that are compared, as a whole each */
@@ -22,19 +25,28 @@ static struct rendering render(const char *text, const char *estimator)
     return render_text(text, 2, choices);
 }
 
-/* The most that blocks differ from those of the other picture, relatively. */
-static double largest_difference(const struct image *image, const struct image *reference)
+/* How far blocks are off those of the other picture, relatively. */
+struct difference {
+    double largest, root_mean_square;
+};
+
+static struct difference difference_of(const struct image *image, const struct image *reference)
 {
     const size_t width = WIDTH / ACROSS, height = HEIGHT / DOWN;
-    double largest = 0;
+    struct difference difference = {0, 0};
+    double squares = 0, count = 0;
     for (size_t y = 0; y + height <= HEIGHT; y += height)
         for (size_t x = 0; x + width <= WIDTH; x += width) {
             double expected = mean_of(reference, "indirect.G", x, y, width, height);
-            double found = mean_of(image, "indirect.G", x, y, width, height);
-            if (expected > 0)
-                largest = fmax(largest, fabs(found / expected - 1));
+            if (!(expected > 0))
+                continue;
+            double off = mean_of(image, "indirect.G", x, y, width, height) / expected - 1;
+            difference.largest = fmax(difference.largest, fabs(off));
+            squares += off * off;
+            count++;
         }
-    return largest;
+    difference.root_mean_square = sqrt(squares / count);
+    return difference;
 }
 
 static void test_maps_agree_with_shadow_rays(void **state)
@@ -44,8 +56,8 @@ static void test_maps_agree_with_shadow_rays(void **state)
     struct rendering rays = render(text, "estimator=vpl:visibility=rays");
     struct rendering map = render(text, "estimator=vpl:visibility=map");
     struct rendering none = render(text, "estimator=vpl:visibility=none");
-    double of_map = largest_difference(&map.image, &rays.image);
-    double of_none = largest_difference(&none.image, &rays.image);
+    double of_map = difference_of(&map.image, &rays.image).largest;
+    double of_none = difference_of(&none.image, &rays.image).largest;
     print_message("off by up to %.2f %%; without visibility %.0f %%\n", 100 * of_map,
                   100 * of_none);
     assert_true(of_map < 0.02);
@@ -89,11 +101,61 @@ static void test_convex_objects_do_not_shadow_themselves(void **state)
         "box: {corners: [[-0.5, 0.5, -0.5], [0.5, 1.5, 0.5]], material: object}");
 }
 
+/* A cut of single lights is all of them. */
+static void test_finest_cuts_are_all_lights(void **state)
+{
+    (void)state;
+    char *text = cornell_text(WIDTH, HEIGHT);
+    struct rendering all = render(text, "estimator=vpl:lights=300,visibility=rays");
+    struct rendering cuts = render(text, "estimator=lightcuts:lights=300,error=0");
+    double difference = difference_of(&cuts.image, &all.image).largest;
+    print_message("off by up to %.5f %%\n", 100 * difference);
+    assert_true(difference < 1e-4);
+    rendering_release(&all);
+    rendering_release(&cuts);
+    free(text);
+}
+
+/* Clusters in the cut of a pixel, and how far light is off that of all lights. */
+static double measure_cuts(const char *text, int lights, double *difference)
+{
+    char cut_choice[64], all_choice[64], count[64];
+    snprintf(cut_choice, sizeof cut_choice, "estimator=lightcuts:lights=%d", lights);
+    snprintf(all_choice, sizeof all_choice, "estimator=vpl:lights=%d,visibility=rays", lights);
+    snprintf(count, sizeof count, "injection=photon:count=%d", lights);
+    const char *const cut_choices[] = {count, cut_choice, NULL};
+    const char *const all_choices[] = {count, all_choice, NULL};
+    struct rendering cuts = render_text(text, 2, cut_choices);
+    struct rendering all = render_text(text, 2, all_choices);
+    double clusters = statistics_counter(&cuts.statistics, "light cut clusters");
+    *difference = difference_of(&cuts.image, &all.image).root_mean_square;
+    rendering_release(&cuts);
+    rendering_release(&all);
+    return clusters / (WIDTH * HEIGHT);
+}
+
+static void test_cuts_grow_slower_than_lights(void **state)
+{
+    (void)state;
+    char *text = cornell_text(WIDTH, HEIGHT);
+    double of_few, of_many;
+    double few = measure_cuts(text, 1000, &of_few), many = measure_cuts(text, 16000, &of_many);
+    print_message("1,000 lights: %.0f clusters, off by %.2f %%; 16,000: %.0f, %.2f %%\n", few,
+                  100 * of_few, many, 100 * of_many);
+    assert_true(many < 3 * few);
+    assert_true(few < 250);
+    assert_true(of_few < 0.02);
+    assert_true(of_many < 0.02);
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_maps_agree_with_shadow_rays),
         cmocka_unit_test(test_convex_objects_do_not_shadow_themselves),
+        cmocka_unit_test(test_finest_cuts_are_all_lights),
+        SLOW_TEST(test_cuts_grow_slower_than_lights),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(tests);
 }

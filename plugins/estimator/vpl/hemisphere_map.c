@@ -8,9 +8,9 @@
 /* The direction through a cell's centre. */
 static ps_vec3 cell_direction(const struct hemisphere_map *map, uint32_t cell)
 {
+    uint32_t column = cell % map->resolution, row = cell / map->resolution;
     float step = 2.0f / (float)map->resolution;
-    float a = ((float)(cell % map->resolution) + 0.5f) * step - 1.0f;
-    float b = ((float)(cell / map->resolution) + 0.5f) * step - 1.0f;
+    float a = ((float)column + 0.5f) * step - 1.0f, b = ((float)row + 0.5f) * step - 1.0f;
     float x = 0.5f * (a + b), y = 0.5f * (a - b), z = 1.0f - fabsf(x) - fabsf(y);
     ps_vec3 in_plane = ps_add_scaled(ps_scale(map->axis_u, x), y, map->axis_v);
     return ps_normalize(ps_add_scaled(in_plane, z, map->axis_w));
