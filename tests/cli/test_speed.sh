@@ -1,4 +1,4 @@
-# The measurements of bench/speed, bench/marks, bench/preview, bench/scaling, bench/passes, bench/ranks and bench/throughput run, at small
+# The measurements of bench/speed, bench/marks, bench/preview, bench/scaling, bench/passes, bench/ranks, bench/throughput and bench/occlusion run, at small
 # sizes, and say what they should of times that are made up. No time is asserted.
 . "$PSPLAT_SOURCE/tests/cli/lib.sh"
 
@@ -199,5 +199,15 @@ expect_text err "there is no program nowhere"
 "$bench/throughput" --help >out 2>err
 check_status $? 0
 expect_match out 'bench/throughput \[PSPLAT \[SCENE\]\]'
+
+# --- bench/occlusion ---
+
+last="bench/occlusion"
+"$bench/occlusion" 96x54 >out 2>err
+check_status $? 0
+expect_empty err
+error_of() { sed -n "s/^| $1 | \([0-9.]*\) % .*/\1/p" out; }
+true_of "horizons are closer than samples" \
+    "$(error_of 'hbao, radius 100, 16x64 samples') < $(error_of 'ssao, radius 8, 256 samples') < $(error_of ambient)"
 
 finish

@@ -1,5 +1,5 @@
-/* test_ssao.c: the estimator `ssao` against its formula in a crease, and against plain ambient light
- * where nothing occludes. */
+/* test_ambient_occlusion.c: the estimators `ssao` and `hbao` against their formulas in a crease, against plain ambient light
+ * where nothing occludes, and `hbao` against ray-cast occlusion. */
 #include "support/render_scene.h"
 
 #include <math.h>
@@ -77,14 +77,25 @@ static const char plates[] =
 static void test_unoccluded_is_ambient(void **state)
 {
     (void)state;
-    expect_same_light(plates, "estimator=ambient:irradiance=[2, 0.3, 1]",
-                      "estimator=ssao:irradiance=[2, 0.3, 1],radius=0.7");
+    static const char *const far_choices[] = {
+        "estimator=ssao:irradiance=[2, 0.3, 1],radius=0.7",
+        "estimator=hbao:irradiance=[2, 0.3, 1],radius=0.7",
+        "estimator=hbao:irradiance=[2, 0.3, 1],radius=0.7,cosine=no",
+    };
+    static const char *const near_choices[] = {
+        "estimator=ssao:radius=2.5",
+        "estimator=hbao:radius=2.5",
+        "estimator=hbao:radius=2.5,cosine=no",
+    };
     struct rendering far = render(plates, "estimator=ambient", 1);
-    struct rendering near = render(plates, "estimator=ssao:radius=2.5", 1);
-    assert_true(mean_of_all(&near.image, "indirect.R") <
-                0.99 * mean_of_all(&far.image, "indirect.R"));
+    for (int k = 0; k < 3; k++) {
+        expect_same_light(plates, "estimator=ambient:irradiance=[2, 0.3, 1]", far_choices[k]);
+        struct rendering near = render(plates, near_choices[k], 1);
+        assert_true(mean_of_all(&near.image, "indirect.R") <
+                    0.99 * mean_of_all(&far.image, "indirect.R"));
+        rendering_release(&near);
+    }
     rendering_release(&far);
-    rendering_release(&near);
 }
 
 static void test_intensity_zero_is_ambient(void **state)
@@ -99,7 +110,7 @@ static void test_intensity_zero_is_ambient(void **state)
 
 /* Of a point on the floor whose pixel is b0 below the crease on the picture plane: the mean over the
  * disc of what wall it shows, by midpoints. */
-static double expected_visibility(double b0, double radius, double intensity)
+static double expected_of_ssao(double b0, double radius, double intensity)
 {
     enum { GRID = 800 };
     double x = b0 * sqrt(2), sum = 0, e = 0.01 * radius * radius;
@@ -119,7 +130,7 @@ static double row_visibility(const struct image *image, size_t row)
     return 3.14159265358979 * mean_of(image, "indirect.G", 16, row, 32, 1);
 }
 
-static void test_crease_has_the_formula(void **state)
+static void test_crease_of_ssao(void **state)
 {
     (void)state;
     static const double intensities[] = {1, 0.4};
@@ -130,7 +141,7 @@ static void test_crease_has_the_formula(void **state)
         struct rendering rendering = render_crease(estimator);
         for (size_t row = SIZE / 2; row < SIZE; row += 3) {
             double b0 = ((double)row + 0.5 - SIZE / 2) * CREASE_WIDTH / SIZE;
-            double expected = expected_visibility(b0, 0.5, intensities[k]);
+            double expected = expected_of_ssao(b0, 0.5, intensities[k]);
             double got = row_visibility(&rendering.image, row);
             print_message("%.3f below the crease: %.4f, expected %.4f\n", b0, got, expected);
             assert_true(fabs(got - expected) < 0.015);
@@ -138,6 +149,84 @@ static void test_crease_has_the_formula(void **state)
         }
         rendering_release(&rendering);
     }
+}
+
+/* Of a point on the floor at a distance from the wall: what is left of the hemisphere, where the wall occludes a direction
+ * whose part to the wall is c by 1 - (distance / (c radius))^2. By midpoints; of all light alike in a closed form. */
+static double expected_of_hbao(double distance, double radius, bool cosine)
+{
+    enum { STEPS = 4000 };
+    double least = distance / radius, sum = 0;
+    if (least >= 1)
+        return 1;
+    if (!cosine)
+        return 1 - 0.5 * (1 - least) * (1 - least);
+    for (int i = 0; i < STEPS; i++) {
+        double c = least + (i + 0.5) * (1 - least) / STEPS;
+        sum += (1 - least * least / (c * c)) * sqrt(1 - c * c);
+    }
+    return 1 - 2 / 3.14159265358979 * sum * (1 - least) / STEPS;
+}
+
+static void test_crease_of_hbao(void **state)
+{
+    (void)state;
+    for (int cosine = 0; cosine < 2; cosine++) {
+        char estimator[128];
+        snprintf(estimator, sizeof estimator,
+                 "estimator=hbao:radius=0.5,slices=64,steps=64,bias=0.1,cosine=%s",
+                 cosine ? "yes" : "no");
+        struct rendering rendering = render_crease(estimator);
+        for (size_t row = SIZE / 2; row < SIZE; row += 3) {
+            double b0 = ((double)row + 0.5 - SIZE / 2) * CREASE_WIDTH / SIZE;
+            double expected = expected_of_hbao(b0 * sqrt(2), 0.5, cosine);
+            double got = row_visibility(&rendering.image, row);
+            print_message("%.3f below the crease: %.4f, expected %.4f\n", b0, got, expected);
+            /* The pixels of the crease itself are as far from it as from each other. */
+            double allowed = row == SIZE / 2 ? 0.05 : 0.015;
+            assert_true(fabs(got - expected) < allowed);
+            assert_true(fabs(row_visibility(&rendering.image, SIZE - 1 - row) - expected) <
+                        allowed);
+        }
+        rendering_release(&rendering);
+    }
+}
+
+/* Blocks on a floor under an even sky, seen from straight above: all that occludes is in the picture. The sky is direct
+ * light, found by rays; its irradiance where nothing occludes is pi times its radiance. */
+static const char blocks[] =
+    "psd: 1\n"
+    "camera: {location: [0, 9, 0], look_at: [0, 0, 0], up: [0, 0, -1], projection: orthographic, "
+    "width: 3}\n"
+    "image: {width: 96, height: 96}\n"
+    "materials: {white: {diffuse: 1}}\n"
+    "lights:\n"
+    "  - sky: {radiance: 1}\n"
+    "objects:\n"
+    "  - quad: {corners: [[-4, 0, -4], [-4, 0, 4], [4, 0, 4], [4, 0, -4]], material: white}\n"
+    "  - box: {corners: [[-1, 0, -1], [-0.2, 0.8, 0]], material: white}\n"
+    "  - box: {corners: [[0.2, 0, -0.6], [0.9, 0.3, 0.9]], material: white}\n"
+    "  - box: {corners: [[-0.8, 0, 0.4], [-0.1, 1.4, 0.8]], material: white}\n"
+    "render: {light_samples: 128}\n";
+
+static void test_hbao_is_ray_cast_occlusion(void **state)
+{
+    (void)state;
+    struct rendering rendering =
+        render(blocks, "estimator=hbao:irradiance=3.14159265,radius=100,slices=16,steps=300", 2);
+    double most = 0;
+    for (size_t y = 0; y < 96; y += 12)
+        for (size_t x = 0; x < 96; x += 12) {
+            double cast = mean_of(&rendering.image, "direct.G", x, y, 12, 12);
+            double found = mean_of(&rendering.image, "indirect.G", x, y, 12, 12);
+            most = fmax(most, fabs(found - cast));
+        }
+    print_message("mean %.4f, by rays %.4f; blocks are off by up to %.4f\n",
+                  mean_of_all(&rendering.image, "indirect.G"),
+                  mean_of_all(&rendering.image, "direct.G"), most);
+    assert_true(most < 0.015);
+    assert_true(mean_of_all(&rendering.image, "direct.G") < 0.9);
+    rendering_release(&rendering);
 }
 
 /* "1: a right-angled crease keeps about half of its light" */
@@ -198,6 +287,7 @@ static void test_threads_do_not_matter(void **state)
     char text[2048];
     crease_text(text, sizeof text, 1, 3);
     expect_same_light(text, "estimator=ssao:radius=0.5", "estimator=ssao:radius=0.5");
+    expect_same_light(text, "estimator=hbao:radius=0.5", "estimator=hbao:radius=0.5");
 }
 
 int main(void)
@@ -205,7 +295,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_unoccluded_is_ambient),
         cmocka_unit_test(test_intensity_zero_is_ambient),
-        cmocka_unit_test(test_crease_has_the_formula),
+        cmocka_unit_test(test_crease_of_ssao),
+        cmocka_unit_test(test_crease_of_hbao),
+        cmocka_unit_test(test_hbao_is_ray_cast_occlusion),
         cmocka_unit_test(test_crease_keeps_half),
         cmocka_unit_test(test_radius_is_the_reach),
         cmocka_unit_test(test_units_do_not_matter),
