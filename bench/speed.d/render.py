@@ -26,7 +26,9 @@ class Run:
         self.cpu = usage.ru_utime + usage.ru_stime
         self.peak = 1024 * usage.ru_maxrss
         files = self.stages.get("load", 0.0) + self.stages.get("write", 0.0)
-        self.wall_rendering, self.cpu_rendering = wall - files, self.cpu - files
+        self.wall_rendering = wall - files
+        # Stages are in wall seconds, which other processes stretch: their share of the processor seconds is taken off.
+        self.cpu_rendering = self.cpu * (1 - files / wall)
         self.indirect = sum(self.stages.get(stage, 0.0) for stage in INDIRECT_STAGES)
 
     def own_bytes(self):

@@ -1,4 +1,4 @@
-# The measurements of bench/speed, bench/marks, bench/preview, bench/scaling, bench/passes, bench/ranks, bench/throughput and bench/occlusion run, at small
+# The measurements of bench/speed, bench/marks, bench/preview, bench/scaling, bench/passes, bench/ranks, bench/throughput, bench/occlusion and bench/methods run, at small
 # sizes, and say what they should of times that are made up. No time is asserted.
 . "$PSPLAT_SOURCE/tests/cli/lib.sh"
 
@@ -38,8 +38,10 @@ expect_drawing() {
 
 PYTHONPATH=$bench/speed.d python3 - >out 2>err <<'END' || { fail "curves:"; cat err; }
 import math
+from types import SimpleNamespace
 
 from curve import AT, NEVER, WITHIN, Reach, error_at, ratio_text, reach_text, time_to
+from render import Run
 
 slope = [(1.0, 0.4), (4.0, 0.2), (16.0, 0.1)]  # error = 0.4 / sqrt(time)
 assert time_to(slope, 0.4) == Reach(WITHIN, 1.0)
@@ -66,6 +68,11 @@ assert ratio_text(Reach(NEVER, 6.0), Reach(AT, 2.0)) == "> 3x"
 assert ratio_text(Reach(WITHIN, 6.0), Reach(AT, 2.0)) == "< 3x"
 assert ratio_text(Reach(WITHIN, 6.0), Reach(WITHIN, 2.0)) == "both at once"
 assert ratio_text(Reach(AT, 6.0), Reach(NEVER, 2.0)) == "not reached"
+
+# On a busy machine files take more seconds of the clock than the whole process of the processor.
+usage = SimpleNamespace(ru_utime=0.75, ru_stime=0.25, ru_maxrss=1)
+run = Run({"seconds": {"load": 1.0, "write": 2.0}, "counters": {}, "bytes": {}}, 4.0, usage, None)
+assert run.wall_rendering == 1 and run.cpu_rendering == 0.25
 END
 
 # --- bench/speed ---
@@ -209,5 +216,22 @@ expect_empty err
 error_of() { sed -n "s/^| $1 | \([0-9.]*\) % .*/\1/p" out; }
 true_of "horizons are closer than samples" \
     "$(error_of 'hbao, radius 100, 16x64 samples') < $(error_of 'ssao, radius 8, 256 samples') < $(error_of ambient)"
+
+# --- bench/methods: the pictures that docs/methods.md shows, which has each estimator ---
+
+last="bench/methods"
+"$bench/methods" pictures 96x54 4 >out 2>err
+check_status $? 0
+expect_empty err
+methods=$PSPLAT_SOURCE/docs/methods.md
+grep -o 'pictures/methods/[a-z_-]*\.png' "$methods" | sed 's|.*/||' | sort -u >shown
+ls pictures | sort >made
+expect_same shown made
+ls "$PSPLAT_SOURCE/docs/pictures/methods" | sort >kept
+expect_same shown kept
+run 0 plugins estimator
+for estimator in $(sed -n 's/^  \([a-z_]*\) .*/\1/p' out); do
+    expect_text "$methods" "-p estimator=$estimator"
+done
 
 finish
