@@ -1,4 +1,4 @@
-/* test_agreement.c: the estimators against one another in the Cornell box, one bounce and several.
+/* test_agreement.c: the estimators against one another in the Cornell box, one bounce and several, and in two other scenes.
  *
  * Path tracing is the truth; what each of the others may be off by is its own bias at these
  * settings, in the mean of the indirect layer over the whole picture.
@@ -40,10 +40,10 @@ static double mean(const char *text, const char *bounces, const char *estimator,
     return sum;
 }
 
-static void compare(const char *bounces, const char *reference, const struct method *methods,
-                    size_t count)
+/* Frees the text. */
+static void compare(char *text, const char *bounces, const char *reference,
+                    const struct method *methods, size_t count)
 {
-    char *text = cornell_text(WIDTH, HEIGHT);
     double truth = mean(text, bounces, reference, NULL, NULL);
     for (size_t i = 0; i < count; i++) {
         double ratio =
@@ -79,7 +79,7 @@ static void test_single_bounce(void **state)
         {"lightcuts", "estimator=lightcuts", "injection=photon:count=20000", NULL, 0.01},
         {"gather", "estimator=gather:samples=64", "injection=photon:count=1000", NULL, 0.01},
     };
-    compare("bounces=1", "estimator=pathtrace:samples=512", methods,
+    compare(cornell_text(WIDTH, HEIGHT), "bounces=1", "estimator=pathtrace:samples=512", methods,
             sizeof methods / sizeof methods[0]);
 }
 
@@ -104,8 +104,30 @@ static void test_all_bounces(void **state)
         {"lightcuts", "estimator=lightcuts", "injection=photon:count=20000", NULL, 0.01},
         {"gather", "estimator=gather:samples=64", "injection=photon:count=50000", NULL, 0.01},
     };
-    compare("bounces=all", "estimator=pathtrace:samples=512", methods,
+    compare(cornell_text(WIDTH, HEIGHT), "bounces=all", "estimator=pathtrace:samples=512", methods,
             sizeof methods / sizeof methods[0]);
+}
+
+/* Behind a corner, and in the open among columns. */
+static void test_other_scenes(void **state)
+{
+    (void)state;
+    static const struct method methods[] = {
+        {"splat", "estimator=splat", "injection=photon:count=200000", NULL, 0.03},
+        {"photonmap", "estimator=photonmap:neighbours=60", "injection=photon:count=200000", NULL,
+         0.08},
+        {"final_gather", "estimator=final_gather:samples=64", "injection=photon:count=200000", NULL,
+         0.02},
+        {"gather", "estimator=gather:samples=64", "injection=photon:count=50000", NULL, 0.02},
+        {"vpl", "estimator=vpl:lights=8192", "injection=photon:count=100000", NULL, 0.02},
+        {"lightcuts", "estimator=lightcuts", "injection=photon:count=100000", NULL, 0.02},
+    };
+    static const char *const scenes[] = {"corridor", "columns"};
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        print_message("%s:\n", scenes[i]);
+        compare(scene_file_text(scenes[i], WIDTH, HEIGHT), "bounces=all",
+                "estimator=pathtrace:samples=2048", methods, sizeof methods / sizeof methods[0]);
+    }
 }
 
 int main(void)
@@ -113,6 +135,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_single_bounce),
         SLOW_TEST(test_all_bounces),
+        SLOW_TEST(test_other_scenes),
     };
     return RUN_TESTS(tests);
 }

@@ -174,12 +174,12 @@ void expect_same_image(const struct image *a, const struct image *b)
     }
 }
 
-char *cornell_text(int width, int height)
+char *scene_file_text(const char *name, int width, int height)
 {
     const char *source = getenv("PSPLAT_SOURCE");
     char path[4096], size[64];
     assert_non_null(source);
-    snprintf(path, sizeof path, "%s/scenes/cornell.psd", source);
+    snprintf(path, sizeof path, "%s/scenes/%s.psd", source, name);
     FILE *file = fopen(path, "rb");
     assert_non_null(file);
     size_t capacity = 1 << 16;
@@ -187,12 +187,19 @@ char *cornell_text(int width, int height)
     assert_non_null(text);
     size_t length = fread(text, 1, capacity - 256, file);
     fclose(file);
-    char *found = strstr(text, "image: {width: 1600, height: 900}");
+    char *found = strstr(text, "\nimage: {width: ");
     assert_non_null(found);
-    size_t old = strlen("image: {width: 1600, height: 900}");
-    int added = snprintf(size, sizeof size, "image: {width: %d, height: %d}", width, height);
-    memmove(found + added, found + old, length - (size_t)(found - text) - old + 1);
+    const char *rest = strchr(found, '}');
+    assert_non_null(rest);
+    int added = snprintf(size, sizeof size, "\nimage: {width: %d, height: %d", width, height);
+    memmove(found + added, rest, length - (size_t)(rest - text) + 1);
     memcpy(found, size, (size_t)added);
+    return text;
+}
+
+char *cornell_text(int width, int height)
+{
+    char *text = scene_file_text("cornell", width, height);
     strcat(text,
            "  visibility: {shadowmap: {radius: 30, resolution: 4}}\n"); /* render comes last */
     return text;

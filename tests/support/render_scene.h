@@ -51,6 +51,9 @@ double mean_of_all(const struct image *image, const char *channel);
 /* Fails the test unless both have the same channels, bit for bit. */
 void expect_same_image(const struct image *a, const struct image *b);
 
+/* The text of scenes/NAME.psd at this size; from PSPLAT_SOURCE. The caller frees it. */
+char *scene_file_text(const char *name, int width, int height);
+
 /* The Cornell box of scenes/cornell.psd at this size, with splats of radius 30 and maps of 4x4; from
  * PSPLAT_SOURCE. The caller frees the text. */
 char *cornell_text(int width, int height);
