@@ -13,13 +13,13 @@
  *
  * which is the integral of the cosine over the directions between the horizons.
  *
- *     E(p) = irradiance * A(p)          W/m^2
- *
- * What the picture does not show does not occlude, and what it shows has no thickness: a post before a wall occludes
- * all that is behind it. Points that mirrors or glass show take slices around their normals, as the line back to the
- * viewer is not known.
+ * Slices are spread evenly around v, not in the picture. What the picture shows has no thickness: a post before a wall
+ * occludes all that is behind it. Points that the camera sees through mirrors, glass or out of focus take slices around
+ * their normals, spread evenly in the picture, as the line back to the viewer is not known.
  */
 #include "shared/ambient_occlusion.h"
+
+#define STEP_ASIDE 1e-2f /* in distances from the camera, to project a direction */
 
 struct state {
     ps_rgb irradiance;
@@ -113,17 +113,36 @@ static float occlude_slice(const struct work *work, const struct screen *screen,
     return occlusion;
 }
 
-/* The direction to the viewer; the normal where the way there is not straight: the point then does not project to the pixel
- * that sees it. */
-static ps_vec3 view_of(const struct work *work, const struct screen_point *point, float x, float y)
+/* Whether the way from the viewer to a pixel's point is straight: the point then projects to that pixel. */
+static int is_seen_straight(const struct work *work, const struct receiver *receiver)
 {
     float pixel[1][2];
-    work->host->project(work->host, &point->position, 1, pixel);
-    if (!(fabsf(pixel[0][0] - x) < 1.0f && fabsf(pixel[0][1] - y) < 1.0f))
-        return point->normal;
+    work->host->project(work->host, &receiver->point.position, 1, pixel);
+    return fabsf(pixel[0][0] - receiver->x) < 1.0f && fabsf(pixel[0][1] - receiver->y) < 1.0f;
+}
+
+static ps_vec3 direction_to_viewer(const struct work *work, ps_vec3 position)
+{
     if (work->camera.projection == PS_ORTHOGRAPHIC)
         return ps_scale(work->camera.forward, -1.0f);
-    return ps_normalize(ps_subtract(work->camera.position, point->position));
+    return ps_normalize(ps_subtract(work->camera.position, position));
+}
+
+/* The direction in the picture, of length 1, in which a direction across the view shows; 0 where it shows none. */
+static int project_direction(const struct work *work, const struct screen_point *point, ps_vec3 w,
+                             float direction[2])
+{
+    float pixels[2][2];
+    const ps_vec3 ends[2] = {point->position,
+                             ps_add_scaled(point->position, STEP_ASIDE * point->depth, w)};
+    work->host->project(work->host, ends, 2, pixels);
+    float x = pixels[1][0] - pixels[0][0], y = pixels[1][1] - pixels[0][1];
+    float length = sqrtf(x * x + y * y);
+    if (!(length > 0.0f))
+        return 0;
+    direction[0] = x / length;
+    direction[1] = y / length;
+    return 1;
 }
 
 static float visibility(const void *user, const struct screen *screen,
@@ -134,20 +153,28 @@ static float visibility(const void *user, const struct screen *screen,
     int64_t count = work->state->slices;
     struct receiver receiver = {
         .point = *point,
+        .view = point->normal,
         .x = (float)x + 0.5f,
         .y = (float)y + 0.5f,
         .reach = screen_extent(screen, point, x, y, work->radius),
     };
     float sum = 0.0f;
-    receiver.view = view_of(work, point, receiver.x, receiver.y);
+    int straight = is_seen_straight(work, &receiver);
+    if (straight)
+        receiver.view = direction_to_viewer(work, point->position);
     receiver.view_normal = ps_dot(point->normal, receiver.view);
     if (!(receiver.reach > 0.0f && receiver.view_normal > 0.0f))
         return 1.0f;
+    ps_vec3 u, v;
+    ps_frame(receiver.view, &u, &v);
     for (int64_t i = 0; i < count; i++) {
-        float angle = 2.0f * PS_PI * ((float)i + numbers[0]) / (float)count;
+        float azimuth = 2.0f * PS_PI * ((float)i + numbers[0]) / (float)count;
+        float direction[2] = {cosf(azimuth), sinf(azimuth)};
         float shift = numbers[1] + (float)i * 0.618034f; /* of the golden ratio */
-        sum +=
-            occlude_slice(work, screen, &receiver, cosf(angle), sinf(angle), shift - floorf(shift));
+        ps_vec3 w = ps_add_scaled(ps_scale(u, direction[0]), direction[1], v);
+        if (!straight || project_direction(work, point, w, direction))
+            sum += occlude_slice(work, screen, &receiver, direction[0], direction[1],
+                                 shift - floorf(shift));
     }
     return ps_max(1.0f - sum / (float)count, 0.0f);
 }

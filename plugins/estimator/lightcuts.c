@@ -1,8 +1,8 @@
 /* lightcuts.c: as many virtual point lights as there are photons, of which each pixel asks a few.
  *
  * Walter et al. 2005, "Lightcuts: a scalable approach to illumination". Lights are gathered in a tree (lightcuts/light_tree.h);
- * each pixel refines its own cut through it until no cluster could be off by more than a share of the light
- * (lightcuts/cut.h). Cost grows far slower than the number of lights: to begin with as its logarithm.
+ * each pixel refines its own cut through it until no cluster could be off by more than a share of the light, or there are
+ * too many (lightcuts/cut.h). Cost grows far slower than the number of lights: to begin with as its logarithm.
  *
  * What clamping takes away comes by short rays, as in vpl (shared/compensation.h). Gloss that a pixel sees is followed by
  * the camera's own paths, so a pixel's point is diffuse, and needs irradiance alone.
@@ -72,6 +72,8 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
         .tree = {.host = host},
     };
     ps_result result = virtual_lights_choose(host, pass, (size_t)state->lights, &work.lights);
+    if (work.lights.count < work.cut.most) /* a cut of all lights */
+        work.cut.most = work.lights.count > 0 ? (uint32_t)work.lights.count : 1;
     if (result == PS_OK && work.lights.count > 0)
         result = light_tree_build(host, pass, &work.lights, &work.tree);
     if (result == PS_OK)
@@ -88,7 +90,7 @@ static const ps_param params[] = {
         struct state, lights, "100000", 1, 10000000, "lights",
         "photons used as point lights; more than these are drawn from, and get the power of all"),
     PS_NUMBER(struct state, error, "0.02", 0, 1, 0, "",
-              "share of a pixel's light that the error of no cluster of lights may exceed"),
+              "share of a pixel's luminance that the error of no cluster of lights may exceed"),
     PS_ROW(struct state, most_clusters, PS_PARAM_INT, "1000", 1, 1000000, PS_PARAM_EXPERT, NULL,
            "clusters", "clusters that a pixel is lit by at most, whatever their error"),
     VIRTUAL_LIGHTS_CLAMP(struct state),

@@ -13,9 +13,6 @@
  * same. The paper's bias grows with the distance from the camera, as errors of a depth buffer do;
  * positions here are exact, and a long lens would lose the effect. The last factor lets it end at r,
  * so that what passes far in front of a surface casts no halo.
- *
- * Where nothing is near, A is exactly 1 and the picture that of the estimator `ambient`. No ray is
- * traced: what the picture does not show does not occlude.
  */
 #include "shared/ambient_occlusion.h"
 

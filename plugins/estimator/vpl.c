@@ -11,6 +11,11 @@
 #include "shared/virtual_lights.h"
 #include "vpl/hemisphere_map.h"
 
+#include <stdbool.h>
+
+#define MAP_BYTES                                                                                  \
+    ((size_t)256 << 20) /* of the maps of a batch of lights; one takes 24 MiB at most */
+
 enum { VISIBILITY_MAP, VISIBILITY_RAYS, VISIBILITY_NONE };
 
 static const char *const visibility_choices[] = {"map", "rays", "none", NULL};
@@ -27,8 +32,9 @@ struct work {
     const ps_host *host;
     const ps_pass *pass;
     struct virtual_lights chosen; /* owned, as what follows */
-    struct hemisphere_map *maps;
+    struct hemisphere_map *maps;  /* of the lights from `first` on */
     struct hemisphere_hit *cells;
+    size_t first, end; /* lights of a batch */
     uint32_t resolution;
     int visibility;
     struct compensation compensation;
@@ -131,14 +137,14 @@ static void add_lights(const struct work *work, const ps_tile *tile, struct sums
         receivers.normal_x, receivers.normal_y, receivers.normal_z,
     };
     find_receivers(tile, work->pass->surface_offset, &receivers);
-    for (size_t i = 0; i < work->chosen.count; i++) {
+    for (size_t i = work->first; i < work->end; i++) {
         const ps_photon *light = &work->chosen.lights[i];
         connect(light, virtual_light_origin(work->pass, light), work->compensation.clamp,
                 &receivers, &connections);
         if (work->visibility == VISIBILITY_RAYS)
             cast_shadow_rays(work, &receivers, &connections);
         else if (work->visibility == VISIBILITY_MAP)
-            hemisphere_map_occlude(&work->maps[i], &points, connections.geometry);
+            hemisphere_map_occlude(&work->maps[i - work->first], &points, connections.geometry);
         add_irradiance(light, &connections, sums);
     }
 }
@@ -153,41 +159,59 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
     ps_points points;
     ps_collect_points(tile, &points);
     add_lights(work, tile, &sums);
-    compensation_add(&work->compensation, index, &points, close);
     for (size_t i = 0; i < points.count; i++) {
         uint32_t lane = points.lanes[i];
-        ps_rgb clamped = {sums.r[lane], sums.g[lane], sums.b[lane]};
-        ps_add_irradiance(tile, lane, ps_rgb_add(clamped, close[i]));
+        tile->irradiance_r[lane] += sums.r[lane];
+        tile->irradiance_g[lane] += sums.g[lane];
+        tile->irradiance_b[lane] += sums.b[lane];
     }
+    if (work->end < work->chosen.count)
+        return;
+    compensation_add(&work->compensation, index, &points, close);
+    for (size_t i = 0; i < points.count; i++)
+        ps_add_irradiance(tile, points.lanes[i], close[i]);
 }
 
-/* What the light of that number sees. */
+/* What the light of that number in the batch sees. */
 static void cast_map(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
-    const ps_photon *light = &work->chosen.lights[index];
+    const ps_photon *light = &work->chosen.lights[work->first + index];
     struct hemisphere_map *map = &work->maps[index];
     float numbers[1][4];
-    uint64_t sample = (uint64_t)work->pass->number << 40 | index;
+    uint64_t sample = (uint64_t)work->pass->number << 40 | (work->first + index);
     work->host->samples(work->host, PS_STREAM_ESTIMATOR, VIRTUAL_LIGHTS_SETS, &sample, 1, numbers);
     map->resolution = work->resolution;
     map->cells = work->cells + index * work->resolution * work->resolution;
-    hemisphere_map_cast(work->host,
-                        ps_add_scaled(light->position, work->pass->surface_offset, light->normal),
-                        light->normal, numbers[0][0], map);
+    hemisphere_map_cast(work->host, virtual_light_origin(work->pass, light), light->normal,
+                        numbers[0][0], map);
 }
 
-static ps_result cast_maps(struct work *work)
+/* Lights with maps go in batches, since maps are large. */
+static ps_result light_in_batches(struct work *work)
 {
     const ps_host *host = work->host;
-    size_t count = work->chosen.count, cells = count * work->resolution * work->resolution;
-    work->maps = host->allocate(host, count * sizeof *work->maps, "virtual lights");
-    work->cells = host->allocate(host, cells * sizeof *work->cells, "virtual lights");
-    if (!work->maps || !work->cells)
-        return PS_ERROR_MEMORY;
-    host->parallel_for(host, count, cast_map, work);
-    return host->cancelled(host) ? PS_CANCELLED : PS_OK;
+    size_t cells = (size_t)work->resolution * work->resolution;
+    size_t count = work->chosen.count, most = MAP_BYTES / (cells * sizeof *work->cells);
+    bool maps = work->visibility == VISIBILITY_MAP && count > 0;
+    ps_result result;
+    if (!maps || most > count)
+        most = count;
+    if (maps) {
+        work->maps = host->allocate(host, most * sizeof *work->maps, "virtual lights");
+        work->cells = host->allocate(host, most * cells * sizeof *work->cells, "virtual lights");
+        if (!work->maps || !work->cells)
+            return PS_ERROR_MEMORY;
+    }
+    do {
+        work->first = work->end;
+        work->end = count - work->first < most ? count : work->first + most;
+        if (maps)
+            host->parallel_for(host, work->end - work->first, cast_map, work);
+        result = host->for_each_tile(host, light_tile, work);
+    } while (result == PS_OK && work->end < count);
+    return result;
 }
 
 static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
@@ -203,10 +227,8 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
                          virtual_lights_clamp(host, state->clamp)},
     };
     ps_result result = virtual_lights_choose(host, pass, (size_t)state->lights, &work.chosen);
-    if (result == PS_OK && work.chosen.count > 0 && state->visibility == VISIBILITY_MAP)
-        result = cast_maps(&work);
     if (result == PS_OK)
-        result = host->for_each_tile(host, light_tile, &work);
+        result = light_in_batches(&work);
     host->release(host, work.cells);
     host->release(host, work.maps);
     virtual_lights_release(&work.chosen);

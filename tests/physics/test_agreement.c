@@ -76,7 +76,7 @@ static void test_single_bounce(void **state)
          "injection=photon:count=2048", NULL, 0.01},
         {"vpl, all light is compensation", "estimator=vpl:lights=1,clamp=1e5,compensation=64",
          "injection=photon:count=10", NULL, 0.01},
-        {"lightcuts", "estimator=lightcuts", "injection=photon:count=20000", NULL, 0.01},
+        {"lightcuts", "estimator=lightcuts:error=0.01", "injection=photon:count=20000", NULL, 0.01},
         {"gather", "estimator=gather:samples=64", "injection=photon:count=1000", NULL, 0.01},
     };
     compare(cornell_text(WIDTH, HEIGHT), "bounces=1", "estimator=pathtrace:samples=512", methods,
@@ -101,7 +101,7 @@ static void test_all_bounces(void **state)
          "injection=photon:count=20000", NULL, 0.01},
         {"vpl, all light is compensation", "estimator=vpl:lights=1,clamp=1e5,compensation=64",
          "injection=photon:count=10", NULL, 0.01},
-        {"lightcuts", "estimator=lightcuts", "injection=photon:count=20000", NULL, 0.01},
+        {"lightcuts", "estimator=lightcuts:error=0.01", "injection=photon:count=20000", NULL, 0.01},
         {"gather", "estimator=gather:samples=64", "injection=photon:count=50000", NULL, 0.01},
     };
     compare(cornell_text(WIDTH, HEIGHT), "bounces=all", "estimator=pathtrace:samples=512", methods,

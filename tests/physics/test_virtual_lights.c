@@ -25,6 +25,14 @@ static struct rendering render(const char *text, const char *estimator)
     return render_text(text, 2, choices);
 }
 
+static double luminance_of(const struct image *image, size_t x, size_t y, size_t width,
+                           size_t height)
+{
+    return 0.2126 * mean_of(image, "indirect.R", x, y, width, height) +
+           0.7152 * mean_of(image, "indirect.G", x, y, width, height) +
+           0.0722 * mean_of(image, "indirect.B", x, y, width, height);
+}
+
 /* How far blocks are off those of the other picture, relatively. */
 struct difference {
     double largest, root_mean_square;
@@ -37,10 +45,10 @@ static struct difference difference_of(const struct image *image, const struct i
     double squares = 0, count = 0;
     for (size_t y = 0; y + height <= HEIGHT; y += height)
         for (size_t x = 0; x + width <= WIDTH; x += width) {
-            double expected = mean_of(reference, "indirect.G", x, y, width, height);
+            double expected = luminance_of(reference, x, y, width, height);
             if (!(expected > 0))
                 continue;
-            double off = mean_of(image, "indirect.G", x, y, width, height) / expected - 1;
+            double off = luminance_of(image, x, y, width, height) / expected - 1;
             difference.largest = fmax(difference.largest, fabs(off));
             squares += off * off;
             count++;
@@ -65,6 +73,21 @@ static void test_maps_agree_with_shadow_rays(void **state)
     rendering_release(&rays);
     rendering_release(&map);
     rendering_release(&none);
+    free(text);
+}
+
+/* Maps of so many rays that the lights go in two batches. */
+static void test_large_maps(void **state)
+{
+    (void)state;
+    char *text = cornell_text(WIDTH, HEIGHT);
+    struct rendering rays = render(text, "estimator=vpl:lights=60,visibility=rays");
+    struct rendering map = render(text, "estimator=vpl:lights=60,resolution=512");
+    struct difference difference = difference_of(&map.image, &rays.image);
+    print_message("off by up to %.3f %%\n", 100 * difference.largest);
+    assert_true(difference.largest < 0.002);
+    rendering_release(&rays);
+    rendering_release(&map);
     free(text);
 }
 
@@ -149,12 +172,50 @@ static void test_cuts_grow_slower_than_lights(void **state)
     free(text);
 }
 
+/* The sun shines on a strip of floor, which lights a small ceiling over its end: near lights give ten times what far ones do. */
+static const char strip[] =
+    "psd: 1\n"
+    "camera: {location: [9.5, 3, 0], look_at: [9.5, 6, 0], up: [1, 0, 0], projection: "
+    "orthographic, width: 0.1}\n"
+    "image: {width: 4, height: 4}\n"
+    "materials: {white: {diffuse: 0.8}}\n"
+    "lights:\n"
+    "  - sun: {direction: [0, -1, 0], irradiance: 2, angle: 0}\n"
+    "objects:\n"
+    "  - quad: {corners: [[0, 0, -0.5], [0, 0, 0.5], [8, 0, 0.5], [8, 0, -0.5]], material: white}\n"
+    "  - quad: {corners: [[9.4, 6, -0.1], [9.6, 6, -0.1], [9.6, 6, 0.1], [9.4, 6, 0.1]], material: "
+    "white}\n"
+    "render: {passes: 3000}\n";
+
+static double light_of_strip(const char *estimator)
+{
+    const char *const choices[] = {"injection=photon:count=500", estimator, NULL};
+    struct rendering rendering = render_text(strip, 2, choices);
+    double light = mean_of_all(&rendering.image, "indirect.G");
+    rendering_release(&rendering);
+    return light;
+}
+
+/* Representatives are drawn in proportion to power: one light alone has the right mean. */
+static void test_representatives_have_the_mean_of_all(void **state)
+{
+    (void)state;
+    double all = light_of_strip("estimator=vpl:lights=1000,visibility=rays,compensation=0");
+    double one = light_of_strip("estimator=lightcuts:most_clusters=1,compensation=0");
+    double four = light_of_strip("estimator=lightcuts:most_clusters=4,compensation=0");
+    print_message("by one light of all %.4f of their light, by four %.4f\n", one / all, four / all);
+    assert_true(fabs(one / all - 1) < 0.04);
+    assert_true(fabs(four / all - 1) < 0.02);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_maps_agree_with_shadow_rays),
         cmocka_unit_test(test_convex_objects_do_not_shadow_themselves),
         cmocka_unit_test(test_finest_cuts_are_all_lights),
+        SLOW_TEST(test_large_maps),
+        SLOW_TEST(test_representatives_have_the_mean_of_all),
         SLOW_TEST(test_cuts_grow_slower_than_lights),
     };
     return RUN_TESTS(tests);

@@ -63,9 +63,9 @@ static struct cut_entry entry_of(const struct cut_setting *setting, uint32_t pla
                                  const struct receiver *receiver)
 {
     const struct light_cluster *cluster = &setting->tree->clusters[place];
-    float bound = 0.0f;
-    if (cluster->right)
-        bound = ps_luminance(cluster->power) / PS_PI *
+    float bound = 0.0f, power = ps_luminance(cluster->power);
+    if (cluster->right && power > 0.0f)
+        bound = power / PS_PI *
                 light_cluster_bound(cluster, receiver->position, receiver->normal, setting->clamp);
     return (struct cut_entry){bound, place, transfer};
 }
@@ -107,7 +107,8 @@ static void trace(const struct cut_setting *setting, struct step *step)
 
 static int is_fine(const struct cut_setting *setting, const struct cut *cut)
 {
-    return cut->count == setting->most || !(cut->entries[0].bound > setting->error * cut->light);
+    float bound = cut->entries[0].bound;
+    return cut->count == setting->most || !(bound > 0.0f && bound > setting->error * cut->light);
 }
 
 /* The child of a cluster that has another representative. */

@@ -1,14 +1,19 @@
 #include "light_tree.h"
 
+#include <stdbool.h>
+
 #define DIMENSIONS 6
 /* What a unit of direction counts as, in radii of the scene: as much as half of the scene between opposite walls. */
 #define DIRECTION_SCALE 0.5f
 
 /* --- building --- */
 
+/* Lights from which on the build of a cluster may be cancelled. */
+#define LONG_BUILD 100000
+
 struct building {
+    const ps_pass *pass;
     const struct light_tree *tree;
-    uint64_t first_sample; /* of the numbers that choose representatives, one a cluster */
     float direction_scale;
 };
 
@@ -70,14 +75,17 @@ static void select_half(const struct building *building, int dimension, uint32_t
     }
 }
 
-static void find_extent(const struct virtual_lights *lights, const uint32_t *order, size_t count,
+/* Of the points that the lights' rays end at, for a bound that holds. */
+static void find_extent(const struct building *building, const uint32_t *order, size_t count,
                         struct light_cluster *cluster)
 {
+    const struct virtual_lights *lights = building->tree->lights;
     ps_vec3 sum = {0, 0, 0};
-    cluster->low = cluster->high = lights->lights[order[0]].position;
+    cluster->low = cluster->high = virtual_light_origin(building->pass, &lights->lights[order[0]]);
     for (size_t i = 0; i < count; i++) {
         const ps_photon *light = &lights->lights[order[i]];
-        ps_vec3 p = light->position, low = cluster->low, high = cluster->high;
+        ps_vec3 p = virtual_light_origin(building->pass, light);
+        ps_vec3 low = cluster->low, high = cluster->high;
         cluster->low = (ps_vec3){ps_min(low.x, p.x), ps_min(low.y, p.y), ps_min(low.z, p.z)};
         cluster->high = (ps_vec3){ps_max(high.x, p.x), ps_max(high.y, p.y), ps_max(high.z, p.z)};
         sum = ps_add_scaled(sum, 1.0f, light->normal);
@@ -90,38 +98,39 @@ static void find_extent(const struct virtual_lights *lights, const uint32_t *ord
             ps_min(cluster->cosine, ps_dot(cluster->axis, lights->lights[order[i]].normal));
 }
 
-/* The representative of one of the children, by their power. */
-static void find_representative(const struct building *building, size_t place)
+/* The representative of one of the children, by their power. The numbers of a cluster and of its children are from different
+ * sets: those of one set are stratified, which would tie the two draws to each other. */
+static void find_representative(const struct building *building, size_t place, uint32_t depth)
 {
     struct light_cluster *clusters = building->tree->clusters, *cluster = &clusters[place];
     const struct light_cluster *left = cluster + 1, *right = &clusters[cluster->right];
     const ps_host *host = building->tree->host;
-    uint64_t index = building->first_sample + place;
+    uint64_t index = (uint64_t)building->pass->number << 40 | place;
     float numbers[1][4];
     float of_left = ps_luminance(left->power), of_right = ps_luminance(right->power);
-    host->samples(host, PS_STREAM_ESTIMATOR, VIRTUAL_LIGHTS_SETS, &index, 1, numbers);
-    const struct light_cluster *chosen =
-        numbers[0][0] * (of_left + of_right) < of_left ? left : right;
-    cluster->representative = chosen->representative;
+    host->samples(host, PS_STREAM_ESTIMATOR, VIRTUAL_LIGHTS_SETS + depth, &index, 1, numbers);
+    int is_left = numbers[0][0] * (of_left + of_right) < of_left;
+    cluster->representative = (is_left ? left : right)->representative;
     cluster->power = ps_rgb_add(left->power, right->power);
 }
 
-static void build_cluster(const struct building *building, size_t place, uint32_t *order,
-                          size_t count)
+static void build_cluster(const struct building *building, size_t place, uint32_t depth,
+                          uint32_t *order, size_t count)
 {
-    struct light_cluster *cluster = &building->tree->clusters[place];
-    find_extent(building->tree->lights, order, count, cluster);
+    const struct light_tree *tree = building->tree;
+    struct light_cluster *cluster = &tree->clusters[place];
+    find_extent(building, order, count, cluster);
     cluster->right = 0;
     cluster->representative = order[0];
-    cluster->power = building->tree->lights->lights[order[0]].power;
-    if (count == 1)
+    cluster->power = tree->lights->lights[order[0]].power;
+    if (count == 1 || (count > LONG_BUILD && tree->host->cancelled(tree->host)))
         return;
     size_t half = count / 2;
     select_half(building, widest_dimension(building, order, count), order, count, half);
     cluster->right = (uint32_t)(place + 2 * half);
-    build_cluster(building, place + 1, order, half);
-    build_cluster(building, place + 2 * half, order + half, count - half);
-    find_representative(building, place);
+    build_cluster(building, place + 1, depth + 1, order, half);
+    build_cluster(building, place + 2 * half, depth + 1, order + half, count - half);
+    find_representative(building, place, depth);
 }
 
 ps_result light_tree_build(const ps_host *host, const ps_pass *pass,
@@ -135,20 +144,21 @@ ps_result light_tree_build(const ps_host *host, const ps_pass *pass,
         .host = host,
         .lights = lights,
         .clusters = host->allocate(host, 2 * count * sizeof *tree->clusters, "virtual lights"),
-        .order = host->allocate(host, count * sizeof *tree->order, "virtual lights"),
     };
-    if (!tree->clusters || !tree->order)
-        return PS_ERROR_MEMORY;
-    const struct building building = {tree, (uint64_t)pass->number << 40, DIRECTION_SCALE * radius};
-    for (size_t i = 0; i < count; i++)
-        tree->order[i] = (uint32_t)i;
-    build_cluster(&building, 0, tree->order, count);
-    return PS_OK;
+    uint32_t *order = host->allocate(host, count * sizeof *order, "virtual lights");
+    if (tree->clusters && order) {
+        const struct building building = {pass, tree, DIRECTION_SCALE * radius};
+        for (size_t i = 0; i < count; i++)
+            order[i] = (uint32_t)i;
+        build_cluster(&building, 0, 0, order, count);
+    }
+    bool failed = !tree->clusters || !order;
+    host->release(host, order);
+    return failed ? PS_ERROR_MEMORY : host->cancelled(host) ? PS_CANCELLED : PS_OK;
 }
 
 void light_tree_release(struct light_tree *tree)
 {
-    tree->host->release(tree->host, tree->order);
     tree->host->release(tree->host, tree->clusters);
     *tree = (struct light_tree){.host = tree->host};
 }

@@ -2,7 +2,7 @@
  *
  * Walter et al. 2005, "Lightcuts: a scalable approach to illumination". A cluster shines as its representative does, with
  * the power of all its lights. The representative is drawn in proportion to power (luminance), and is that of one of the
- * two children, so the mean over draws is that of all lights. Clusters are split at the median of the widest of six
+ * two children, so the mean luminance over draws is that of all lights; colours that differ within a cluster are averaged. Clusters are split at the median of the widest of six
  * dimensions, three of position and three of direction (Walter et al. 2006 cluster by the same six), instead of being merged pair by pair: a million lights
  * take a second.
  */
@@ -25,10 +25,9 @@ struct light_tree {
     const ps_host *host;
     const struct virtual_lights *lights; /* borrowed */
     struct light_cluster *clusters;      /* 2 * lights - 1, the root first; owned */
-    uint32_t *order;                     /* of the lights; owned, while it is built */
 };
 
-/* Lights of no power are never representatives. At least one light. Release the tree whatever it returns. */
+/* At least one light. Release the tree whatever it returns. */
 ps_result light_tree_build(const ps_host *host, const ps_pass *pass,
                            const struct virtual_lights *lights, struct light_tree *tree);
 void light_tree_release(struct light_tree *tree);

@@ -1,4 +1,5 @@
-/* paths.h: paths from the pixels of a tile, which advance together: what path tracing and gathering have in common.
+/* paths.h: paths from the pixels of a tile, which advance together: what path tracing, gathering and
+ * compensation have in common.
  *
  * Kajiya 1986. A path goes on at every surface by its own scattering. At each one the light of the lights that it
  * reflects is added (next-event estimation), and after mirrors, glass and gloss the emission that the path meets,
