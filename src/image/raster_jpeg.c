@@ -121,10 +121,20 @@ static ps_result choose_colors(struct jpeg_job *job)
     }
 }
 
+/* An arithmetic code needs next to nothing for a flat picture, so that no file is too short for the memory that its
+ * header asks for; and hardly any program writes it. */
+static ps_result check_coding(const struct jpeg_job *job)
+{
+    if (job->decoder.arith_code)
+        return refuse(job, "its coding is arithmetic (convert it to Huffman's codes)");
+    return PS_OK;
+}
+
 static void read_header(struct jpeg_job *job)
 {
     struct jpeg_decompress_struct *decoder = &job->decoder;
     jpeg_read_header(decoder, TRUE);
+    expect(job, check_coding(job));
     expect(job, choose_colors(job));
     job->raster->width = decoder->image_width;
     job->raster->height = decoder->image_height;
@@ -132,10 +142,8 @@ static void read_header(struct jpeg_job *job)
     job->raster->srgb = true;
     expect(job, raster_check_size(job->source->path, decoder->image_width, decoder->image_height,
                                   job->raster->channels, job->error));
-    if (!decoder->arith_code) {
-        uint64_t pixels = (uint64_t)decoder->image_width * decoder->image_height;
-        expect(job, raster_check_expansion(job->source, pixels, HUFFMAN_EXPANSION, job->error));
-    }
+    uint64_t pixels = (uint64_t)decoder->image_width * decoder->image_height;
+    expect(job, raster_check_expansion(job->source, pixels, HUFFMAN_EXPANSION, job->error));
 }
 
 static void read_picture(struct jpeg_job *job)

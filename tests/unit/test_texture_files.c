@@ -307,6 +307,22 @@ static void test_content_decides(void **state)
     free(bytes);
 }
 
+/* A file of 62 bytes of this kind asked for gigabytes. */
+static void test_arithmetic_coding(void **state)
+{
+    size_t size;
+    unsigned char *bytes = scratch_load(data_path("baseline.jpg"), &size);
+    size_t frame = 0;
+    while (frame + 1 < size && !(bytes[frame] == 0xff && bytes[frame + 1] == 0xc0))
+        frame++;
+    assert_true(frame + 1 < size);
+    bytes[frame + 1] = 0xc9;
+    const char *path = scratch_path(state, "picture.jpg");
+    scratch_store(path, bytes, size);
+    assert_file_refused(path, PS_ERROR_INVALID, "its coding is arithmetic");
+    free(bytes);
+}
+
 static void test_refused_kinds(void **state)
 {
     static const char *const names[] = {"R", "G", "X", NULL};
@@ -482,6 +498,7 @@ int main(void)
         SCRATCH_TEST(test_exr_without_numbers),
         SCRATCH_TEST(test_no_pictures),
         SCRATCH_TEST(test_content_decides),
+        SCRATCH_TEST(test_arithmetic_coding),
         SCRATCH_TEST(test_refused_kinds),
         cmocka_unit_test(test_every_truncation),
         cmocka_unit_test(test_every_changed_byte),
