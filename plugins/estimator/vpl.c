@@ -13,8 +13,8 @@
 
 #include <stdbool.h>
 
-#define MAP_BYTES                                                                                  \
-    ((size_t)256 << 20) /* of the maps of a batch of lights; one takes 24 MiB at most */
+/* Of the maps of a batch of lights; one takes 24 MiB at most. */
+#define MAP_BYTES ((size_t)256 << 20)
 
 enum { VISIBILITY_MAP, VISIBILITY_RAYS, VISIBILITY_NONE };
 
