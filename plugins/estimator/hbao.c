@@ -1,7 +1,7 @@
 /* hbao.c: ambient light that corners and grooves get less of: horizon-based ambient occlusion.
  *
- * Bavoil, Sainz and Dimitrov 2008, "Image-space horizon-based ambient occlusion". The hemisphere around the direction to the viewer
- * is cut into slices. In the slice of azimuth theta the tangent plane rises by the angle t, and what the picture shows
+ * Bavoil, Sainz and Dimitrov 2008, "Image-space horizon-based ambient occlusion". The hemisphere around the direction to
+ * the viewer is cut into slices. In the slice of azimuth theta the tangent plane rises by the angle t, and what the picture shows
  * along a line of pixels rises to a horizon. Where a sample at distance r raises the horizon from h to h', the
  * directions in between are occluded by W(r) = max(0, 1 - r^2 / R^2). With all light weighing the same, as in the paper,
  *
@@ -43,11 +43,12 @@ struct receiver {
     ps_vec3 view;      /* to the viewer */
     float view_normal; /* n.v */
     float x, y;        /* in pixels */
+    float shown[2];    /* where the point projects to */
     float reach;       /* the radius, in pixels */
 };
 
-/* A sample of a slice. Pixels do not lie on the slice's line, so each has its own azimuth; were the tangent plane not that of
- * the azimuth, surfaces that slant would occlude themselves. */
+/* A sample of a slice. Pixels do not lie on the slice's line, so each has its own azimuth; were the tangent plane not
+ * that of the azimuth, surfaces that slant would occlude themselves. */
 struct sample {
     float up, across;    /* how far it is from the point along the view, and across it */
     float across_normal; /* n.w */
@@ -114,11 +115,10 @@ static float occlude_slice(const struct work *work, const struct screen *screen,
 }
 
 /* Whether the way from the viewer to a pixel's point is straight: the point then projects to that pixel. */
-static int is_seen_straight(const struct work *work, const struct receiver *receiver)
+static int is_seen_straight(const struct receiver *receiver)
 {
-    float pixel[1][2];
-    work->host->project(work->host, &receiver->point.position, 1, pixel);
-    return fabsf(pixel[0][0] - receiver->x) < 1.0f && fabsf(pixel[0][1] - receiver->y) < 1.0f;
+    return fabsf(receiver->shown[0] - receiver->x) < 1.0f &&
+           fabsf(receiver->shown[1] - receiver->y) < 1.0f;
 }
 
 static ps_vec3 direction_to_viewer(const struct work *work, ps_vec3 position)
@@ -129,14 +129,14 @@ static ps_vec3 direction_to_viewer(const struct work *work, ps_vec3 position)
 }
 
 /* The direction in the picture, of length 1, in which a direction across the view shows; 0 where it shows none. */
-static int project_direction(const struct work *work, const struct screen_point *point, ps_vec3 w,
+static int project_direction(const struct work *work, const struct receiver *receiver, ps_vec3 w,
                              float direction[2])
 {
-    float pixels[2][2];
-    const ps_vec3 ends[2] = {point->position,
-                             ps_add_scaled(point->position, STEP_ASIDE * point->depth, w)};
-    work->host->project(work->host, ends, 2, pixels);
-    float x = pixels[1][0] - pixels[0][0], y = pixels[1][1] - pixels[0][1];
+    const struct screen_point *point = &receiver->point;
+    ps_vec3 aside = ps_add_scaled(point->position, STEP_ASIDE * point->depth, w);
+    float pixel[1][2];
+    work->host->project(work->host, &aside, 1, pixel);
+    float x = pixel[0][0] - receiver->shown[0], y = pixel[0][1] - receiver->shown[1];
     float length = sqrtf(x * x + y * y);
     if (!(length > 0.0f))
         return 0;
@@ -159,7 +159,8 @@ static float visibility(const void *user, const struct screen *screen,
         .reach = screen_extent(screen, point, x, y, work->radius),
     };
     float sum = 0.0f;
-    int straight = is_seen_straight(work, &receiver);
+    work->host->project(work->host, &point->position, 1, &receiver.shown);
+    int straight = is_seen_straight(&receiver);
     if (straight)
         receiver.view = direction_to_viewer(work, point->position);
     receiver.view_normal = ps_dot(point->normal, receiver.view);
@@ -172,7 +173,7 @@ static float visibility(const void *user, const struct screen *screen,
         float direction[2] = {cosf(azimuth), sinf(azimuth)};
         float shift = numbers[1] + (float)i * 0.618034f; /* of the golden ratio */
         ps_vec3 w = ps_add_scaled(ps_scale(u, direction[0]), direction[1], v);
-        if (!straight || project_direction(work, point, w, direction))
+        if (!straight || project_direction(work, &receiver, w, direction))
             sum += occlude_slice(work, screen, &receiver, direction[0], direction[1],
                                  shift - floorf(shift));
     }

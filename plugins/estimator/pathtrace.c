@@ -22,9 +22,10 @@ struct work {
     struct paths_setting setting;
 };
 
-static void trace_sample(const struct work *work, const ps_points *points, const uint64_t *samples,
+static void trace_sample(const void *user, const ps_points *points, const uint64_t *samples,
                          ps_rgb *sums)
 {
+    const struct work *work = user;
     struct paths paths;
     struct paths_segment segment;
     paths_start(&work->setting, points, samples, INFINITY, &paths, &segment);
@@ -38,18 +39,12 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
     const ps_host *host = work->setting.host;
     ps_tile *tile = host->tile(host, (uint32_t)index);
     ps_points points;
-    uint64_t samples[PS_TILE_PIXELS], count = (uint64_t)work->state->samples;
-    ps_rgb sums[PS_TILE_PIXELS] = {{0, 0, 0}};
+    ps_rgb irradiance[PS_TILE_PIXELS];
     ps_collect_points(tile, &points);
+    paths_average(work->setting.pass, index, &points, (uint64_t)work->state->samples, trace_sample,
+                  work, irradiance);
     for (size_t i = 0; i < points.count; i++)
-        samples[i] = ps_tile_sample(index, points.lanes[i], work->setting.pass->number, count);
-    for (uint64_t sample = 0; sample < count; sample++) {
-        trace_sample(work, &points, samples, sums);
-        for (size_t i = 0; i < points.count; i++)
-            samples[i]++;
-    }
-    for (size_t i = 0; i < points.count; i++)
-        ps_add_irradiance(tile, points.lanes[i], ps_rgb_scale(sums[i], 1.0f / (float)count));
+        ps_add_irradiance(tile, points.lanes[i], irradiance[i]);
 }
 
 static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)

@@ -172,7 +172,8 @@ static void test_cuts_grow_slower_than_lights(void **state)
     free(text);
 }
 
-/* The sun shines on a strip of floor, which lights a small ceiling over its end: near lights give ten times what far ones do. */
+/* The sun shines on a strip of floor, which lights a small ceiling over its end: near lights give ten times what far ones
+ * do. */
 static const char strip[] =
     "psd: 1\n"
     "camera: {location: [9.5, 3, 0], look_at: [9.5, 6, 0], up: [1, 0, 0], projection: "

@@ -77,12 +77,13 @@ static ps_rgb light_of(const struct cut_setting *setting, const struct cut_entry
 
 /* --- steps --- */
 
-/* New representatives of a step, one for each of some of a tile's points, and what they give. */
+/* Clusters with new representatives, one for each of some of a tile's points, and what these give. */
 struct step {
     size_t count; /* of rays */
     uint32_t targets[PS_TILE_PIXELS];
     ps_ray rays[PS_TILE_PIXELS];
-    float transfers[PS_TILE_PIXELS]; /* by point */
+    uint32_t clusters[PS_TILE_PIXELS]; /* by point, as what follows */
+    float transfers[PS_TILE_PIXELS];
 };
 
 static void add_ray(const struct cut_setting *setting, uint32_t point, uint32_t cluster,
@@ -91,6 +92,7 @@ static void add_ray(const struct cut_setting *setting, uint32_t point, uint32_t 
     const struct virtual_lights *lights = setting->tree->lights;
     uint32_t light = setting->tree->clusters[cluster].representative;
     step->targets[step->count] = point;
+    step->clusters[point] = cluster;
     step->transfers[point] =
         connect(setting, &lights->lights[light], receiver, &step->rays[step->count]);
     step->count += step->transfers[point] > 0.0f;
@@ -119,16 +121,15 @@ static uint32_t new_child(const struct light_tree *tree, uint32_t place)
     return is_left ? cluster->right : place + 1;
 }
 
-/* Replaces the cluster with the largest bound by its children, one of which has a transfer of its own. */
+/* Replaces the cluster with the largest bound by its children, of which `child` has a transfer of its own. */
 static void refine(const struct cut_setting *setting, const struct receiver *receiver,
-                   float transfer, struct cut *cut)
+                   uint32_t child, float transfer, struct cut *cut)
 {
     struct cut_entry parent = cut->entries[0];
-    uint32_t changed = new_child(setting->tree, parent.cluster);
     uint32_t left = parent.cluster + 1, right = setting->tree->clusters[parent.cluster].right;
-    uint32_t kept = changed == left ? right : left;
-    struct cut_entry first = entry_of(setting, kept, parent.transfer, receiver);
-    struct cut_entry second = entry_of(setting, changed, transfer, receiver);
+    uint32_t other = child == left ? right : left;
+    struct cut_entry first = entry_of(setting, other, parent.transfer, receiver);
+    struct cut_entry second = entry_of(setting, child, transfer, receiver);
     cut->light += ps_luminance(light_of(setting, &first)) +
                   ps_luminance(light_of(setting, &second)) -
                   ps_luminance(light_of(setting, &parent));
@@ -155,7 +156,7 @@ static size_t take_step(const struct cut_setting *setting, const struct receiver
     trace(setting, step);
     for (uint32_t i = 0; i < count; i++)
         if (!cuts[i].done)
-            refine(setting, &receivers[i], step->transfers[i], &cuts[i]);
+            refine(setting, &receivers[i], step->clusters[i], step->transfers[i], &cuts[i]);
     return open;
 }
 

@@ -1,8 +1,8 @@
 /* cut.h: lights the pixels of a tile by cuts through a tree of virtual lights.
  *
- * Walter et al. 2005. A cut is a set of clusters that holds each light once. It begins at the root. The cluster whose error could
- * be largest, that is, the bound on its light, is replaced by its children, until no error can exceed a share of the light found, or the cut has as many clusters as it
- * may. Light and bounds are luminances.
+ * Walter et al. 2005. A cut is a set of clusters that holds each light once. It begins at the root. The cluster whose
+ * error could be largest, that is, the bound on its light, is replaced by its children, until no error can exceed a share
+ * of the light found, or the cut has as many clusters as it may. Light and bounds are luminances.
  * One of the children has the parent's representative, and costs no shadow ray.
  *
  * All pixels of a tile take a step together, so that shadow rays go to the tracer in packets.

@@ -12,9 +12,10 @@ static void weigh_hits(float clamp, struct paths *paths, const struct paths_segm
 
 /* One ray from each point, which becomes a path at a surface close by. That surface reflects diffusely alone, as virtual
  * lights shine: no caustics from it, and no lobe but PS_DIFFUSE. */
-static void trace_sample(const struct compensation *compensation, const ps_points *points,
-                         const uint64_t *samples, ps_rgb *sums)
+static void trace_sample(const void *user, const ps_points *points, const uint64_t *samples,
+                         ps_rgb *sums)
 {
+    const struct compensation *compensation = user;
     const struct paths_setting *setting = &compensation->paths;
     struct paths paths;
     struct paths_segment segment;
@@ -31,18 +32,11 @@ static void trace_sample(const struct compensation *compensation, const ps_point
 void compensation_add(const struct compensation *compensation, uint64_t tile,
                       const ps_points *points, ps_rgb *irradiance)
 {
-    uint64_t samples[PS_TILE_PIXELS], count = compensation->rays;
-    ps_rgb sums[PS_TILE_PIXELS] = {{0, 0, 0}};
-    if (count == 0 || !(compensation->clamp > 0.0f))
+    ps_rgb left_out[PS_TILE_PIXELS];
+    if (compensation->rays == 0 || !(compensation->clamp > 0.0f))
         return;
+    paths_average(compensation->paths.pass, tile, points, compensation->rays, trace_sample,
+                  compensation, left_out);
     for (size_t i = 0; i < points->count; i++)
-        samples[i] =
-            ps_tile_sample(tile, points->lanes[i], compensation->paths.pass->number, count);
-    for (uint64_t sample = 0; sample < count; sample++) {
-        trace_sample(compensation, points, samples, sums);
-        for (size_t i = 0; i < points->count; i++)
-            samples[i]++;
-    }
-    for (size_t i = 0; i < points->count; i++)
-        irradiance[i] = ps_rgb_add(irradiance[i], ps_rgb_scale(sums[i], 1.0f / (float)count));
+        irradiance[i] = ps_rgb_add(irradiance[i], left_out[i]);
 }

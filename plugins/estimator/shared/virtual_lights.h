@@ -5,11 +5,11 @@
  *
  *     E(p) = Phi / pi * G * V,   G = cos(theta_photon) * cos(theta_receiver) / d^2
  *
- * G has no bound as d goes to 0: bright spots near the photons. So d counts as a clamp distance at least, and what that takes
- * away is found by short rays (compensation.h).
+ * G has no bound as d goes to 0: bright spots near the photons. So d counts as a clamp distance at least, and what that
+ * takes away is found by short rays (compensation.h).
  *
- * Photons on mirrors, gloss and glass shine into one direction and can't be point lights: what they would light (caustics) is left out, and
- * counted in the statistics.
+ * Photons on mirrors, gloss and glass shine into one direction and can't be point lights: what they would light (caustics)
+ * is left out. They are counted in the statistics.
  */
 #ifndef PSPLAT_ESTIMATOR_VIRTUAL_LIGHTS_H
 #define PSPLAT_ESTIMATOR_VIRTUAL_LIGHTS_H

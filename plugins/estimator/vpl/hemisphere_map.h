@@ -1,6 +1,6 @@
 /* hemisphere_map.h: what a virtual point light sees of its surroundings, found by a few rays.
  *
- * Hoet 2014, chapter 5, proposes as its last idea to find what a photon lights by casting rays for lights over hemispheres,
+ * Hoet 2014, chapter 6, proposes as its last idea to find what a photon lights by casting rays for lights over hemispheres,
  * too, whose visibility is what costs. So rays go from the light through the cells of a grid over its hemisphere, as in a
  * hemispherical shadow map (Brabec et al. 2002), and each cell keeps a point q of the surface that its ray met, with
  * its normal. A point p of that cell is hidden by q if it lies behind the plane of q, and q before its own:
@@ -30,8 +30,8 @@ struct hemisphere_map {
     struct hemisphere_hit *cells;   /* resolution * resolution; borrowed */
 };
 
-/* Casts the rays of a light at `origin`, which is off its surface already. `turn` in [0, 1): of the grid. The map's cells and
- * resolution are set by the caller. Any thread. */
+/* Casts the rays of a light at `origin`, which is off its surface already. `turn` in [0, 1): of the grid. The map's cells
+ * and resolution are set by the caller. Any thread. */
 void hemisphere_map_cast(const ps_host *host, ps_vec3 origin, ps_vec3 normal, float turn,
                          struct hemisphere_map *map);
 
