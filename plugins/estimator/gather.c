@@ -157,7 +157,7 @@ static ps_result correct_cache(struct work *work)
     struct work correcting = *work;
     pass.bounces -= pass.bounces != PS_ALL_BOUNCES; /* surfels are one surface on */
     correcting.setting = (struct gather_setting){
-        .paths = {host, &pass, work->setting.paths.roulette},
+        .paths = {host, &pass, work->setting.paths.roulette, false},
         .most = paths_of_surfel(work->state),
     };
     correcting.traced = host->allocate(host, 2 * count * sizeof(ps_rgb), "surfels");
@@ -178,7 +178,7 @@ static ps_result splat(struct work *work)
 {
     const ps_host *host = work->setting.paths.host;
     struct surfels *surfels = &work->surfels;
-    struct splatting splatting = {host, work->setting.no_caustics, surfels->count > 0,
+    struct splatting splatting = {host, work->setting.paths.no_caustics, surfels->count > 0,
                                   work->setting.paths.pass->bounces - 1,
                                   (uint64_t)work->state->thinning};
     ps_result result = PS_OK;
@@ -213,9 +213,8 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     const struct state *state = opaque;
     struct work work = {
         .state = state,
-        .setting = {.paths = {host, pass, (uint32_t)state->roulette},
-                    .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
-                    .no_caustics = pass->specular != 0},
+        .setting = {.paths = {host, pass, (uint32_t)state->roulette, pass->specular != 0},
+                    .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples},
         .surfels = {.host = host},
     };
     ps_result result = PS_OK;

@@ -68,7 +68,9 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     float clamp = virtual_lights_clamp(host, state->clamp);
     struct work work = {
         .cut = {host, pass, &work.tree, clamp, (float)state->error, (uint32_t)state->most_clusters},
-        .compensation = {{host, pass, COMPENSATION_ROULETTE}, (uint64_t)state->compensation, clamp},
+        .compensation = {{host, pass, COMPENSATION_ROULETTE, false},
+                         (uint64_t)state->compensation,
+                         clamp},
         .tree = {.host = host},
     };
     ps_result result = virtual_lights_choose(host, pass, (size_t)state->lights, &work.lights);

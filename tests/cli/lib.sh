@@ -29,6 +29,7 @@ small_choice() {
     injection=rsm) echo "$1:count=5000,resolution=32" ;;
     injection=voxel) echo "$1:resolution=32" ;;
     estimator=pathtrace) echo "$1:samples=4" ;;
+    estimator=irradiance_cache) echo "$1:samples=16" ;;
     estimator=vpl) echo "$1:lights=50" ;;
     estimator=lightcuts) echo "$1:lights=500" ;;
     visibility=imperfect) echo "$1:points=5000" ;;

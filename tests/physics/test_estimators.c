@@ -51,6 +51,7 @@ static const struct method in_furnace[] = {
     {"vpl", {"estimator=vpl:lights=2000,clamp=0", "injection=photon:count=800", NULL}, 0.002},
     {"lightcuts", {"estimator=lightcuts:clamp=0", "injection=photon:count=2000", NULL}, 0.004},
     {"gather", {"estimator=gather:samples=8", "injection=photon:count=5000", NULL}, 0.003},
+    {"irradiance_cache", {"estimator=irradiance_cache:samples=64", NULL}, 0.001},
 };
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -122,6 +123,7 @@ static const struct method patch_methods[] = {
     {"gather",
      {"estimator=gather:samples=512", "injection=photon:count=500", "bounces=1", NULL},
      0},
+    {"irradiance_cache", {"estimator=irradiance_cache:samples=20000", "bounces=1", NULL}, 0.01},
 };
 
 static double patch_radiance(double tilt_degrees)

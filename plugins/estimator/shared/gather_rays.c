@@ -124,22 +124,6 @@ static void scatter_paths(struct gather *gather, struct paths *paths, struct pat
     paths->count = alive;
 }
 
-/* Adds what is emitted and reflected where paths land, but for caustics where they are left out. */
-static void add_light(struct gather *gather, uint32_t number, struct paths *paths,
-                      struct paths_segment *segment)
-{
-    const struct gather_setting *setting = gather->setting;
-    for (size_t i = 0; i < paths->count && setting->no_caustics; i++)
-        paths->shines[i] &= !paths_is_caustic(paths, i);
-    paths_add_emission(&setting->paths, paths, segment, gather->found);
-    paths_drop_lost(paths, segment);
-    paths_find_indices(gather->samples, paths, segment);
-    if (setting->no_caustics)
-        paths_add_direct_without_caustics(&setting->paths, number, paths, segment, gather->found);
-    else
-        paths_add_direct(&setting->paths, number, paths, segment, gather->found);
-}
-
 static void take_sample(struct gather *gather, bool learns, bool half)
 {
     const struct paths_setting *setting = &gather->setting->paths;
@@ -148,7 +132,7 @@ static void take_sample(struct gather *gather, bool learns, bool half)
     start_paths(gather, &paths, &segment);
     for (uint32_t number = 1; paths.count > 0; number++) {
         paths_intersect(setting, &gather->points, number, &paths, &segment);
-        add_light(gather, number, &paths, &segment);
+        paths_add_light(setting, number, gather->samples, &paths, &segment, gather->found);
         end_diffuse(gather, &paths, &segment);
         paths_draw_numbers(setting, number + 1, gather->samples, &paths, &segment);
         scatter_paths(gather, &paths, &segment);

@@ -9,7 +9,6 @@
 #include "guide.h"
 
 #include "paths.h"
-#include <stdbool.h>
 
 /* Guides of a group, one for each way that its surfaces face. */
 enum { GATHER_GUIDES = 4 };
@@ -27,7 +26,6 @@ struct gather_setting {
     uint64_t most; /* samples from each point, of any group: random numbers are counted by it */
     gather_lookup lookup; /* NULL: there is no cache, and paths go on to their ends */
     const void *cache;
-    bool no_caustics; /* on the points: somebody else adds them */
 };
 
 struct gather {

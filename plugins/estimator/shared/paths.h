@@ -12,6 +12,7 @@
 #define PSPLAT_ESTIMATOR_PATHS_H
 
 #include <psplat/plugin.h>
+#include <stdbool.h>
 
 /* Sets of the random numbers that choose points on lights; directions take 1, 2, 3, ... */
 #define PATHS_LIGHT_SETS 0x10000u
@@ -22,6 +23,7 @@ struct paths_setting {
     const ps_host *host;
     const ps_pass *pass;
     uint32_t roulette; /* bounce from which on paths may be ended */
+    bool no_caustics;  /* on the points that paths start from: somebody else adds them */
 };
 
 /* The paths of one sample of a tile that are still under way; entry i belongs to pixel pixels[i]. */
@@ -195,6 +197,23 @@ static inline void paths_add_direct_without_caustics(const struct paths_setting 
         segment->hits[i].flags = flags[i];
 }
 
+/* Adds what is emitted and reflected where paths land, but for caustics where they are left out; drops paths that met
+ * nothing. */
+static inline void paths_add_light(const struct paths_setting *setting, uint32_t number,
+                                   const uint64_t *samples, struct paths *paths,
+                                   struct paths_segment *segment, ps_rgb *sums)
+{
+    for (size_t i = 0; i < paths->count && setting->no_caustics; i++)
+        paths->shines[i] &= !paths_is_caustic(paths, i);
+    paths_add_emission(setting, paths, segment, sums);
+    paths_drop_lost(paths, segment);
+    paths_find_indices(samples, paths, segment);
+    if (setting->no_caustics)
+        paths_add_direct_without_caustics(setting, number, paths, segment, sums);
+    else
+        paths_add_direct(setting, number, paths, segment, sums);
+}
+
 /* Whether a path goes on after a surface that scatters like this. */
 static inline int paths_goes_on(const struct paths_setting *setting,
                                 const ps_bsdf_sample *scattered, float number, struct paths *paths,
@@ -246,20 +265,27 @@ static inline void paths_scatter_all(const struct paths_setting *setting, uint32
     paths->count = alive;
 }
 
-/* Follows paths to their ends, from their segment of that number on: adds what the surfaces that they meet emit and
- * reflect. */
+/* Follows paths, whose segment of that number has been intersected, to their ends: adds what the surfaces that they meet
+ * emit and reflect. */
+static inline void paths_go_on(const struct paths_setting *setting, const ps_points *points,
+                               const uint64_t *samples, uint32_t number, struct paths *paths,
+                               struct paths_segment *segment, ps_rgb *sums)
+{
+    while (paths->count > 0) {
+        paths_add_light(setting, number, samples, paths, segment, sums);
+        paths_draw_numbers(setting, ++number, samples, paths, segment);
+        paths_scatter_all(setting, PATHS_ANY_LOBE, paths, segment);
+        paths_intersect(setting, points, number, paths, segment);
+    }
+}
+
+/* The same, from their segment of that number on. */
 static inline void paths_follow(const struct paths_setting *setting, const ps_points *points,
                                 const uint64_t *samples, uint32_t number, struct paths *paths,
                                 struct paths_segment *segment, ps_rgb *sums)
 {
-    for (; paths->count > 0; number++) {
-        paths_intersect(setting, points, number, paths, segment);
-        paths_add_emission(setting, paths, segment, sums);
-        paths_drop_lost(paths, segment);
-        paths_draw_numbers(setting, number + 1, samples, paths, segment);
-        paths_add_direct(setting, number, paths, segment, sums);
-        paths_scatter_all(setting, PATHS_ANY_LOBE, paths, segment);
-    }
+    paths_intersect(setting, points, number, paths, segment);
+    paths_go_on(setting, points, samples, number, paths, segment, sums);
 }
 
 /* One sample of each point of a tile: adds to their sums. */
