@@ -151,7 +151,7 @@ static ps_result build_tree(struct irradiance_cache *cache)
     return result;
 }
 
-/* The next record from `*place` on, in the tree's order, whose box holds a point; NULL when there is none. */
+/* Where a walk through the tree has got to. */
 struct place {
     size_t node;
     uint32_t record; /* of the leaf */
@@ -163,6 +163,7 @@ static bool holds(const struct cache_node *node, ps_vec3 point)
            point.y <= node->high.y && point.z >= node->low.z && point.z <= node->high.z;
 }
 
+/* The next record, in the tree's order, of the leaves whose box holds a point; NULL when there is none. */
 static struct record *next_record(const struct irradiance_cache *cache, ps_vec3 point,
                                   struct place *place)
 {

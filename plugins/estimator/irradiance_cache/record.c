@@ -4,9 +4,8 @@
 
 #define THICKNESS 0.25f /* of the smaller radius */
 #define LONGEST 0.45f   /* radius, of sqrt(E / c): an error of c r^2 / 2 = 0.1 E */
-#define WALL_SLOPE                                                                                 \
-    0.5f /* height over distance below which what is seen stands on the surface or near it */
-#define TO_WALL 0.7f /* radius, of the distance of a wall */
+#define WALL_SLOPE 0.5f /* height over distance, below which what is seen stands on the surface */
+#define TO_WALL 0.7f    /* radius, of the distance of a wall */
 
 /* --- rays --- */
 
@@ -130,16 +129,16 @@ static void sum_irradiance(const struct record_setting *setting, const struct re
     uint32_t rays = ray_count(setting);
     record->irradiance = (ps_rgb){0, 0, 0};
     for (int channel = 0; channel < 3; channel++)
-        record->rotation[channel] = (ps_vec3){0, 0, 0};
+        record->rotations[channel] = (ps_vec3){0, 0, 0};
     for (uint32_t i = 0; i < rays; i++) {
         uint32_t ring = i / setting->sectors;
         float square = ((float)ring + 0.5f) / (float)setting->rings;
         ps_rgb found = ps_rgb_scale(room->radiance[i], PS_PI / (float)rays);
         ps_vec3 way = ps_scale(room->directions[i], 1.0f / sqrtf(1.0f - square));
         way = ps_add_scaled(way, -ps_dot(way, record->normal), record->normal);
-        record->rotation[0] = ps_add_scaled(record->rotation[0], found.r, way);
-        record->rotation[1] = ps_add_scaled(record->rotation[1], found.g, way);
-        record->rotation[2] = ps_add_scaled(record->rotation[2], found.b, way);
+        record->rotations[0] = ps_add_scaled(record->rotations[0], found.r, way);
+        record->rotations[1] = ps_add_scaled(record->rotations[1], found.g, way);
+        record->rotations[2] = ps_add_scaled(record->rotations[2], found.b, way);
         record->irradiance = ps_rgb_add(record->irradiance, found);
     }
 }
@@ -238,8 +237,8 @@ float record_distance(const struct record *record, ps_vec3 position, ps_vec3 nor
 ps_rgb record_extrapolate(const struct record *record, ps_vec3 position, ps_vec3 normal)
 {
     ps_vec3 way = ps_subtract(position, record->position);
-    ps_rgb turned = {ps_dot(record->rotation[0], normal), ps_dot(record->rotation[1], normal),
-                     ps_dot(record->rotation[2], normal)};
+    ps_rgb turned = {ps_dot(record->rotations[0], normal), ps_dot(record->rotations[1], normal),
+                     ps_dot(record->rotations[2], normal)};
     ps_rgb sum = ps_rgb_add(record->irradiance, turned);
     for (int i = 0; i < 2; i++)
         sum = ps_rgb_add(sum, ps_rgb_scale(record->gradients[i], ps_dot(way, record->axes[i])));

@@ -8,14 +8,15 @@
 #define RECORD_FACING 0.9f
 
 struct record {
-    ps_vec3 position, normal; /* the caller's, as is the footprint */
-    float footprint;          /* size of a pixel there */
-    ps_vec3 axes[2];          /* in the plane of the surface: of most and of least curvature */
-    float radii[2];           /* along them: farther away the record tells nothing */
-    ps_rgb irradiance;        /* W/m^2 */
-    ps_vec3
-        rotation[3]; /* of red, green and blue: times a change of the normal that of irradiance */
-    ps_rgb gradients[2]; /* of irradiance along the axes */
+    /* Given by the caller. */
+    ps_vec3 position, normal;
+    float footprint; /* size of a pixel there */
+    /* What record_make() finds. Axes lie in the plane of the surface: those of the second derivatives of irradiance. */
+    ps_vec3 axes[2];
+    float radii[2];       /* how far along them the record reaches */
+    ps_rgb irradiance;    /* W/m^2 */
+    ps_rgb gradients[2];  /* of irradiance, along the axes */
+    ps_vec3 rotations[3]; /* gradients of its red, green and blue by the normal */
 };
 
 /* How records are made. */
@@ -23,8 +24,7 @@ struct record_setting {
     struct paths_setting paths;
     uint32_t rings, sectors; /* of the strata of its rays */
     float far;               /* where rays that meet nothing are taken to end */
-    /* Radii, in pixels. Where irradiance E changes with a curvature of c, the square of the radius is that of the scale
-     * times the length sqrt(E / c). */
+    /* Radii, in pixels; where irradiance E has the second derivative c, the square is scale * sqrt(E / c). */
     float scale, least, most;
 };
 
@@ -38,7 +38,7 @@ struct record_room {
 struct record_room *record_rooms_create(const struct record_setting *setting);
 void record_rooms_release(const ps_host *host, struct record_room *rooms);
 
-/* Finds out all about a record whose place is given; its rays draw the random numbers from `first_sample` on. Any thread. */
+/* Makes a record whose place is given; its rays draw the random numbers from `first_sample` on. Any thread. */
 void record_make(const struct record_setting *setting, const struct record_room *room,
                  uint64_t first_sample, struct record *record);
 
