@@ -30,7 +30,7 @@
 
 #define PS_MODULE_MAGIC UINT64_C(0x3154414c50535030) /* "0PSPLAT1" */
 #define PS_ABI_MAJOR 1u
-#define PS_ABI_MINOR 4u
+#define PS_ABI_MINOR 5u
 
 /* Kinds of strategy, in pipeline order. */
 typedef enum ps_kind {
@@ -41,7 +41,9 @@ typedef enum ps_kind {
     PS_ESTIMATOR = 4,
     PS_NORMALIZATION = 5,
     PS_DENOISER = 6,
-    PS_KINDS = 7
+    PS_BLOOM = 7,   /* since 1.5 */
+    PS_TONEMAP = 8, /* since 1.5 */
+    PS_KINDS = 9
 } ps_kind;
 
 /* A checksum of the sizes of what crosses in arrays; it differs where a compiler or a flag laid out the

@@ -5,6 +5,7 @@
 #include <psplat/alias.h>
 #include <psplat/bundle.h>
 #include <psplat/cells.h>
+#include <psplat/display.h>
 #include <psplat/host.h>
 #include <psplat/light_map.h>
 #include <psplat/math.h>

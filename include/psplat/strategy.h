@@ -5,6 +5,8 @@
  *     injection -> stratification -> estimator(visibility, filter)
  *               -> film -> normalization -> denoiser
  *
+ * and, for display alone: bloom -> tonemap
+ *
  * Callbacks work on batches. [worker]: called on several threads at once, so `state` is const and
  * results may depend only on the arguments; [main thread]: called once at a time. Arrays are
  * borrowed for the call. A function that can fail returns a ps_result, and tells why by host->fail.
@@ -209,5 +211,35 @@ typedef struct ps_denoiser_vtable {
      * services, camera and project know what they did, rays meet nothing, and there are no lights. [main thread] */
     ps_result (*filter)(const void *state, const ps_host *host, const ps_image_view *image);
 } ps_denoiser_vtable;
+
+/* --- bloom and tonemap ----------------------------------------------------------------------- */
+
+/* Since 1.5. A copy of the picture on its way to a display, row-major, to change in place: linear, with the primaries of
+ * Rec. 709. Radiance times 2 to the power of the exposure, so that 1 is the brightest that the display shows; finite,
+ * and not negative. No layer of radiance is made of it. */
+typedef struct ps_display_view {
+    uint32_t size;
+    uint32_t width, height;
+    uint32_t reserved;
+    float *r, *g, *b;
+} ps_display_view;
+
+/* `psplat view` calls these tables without a scene: rays meet nothing, there are no lights, and the camera is none. */
+
+typedef struct ps_bloom_vtable {
+    uint32_t size;
+    uint32_t reserved;
+    /* Optional; without, the picture stays as it is. Spreads light, before the tone map; makes none. [main thread] */
+    ps_result (*spread)(const void *state, const ps_host *host, const ps_display_view *picture);
+} ps_bloom_vtable;
+
+/* The parameter `exposure` is psplat's. */
+typedef struct ps_tonemap_vtable {
+    uint32_t size;
+    uint32_t reserved;
+    /* Optional; without, values stay as they are. Brings them to 0..1; psplat takes what is above as 1, and applies the
+     * sRGB transfer function of PNG pictures. [main thread] */
+    ps_result (*map)(const void *state, const ps_host *host, const ps_display_view *picture);
+} ps_tonemap_vtable;
 
 #endif

@@ -159,9 +159,8 @@ static ps_result write_picture(struct job *job, struct image *image, uint32_t pa
     struct render_settings settings = settings_of_picture(job, passes);
     /* What was interrupted in its first pass, or has gaps, no command repeats. */
     bool is_run = passes > 0 && long_job_has_run(&job->passes, settings.first_pass, passes);
-    ps_result result = output_describe(image, description->path, &job->options.scene, &settings,
-                                       description->image.exposure, is_run, error);
-    job->outputs.format.exposure = description->image.exposure;
+    ps_result result =
+        output_describe(image, description->path, &job->options.scene, &settings, is_run, error);
     return result == PS_OK ? output_list_write(&job->outputs, image, settings.workers, quiet, error)
                            : result;
 }
@@ -270,6 +269,7 @@ static ps_result check_memory(const struct job *job, const struct scene_input *i
         .height = (size_t)input->description.image.height,
         .several_passes = keeps_film || settings_pass_count(job->settings) > 1,
         .keeps_film = keeps_film,
+        .display = job->settings->display,
     };
     return render_check_memory(&size, job->memory_limit, error);
 }
@@ -301,12 +301,14 @@ static int render_job(struct job *job, struct scene_input *input)
     return result == PS_CANCELLED && interrupted ? STATUS_SIGNAL + interrupted : status_of(result);
 }
 
-/* What is made for others to see: layers of EXR files, and the error for whoever asks. */
+/* What is made for others to see: layers of EXR files, what PNG files show, and the error for whoever asks. */
 static void set_wishes(const struct job *job, struct render_settings *settings)
 {
     bool error = job->passes.schedule.error > 0.0;
     settings->picture_alone = !output_list_wants_layers(&job->outputs) && !error;
     settings->no_error_layer = !output_list_wants_error(&job->outputs) && !error;
+    settings->display = output_list_wants_display(&job->outputs);
+    settings->exposure = job->description->image.exposure;
 }
 
 static int load_and_render(struct job *job)
@@ -345,7 +347,7 @@ static int run_job(struct job *job)
         write_nothing(job);
     progress_start(&job->progress, job->progress_mode, job->options.quiet);
     job->passes.schedule.start = job->progress.start;
-    job->passes.compression = job->outputs.format.compression;
+    job->passes.compression = job->outputs.compression;
     job->passes.quiet = job->options.quiet;
     job->passes.write_now = &write_now;
     job->passes.write_picture = write_picture_on_the_way;

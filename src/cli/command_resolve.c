@@ -2,6 +2,7 @@
 #include "base/param.h"
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/last_stages.h"
 #include "cli/output_list.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
@@ -19,7 +20,7 @@
 static const struct option options[] = {
     OUTPUT_OPTIONS,
     {'p', "plugin", "KIND=NAME[:KEY=VALUE,...]",
-     "another normalization or denoiser, or other parameters"},
+     "another normalization, denoiser, bloom or tone map, or other parameters"},
     {0, "exposure", "STOPS", "brightness of the PNG: a factor of 2^STOPS"},
     {'t', "threads", "N", "threads; the picture does not depend on them"},
     {'q', "quiet", NULL, "print nothing but errors"},
@@ -35,8 +36,7 @@ struct job {
     bool has_exposure, quiet;
     struct film_sum film;
     struct image facts;
-    struct loader *loader;
-    struct render_description description;
+    struct last_stages stages;
 };
 
 static bool take_option(struct job *job, const struct argument *argument)
@@ -95,61 +95,29 @@ static ps_result set_number(struct render_description *render, const char *key, 
     return text ? param_set(param_find(&table, key), render, text, error) : PS_OK;
 }
 
-static ps_result choose(struct job *job, ps_kind kind, const char *text, struct error *error)
-{
-    struct strategy_choice choice;
-    ps_result result = settings_parse_choice(text, &choice, error);
-    return result == PS_OK ? settings_override(&job->description.strategies[kind], &choice, error)
-                           : result;
-}
-
 /* What the film was to be resolved with. */
 static ps_result take_facts(struct job *job, struct error *error)
 {
     const struct image *facts = &job->facts;
-    struct param_table table = schema_table(schema_only("render"));
-    const char *normalization = image_attribute(facts, "psplat.normalization");
-    const char *denoiser = image_attribute(facts, "psplat.denoiser");
+    struct render_description *description = &job->stages.description;
     const char *exposure = image_attribute(facts, "psplat.exposure");
-    ps_result result = param_set_defaults(&table, &job->description, 1.0, error);
-    if (result == PS_OK && normalization)
-        result = choose(job, PS_NORMALIZATION, normalization, error);
-    if (result == PS_OK && denoiser)
-        result = choose(job, PS_DENOISER, denoiser, error);
+    ps_result result = PS_OK;
+    for (int kind = PS_NORMALIZATION; kind < PS_KINDS && result == PS_OK; kind++) {
+        char key[64];
+        snprintf(key, sizeof key, "psplat.%s", kinds[kind].name);
+        const char *choice = image_attribute(facts, key);
+        if (choice)
+            result = last_stages_choose(&job->stages, (ps_kind)kind, choice, error);
+    }
     if (result == PS_OK)
-        result = set_number(&job->description, "indirect_exposure",
+        result = set_number(description, "indirect_exposure",
                             image_attribute(facts, "psplat.indirect_exposure"), error);
     if (result == PS_OK)
-        result = set_number(&job->description, "ambient", image_attribute(facts, "psplat.ambient"),
-                            error);
+        result =
+            set_number(description, "ambient", image_attribute(facts, "psplat.ambient"), error);
     if (!job->has_exposure && exposure)
         text_to_number(exposure, &job->exposure);
     return result;
-}
-
-static bool is_last_stage(ps_kind kind)
-{
-    return kind == PS_NORMALIZATION || kind == PS_DENOISER;
-}
-
-static ps_result override(struct job *job, const char *text, struct error *error)
-{
-    const char *wanted;
-    ps_kind kind = kind_parse(text, &wanted);
-    if (kind == PS_KINDS || !wanted || !is_last_stage(kind))
-        return error_set(
-            error, PS_ERROR_INVALID,
-            "--plugin: expected normalization=NAME or denoiser=NAME, got '%.200s'; the "
-            "other strategies have made the film",
-            text);
-    return choose(job, kind, wanted, error);
-}
-
-static void report(void *user, const struct origin *origin, const char *message)
-{
-    (void)user;
-    (void)origin;
-    print_error(message);
 }
 
 /* Errors that were printed leave no text. */
@@ -157,16 +125,14 @@ static ps_result load_settings(struct job *job, struct render_settings *settings
                                struct error *error)
 {
     uint32_t threads = job->threads > 0 ? (uint32_t)job->threads : parallel_processor_count();
-    ps_result result = take_facts(job, error);
+    ps_result result = last_stages_create(&job->stages, error);
+    if (result == PS_OK)
+        result = take_facts(job, error);
     for (size_t i = 0; i < job->count && result == PS_OK; i++)
         if (argument_is(&job->arguments[i], "plugin"))
-            result = override(job, job->arguments[i].value, error);
-    if (result == PS_OK)
-        result = loader_create(&job->loader, error);
-    if (result != PS_OK)
-        return result;
-    error->text[0] = '\0';
-    return settings_resolve(job->loader, &job->description, threads, 1, report, NULL, settings);
+            result = last_stages_override(&job->stages, PS_NORMALIZATION, job->arguments[i].value,
+                                          error);
+    return result == PS_OK ? last_stages_resolve(&job->stages, threads, settings, error) : result;
 }
 
 /* --- picture ---------------------------------------------------------------------------------------- */
@@ -181,7 +147,7 @@ static ps_result describe(const struct job *job, const struct render_settings *s
         if (strcmp(fact->name, "psplat.film") != 0)
             result = image_set_attribute(image, fact->name, fact->value, error);
     }
-    for (int kind = PS_NORMALIZATION; kind <= PS_DENOISER && result == PS_OK; kind++)
+    for (int kind = PS_NORMALIZATION; kind < PS_KINDS && result == PS_OK; kind++)
         result = facts_set_strategy(image, &settings->strategies[kind], error);
     snprintf(passes, sizeof passes, "%" PRIu32, pass_set_size(&job->film.passes));
     return result == PS_OK ? image_set_attribute(image, "psplat.passes", passes, error) : result;
@@ -204,7 +170,6 @@ static ps_result resolve_with(struct job *job, struct render_settings *settings,
     result = render_resolve(&job->film, &camera, settings, &callbacks, &statistics, &image, error);
     progress_clear(&progress);
     if (image.width > 0) {
-        job->outputs.format.exposure = job->exposure;
         ps_result written = describe(job, settings, &image, &reason);
         if (written == PS_OK)
             written =
@@ -229,6 +194,8 @@ static ps_result resolve(struct job *job, struct error *error)
         return result;
     settings.picture_alone = !output_list_wants_layers(&job->outputs);
     settings.no_error_layer = !output_list_wants_error(&job->outputs);
+    settings.display = output_list_wants_display(&job->outputs);
+    settings.exposure = job->exposure;
     if (output_list_suits(&job->outputs, &settings))
         result = resolve_with(job, &settings, error);
     else
@@ -241,8 +208,7 @@ static void release(struct job *job)
 {
     film_sum_release(&job->film);
     image_release(&job->facts);
-    render_description_release(&job->description);
-    loader_destroy(job->loader);
+    last_stages_release(&job->stages);
     output_list_release(&job->outputs);
 }
 

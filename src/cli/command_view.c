@@ -1,12 +1,15 @@
 /* command_view.c: psplat view: a layer of a picture as PNG.
  *
- * Colours are tone mapped. Normals (layer N) and single channels are no light: they go to bytes in
- * proportion, without the sRGB curve, -1..1 and 0..the largest finite value to 0..255. Samples that
+ * Colours are light, which bloom and tone map bring to a display; but the layer `display` has been there, and needs the
+ * sRGB curve alone. Normals (layer N) and single channels are no light: they go to bytes in
+ * proportion, without that curve, -1..1 and 0..the largest finite value to 0..255. Samples that
  * are not finite are black. Parts are cut out, and magnified, after that: pixels stay what they are in
  * the whole picture, so parts of one picture compare.
  */
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/last_stages.h"
+#include "cli/progress.h"
 #include "compare/layer.h"
 #include "image/magnify.h"
 #include "image/raster.h"
@@ -18,14 +21,17 @@
 #include <string.h>
 
 #define NORMAL_LAYER "N"
+#define DISPLAY_LAYER "display"
 
-enum { OPTION_OUTPUT, OPTION_LAYER, OPTION_EXPOSURE, OPTION_CURVE, OPTION_CROP, OPTION_ZOOM };
+enum { OPTION_OUTPUT, OPTION_LAYER, OPTION_EXPOSURE, OPTION_PLUGIN, OPTION_CROP, OPTION_ZOOM };
 
 static const struct option options[] = {
     [OPTION_OUTPUT] = {'o', "output", "FILE.png", "default: the picture's name with .png"},
     [OPTION_LAYER] = {'l', "layer", "NAME", "NAME.R, NAME.G, NAME.B, or the channel NAME"},
-    [OPTION_EXPOSURE] = {0, "exposure", "STOPS", "brightness: a factor of 2^STOPS (not for N)"},
-    [OPTION_CURVE] = {0, "curve", "clip|filmic", "what becomes of highlights; default: filmic"},
+    [OPTION_EXPOSURE] = {0, "exposure", "STOPS",
+                         "brightness: a factor of 2^STOPS (not for N or display)"},
+    [OPTION_PLUGIN] = {'p', "plugin", "KIND=NAME[:KEY=VALUE,...]",
+                       "another bloom or tone map, or other parameters"},
     [OPTION_CROP] = {0, "crop", "X,Y,W,H", "this part only; 0,0 is the upper left corner"},
     [OPTION_ZOOM] = {0, "zoom", "N", "make each pixel a square of NxN"},
 };
@@ -33,18 +39,18 @@ static const struct option options[] = {
 struct request {
     const char *picture, *output, *layer;
     double stops;
-    enum tone_curve curve;
     bool cropped;
     struct rectangle crop;
     double zoom;
+    struct last_stages stages; /* owned */
 };
 
-static bool parse_curve(const char *text, enum tone_curve *curve)
+static bool parse_plugin(const char *text, struct last_stages *stages)
 {
-    *curve = strcmp(text, "clip") == 0 ? TONE_CLIP : TONE_FILMIC;
-    if (*curve == TONE_CLIP || strcmp(text, "filmic") == 0)
+    struct error error;
+    if (last_stages_override(stages, PS_BLOOM, text, &error) == PS_OK)
         return true;
-    fprintf(stderr, "psplat: error: --curve: expected clip or filmic, got '%s'\n", text);
+    print_error(error.text);
     return false;
 }
 
@@ -57,8 +63,8 @@ static bool parse_option(const struct argument *argument, struct request *reques
     case OPTION_LAYER:
         request->layer = argument->value;
         return true;
-    case OPTION_CURVE:
-        return parse_curve(argument->value, &request->curve);
+    case OPTION_PLUGIN:
+        return parse_plugin(argument->value, &request->stages);
     case OPTION_CROP:
         request->cropped = true;
         return parse_rectangle("crop", argument->value, &request->crop);
@@ -136,19 +142,54 @@ static void map_single(const struct layer *layer, size_t pixels, double stops, u
     }
 }
 
-static void map_layer(const struct request *request, const struct layer *layer, size_t pixels,
-                      uint8_t *rgb)
+static bool shows(const struct request *request, const char *layer)
 {
-    if (layer->kind == LAYER_SINGLE) {
+    return request->layer && strcmp(request->layer, layer) == 0;
+}
+
+/* Makes of light, in place, what a display shows. Errors that were printed leave no text. */
+static ps_result show(struct request *request, const struct layer *layer, const struct image *image,
+                      struct error *error)
+{
+    struct render_settings settings;
+    struct progress progress;
+    ps_result result =
+        last_stages_resolve(&request->stages, parallel_processor_count(), &settings, error);
+    if (result != PS_OK)
+        return result;
+    progress_start(&progress, PROGRESS_NONE, true);
+    struct render_callbacks callbacks = progress_callbacks(&progress);
+    settings.exposure = request->stops;
+    result =
+        render_display(layer->planes, image->width, image->height, &settings, &callbacks, error);
+    settings_release(&settings);
+    return result;
+}
+
+static ps_result map_light(struct request *request, const struct layer *layer,
+                           const struct image *image, uint8_t *rgb, struct error *error)
+{
+    size_t pixels = image->width * image->height;
+    for (size_t c = 0; c < 3; c++)
+        blacken_non_finite(layer->planes[c], pixels);
+    ps_result result = shows(request, DISPLAY_LAYER) ? PS_OK : show(request, layer, image, error);
+    if (result == PS_OK)
+        tonemap_planes(layer->planes[0], layer->planes[1], layer->planes[2], pixels, 0.0, TONE_CLIP,
+                       rgb);
+    return result;
+}
+
+static ps_result map_layer(struct request *request, const struct layer *layer,
+                           const struct image *image, uint8_t *rgb, struct error *error)
+{
+    size_t pixels = image->width * image->height;
+    if (layer->kind != LAYER_SINGLE && !shows(request, NORMAL_LAYER))
+        return map_light(request, layer, image, rgb, error);
+    if (layer->kind == LAYER_SINGLE)
         map_single(layer, pixels, request->stops, rgb);
-    } else if (request->layer && strcmp(request->layer, NORMAL_LAYER) == 0) {
+    else
         map_normals(layer, pixels, rgb);
-    } else {
-        for (size_t c = 0; c < 3; c++)
-            blacken_non_finite(layer->planes[c], pixels);
-        tonemap_planes(layer->planes[0], layer->planes[1], layer->planes[2], pixels, request->stops,
-                       request->curve, rgb);
-    }
+    return PS_OK;
 }
 
 /* The whole picture, or the part that was asked for; false, printed, where that is not in it. */
@@ -173,33 +214,32 @@ static bool find_part(const struct request *request, const struct image *image,
     return true;
 }
 
-static ps_result write_part(const struct request *request, struct rectangle part,
+static ps_result write_part(struct request *request, struct rectangle part,
                             const struct layer *layer, const struct image *image,
                             const char *output, struct error *error)
 {
     size_t zoom = (size_t)request->zoom, pixels = image->width * image->height;
     size_t width = part.width * zoom, height = part.height * zoom;
     uint8_t *rgb = malloc(3 * pixels), *magnified = malloc(3 * width * height);
-    ps_result result = PS_OK;
-    if (rgb && magnified) {
-        map_layer(request, layer, pixels, rgb);
+    ps_result result = rgb && magnified
+                           ? map_layer(request, layer, image, rgb, error)
+                           : error_memory(error, 3 * (pixels + width * height), "the PNG");
+    if (result == PS_OK) {
         magnify(rgb, image->width, part, zoom, magnified);
         result = image_write_png(output, width, height, magnified, image->attributes,
                                  image->attribute_count, error);
-    } else {
-        result = error_memory(error, 3 * (pixels + width * height), "the PNG");
     }
     free(rgb);
     free(magnified);
     return result;
 }
 
-static int view(const struct request *request, const char *output)
+static int view(struct request *request, const char *output)
 {
     struct image image = {0};
     struct layer layer;
     struct rectangle part;
-    struct error error;
+    struct error error = {.text = ""};
     int status = STATUS_OK;
     ps_result result = image_read_exr(request->picture, &image, &error);
     if (result == PS_OK)
@@ -208,26 +248,39 @@ static int view(const struct request *request, const char *output)
         status = STATUS_USAGE;
     if (result == PS_OK && status == STATUS_OK)
         result = write_part(request, part, &layer, &image, output, &error);
-    if (result != PS_OK) {
+    if (result != PS_OK && error.text[0])
         print_error(error.text);
-        status = STATUS_FAILED;
-    }
+    if (result != PS_OK)
+        status = error.text[0] ? STATUS_FAILED : STATUS_USAGE; /* printed: of the settings */
     image_release(&image);
+    return status;
+}
+
+static int run_request(struct request *request)
+{
+    char *output = request->output ? strdup(request->output) : default_output(request->picture);
+    if (!output) {
+        print_error("out of memory");
+        return STATUS_FAILED;
+    }
+    int status = view(request, output);
+    free(output);
     return status;
 }
 
 static int run(const struct argument *arguments, size_t count)
 {
-    struct request request = {.curve = TONE_FILMIC, .zoom = 1};
-    if (!parse_arguments(arguments, count, &request))
-        return STATUS_USAGE;
-    char *output = request.output ? strdup(request.output) : default_output(request.picture);
-    if (!output) {
-        print_error("out of memory");
-        return STATUS_FAILED;
+    struct request request = {.zoom = 1};
+    struct error error;
+    int status = STATUS_USAGE;
+    ps_result created = last_stages_create(&request.stages, &error);
+    if (created != PS_OK) {
+        print_error(error.text);
+        status = status_of(created);
+    } else if (parse_arguments(arguments, count, &request)) {
+        status = run_request(&request);
     }
-    int status = view(&request, output);
-    free(output);
+    last_stages_release(&request.stages);
     return status;
 }
 

@@ -16,13 +16,14 @@ static size_t next_name(const char **list, const char **name)
 bool layers_check(const char *list)
 {
     const char *rest = list, *name;
-    if (strcmp(list, "all") == 0 || strcmp(list, "none") == 0)
+    if (strcmp(list, "none") == 0)
         return true;
     do {
         size_t length = next_name(&rest, &name);
-        if (!render_makes_layer(name, length)) {
+        bool is_all = length == 3 && strncmp(name, "all", length) == 0;
+        if (!is_all && !render_makes_layer(name, length)) {
             fprintf(stderr,
-                    "psplat: error: --layers: expected all, none, or names among " RENDER_LAYERS
+                    "psplat: error: --layers: expected none, or all and names among " RENDER_LAYERS
                     " with commas between them, got '%s'\n",
                     list);
             return false;
@@ -51,11 +52,12 @@ bool layers_name(const char *list, const char *layer)
 static bool keeps(const void *list, const char *channel)
 {
     size_t length = strcspn(channel, ".");
-    return !render_makes_layer(channel, length) || is_named(list, channel, length);
+    bool is_display = strncmp(channel, "display.", length + 1) == 0;
+    return !render_makes_layer(channel, length) || is_named(list, channel, length) ||
+           (layers_name(list, "all") && !is_display);
 }
 
 void layers_keep(struct image *image, const char *list)
 {
-    if (strcmp(list, "all") != 0)
-        image_keep_channels(image, keeps, list);
+    image_keep_channels(image, keeps, list);
 }

@@ -1,7 +1,7 @@
 /* layers.h: which of a rendered picture's layers go into its EXR files (render --layers).
  *
- * A list is `all`, `none`, or names with commas between them. The picture itself, R, G and B, always
- * stays.
+ * A list is `none`, or names with commas between them, among which `all` stands for every layer but `display`. The
+ * picture itself, R, G and B, always stays.
  */
 #ifndef CLI_LAYERS_H
 #define CLI_LAYERS_H
@@ -12,7 +12,7 @@
 /* Whether it is a list of layers that pictures have; if not, says so on stderr. */
 bool layers_check(const char *list);
 
-/* Whether a list names that layer; `all` names none. */
+/* Whether a list has that name; `all` is a name as the others. */
 bool layers_name(const char *list, const char *layer);
 
 /* Takes what the list, checked before, does not name out of a picture. */

@@ -52,38 +52,37 @@ char *output_default_path(const char *scene_path, const char *suffix)
     return path;
 }
 
-struct tone_work {
-    const float *red, *green, *blue;
+struct encoding {
+    const float *red, *green, *blue; /* 0..1 */
     size_t width;
-    double exposure;
     uint8_t *rgb;
 };
 
-static void tonemap_row(void *user, uint64_t y, uint32_t worker)
+static void encode_row(void *user, uint64_t y, uint32_t worker)
 {
     (void)worker;
-    const struct tone_work *work = user;
+    const struct encoding *work = user;
     size_t first = y * work->width;
-    tonemap_planes(work->red + first, work->green + first, work->blue + first, work->width,
-                   work->exposure, TONE_FILMIC, work->rgb + 3 * first);
+    tonemap_planes(work->red + first, work->green + first, work->blue + first, work->width, 0.0,
+                   TONE_CLIP, work->rgb + 3 * first);
 }
 
-static ps_result write_png(const struct image *image, const char *path, double exposure,
-                           struct workers *workers, struct error *error)
+/* The layer `display`. */
+static ps_result write_png(const struct image *image, const char *path, struct workers *workers,
+                           struct error *error)
 {
     size_t bytes = image->width * image->height * 3;
     uint8_t *rgb = malloc(bytes);
     if (!rgb)
         return error_memory(error, bytes, "a PNG");
-    struct tone_work work = {
-        .red = image_channel(image, "R"),
-        .green = image_channel(image, "G"),
-        .blue = image_channel(image, "B"),
+    struct encoding work = {
+        .red = image_channel(image, "display.R"),
+        .green = image_channel(image, "display.G"),
+        .blue = image_channel(image, "display.B"),
         .width = image->width,
-        .exposure = exposure,
         .rgb = rgb,
     };
-    parallel_for(workers, image->height, tonemap_row, &work);
+    parallel_for(workers, image->height, encode_row, &work);
     ps_result result = image_write_png(path, image->width, image->height, rgb, image->attributes,
                                        image->attribute_count, error);
     free(rgb);
@@ -91,12 +90,12 @@ static ps_result write_png(const struct image *image, const char *path, double e
 }
 
 ps_result output_write(const struct image *image, const char *path,
-                       const struct output_format *format, struct workers *workers,
+                       enum image_compression compression, struct workers *workers,
                        struct error *error)
 {
     if (output_holds_layers(path))
-        return image_write_exr(image, path, format->compression, workers, error);
-    return write_png(image, path, format->exposure, workers, error);
+        return image_write_exr(image, path, compression, workers, error);
+    return write_png(image, path, workers, error);
 }
 
 bool output_check(const char *path, struct error *error)
@@ -146,7 +145,7 @@ static void print_next(void *stream, const char *word)
 
 static void print_command(FILE *stream, const struct image *image, const char *scene_path,
                           const struct scene_options *options,
-                          const struct render_settings *settings, double exposure)
+                          const struct render_settings *settings)
 {
     fprintf(stream, "psplat render");
     print_next(stream, strcmp(scene_path, "<stdin>") == 0 ? "-" : scene_path);
@@ -164,7 +163,7 @@ static void print_command(FILE *stream, const struct image *image, const char *s
     else
         fprintf(stream, " --direct rays");
     char stops[32];
-    text_from_number(exposure, stops, sizeof stops);
+    text_from_number(settings->exposure, stops, sizeof stops);
     fprintf(stream, " --exposure %s", stops);
     for (int kind = 0; kind < PS_KINDS; kind++) {
         char choice[2048], word[2200];
@@ -177,15 +176,14 @@ static void print_command(FILE *stream, const struct image *image, const char *s
 
 static ps_result set_command(struct image *image, const char *scene_path,
                              const struct scene_options *options,
-                             const struct render_settings *settings, double exposure,
-                             struct error *error)
+                             const struct render_settings *settings, struct error *error)
 {
     char *text = NULL;
     size_t length = 0;
     FILE *stream = open_memstream(&text, &length);
     if (!stream)
         return error_memory(error, 4096, "the picture's description");
-    print_command(stream, image, scene_path, options, settings, exposure);
+    print_command(stream, image, scene_path, options, settings);
     fclose(stream);
     ps_result result = image_set_attribute(image, "psplat.command", text, error);
     free(text);
@@ -194,7 +192,7 @@ static ps_result set_command(struct image *image, const char *scene_path,
 
 ps_result output_describe(struct image *image, const char *scene_path,
                           const struct scene_options *options,
-                          const struct render_settings *settings, double exposure, bool repeatable,
+                          const struct render_settings *settings, bool repeatable,
                           struct error *error)
 {
     char passes[32];
@@ -202,7 +200,6 @@ ps_result output_describe(struct image *image, const char *scene_path,
     ps_result result = facts_of_settings(image, scene_path, settings, error);
     if (result == PS_OK)
         result = image_set_attribute(image, "psplat.passes", passes, error);
-    return result == PS_OK && repeatable
-               ? set_command(image, scene_path, options, settings, exposure, error)
-               : result;
+    return result == PS_OK && repeatable ? set_command(image, scene_path, options, settings, error)
+                                         : result;
 }

@@ -20,22 +20,17 @@ bool output_parse_compression(const char *name, enum image_compression *compress
  * it. */
 char *output_default_path(const char *scene_path, const char *suffix);
 
-/* What files are made like. */
-struct output_format {
-    enum image_compression compression; /* EXR */
-    double exposure;                    /* PNG; stops */
-};
-
-/* Writes the picture by its name's suffix; the workers change its time, not the file. */
+/* Writes the picture by its name's suffix: an EXR of all its layers, or a PNG of the layer `display`, which must be
+ * there then. The workers change its time, not the file. */
 ps_result output_write(const struct image *image, const char *path,
-                       const struct output_format *format, struct workers *workers,
+                       enum image_compression compression, struct workers *workers,
                        struct error *error);
 
 /* Attributes that say how the picture was made: version, scene, every setting, and, where it can be repeated, the
  * command that does so. */
 ps_result output_describe(struct image *image, const char *scene_path,
                           const struct scene_options *options,
-                          const struct render_settings *settings, double exposure, bool repeatable,
+                          const struct render_settings *settings, bool repeatable,
                           struct error *error);
 
 /* Whether the folder of a file that is to be written is there and can be written to; the message

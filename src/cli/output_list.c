@@ -24,7 +24,7 @@ static bool take_option(struct output_list *list, const struct argument *argumen
     if (argument_is(argument, "output"))
         return take_path(list, argument->value);
     if (argument_is(argument, "compression"))
-        return output_parse_compression(argument->value, &list->format.compression);
+        return output_parse_compression(argument->value, &list->compression);
     if (!argument_is(argument, "layers"))
         return true; /* another's */
     list->layers = argument->value;
@@ -81,7 +81,15 @@ bool output_list_wants_layers(const struct output_list *list)
 
 bool output_list_wants_error(const struct output_list *list)
 {
-    return strcmp(list->layers, "all") == 0 || layers_name(list->layers, "error");
+    return layers_name(list->layers, "all") || layers_name(list->layers, "error");
+}
+
+bool output_list_wants_display(const struct output_list *list)
+{
+    bool wanted = false;
+    for (size_t i = 0; i < list->count; i++)
+        wanted |= !output_holds_layers(list->paths[i]) || layers_name(list->layers, "display");
+    return wanted;
 }
 
 bool output_list_suits(const struct output_list *list, const struct render_settings *settings)
@@ -96,14 +104,16 @@ bool output_list_suits(const struct output_list *list, const struct render_setti
     return false;
 }
 
-ps_result output_list_write(const struct output_list *list, struct image *image,
+/* Those that hold layers, or the others. */
+static ps_result write_some(const struct output_list *list, const struct image *image, bool layers,
                             struct workers *workers, bool quiet, struct error *error)
 {
     ps_result first = PS_OK;
-    layers_keep(image, list->layers);
     for (size_t i = 0; i < list->count; i++) {
         struct error reason;
-        ps_result result = output_write(image, list->paths[i], &list->format, workers, &reason);
+        if (output_holds_layers(list->paths[i]) != layers)
+            continue;
+        ps_result result = output_write(image, list->paths[i], list->compression, workers, &reason);
         if (result == PS_OK && !quiet)
             fprintf(stderr, "psplat: wrote %s\n", list->paths[i]);
         if (result != PS_OK && first == PS_OK) {
@@ -112,4 +122,16 @@ ps_result output_list_write(const struct output_list *list, struct image *image,
         }
     }
     return first;
+}
+
+ps_result output_list_write(const struct output_list *list, struct image *image,
+                            struct workers *workers, bool quiet, struct error *error)
+{
+    struct error reason;
+    ps_result plain = write_some(list, image, false, workers, quiet, error);
+    layers_keep(image, list->layers);
+    ps_result layered = write_some(list, image, true, workers, quiet, &reason);
+    if (plain == PS_OK && layered != PS_OK)
+        *error = reason;
+    return plain != PS_OK ? plain : layered;
 }

@@ -11,7 +11,8 @@
 #define OUTPUT_OPTIONS                                                                             \
     {'o', "output", "FILE", "write FILE (.exr or .png); may be given several times"},              \
         {0, "layers", "NAME,...",                                                                  \
-         "layers of EXR files beside the picture; or all (default), none"},                        \
+         "layers of EXR files beside the picture; or none, or all (default), which is all but "    \
+         "display"},                                                                               \
     {                                                                                              \
         0, "compression", "NAME",                                                                  \
             "compression of EXR files, all lossless: " IMAGE_COMPRESSIONS "; default: zip"         \
@@ -20,9 +21,9 @@
 struct output_list {
     const char *paths[MOST_OUTPUTS];
     size_t count;
-    char *defaults[2];           /* owned */
-    const char *layers;          /* a list of layers.h */
-    struct output_format format; /* its exposure is the caller's to set */
+    char *defaults[2];  /* owned */
+    const char *layers; /* a list of layers.h */
+    enum image_compression compression;
 };
 
 /* Takes those of the arguments that are its options. False, printed, where one is wrong. */
@@ -39,11 +40,14 @@ bool output_list_check(const struct output_list *list);
 bool output_list_wants_layers(const struct output_list *list);
 bool output_list_wants_error(const struct output_list *list);
 
+/* Whether what a display shows is asked for: by a PNG, or by its layer. */
+bool output_list_wants_display(const struct output_list *list);
+
 /* Whether the denoiser makes what is asked for; if not, says so. */
 bool output_list_suits(const struct output_list *list, const struct render_settings *settings);
 
-/* Drops the layers that are not wanted, and writes all files that can be written; the error is the first one's. Says
- * what was written unless `quiet`. */
+/* Writes all files that can be written, those with layers last, from which what is not wanted is dropped; the error is
+ * the first one's. Says what was written unless `quiet`. */
 ps_result output_list_write(const struct output_list *list, struct image *image,
                             struct workers *workers, bool quiet, struct error *error);
 

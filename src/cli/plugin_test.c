@@ -112,6 +112,7 @@ static ps_result with_settings(const struct trial *trial, const struct attempt *
         result = settings_resolve(trial->loader, &description.render, attempt->threads,
                                   attempt->batch, take_report, error, &settings);
     if (result == PS_OK) {
+        settings.display = true;
         result = scene_create(&description, &scene, NULL, error);
         if (result == PS_OK) {
             result = use(user, &scene, &settings, error);
@@ -164,7 +165,9 @@ static void verdict(struct trial *trial, bool good, const char *what, const char
 
 static bool same_light(const struct image *a, const struct image *b)
 {
-    static const char *const channels[] = {"R", "G", "B", "indirect.R", "indirect.G", "indirect.B"};
+    static const char *const channels[] = {"R",          "G",          "B",
+                                           "indirect.R", "indirect.G", "indirect.B",
+                                           "display.R",  "display.G",  "display.B"};
     for (size_t i = 0; i < sizeof channels / sizeof channels[0]; i++) {
         const float *one = image_channel(a, channels[i]), *other = image_channel(b, channels[i]);
         if (!one || !other || memcmp(one, other, a->width * a->height * sizeof *one) != 0)

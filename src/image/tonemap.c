@@ -7,9 +7,9 @@
  */
 #include "image/tonemap.h"
 
-#include <math.h>
+#include <psplat/display.h>
 
-/* Where the filmic curve leaves the straight line. */
+/* Where the filmic curve leaves the straight line, as by default in plugins/tonemap/filmic.c. */
 #define SHOULDER 0.6
 
 /* IEC 61966-2-1: 12.92 x up to 0.0031308, 1.055 x^(1/2.4) - 0.055 beyond. */
@@ -35,20 +35,11 @@ double tonemap_linear(double display)
     return copysign(linear, display);
 }
 
-/* f(x) = x for x <= a, and 1 - (1 - a) exp(-(x - a) / (1 - a)) beyond, with a = SHOULDER: value a
- * and slope 1 on both sides of a, rising towards 1. */
-static double filmic_curve(double linear)
-{
-    if (!(linear > SHOULDER))
-        return linear;
-    return 1.0 - (1.0 - SHOULDER) * exp(-(linear - SHOULDER) / (1.0 - SHOULDER));
-}
-
 static uint8_t display_byte(float linear, double factor, enum tone_curve curve)
 {
     double exposed = linear * factor;
     if (curve == TONE_FILMIC)
-        exposed = filmic_curve(exposed);
+        exposed = ps_shoulder(exposed, SHOULDER);
     return (uint8_t)(255.0 * srgb_from_linear(exposed) + 0.5);
 }
 

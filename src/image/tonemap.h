@@ -14,8 +14,7 @@ double tonemap_linear(double display);
 
 enum tone_curve {
     TONE_CLIP,  /* values above 1 clip: the thesis's display values, and what comparisons use */
-    TONE_FILMIC /* "simple tone curve": identity-like below 0.6, smooth shoulder to 1; monotonic, C1
-                 */
+    TONE_FILMIC /* that of plugins/tonemap/filmic.c: for pictures that are drawn without plugins */
 };
 
 /* `red`, `green`, `blue`: n linear values each; `stops`: exposure, a factor 2^stops; `rgb`: 3n

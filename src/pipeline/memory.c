@@ -37,7 +37,7 @@ double render_bytes(const struct render_size *size)
     return (double)gbuffer_bytes(&gbuffer) + (double)interleaved_bytes(&interleaved) +
            (double)gathered_light_bytes(&gbuffer) +
            (double)film_most_bytes(size->width, size->height) +
-           (double)picture_bytes(size->width, size->height) + bytes_of_passes(size);
+           (double)picture_bytes(size->width, size->height, size->display) + bytes_of_passes(size);
 }
 
 ps_result render_check_memory(const struct render_size *size, double limit, struct error *error)

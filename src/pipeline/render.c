@@ -145,15 +145,10 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
 
 static ps_result start_resolving(struct render *render, struct error *error)
 {
-    static const ps_kind needed[] = {PS_NORMALIZATION, PS_DENOISER};
     ps_result result = trace_create(render->scene, render->settings->isa, &render->trace, error);
     if (result == PS_OK)
         result = film_sum_create_film(render->sum, &render->film, error);
-    for (size_t i = 0; i < sizeof needed / sizeof needed[0] && result == PS_OK; i++) {
-        result = strategy_start(strategy_in(render, needed[i]), &render->hosts[needed[i]].host);
-        result = render_judge(render, needed[i], result, error);
-    }
-    return result;
+    return result == PS_OK ? render_start_strategies(render, PS_NORMALIZATION, error) : result;
 }
 
 ps_result render_resolve(struct film_sum *film, const struct camera *camera,
@@ -175,6 +170,31 @@ ps_result render_resolve(struct film_sum *film, const struct camera *camera,
         result = render_picture(&render, image, error);
     render_report_refused(&render);
     render_destroy(&render);
+    return result;
+}
+
+ps_result render_display(float *const planes[3], size_t width, size_t height,
+                         struct render_settings *settings, const struct render_callbacks *callbacks,
+                         struct error *error)
+{
+    const struct scene scene = {.width = width, .height = height};
+    struct statistics statistics;
+    struct render render = {
+        .scene = &scene,
+        .settings = settings,
+        .callbacks = callbacks,
+        .statistics = &statistics,
+    };
+    statistics_init(&statistics);
+    host_create(&render);
+    ps_result result = trace_create(&scene, settings->isa, &render.trace, error);
+    if (result == PS_OK)
+        result = render_start_strategies(&render, PS_BLOOM, error);
+    if (result == PS_OK)
+        result = display_show(&render, planes, width, height, error);
+    render_report_refused(&render);
+    render_destroy(&render);
+    statistics_destroy(&statistics);
     return result;
 }
 
@@ -215,7 +235,7 @@ ps_result render_try(const struct scene *scene, struct render_settings *settings
     host_create(&render);
     ps_result result = trace_create(scene, settings->isa, &render.trace, error);
     if (result == PS_OK)
-        result = render_start_strategies(&render, error);
+        result = render_start_strategies(&render, (ps_kind)0, error);
     render_destroy(&render);
     statistics_destroy(&statistics);
     return result;

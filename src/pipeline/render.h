@@ -1,7 +1,7 @@
 /* render.h: the driver: scene and settings to a picture.
  *
  *     pass by pass: G-buffer -> direct light -> estimator -> film
- *     at the end:   normalization -> denoiser -> combine
+ *     at the end:   normalization -> denoiser -> combine, and for display: bloom -> tone map
  *
  * A pass is a function of (scene, settings, seed, pass number); the film is the sum of passes, in whatever
  * order and groups.
@@ -20,6 +20,7 @@
 struct render_size {
     size_t width, height;
     bool several_passes, keeps_film; /* whose file is made of it */
+    bool display;                    /* the layer of that name is made */
 };
 
 /* Bytes that grow with the picture: G-buffer, film and the picture, which has all layers. */
@@ -30,7 +31,7 @@ double render_bytes(const struct render_size *size);
 ps_result render_check_memory(const struct render_size *size, double limit, struct error *error);
 
 /* The layers of a picture, beside R, G and B. */
-#define RENDER_LAYERS "albedo, direct, error, indirect, N, P, weight, Z"
+#define RENDER_LAYERS "albedo, direct, display, error, indirect, N, P, weight, Z"
 
 /* Whether the first `length` characters of `name` are that of a layer. */
 bool render_makes_layer(const char *name, size_t length);
@@ -63,6 +64,12 @@ ps_result render_picture(struct render *render, struct image *image, struct erro
 ps_result render_resolve(struct film_sum *film, const struct camera *camera,
                          struct render_settings *settings, const struct render_callbacks *callbacks,
                          struct statistics *statistics, struct image *image, struct error *error);
+
+/* Makes of three planes of light, in place, what a display shows: by bloom and tone map of `settings`, which it starts,
+ * and which know no scene. Where it fails, the planes are of no use. */
+ps_result render_display(float *const planes[3], size_t width, size_t height,
+                         struct render_settings *settings, const struct render_callbacks *callbacks,
+                         struct error *error);
 
 /* Looks at a render whose first pass has all but its indirect light: the G-buffer and direct light,
  * in the tiles and, averaged, in the film. May use the services as an estimator does. */

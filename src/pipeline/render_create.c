@@ -4,9 +4,9 @@
 #include "pipeline/stages.h"
 #include <stdlib.h>
 
-ps_result render_start_strategies(struct render *render, struct error *error)
+ps_result render_start_strategies(struct render *render, ps_kind first, struct error *error)
 {
-    for (int kind = 0; kind < PS_KINDS; kind++) {
+    for (int kind = (int)first; kind < PS_KINDS; kind++) {
         ps_result result =
             strategy_start(strategy_in(render, (ps_kind)kind), &render->hosts[kind].host);
         result = render_judge(render, (ps_kind)kind, result, error);
@@ -129,7 +129,7 @@ ps_result render_create(struct render *render, struct error *error)
     if (result == PS_OK)
         result = create_for_strategies(render, error);
     if (result == PS_OK)
-        result = render_start_strategies(render, error);
+        result = render_start_strategies(render, (ps_kind)0, error);
     if (result == PS_OK)
         result = photon_stream_create(render, &render->photons, error);
     if (result != PS_OK)

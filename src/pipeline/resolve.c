@@ -27,7 +27,8 @@ static bool is_layer_of(const char *channel, const char *name, size_t length)
 bool render_makes_layer(const char *name, size_t length)
 {
     bool found =
-        length > 0 && (is_layer_of("indirect", name, length) || is_layer_of("error", name, length));
+        length > 0 && (is_layer_of("indirect", name, length) ||
+                       is_layer_of("error", name, length) || is_layer_of("display", name, length));
     for (size_t i = 0; i < sizeof layers / sizeof layers[0] && length > 0; i++)
         found |= is_layer_of(layers[i].name, name, length);
     return found;
@@ -37,9 +38,9 @@ struct rgb_planes {
     float *r, *g, *b;
 };
 
-size_t picture_bytes(size_t width, size_t height)
+size_t picture_bytes(size_t width, size_t height, bool display)
 {
-    size_t rgb_layers = 2; /* the picture and its indirect light */
+    size_t rgb_layers = display ? 3 : 2; /* the picture, its indirect light, and what is shown */
     return 3 * rgb_layers * width * height * sizeof(float);
 }
 
@@ -83,9 +84,8 @@ static void copy_rgb(const struct render *render, struct rgb_planes from, struct
     memcpy(to.b, from.b, bytes);
 }
 
-/* A last stage that fails, or is stopped, must not cost the picture: it is left out, with a warning. */
-static ps_result leave_out(struct render *render, ps_kind kind, ps_result result,
-                           const char *instead, struct error *error)
+ps_result leave_out(struct render *render, ps_kind kind, ps_result result, const char *instead,
+                    struct error *error)
 {
     char warning[1400];
     const char *name = strategy_in(render, kind)->type->name;
@@ -402,6 +402,14 @@ static void combine(const struct render *render, struct rgb_planes indirect, str
     }
 }
 
+/* The error is that of an earlier stage, where one failed. */
+static ps_result display(struct render *render, struct rgb_planes picture, struct image *image,
+                         struct error *error)
+{
+    const float *const light[3] = {picture.r, picture.g, picture.b};
+    return render->settings->display ? display_fill(render, light, image, error) : PS_OK;
+}
+
 ps_result resolve_image(struct render *render, struct image *image, struct error *error)
 {
     static const char *const picture_names[3] = {"R", "G", "B"};
@@ -413,6 +421,8 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
     ps_result result = add_rgb(image, picture_names, &picture, error);
     if (result == PS_OK)
         result = add_rgb(image, indirect_names, &indirect, error);
+    if (result == PS_OK && render->settings->display)
+        result = display_add(image, error);
     if (result == PS_OK)
         result = create_estimate(render, &estimate, error);
     if (result != PS_OK) {
@@ -431,6 +441,7 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
     if (denoised == PS_OK)
         denoised = denoise_direct(render, picture, error);
     combine(render, indirect, picture);
+    ps_result shown = display(render, picture, image, error);
     result = move_film_layers(&render->film, image, error);
     if (result == PS_OK && estimate && denoised == PS_OK) {
         result = image_adopt_channel(image, "error", estimate, error);
@@ -442,5 +453,7 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
         image_release(image);
         return result;
     }
-    return normalized != PS_OK ? normalized : denoised;
+    if (normalized != PS_OK)
+        return normalized;
+    return denoised != PS_OK ? denoised : shown;
 }

@@ -10,8 +10,8 @@
 ps_result render_create(struct render *render, struct error *error);
 void render_destroy(struct render *render);
 
-/* Starts all strategies; destroying the render stops them. */
-ps_result render_start_strategies(struct render *render, struct error *error);
+/* Starts the strategies of this kind and those after it; destroying the render stops them. */
+ps_result render_start_strategies(struct render *render, ps_kind first, struct error *error);
 
 /* Tells plugins of a pass. */
 void pass_describe(struct render *render, uint32_t number);
@@ -30,11 +30,26 @@ void pass_light_first(struct render *render);
 uint64_t mend_plane(float *plane, size_t n);
 
 /* Of a picture, less the planes that it takes over from the film. */
-size_t picture_bytes(size_t width, size_t height);
+size_t picture_bytes(size_t width, size_t height, bool display);
 
-/* Film to image: normalization, ambient fallback, denoiser, combination. Uses up the film. Where memory runs
+/* A last stage that fails, or is stopped, must not cost the picture: it is left out, with a warning. Returns `result`. */
+ps_result leave_out(struct render *render, ps_kind kind, ps_result result, const char *instead,
+                    struct error *error);
+
+/* Film to image: normalization, ambient fallback, denoiser, combination, display. Uses up the film. Where memory runs
  * out there is no image; where a strategy fails or is stopped, the result says so, and there is an image
  * without what it does. */
 ps_result resolve_image(struct render *render, struct image *image, struct error *error);
+
+/* Adds the layer `display`, of zeros, to a picture. */
+ps_result display_add(struct image *image, struct error *error);
+
+/* Fills it from three planes of light. Where bloom or tone map fails, the layer is made without them. */
+ps_result display_fill(struct render *render, const float *const light[3], struct image *image,
+                       struct error *error);
+
+/* Makes of light, in place, what a display shows. */
+ps_result display_show(struct render *render, float *const planes[3], size_t width, size_t height,
+                       struct error *error);
 
 #endif

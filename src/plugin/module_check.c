@@ -10,8 +10,8 @@ static bool reject(struct error *error, const char *why)
     return false;
 }
 
-/* What a struct of version 1.0 of the interface ended with: it may have grown since, and a module's may not be
- * shorter. */
+/* What a struct ended with in the first version of the interface that has it: it may have grown since, and a module's
+ * may not be shorter. */
 #define FIRST_SIZE(type, last) (offsetof(type, last) + sizeof(((type *)NULL)->last))
 
 /* What a kind's table has to hold: so many bytes, and these functions. */
@@ -32,6 +32,8 @@ static const struct table_rule table_rules[PS_KINDS] = {
     [PS_NORMALIZATION] = {FIRST_SIZE(ps_normalization_vtable, resolve),
                           {offsetof(ps_normalization_vtable, resolve), 0}},
     [PS_DENOISER] = {FIRST_SIZE(ps_denoiser_vtable, filter), {0, 0}},
+    [PS_BLOOM] = {FIRST_SIZE(ps_bloom_vtable, spread), {0, 0}},
+    [PS_TONEMAP] = {FIRST_SIZE(ps_tonemap_vtable, map), {0, 0}},
 };
 
 static size_t member_size(uint32_t type)

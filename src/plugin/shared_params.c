@@ -53,6 +53,11 @@ static const ps_param merging[] = {
               "others; 180: any"),
 };
 
+static const ps_param exposing[] = {
+    PS_NUMBER_OR(struct tonemap_params, exposure, "0", -20, 20, 0, automatic, "stops",
+                 "brightness, to which that of the image adds; auto: mean luminance becomes 0.18"),
+};
+
 static struct param_table rows(const ps_param *first, size_t count)
 {
     return (struct param_table){first, count, sizeof *first};
@@ -65,6 +70,10 @@ struct param_table shared_params(ps_kind kind, const void *table, size_t *struct
     if (kind == PS_STRATIFICATION && stratification->stratify) {
         *struct_size = sizeof(struct merge_params);
         return rows(merging, sizeof merging / sizeof merging[0]);
+    }
+    if (kind == PS_TONEMAP) {
+        *struct_size = sizeof(struct tonemap_params);
+        return rows(exposing, sizeof exposing / sizeof exposing[0]);
     }
     *struct_size = kind == PS_VISIBILITY ? sizeof(struct footprint_params) : 0;
     if (kind != PS_VISIBILITY)

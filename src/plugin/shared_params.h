@@ -30,6 +30,11 @@ struct merge_params {
     double normal_angle;    /* degrees */
 };
 
+/* Of tone maps: what radiance is multiplied by before (pipeline/display.c). */
+struct tonemap_params {
+    ps_number_or_choice exposure; /* stops; the one choice is auto */
+};
+
 enum representative { KEEP_RANDOM = 0, KEEP_NEAREST_MEAN = 1, KEEP_DOMINANT = 2 };
 
 /* What the kind shares, and the size of the struct that it fills; no rows where it shares nothing. `table`:

@@ -18,6 +18,8 @@ union strategy_table {
     ps_estimator_vtable estimator;
     ps_normalization_vtable normalization;
     ps_denoiser_vtable denoiser;
+    ps_bloom_vtable bloom;
+    ps_tonemap_vtable tonemap;
 };
 
 struct strategy_type {

@@ -27,6 +27,8 @@ struct render_settings {
     uint32_t direct_resolution; /* pixels along the side of each map of DIRECT_SHADOWMAP */
     bool picture_alone;         /* nobody wants its layers: those of surfaces may be missing */
     bool no_error_layer;        /* nobody wants the layer `error` */
+    bool display;               /* somebody wants the layer `display` */
+    double exposure;            /* of that layer, in stops, beside that of the tone map */
     double indirect_exposure;
     ps_rgb ambient;
 };

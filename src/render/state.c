@@ -108,6 +108,8 @@ void render_report_refused(const struct render *render)
     report(render, PS_ESTIMATOR, refused->pixels[0], pixels);
     report(render, PS_NORMALIZATION, refused->pixels[1], pixels);
     report(render, PS_DENOISER, refused->pixels[2], pixels);
+    report(render, PS_BLOOM, refused->pixels[3], pixels);
+    report(render, PS_TONEMAP, refused->pixels[4], pixels);
     for (int kind = 0; kind < PS_KINDS; kind++)
         report(render, (ps_kind)kind, atomic_load(&refused->rays[kind]),
                "rays that are no numbers; they meet nothing");

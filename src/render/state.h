@@ -34,7 +34,7 @@ struct failure {
 struct refused {
     _Atomic(uint64_t) rays[PS_KINDS + 1]; /* by who asked for them */
     uint64_t photons[2];                  /* of the injection, and of the stratification */
-    uint64_t pixels[3];                   /* of the estimator, the normalization, the denoiser */
+    uint64_t pixels[5]; /* of estimator, normalization, denoiser, bloom, tone map */
 };
 
 struct render {

@@ -13,6 +13,8 @@
     X(PS_FILTER, "filter", "radial weight of a splat", "gaussian")                                 \
     X(PS_ESTIMATOR, "estimator", "turns photons into light on the picture", "gather")              \
     X(PS_NORMALIZATION, "normalization", "turns accumulated light into radiance", "density")       \
-    X(PS_DENOISER, "denoiser", "smooths the light", "regression")
+    X(PS_DENOISER, "denoiser", "smooths the light", "regression")                                  \
+    X(PS_BLOOM, "bloom", "spreads bright light, for display", "none")                              \
+    X(PS_TONEMAP, "tonemap", "brings radiance into the range of a display", "filmic")
 
 #endif

@@ -111,10 +111,11 @@ expect_file heat.png
 expect 0 '' view a.exr
 expect_file a.png
 for layer in indirect N Z weight P.X; do
-    expect 0 '' view a.exr --layer $layer -o $layer.png --exposure -0.5 --curve clip
+    expect 0 '' view a.exr --layer $layer -o $layer.png --exposure -0.5 -p tonemap=clip
     expect_file $layer.png
 done
-expect 2 'expected clip or filmic' view a.exr --curve linear
+expect 2 "no tonemap 'linear'" view a.exr -p tonemap=linear
+expect 2 'expected bloom=NAME or tonemap=NAME' view a.exr -p denoiser=none
 expect 2 'expected a number' view a.exr --exposure bright
 expect 2 'expected one picture' view
 expect 1 'missing.exr' view missing.exr

@@ -11,8 +11,8 @@ while read -r strategy; do
     injection=*) scene="--size 60x34 --passes 2 $cornell" ;;
     *) scene="--size 60x34 --passes 2 -p injection=photon:count=5000 $cornell" ;;
     esac
-    run 0 $scene -p $choice --threads 1 -o one.exr
-    run 0 $scene -p $choice --threads 3 --batch 100 -o three.exr
+    run 0 $scene -p $choice --threads 1 --layers all,display -o one.exr
+    run 0 $scene -p $choice --threads 3 --batch 100 --layers all,display -o three.exr
     expect_same one.exr three.exr
     run 0 info one.exr
     expect_match out "^psplat.${strategy%%=*}: ${strategy#*=}(:|\$)"

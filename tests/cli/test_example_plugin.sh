@@ -132,7 +132,7 @@ if command -v pkg-config >/dev/null; then
     examples=$(pkg-config --variable=exampledir psplat)
     flags="$(pkg-config --variable=pluginflags psplat) $(pkg-config --cflags psplat)"
     is_on PSPLAT_SANITIZE && flags="$flags -fsanitize=address,undefined"
-    for example in injection stratification visibility filter estimator normalization denoiser; do
+    for example in injection stratification visibility filter estimator normalization denoiser bloom tonemap; do
         last="$CC $flags $examples/$example.c"
         # shellcheck disable=SC2086
         "$CC" $flags -o "$example.so" "$examples/$example.c" -lm 2>compiler || fail "$(cat compiler)"

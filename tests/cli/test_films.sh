@@ -9,7 +9,7 @@ few="-q --size 60x34 -p injection=photon:count=2000"
 # --- passes of each strategy do not depend on each other ---
 
 "$PSPLAT" plugins | awk '/^[a-z]/ { kind = $1 } /^  [a-z]/ { print kind "=" $1 }' |
-    grep -v -e normalization= -e denoiser= >strategies
+    grep -v -e normalization= -e denoiser= -e bloom= -e tonemap= >strategies
 while read -r strategy; do
     choice="-p estimator=splat -p $(small_choice "$strategy")"
     rm -f ./*.exr
@@ -105,7 +105,7 @@ run 2 resolve 0.exr -o ./link.exr
 expect_text err "'./link.exr' is the film itself"
 expect_same 0.exr kept.exr
 run 2 resolve 0.exr -o no.exr -p estimator=splat
-expect_text err "--plugin: expected normalization=NAME or denoiser=NAME, got 'estimator=splat'"
+expect_text err "--plugin: expected normalization=NAME, denoiser=NAME, bloom=NAME or tonemap=NAME, got 'estimator=splat'"
 run 2 resolve 0.exr -o no.exr -p denoiser=gaussian:size=8x8
 expect_text err "size"
 run 2 resolve 0.exr -o no.exr -p denoiser=gaussian --layers error

@@ -97,7 +97,7 @@ cmp -s example.c "$PSPLAT_SOURCE/plugins/examples/filter.c" ||
 : >statistics
 # gather_statistics WORD...: what a render with these options counts, of modules that keep memory too.
 gather_statistics() {
-    run_leaking 0 -q --size 16x9 "$@" -o a.exr --stats a.json "$cornell"
+    run_leaking 0 -q --size 16x9 --layers all,display "$@" -o a.exr --stats a.json "$cornell"
     awk '/^  "/ { split($0, part, "\""); table = part[2] }
          /^    "/ { split($0, key, "\""); print table ": " key[2] }' a.json >>statistics
 }
@@ -107,7 +107,7 @@ gather_statistics $splats -p injection=rsm:resolution=8
 gather_statistics $splats -p injection=voxel:resolution=8
 gather_statistics $photon --set render.aa_samples=1 --passes 2
 for choice in stratification=cascade estimator=splat estimator=photonmap estimator=sppm estimator=final_gather:samples=1 estimator=vpl:lights=8 estimator=lightcuts:lights=8 estimator=irradiance_cache:samples=6 estimator=ssao estimator=hbao estimator=gather:samples=1 \
-    denoiser=gaussian visibility=imperfect:points=1000; do
+    denoiser=gaussian bloom=glare visibility=imperfect:points=1000; do
     gather_statistics $photon -p $choice --direct shadowmap --direct-resolution 8
 done
 for abuse in negative keep; do

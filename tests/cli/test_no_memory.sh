@@ -108,6 +108,7 @@ run 0 $few -o a.exr --passes 0:1 --checkpoint a-film.exr "$cornell"
 run 0 $few -o b.exr --passes 1:2 --checkpoint b-film.exr "$cornell"
 every merge -q a-film.exr b-film.exr -o new/a.exr
 every resolve -q a-film.exr -o new/a.exr -o new/a.png
+every view a.exr -o new/a.png -p bloom=glare:threshold=0.5 -p tonemap=chroma:exposure=auto
 every compare a.exr b.exr
 every info a.exr
 

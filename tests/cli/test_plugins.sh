@@ -3,7 +3,7 @@
 
 # --- lists ---
 
-kinds="injection stratification visibility filter estimator normalization denoiser"
+kinds="injection stratification visibility filter estimator normalization denoiser bloom tonemap"
 run 0 plugins
 expect_empty err
 cp out all

@@ -128,7 +128,7 @@ for name in $names; do
 done
 for wrong in "" , N, ,N N,,Z indirect.R R "N Z" nothing; do
     run 2 --layers "$wrong" "$cornell"
-    expect_text err "--layers: expected all, none, or names among"
+    expect_text err "--layers: expected none, or all and names among"
     expect_text err "got '$wrong'"
 done
 

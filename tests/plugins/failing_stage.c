@@ -1,6 +1,6 @@
-/* failing_stage.c: a denoiser, a normalization and an estimator that fail, or wait to be cancelled, after they
- * have written into their planes. RESULT is what they return; the estimator does so in its third pass. A DEAF one
- * waits for ever.
+/* failing_stage.c: a denoiser, a normalization, an estimator, a bloom and a tone map that fail, or wait to be cancelled,
+ * after they have written into their planes. RESULT is what they return; the estimator does so in its third pass. A DEAF
+ * one waits for ever.
  */
 #include <psplat/plugin.h>
 
@@ -55,6 +55,15 @@ static ps_result accumulate(void *state, const ps_host *host, const ps_pass *pas
     return pass->number < 2 ? PS_OK : RESULT;
 }
 
+static ps_result show(const void *state, const ps_host *host, const ps_display_view *picture)
+{
+    (void)state;
+    spoil(picture->r, (size_t)picture->width * picture->height);
+    return end(host);
+}
+
+static const ps_bloom_vtable bloom = {.size = sizeof bloom, .spread = show};
+static const ps_tonemap_vtable tonemap = {.size = sizeof tonemap, .map = show};
 static const ps_denoiser_vtable denoiser = {.size = sizeof denoiser, .filter = filter};
 static const ps_normalization_vtable normalization = {.size = sizeof normalization,
                                                       .resolve = resolve};
@@ -66,10 +75,12 @@ static const ps_estimator_vtable estimator = {.size = sizeof estimator, .accumul
         .summary = "fails", .paper = "none: a test", .vtable = &TABLE                              \
     }
 
-static const ps_descriptor descriptors[] = {DESCRIPTOR(PS_DENOISER, denoiser),
-                                            DESCRIPTOR(PS_NORMALIZATION, normalization),
-                                            DESCRIPTOR(PS_ESTIMATOR, estimator)};
-static const ps_descriptor *const list[] = {&descriptors[0], &descriptors[1], &descriptors[2]};
+static const ps_descriptor descriptors[] = {
+    DESCRIPTOR(PS_DENOISER, denoiser), DESCRIPTOR(PS_NORMALIZATION, normalization),
+    DESCRIPTOR(PS_ESTIMATOR, estimator), DESCRIPTOR(PS_BLOOM, bloom),
+    DESCRIPTOR(PS_TONEMAP, tonemap)};
+static const ps_descriptor *const list[] = {&descriptors[0], &descriptors[1], &descriptors[2],
+                                            &descriptors[3], &descriptors[4]};
 
 extern const ps_module psplat_module_v1;
 const ps_module psplat_module_v1 = {
@@ -78,6 +89,6 @@ const ps_module psplat_module_v1 = {
     .abi_minor = PS_ABI_MINOR,
     .size = sizeof(ps_module),
     .fingerprint = PS_LAYOUT_FINGERPRINT,
-    .descriptor_count = 3,
+    .descriptor_count = 5,
     .descriptors = list,
 };

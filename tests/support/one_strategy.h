@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "plugin/strategy.h"
+#include <stdatomic.h>
 
 #define BARE_HOST_RADIUS 100.0f
 #define BARE_HOST_PIXEL 0.1f
@@ -14,7 +15,7 @@
 struct bare_host {
     ps_host host;
     struct workers *workers;
-    int live_allocations;
+    atomic_int live_allocations;
     bool cancelled;
     char why[200]; /* the last failure */
 };

@@ -102,7 +102,7 @@ static void test_larger_structs_are_good(void **state)
     accept(it);
 }
 
-/* The bytes of a struct up to the end of its last member in version 1.0 of the interface. */
+/* The bytes of a struct up to the end of its last member in the first version that has it. */
 #define FIRST_SIZE(type, last) (offsetof(type, last) + sizeof(((type *)NULL)->last))
 
 static const struct {
@@ -116,6 +116,8 @@ static const struct {
     {PS_ESTIMATOR, FIRST_SIZE(ps_estimator_vtable, end)},
     {PS_NORMALIZATION, FIRST_SIZE(ps_normalization_vtable, resolve)},
     {PS_DENOISER, FIRST_SIZE(ps_denoiser_vtable, filter)},
+    {PS_BLOOM, FIRST_SIZE(ps_bloom_vtable, spread)},
+    {PS_TONEMAP, FIRST_SIZE(ps_tonemap_vtable, map)},
 };
 
 /* Structs of 1.0 are good for ever, whatever lies behind them; a byte less is not. */
