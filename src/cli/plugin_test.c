@@ -37,7 +37,8 @@ static const char room[] =
 struct trial {
     struct loader *loader;
     ps_kind kind;
-    const char *choice; /* "FILE[:KEY=VALUE,...]" */
+    const char *choice; /* "FILE[:KEY=VALUE,...]"; NULL: psplat's own */
+    double stops;       /* exposure of what is shown */
     bool failed;
 };
 
@@ -113,6 +114,7 @@ static ps_result with_settings(const struct trial *trial, const struct attempt *
                                   attempt->batch, take_report, error, &settings);
     if (result == PS_OK) {
         settings.display = true;
+        settings.exposure = trial->stops;
         result = scene_create(&description, &scene, NULL, error);
         if (result == PS_OK) {
             result = use(user, &scene, &settings, error);
@@ -265,6 +267,38 @@ static void try_power(struct trial *trial)
                 "the photons have another power than before");
 }
 
+/* --- light that is shown --------------------------------------------------------------------------- */
+
+static double shown_light(const struct image *image)
+{
+    static const char *const channels[] = {"display.R", "display.G", "display.B"};
+    double sum = 0.0;
+    for (int c = 0; c < 3; c++) {
+        const float *plane = image_channel(image, channels[c]);
+        for (size_t i = 0; plane && i < image->width * image->height; i++)
+            sum += (double)plane[i];
+    }
+    return sum;
+}
+
+/* So dark that the tone map changes nothing, and nothing is cut off. */
+static void try_bloom(struct trial *trial)
+{
+    struct trial dark = {
+        .loader = trial->loader, .kind = trial->kind, .choice = trial->choice, .stops = -10.0};
+    struct trial usual = {.loader = trial->loader, .kind = trial->kind, .stops = dark.stops};
+    if (trial->kind != PS_BLOOM)
+        return;
+    struct outcome spread = attempt(&dark, (struct attempt){1, 4096, 0});
+    struct outcome sharp = attempt(&usual, (struct attempt){1, 4096, 0});
+    double light = shown_light(&spread.image), there = shown_light(&sharp.image);
+    bool good = spread.result == PS_OK && sharp.result == PS_OK;
+    verdict(trial, good && light <= 1.001 * there, "makes no light",
+            good ? "it shows more light than there was" : spread.error.text);
+    image_release(&spread.image);
+    image_release(&sharp.image);
+}
+
 /* --- the whole ---------------------------------------------------------------------------------- */
 
 static void try_strategy(struct trial *trial)
@@ -281,6 +315,7 @@ static void try_strategy(struct trial *trial)
         try_again(trial, &first, (struct attempt){2, 100, 0}, "makes it in small batches");
         try_to_stop(trial);
         try_power(trial);
+        try_bloom(trial);
     }
     image_release(&first.image);
 }

@@ -2,7 +2,8 @@
  *
  * On a small room with every kind of surface, each strategy of the module has to start, to make a picture of
  * numbers, the same for any number of threads and any batches, to stop when it is asked to, to give back its memory, and
- * to make no light: photons carry no more than the lights, and merging keeps their power.
+ * to make no light: photons carry no more than the lights, merging keeps their power, and bloom shows no more than there
+ * was.
  */
 #ifndef CLI_PLUGIN_TEST_H
 #define CLI_PLUGIN_TEST_H

@@ -402,12 +402,16 @@ static void combine(const struct render *render, struct rgb_planes indirect, str
     }
 }
 
-/* The error is that of an earlier stage, where one failed. */
-static ps_result display(struct render *render, struct rgb_planes picture, struct image *image,
-                         struct error *error)
+/* Where an earlier stage failed, the error stays that one's. */
+static ps_result display(struct render *render, struct rgb_planes picture, ps_result earlier,
+                         struct image *image, struct error *error)
 {
     const float *const light[3] = {picture.r, picture.g, picture.b};
-    return render->settings->display ? display_fill(render, light, image, error) : PS_OK;
+    struct error other;
+    if (!render->settings->display)
+        return earlier;
+    ps_result shown = display_fill(render, light, image, earlier == PS_OK ? error : &other);
+    return earlier == PS_OK ? shown : earlier;
 }
 
 ps_result resolve_image(struct render *render, struct image *image, struct error *error)
@@ -441,7 +445,8 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
     if (denoised == PS_OK)
         denoised = denoise_direct(render, picture, error);
     combine(render, indirect, picture);
-    ps_result shown = display(render, picture, image, error);
+    ps_result made = normalized != PS_OK ? normalized : denoised;
+    made = display(render, picture, made, image, error);
     result = move_film_layers(&render->film, image, error);
     if (result == PS_OK && estimate && denoised == PS_OK) {
         result = image_adopt_channel(image, "error", estimate, error);
@@ -453,7 +458,5 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
         image_release(image);
         return result;
     }
-    if (normalized != PS_OK)
-        return normalized;
-    return denoised != PS_OK ? denoised : shown;
+    return made;
 }

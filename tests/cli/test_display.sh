@@ -118,6 +118,43 @@ for kind in bloom tonemap; do
     expect_text err "psplat: error: $kind failing failed"
 done
 
+# --- trials: a bloom that makes light, and a tone map that makes none of numbers ---
+
+cat >doubling.c <<'END'
+#include <psplat/plugin.h>
+
+static ps_result show(const void *state, const ps_host *host, const ps_display_view *picture)
+{
+    (void)state;
+    (void)host;
+    for (size_t i = 0; i < (size_t)picture->width * picture->height; i++)
+        picture->r[i] = FACTOR * picture->r[i];
+    return PS_OK;
+}
+
+static const ps_bloom_vtable bloom = {.size = sizeof bloom, .spread = show};
+static const ps_tonemap_vtable tonemap = {.size = sizeof tonemap, .map = show};
+static const ps_descriptor descriptor = {
+    .size = sizeof descriptor,
+    .kind = KIND,
+    .name = "doubling",
+    .version = "1.0",
+    .summary = "multiplies red",
+    .paper = "none: a test",
+    .vtable = &VTABLE,
+};
+PS_MODULE(test, doubling, &descriptor)
+END
+compile_module "$PSPLAT_SOURCE/include" doubling.c "$PWD/doubling.so" -DKIND=PS_BLOOM -DVTABLE=bloom -DFACTOR=2
+run 1 plugins --test ./doubling.so
+expect_text out "FAILED  makes no light: it shows more light than there was"
+expect_text out "ok      makes it with three threads"
+compile_module "$PSPLAT_SOURCE/include" doubling.c "$PWD/doubling.so" -DKIND=PS_TONEMAP -DVTABLE=tonemap -DFACTOR=NAN
+run 1 plugins --test ./doubling.so
+expect_match out "FAILED +makes numbers"
+run 0 $job -p tonemap=./doubling.so -o other.png "$area"
+expect_match err "tonemap doubling made [0-9]+ values of pixels that are no numbers or negative; they are 0"
+
 # --- what is wrong ---
 
 for wrong in "tonemap=clip:exposure=bright|exposure: expected auto | number -20..20, got 'bright'" \
