@@ -15,8 +15,6 @@
  */
 #include "glare/gaussian.h"
 
-#include <string.h>
-
 enum { OCTAVES = 4 };
 
 struct state {
