@@ -261,6 +261,27 @@ struct ps_host {
 
     /* Writes the irradiance (W/m^2) of each of the points, in their order. [main thread, estimator] */
     ps_result (*end_points)(const ps_host *host, ps_rgb *irradiance);
+
+    /* --- densities of light paths --- */
+
+    /* Since 1.5: as emit_light, and tells where the rays start: position, normal, light and probability of each
+     * point; its distance is INFINITY for sun and sky, and its other members are 0. [any thread] */
+    void (*emit_points)(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
+                        ps_rgb *power, ps_light_sample *points);
+
+    /* Since 1.5: the light that an object is; PS_NO_LIGHT: it does not shine. [any thread] */
+    uint32_t (*light_of_object)(const ps_host *host, uint32_t object);
+
+    /* Since 1.5: 1 where the camera sees an object if nothing is in between; 0: the scene hides it from the camera. [any
+     * thread] */
+    int32_t (*is_shown)(const ps_host *host, uint32_t object);
+
+    /* Since 1.5: the densities of points of lights, as each is seen from its place. Of the points, direction, distance,
+     * normal (on the side that is seen) and light count. At distance INFINITY the densities of all that shine from that
+     * direction are summed, and the light may be PS_NO_LIGHT, but for a sun without an angle. 0 for a light that does
+     * not exist. [any thread] */
+    void (*light_densities)(const ps_host *host, const ps_vec3 *places,
+                            const ps_light_sample *points, size_t n, ps_light_density *densities);
 };
 
 #define PS_SPHERE_TRIANGLES 512u

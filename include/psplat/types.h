@@ -168,6 +168,18 @@ typedef struct ps_light_sample {
     uint32_t light; /* its index */
 } ps_light_sample;
 
+#define PS_NO_LIGHT UINT32_MAX
+
+/* How likely shadow rays and light paths go the same way between a point of a light and a place. */
+typedef struct ps_light_density {
+    float
+        direct; /* by which host->sample_light, at the place, draws the direction to the point: by solid angle, choice
+                      of the light included; 0: a point, or a sun without an angle */
+    float
+        arrival; /* by which host->emit_points sends a ray from the point through an area across it at the place,
+                      1/m^2, over the density by which host->sample_light draws the point there */
+} ps_light_density;
+
 /* A triangle of the scene, in world space. */
 typedef struct ps_triangle {
     ps_vec3 vertices[3]; /* counter-clockwise seen from the front */

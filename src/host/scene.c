@@ -94,35 +94,49 @@ static void host_intersect_packets(const ps_host *host, ps_ray_packet *packets, 
 
 static const ps_ray nowhere = {{0, 0, 0}, 0, {0, 0, 1}, 0};
 
-/* A ray of a light, moved off what the light may lie on. */
+/* A ray of a light, moved off what the light may lie on; and where it starts. */
 static ps_rgb emit_from(const struct scene *scene, size_t light, const float numbers[4],
-                        ps_ray *ray)
+                        ps_ray *ray, ps_light_sample *point)
 {
-    ps_vec3 normal;
-    ps_rgb flux = light_emit(&scene->lights[light], numbers, ray, &normal);
-    if (light_is_delta(&scene->lights[light]))
+    const struct light *from = &scene->lights[light];
+    ps_rgb flux = light_emit(from, numbers, ray, &point->normal);
+    point->position = ray->origin;
+    point->distance = from->emitter == EMITTER_SUN || from->emitter == EMITTER_SKY ? INFINITY : 0;
+    point->light = (uint32_t)light;
+    if (light_is_delta(from))
         ray->tnear = scene->surface_offset; /* a light may lie on a surface */
-    ray->origin = ps_add_scaled(ray->origin, scene->surface_offset, normal);
+    ray->origin = ps_add_scaled(ray->origin, scene->surface_offset, point->normal);
     return flux;
 }
 
 /* A ray of one of the lights; black where there is none. */
-static ps_rgb emit(const struct scene *scene, const float numbers[4], ps_ray *ray)
+static ps_rgb emit(const struct scene *scene, const float numbers[4], ps_ray *ray,
+                   ps_light_sample *point)
 {
     *ray = nowhere;
+    *point = (ps_light_sample){.distance = 0};
     if (scene->light_count == 0)
         return (ps_rgb){0, 0, 0};
-    float probability, left[4] = {numbers[0], numbers[1], numbers[2], numbers[3]};
-    size_t light = scene_choose_light(scene, &left[2], &probability);
-    ps_rgb flux = emit_from(scene, light, left, ray);
-    return probability > 0.0f ? ps_rgb_scale(flux, 1.0f / probability) : (ps_rgb){0, 0, 0};
+    float left[4] = {numbers[0], numbers[1], numbers[2], numbers[3]};
+    size_t light = scene_choose_light(scene, &left[2], &point->probability);
+    ps_rgb flux = emit_from(scene, light, left, ray, point);
+    return point->probability > 0.0f ? ps_rgb_scale(flux, 1.0f / point->probability)
+                                     : (ps_rgb){0, 0, 0};
 }
 
 static void host_emit_light(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
                             ps_rgb *power)
 {
+    ps_light_sample point;
     for (size_t i = 0; i < n; i++)
-        power[i] = emit(render_of(host)->scene, samples[i], &rays[i]);
+        power[i] = emit(render_of(host)->scene, samples[i], &rays[i], &point);
+}
+
+static void host_emit_points(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
+                             ps_rgb *power, ps_light_sample *points)
+{
+    for (size_t i = 0; i < n; i++)
+        power[i] = emit(render_of(host)->scene, samples[i], &rays[i], &points[i]);
 }
 
 static uint32_t host_light_count(const ps_host *host)
@@ -177,9 +191,10 @@ static void host_emit_from(const ps_host *host, uint32_t index, const float (*sa
                            ps_ray *rays, ps_rgb *power)
 {
     bool there = has_light(host, index, "emit_from");
+    ps_light_sample point;
     for (size_t i = 0; i < n; i++) {
         rays[i] = nowhere;
-        power[i] = there ? emit_from(render_of(host)->scene, index, samples[i], &rays[i])
+        power[i] = there ? emit_from(render_of(host)->scene, index, samples[i], &rays[i], &point)
                          : (ps_rgb){0, 0, 0};
     }
 }
@@ -215,6 +230,92 @@ static void host_sample_light(const ps_host *host, const ps_vec3 *places, const 
 {
     for (size_t i = 0; i < n; i++)
         sampled[i] = sample_light(render_of(host)->scene, places[i], samples[i]);
+}
+
+static bool has_object(const ps_host *host, uint32_t index, const char *service)
+{
+    size_t count = render_of(host)->scene->object_count;
+    if (index < count)
+        return true;
+    host_refuse_index(host, service, index, count);
+    return false;
+}
+
+static uint32_t host_light_of_object(const ps_host *host, uint32_t object)
+{
+    return has_object(host, object, "light_of_object")
+               ? render_of(host)->scene->object_lights[object]
+               : PS_NO_LIGHT;
+}
+
+/* The instance that an object past the world's own shapes stands in. Instances go by their objects. */
+static const struct instance *instance_of(const struct scene *scene, uint32_t object)
+{
+    size_t first = 0, end = scene->instance_count;
+    while (end - first > 1) {
+        size_t middle = first + (end - first) / 2;
+        if (scene->instances[middle].first_object <= object)
+            first = middle;
+        else
+            end = middle;
+    }
+    return &scene->instances[first];
+}
+
+static int32_t host_is_shown(const ps_host *host, uint32_t object)
+{
+    const struct scene *scene = render_of(host)->scene;
+    if (!has_object(host, object, "is_shown"))
+        return 0;
+    if (object < scene->world_shape_count)
+        return !scene->shapes[object].hidden;
+    const struct instance *instance = instance_of(scene, object);
+    uint32_t shape = instance->group->first_shape + (object - instance->first_object);
+    return !instance->hidden && !scene->shapes[shape].hidden;
+}
+
+static ps_light_density density_of(const struct scene *scene, uint32_t light, ps_vec3 place,
+                                   const ps_light_sample *point)
+{
+    const struct light *from = &scene->lights[light];
+    ps_vec3 front = light_front(from, place, point->normal);
+    return (ps_light_density){
+        distribution_probability(&scene->light_choice, light) *
+            light_pdf(from, place, point->direction, point->distance, front),
+        light_arrival(from, place, point->direction, point->distance, front),
+    };
+}
+
+/* Of all that shines from a direction, but suns without an angle. Their rays fill the same disc. */
+static ps_light_density density_from_afar(const struct scene *scene, ps_vec3 place,
+                                          const ps_light_sample *point)
+{
+    ps_light_density sum = {0, 0};
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        enum emitter emitter = scene->lights[i].emitter;
+        if (emitter != EMITTER_SUN && emitter != EMITTER_SKY)
+            continue;
+        ps_light_density own = density_of(scene, i, place, point);
+        sum.direct += own.direct;
+        sum.arrival = own.arrival;
+    }
+    return sum;
+}
+
+static void host_light_densities(const ps_host *host, const ps_vec3 *places,
+                                 const ps_light_sample *points, size_t n,
+                                 ps_light_density *densities)
+{
+    const struct scene *scene = render_of(host)->scene;
+    for (size_t i = 0; i < n; i++) {
+        bool there = points[i].light < scene->light_count;
+        bool afar = !(points[i].distance < INFINITY);
+        densities[i] = (ps_light_density){0, 0};
+        if (afar && !(there && light_is_delta(&scene->lights[points[i].light])))
+            densities[i] = density_from_afar(scene, places[i], &points[i]);
+        else if (there)
+            densities[i] = density_of(scene, points[i].light, places[i], &points[i]);
+    }
 }
 
 static void host_sample_bsdf(const ps_host *host, ps_direction direction, const ps_ray *rays,
@@ -311,6 +412,10 @@ void host_add_scene(ps_host *host)
     host->light_intensity = host_light_intensity;
     host->emit_from = host_emit_from;
     host->sample_light = host_sample_light;
+    host->emit_points = host_emit_points;
+    host->light_of_object = host_light_of_object;
+    host->is_shown = host_is_shown;
+    host->light_densities = host_light_densities;
     host->scene_bounds = host_scene_bounds;
     host->triangle_count = host_triangle_count;
     host->triangles = host_triangles;

@@ -238,3 +238,29 @@ float light_pdf(const struct light *light, ps_vec3 position, ps_vec3 direction, 
     }
     return 0.0f;
 }
+
+float light_arrival(const struct light *light, ps_vec3 position, ps_vec3 direction, float distance,
+                    ps_vec3 normal)
+{
+    switch (light->emitter) {
+    case EMITTER_SPOT:
+        return light_spot_arrival(&light->spot, direction, distance);
+    case EMITTER_SUN:
+        return light_arrival_from_afar(&light->sun.bounds);
+    case EMITTER_MESH:
+        return light_surface_arrival(&light->surface, direction, distance, normal);
+    case EMITTER_SPHERE:
+        return light_sphere_arrival(&light->sphere, position, direction, distance, normal);
+    case EMITTER_SKY:
+        return light_arrival_from_afar(&light->sky.bounds);
+    }
+    return 0.0f;
+}
+
+ps_vec3 light_front(const struct light *light, ps_vec3 position, ps_vec3 seen)
+{
+    bool is_inside =
+        light->emitter == EMITTER_SPHERE &&
+        !(ps_length(ps_subtract(light->sphere.center, position)) > light->sphere.radius);
+    return is_inside ? ps_scale(seen, -1.0f) : seen;
+}

@@ -32,6 +32,7 @@ ps_rgb light_spot_intensity(const struct light_spot *spot, ps_vec3 direction);
 ps_rgb light_spot_emit(const struct light_spot *spot, const float u[4], ps_ray *ray);
 bool light_spot_sample(const struct light_spot *spot, ps_vec3 position,
                        struct light_sample *sample);
+float light_spot_arrival(const struct light_spot *spot, ps_vec3 direction, float distance);
 
 ps_result light_sun_create(const struct light_description *description,
                            const struct light_bounds *bounds, struct light_sun *sun,
@@ -53,6 +54,8 @@ void light_surface_sample(const struct light_surface *surface, const ps_vec3 *po
 ps_vec3 light_surface_normal(const struct light_surface *surface, const float numbers[2]);
 float light_surface_pdf(const struct light_surface *surface, ps_vec3 direction, float distance,
                         ps_vec3 normal);
+float light_surface_arrival(const struct light_surface *surface, ps_vec3 direction, float distance,
+                            ps_vec3 normal);
 
 ps_rgb light_sphere_power(const struct light_sphere *sphere);
 ps_rgb light_sphere_emit(const struct light_sphere *sphere, const float u[4], ps_ray *ray,
@@ -61,6 +64,8 @@ bool light_sphere_sample(const struct light_sphere *sphere, ps_vec3 position, fl
                          struct light_sample *sample);
 float light_sphere_pdf(const struct light_sphere *sphere, ps_vec3 position, ps_vec3 direction,
                        float distance, ps_vec3 normal);
+float light_sphere_arrival(const struct light_sphere *sphere, ps_vec3 position, ps_vec3 direction,
+                           float distance, ps_vec3 normal);
 
 ps_result light_sky_create(const struct light_description *description,
                            const struct light_bounds *bounds, const struct sky_picture *picture,
@@ -81,6 +86,22 @@ static inline float light_pdf_of_area(float area, float distance, float cosine)
     float pdf = distance * distance / (cosine * area);
     bool any = (cosine > 0.0f) & (pdf < INFINITY);
     return any ? pdf : 0.0f;
+}
+
+/* light_arrival of a point of a surface that sends rays out by their cosine, of `sides` sides, where both ways of drawing
+ * points are even over the area. */
+static inline float light_arrival_by_cosine(float sides, float distance, float cosine)
+{
+    float arrival = cosine / (sides * PS_PI * distance * distance);
+    bool any = (cosine > 0.0f) & (arrival < INFINITY);
+    return any ? arrival : 0.0f;
+}
+
+/* light_arrival of sun and sky, whose rays are even over the disc: both draw directions alike. */
+static inline float light_arrival_from_afar(const struct light_bounds *bounds)
+{
+    float area = light_scene_area(bounds);
+    return area > 0.0f ? 1.0f / area : 0.0f;
 }
 
 /* Splits a number in [0,1) in two: which half it is in, and where in that half. */

@@ -95,3 +95,16 @@ float light_sphere_pdf(const struct light_sphere *sphere, ps_vec3 position, ps_v
     bool is_front = ps_dot(direction, normal) < 0.0f;
     return is_front && versine > 0.0f ? 1.0f / (2.0f * PS_PI * versine) : 0.0f;
 }
+
+/* From outside: cos / (pi * 4 pi r^2) is the density of the ray, d^2 / (2 pi versine cos) that of the point. */
+float light_sphere_arrival(const struct light_sphere *sphere, ps_vec3 position, ps_vec3 direction,
+                           float distance, ps_vec3 normal)
+{
+    float d = ps_length(ps_subtract(sphere->center, position));
+    float cosine = ps_dot(direction, normal), sides = sphere->both_sides ? 2.0f : 1.0f;
+    if (!(d > sphere->radius))
+        return sphere->both_sides ? light_arrival_by_cosine(sides, distance, cosine) : 0.0f;
+    float arrival =
+        versine_of(sphere, d) / (2.0f * PS_PI * sides * sphere->radius * sphere->radius);
+    return cosine < 0.0f && arrival < INFINITY ? arrival : 0.0f;
+}

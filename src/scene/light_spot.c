@@ -139,3 +139,17 @@ bool light_spot_sample(const struct light_spot *spot, ps_vec3 position, struct l
     sample->pdf = 0.0f;
     return true;
 }
+
+/* By the density of the direction: even over the cone, or (t + 1) c^t / (2 pi (1 - c_min^(t+1))). */
+float light_spot_arrival(const struct light_spot *spot, ps_vec3 direction, float distance)
+{
+    float cosine = fminf(fmaxf(-ps_dot(direction, spot->axis), -1.0f), 1.0f);
+    float density = 1.0f / (2.0f * PS_PI * (1.0f - spot->cos_falloff));
+    if (spot->tightness > 0.0f) {
+        float power = spot->tightness + 1.0f;
+        float lowest = powf(fmaxf(spot->cos_falloff, 0.0f), power);
+        density = power * tightened(spot, cosine) / (2.0f * PS_PI * (1.0f - lowest));
+    }
+    float arrival = density / (distance * distance);
+    return cosine >= spot->cos_falloff && arrival < INFINITY ? arrival : 0.0f;
+}

@@ -229,6 +229,13 @@ float light_surface_pdf(const struct light_surface *surface, ps_vec3 direction, 
                              cosine_at_light(direction, normal, surface->both_sides));
 }
 
+float light_surface_arrival(const struct light_surface *surface, ps_vec3 direction, float distance,
+                            ps_vec3 normal)
+{
+    return light_arrival_by_cosine(surface->both_sides ? 2.0f : 1.0f, distance,
+                                   cosine_at_light(direction, normal, surface->both_sides));
+}
+
 /* Points of the light, seen from as many places at once: a point costs four divisions and a root, each of which
  * waits for the one before. */
 #define LANES 16

@@ -15,7 +15,7 @@
 #include "scene/shape.h"
 #include "scene/texture.h"
 
-#define NO_LIGHT UINT32_MAX
+#define NO_LIGHT PS_NO_LIGHT
 #define NO_MATERIAL UINT32_MAX
 
 /* A run of shapes that are placed together. */

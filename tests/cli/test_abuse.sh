@@ -63,6 +63,10 @@ abuse light estimator
 refused "estimator abusive: it called light with index 99 of 1"
 abuse emit_from estimator
 refused "estimator abusive: it called emit_from with index 99 of 1"
+for service in light_of_object is_shown; do
+    abuse $service estimator
+    refused "estimator abusive: it called $service with index 9999 of "
+done
 abuse size estimator
 refused "estimator abusive: it called light with a struct whose size is not set"
 

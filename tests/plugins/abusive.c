@@ -124,6 +124,12 @@ static ps_result accumulate(void *state, const ps_host *host, const ps_pass *pas
         host->light(host, 0, &unsized);
     if (does("emit_from"))
         host->emit_from(host, 99, numbers, 1, &ray, &power);
+#if PS_ABI_MINOR >= 5
+    if (does("light_of_object"))
+        host->light_of_object(host, 9999);
+    if (does("is_shown"))
+        host->is_shown(host, 9999);
+#endif
     if (does("splat"))
         return host->splat(host, &lamp, 1);
     if (does("gather_short_range"))

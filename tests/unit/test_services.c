@@ -202,6 +202,130 @@ static void test_light_samples_add_up(void **state)
     }
 }
 
+#define RAYS 400000
+#define PLACE_RADIUS 0.25f
+
+/* The share of light paths that pass through a ball around the place, over the area that it shows. */
+static double density_by_rays(const ps_host *host, ps_vec3 place)
+{
+    struct random random = {11};
+    int passed = 0;
+    for (int i = 0; i < RAYS; i++) {
+        float numbers[1][4];
+        ps_ray ray;
+        ps_rgb power, same_power;
+        ps_light_sample start;
+        for (int k = 0; k < 4; k++)
+            numbers[0][k] = random_between(&random, 0, 1);
+        host->emit_points(host, (const float(*)[4])numbers, 1, &ray, &power, &start);
+        host->emit_light(host, (const float(*)[4])numbers, 1, &ray, &same_power);
+        assert_true(ps_same((ps_vec3){power.r, power.g, power.b},
+                            (ps_vec3){same_power.r, same_power.g, same_power.b}));
+        assert_true(ps_length(ps_subtract(ray.origin, start.position)) < 0.01f);
+        assert_true(start.light < host->light_count(host) && start.probability > 0);
+        ps_vec3 way = ps_subtract(place, ray.origin);
+        float along = ps_dot(way, ray.direction);
+        passed += along > 0 && ps_dot(way, way) - along * along < PLACE_RADIUS * PLACE_RADIUS;
+    }
+    return (double)passed / RAYS / (double)(PS_PI * PLACE_RADIUS * PLACE_RADIUS);
+}
+
+/* Points that sample_light draws have the density that they tell, and by their arrival that of light paths. */
+static void compare_densities(const ps_host *host)
+{
+    static const ps_vec3 place = {0.6f, 1.2f, -0.4f};
+    struct random random = {12};
+    double arrived = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        float numbers[1][4];
+        ps_light_sample point;
+        ps_light_density density;
+        for (int k = 0; k < 4; k++)
+            numbers[0][k] = random_between(&random, 0, 1);
+        host->sample_light(host, &place, (const float(*)[4])numbers, 1, &point);
+        host->light_densities(host, &place, &point, 1, &density);
+        float expected = point.probability * point.pdf;
+        bool shines = ps_rgb_maximum(point.irradiance) > 0;
+        assert_true(!shines || density.arrival > 0);
+        assert_true(fabsf(density.direct - expected) < 1e-3f * expected + 1e-9f);
+        arrived += shines ? (double)density.arrival / SAMPLES : 0;
+    }
+    double passed = density_by_rays(host, place);
+    print_message("light paths at a place: %.5f by densities, %.5f by rays\n", arrived, passed);
+    assert_true(fabs(arrived - passed) <
+                0.08 * passed); /* a tight spotlight varies over the ball */
+}
+
+static void test_densities_are_those_of_light_paths(void **state)
+{
+    (void)state;
+    static const char *const lights[] = {SPOT, TIGHT_SPOT, POINT,
+                                         SUN,  WIDE_SUN,   RECTANGLE,
+                                         BALL, SKY,        SPOT RECTANGLE WIDE_SUN POINT};
+    for (size_t i = 0; i < sizeof lights / sizeof lights[0]; i++) {
+        char text[4096];
+        snprintf(text, sizeof text, "%s%s%s%s", SCENE_HEAD, LIGHTS, lights[i], WHITE_FLOOR);
+        with_host_of(text, compare_densities);
+    }
+}
+
+/* Light from all around and from a disc of it: both draw the directions of the disc. */
+static void look_at_sun_and_sky(const ps_host *host)
+{
+    static const ps_vec3 place = {0, 1, 0};
+    ps_light_density sum, towards_sky;
+    float sun = 0, sky = 0;
+    for (int i = 0; i < 100; i++) {
+        const float numbers[1][4] = {{0.3f, 0.6f, (float)i / 100, 0}};
+        ps_light_sample point;
+        ps_light light = {.size = sizeof light};
+        host->sample_light(host, &place, numbers, 1, &point);
+        host->light(host, point.light, &light);
+        *(light.kind == PS_LIGHT_SUN ? &sun : &sky) = point.probability * point.pdf;
+        if (light.kind != PS_LIGHT_SUN)
+            continue;
+        point.light = PS_NO_LIGHT;
+        host->light_densities(host, &place, &point, 1, &sum);
+        point.direction = ps_scale(point.direction, -1.0f);
+        host->light_densities(host, &place, &point, 1, &towards_sky);
+    }
+    assert_true(sun > 0 && sky > 0);
+    assert_true(fabsf(sum.direct - sun - sky) < 1e-4f * sum.direct);
+    assert_true(fabsf(towards_sky.direct - sky) < 1e-4f * sky);
+    assert_true(sum.arrival == towards_sky.arrival && sum.arrival > 0);
+}
+
+static void test_densities_from_afar_add_up(void **state)
+{
+    (void)state;
+    with_host_of(SCENE_HEAD LIGHTS WIDE_SUN "  - sky: {radiance: 0.2}\n" WHITE_FLOOR,
+                 look_at_sun_and_sky);
+}
+
+static void look_at_objects(const ps_host *host)
+{
+    assert_int_equal(host->light_of_object(host, 0), PS_NO_LIGHT);
+    assert_int_equal(host->light_of_object(host, 1), 0);
+    static const int32_t shown[] = {1, 0, 1, 0, 0};
+    for (uint32_t i = 0; i < 5; i++)
+        assert_int_equal(host->is_shown(host, i), shown[i]);
+}
+
+static void test_objects_that_shine_or_are_hidden(void **state)
+{
+    (void)state;
+    with_host_of(SCENE_HEAD
+                 "  lamp: {diffuse: 0, emission: 1}\n" WHITE_FLOOR
+                 "  - sphere: {center: [0, 5, 0], radius: 1, material: lamp, camera: no}\n"
+                 "  - instance: {of: pair}\n"
+                 "  - instance: {of: one, camera: no}\n"
+                 "groups:\n"
+                 "  pair: [{sphere: {center: [0, 2, 0], radius: 1, material: white}},\n"
+                 "         {sphere: {center: [3, 2, 0], radius: 1, material: white, camera: no}}]\n"
+                 "  one: [{sphere: {center: [6, 2, 0], radius: 1, material: white}}]\n",
+                 look_at_objects);
+}
+
 static void expect_darkness(const ps_host *host)
 {
     static const ps_vec3 place = {0, 1, 0};
@@ -397,6 +521,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bsdf_is_what_is_sampled),
         cmocka_unit_test(test_light_samples_add_up),
+        cmocka_unit_test(test_densities_are_those_of_light_paths),
+        cmocka_unit_test(test_densities_from_afar_add_up),
+        cmocka_unit_test(test_objects_that_shine_or_are_hidden),
         cmocka_unit_test(test_no_light_gives_no_sample),
         cmocka_unit_test(test_triangles_have_the_scenes_area),
         cmocka_unit_test(test_pixels_are_where_the_camera_sees_them),
