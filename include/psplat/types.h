@@ -170,14 +170,12 @@ typedef struct ps_light_sample {
 
 #define PS_NO_LIGHT UINT32_MAX
 
-/* How likely shadow rays and light paths go the same way between a point of a light and a place. */
+/* How likely shadow rays and light paths go the same way between a point of a light and a place. `direct`: the density by
+ * which host->sample_light, at the place, draws the direction to the point, by solid angle, the choice of the light
+ * included; 0: a point, or a sun without an angle. `arrival`: the density by which host->emit_points sends a ray from the
+ * point through an area across it at the place (1/m^2), over that by which host->sample_light draws the point there. */
 typedef struct ps_light_density {
-    float
-        direct; /* by which host->sample_light, at the place, draws the direction to the point: by solid angle, choice
-                      of the light included; 0: a point, or a sun without an angle */
-    float
-        arrival; /* by which host->emit_points sends a ray from the point through an area across it at the place,
-                      1/m^2, over the density by which host->sample_light draws the point there */
+    float direct, arrival;
 } ps_light_density;
 
 /* A triangle of the scene, in world space. */

@@ -78,6 +78,7 @@ static void test_single_bounce(void **state)
          "injection=photon:count=10", NULL, 0.01},
         {"lightcuts", "estimator=lightcuts:error=0.01", "injection=photon:count=20000", NULL, 0.01},
         {"gather", "estimator=gather:samples=64", "injection=photon:count=1000", NULL, 0.01},
+        {"bdpt", "estimator=bdpt:samples=128", NULL, NULL, 0.005},
         {"irradiance_cache", "estimator=irradiance_cache:samples=4096", NULL, NULL, 0.01},
     };
     compare(cornell_text(WIDTH, HEIGHT), "bounces=1", "estimator=pathtrace:samples=512", methods,
@@ -104,6 +105,7 @@ static void test_all_bounces(void **state)
          "injection=photon:count=10", NULL, 0.01},
         {"lightcuts", "estimator=lightcuts:error=0.01", "injection=photon:count=20000", NULL, 0.01},
         {"gather", "estimator=gather:samples=64", "injection=photon:count=50000", NULL, 0.01},
+        {"bdpt", "estimator=bdpt:samples=128", NULL, NULL, 0.005},
         {"irradiance_cache", "estimator=irradiance_cache:samples=4096", NULL, NULL, 0.01},
     };
     compare(cornell_text(WIDTH, HEIGHT), "bounces=all", "estimator=pathtrace:samples=512", methods,
@@ -123,6 +125,7 @@ static void test_other_scenes(void **state)
         {"gather", "estimator=gather:samples=64", "injection=photon:count=50000", NULL, 0.02},
         {"vpl", "estimator=vpl:lights=8192", "injection=photon:count=100000", NULL, 0.02},
         {"lightcuts", "estimator=lightcuts", "injection=photon:count=100000", NULL, 0.02},
+        {"bdpt", "estimator=bdpt:samples=256", NULL, NULL, 0.01},
         {"irradiance_cache", "estimator=irradiance_cache:samples=4096", NULL, NULL, 0.02},
     };
     static const char *const scenes[] = {"corridor", "columns"};

@@ -38,6 +38,7 @@ static const char furnace[] =
 
 static const struct method in_furnace[] = {
     {"pathtrace", {"estimator=pathtrace:samples=8", NULL}, 0},
+    {"bdpt", {"estimator=bdpt:samples=8", NULL}, 0.002},
     {"splat",
      {"estimator=splat", "injection=photon:count=40000",
       "visibility=shadowmap:radius=0.06,step_back=auto", NULL},
@@ -103,6 +104,7 @@ static void test_furnace(void **state)
 
 static const struct method patch_methods[] = {
     {"pathtrace", {"estimator=pathtrace:samples=4096", "bounces=1", NULL}, 0},
+    {"bdpt", {"estimator=bdpt:samples=512", "bounces=1", NULL}, 0.005},
     {"splat",
      {"estimator=splat", "injection=photon:count=150000", "bounces=1",
       "visibility=shadowmap:radius=0.15,step_back=auto", NULL},

@@ -60,6 +60,7 @@ static const char *const methods[][5] = {
     {"estimator=final_gather:samples=16", "injection=photon:count=20000", "bounces=all", NULL},
     {"estimator=vpl:lights=200,clamp=0.05", "injection=photon:count=500", "bounces=all", NULL},
     {"estimator=gather:samples=16", "injection=photon:count=20000", "bounces=all", NULL},
+    {"estimator=bdpt:samples=16", "bounces=all", NULL},
 };
 
 #define VPL 3 /* of these; too noisy for some */

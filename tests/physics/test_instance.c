@@ -46,6 +46,7 @@
 
 static const char *const methods[][5] = {
     {"estimator=pathtrace:samples=32", "bounces=all", NULL},
+    {"estimator=bdpt:samples=16", "bounces=all", NULL},
     {"estimator=splat", "injection=photon:count=20000", "bounces=all",
      "visibility=shadowmap:radius=0.1", NULL},
     {"estimator=photonmap:neighbours=50", "injection=photon:count=20000", "bounces=all", NULL},

@@ -52,6 +52,7 @@ static const struct method truth = {
     "pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0};
 
 static const struct method methods[] = {
+    {"bdpt", {"estimator=bdpt:samples=32", "bounces=all", NULL}, 0.005},
     {"gather",
      {"estimator=gather:samples=16", "injection=photon:count=20000", "bounces=all", NULL},
      0.01},

@@ -81,8 +81,10 @@ static void check(const char *name, const char *scene, const struct method *meth
     }
 }
 
-static const struct method path_tracing = {
-    "pathtrace", {"estimator=pathtrace:samples=8", "bounces=all", NULL}, 0};
+static const struct method path_tracing[] = {
+    {"pathtrace", {"estimator=pathtrace:samples=8", "bounces=all", NULL}, 0},
+    {"bdpt", {"estimator=bdpt:samples=8", "bounces=all", NULL}, 0.005},
+};
 
 /* A photon map's discs miss some of a small sphere, and too much of one with holes, which is last
  * above. */
@@ -110,14 +112,14 @@ static void test_path_tracing_under_a_sky(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(materials); i++)
-        check("sky", sky, &path_tracing, 1, materials[i]);
+        check("sky", sky, path_tracing, COUNT(path_tracing), materials[i]);
 }
 
 static void test_path_tracing_enclosed(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(materials); i++)
-        check("enclosed", enclosure, &path_tracing, 1, materials[i]);
+        check("enclosed", enclosure, path_tracing, COUNT(path_tracing), materials[i]);
 }
 
 static void test_photons_enclosed(void **state)

@@ -93,6 +93,7 @@ struct method {
 
 static const struct method methods[] = {
     {"pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0},
+    {"bdpt", {"estimator=bdpt:samples=16", "bounces=all", NULL}, 0.005},
     {"irradiance_cache", {"estimator=irradiance_cache:samples=256", "bounces=all", NULL}, 0.01},
     {"splat",
      {"estimator=splat", "injection=photon:count=4000", "bounces=all",

@@ -30,6 +30,7 @@ static const struct method truth = {
 
 /* The discs of a photon map follow the bent normal, and miss photons of a bumpy floor. */
 static const struct method methods[] = {
+    {"bdpt", {"estimator=bdpt:samples=32", "bounces=all", NULL}, 0.01},
     {"gather",
      {"estimator=gather:samples=16", "injection=photon:count=12000", "bounces=all", NULL},
      0.01},
