@@ -84,7 +84,7 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
     }
     for (size_t i = 0; i < points.count; i++) {
         uint32_t lane = points.lanes[i];
-        ps_add_irradiance(tile, lane, ps_rgb_scale(sums[i], 1.0f / (float)work->samples));
+        ps_add_irradiance(tile, lane, ps_rgb_scale(sums[lane], 1.0f / (float)work->samples));
         tile->weight[lane] = 1.0f;
     }
 }

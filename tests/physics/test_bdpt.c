@@ -11,6 +11,8 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -28,10 +30,22 @@ static struct estimate measure(const char *text, const char *estimator, const ch
     return estimate_channel(text, choices, "indirect.G", SEEDS);
 }
 
+/* The scene in a larger picture than SCENE_HEAD has: at its borders light tracing takes in what lies half a pixel
+ * beyond. */
+static void enlarge(const char *scene, char text[4096])
+{
+    static const char small[] = "width: 16, height: 9}";
+    const char *place = strstr(scene, small);
+    assert_non_null(place);
+    int length = snprintf(text, 4096, "%.*swidth: 80, height: 45}%s", (int)(place - scene), scene,
+                          place + strlen(small));
+    assert_true(length > 0 && length < 4096);
+}
+
 static struct estimate by_strategies(const char *text, const char *which, const char *bounces)
 {
     char estimator[64];
-    snprintf(estimator, sizeof estimator, "estimator=bdpt:samples=64,strategies=%s", which);
+    snprintf(estimator, sizeof estimator, "estimator=bdpt:samples=8,strategies=%s", which);
     return measure(text, estimator, bounces);
 }
 
@@ -41,7 +55,7 @@ static void test_each_strategy_in_a_sphere(void **state)
     static const char sphere[] =
         "psd: 1\n"
         "camera: {location: [0, 0, 0], look_at: [1, 0.3, 0.2], angle: 90}\n"
-        "image: {width: 32, height: 32}\n"
+        "image: {width: 96, height: 96}\n"
         "materials: {wall: {diffuse: 0.5}}\n"
         "lights: [{point: {location: [0, 0, 0], intensity: 4}}]\n"
         "objects: [{sphere: {center: [0, 0, 0], radius: 2, material: wall}}]\n"
@@ -74,13 +88,13 @@ static void test_each_strategy_by_lights(void **state)
         {"point, sun and sphere", SCENE_HEAD LIGHTS POINT SUN BALL ROOM_OBJECTS SEEDED},
     };
     for (size_t i = 0; i < COUNT(scenes); i++) {
-        struct estimate truth =
-            measure(scenes[i].text, "estimator=pathtrace:samples=512", "bounces=all");
+        char text[4096];
+        enlarge(scenes[i].text, text);
+        struct estimate truth = measure(text, "estimator=pathtrace:samples=64", "bounces=all");
         for (size_t k = 0; k < COUNT(strategies); k++) {
             char what[128];
             snprintf(what, sizeof what, "%s: %s", scenes[i].name, strategies[k]);
-            expect_agreement(what, by_strategies(scenes[i].text, strategies[k], "bounces=all"),
-                             truth, 0.01);
+            expect_agreement(what, by_strategies(text, strategies[k], "bounces=all"), truth, 0.01);
         }
     }
 }
@@ -105,12 +119,27 @@ static void test_bounces_by_lobes(void **state)
     static const char *const bounces[] = {"bounces=1", "bounces=2", "bounces=all"};
     for (size_t i = 0; i < COUNT(rooms); i++)
         for (size_t k = 0; k < COUNT(bounces); k++) {
-            char what[128];
+            char what[128], text[4096];
+            enlarge(rooms[i].text, text);
             snprintf(what, sizeof what, "%s floor, %s", rooms[i].name, bounces[k]);
-            expect_agreement(what, by_strategies(rooms[i].text, "all", bounces[k]),
-                             measure(rooms[i].text, "estimator=pathtrace:samples=512", bounces[k]),
-                             0.01);
+            expect_agreement(what, by_strategies(text, "all", bounces[k]),
+                             measure(text, "estimator=pathtrace:samples=64", bounces[k]), 0.01);
         }
+}
+
+/* Over passes, whose means over pixels path tracing has, too. */
+static void test_scenes(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"corridor", "columns"};
+    for (size_t i = 0; i < COUNT(scenes); i++) {
+        char *text = scene_file_text(scenes[i], 96, 54), seeded[8192];
+        int length = snprintf(seeded, sizeof seeded, "%s\nrender: {seed: %%d, passes: 16}\n", text);
+        assert_true(length > 0 && (size_t)length < sizeof seeded);
+        free(text);
+        expect_agreement(scenes[i], by_strategies(seeded, "all", "bounces=all"),
+                         measure(seeded, "estimator=pathtrace:samples=64", "bounces=all"), 0.003);
+    }
 }
 
 int main(void)
@@ -119,6 +148,7 @@ int main(void)
         cmocka_unit_test(test_each_strategy_in_a_sphere),
         SLOW_TEST(test_each_strategy_by_lights),
         SLOW_TEST(test_bounces_by_lobes),
+        SLOW_TEST(test_scenes),
     };
     return RUN_TESTS(tests);
 }

@@ -1,5 +1,7 @@
 #include "eye_paths.h"
 
+#include "connections.h"
+
 /* Sets of PS_STREAM_PATH that choose points on lights; directions take 1, 2, 3, ... */
 #define LIGHT_SETS 0x10000u
 
@@ -8,28 +10,13 @@ struct eye_work {
     const ps_points *points;
     const struct sight *sights;
     const uint64_t *samples;
-    const struct light_vertices *vertices;
-    uint32_t targets[PS_TILE_PIXELS]; /* which point each lane is */
-    ps_rgb *sums;
-    int at_points; /* the walk is still at the pixels' points, which count as white and diffuse */
+    ps_rgb *sums; /* of lanes */
     struct walk walk;
 };
 
 static void add(struct eye_work *work, uint32_t lane, ps_rgb irradiance)
 {
-    ps_rgb *sum = &work->sums[work->targets[lane]];
-    *sum = ps_rgb_add(*sum, irradiance);
-}
-
-/* What surface i of the walk scatters of light from a direction, given what the host says of it. */
-static struct scattering scattering_at(const struct walk *walk, size_t i, ps_vec3 direction,
-                                       const ps_bsdf_value *value)
-{
-    const ps_hit *hit = &walk->hits[i];
-    float cosine = ps_max(ps_dot(direction, hit->normal), 0.0f);
-    int is_diffuse = !(hit->flags & PS_HIT_SPECULAR);
-    return (struct scattering){
-        value->value, is_diffuse ? value->value : ps_rgb_scale(hit->albedo, cosine / PS_PI)};
+    work->sums[lane] = ps_rgb_add(work->sums[lane], irradiance);
 }
 
 /* --- emission that is met --- */
@@ -107,7 +94,7 @@ static ps_rgb light_from(const struct eye_work *work, size_t i, const ps_light_s
     float others = bdpt_square(arrival) * (end->vcm + end->vc * bdpt_square(value->reverse_pdf));
     if (density->direct > 0.0f)
         others += bdpt_square(value->pdf / density->direct);
-    struct scattering here = scattering_at(&work->walk, i, point->direction, value);
+    struct scattering here = bdpt_scattering(&work->walk.hits[i], point->direction, value);
     ps_rgb scattered = bdpt_scattered(bdpt_room(bdpt, end->bounces), &here, &light);
     ps_rgb carried = ps_rgb_scale(end->throughput, bdpt_weight(others));
     return ps_rgb_multiply(ps_rgb_multiply(carried, scattered), point->irradiance);
@@ -140,130 +127,6 @@ static void add_direct(struct eye_work *work, uint32_t number)
             add(work, lanes[i], light[i]);
 }
 
-/* --- connections to light paths --- */
-
-/* Ends that can be connected, from the surfaces of pixels' paths, or pixels' points, to those of light paths. */
-struct connections {
-    size_t count;
-    uint32_t eyes[PS_TILE_PIXELS];   /* in the walk */
-    uint32_t lights[PS_TILE_PIXELS]; /* among the light paths' vertices */
-    ps_vec3 to_lights[PS_TILE_PIXELS], to_eyes[PS_TILE_PIXELS];
-    ps_ray eye_rays[PS_TILE_PIXELS], light_rays[PS_TILE_PIXELS];
-    ps_hit eye_hits[PS_TILE_PIXELS], light_hits[PS_TILE_PIXELS];
-    ps_bsdf_value eye_values[PS_TILE_PIXELS], light_values[PS_TILE_PIXELS];
-};
-
-/* The diffuse part of what a light path's surface scatters: BSDF times cosine, with what smoothed normals change. */
-static ps_rgb diffuse_from_light(const struct bdpt *bdpt, const struct vertex *vertex,
-                                 ps_vec3 direction)
-{
-    const ps_hit *hit = &vertex->hit;
-    ps_vec3 in = ps_scale(vertex->ray.direction, -1.0f);
-    float shading = ps_max(ps_dot(in, hit->normal), 0.0f) / ps_dot(in, hit->geometric_normal);
-    float cosine = shading * ps_dot(direction, hit->geometric_normal);
-    return ps_rgb_scale(bdpt_albedo_towards(bdpt, hit, direction), cosine / PS_PI);
-}
-
-/* What the walk's surface sends on of what the light path's sends there, if nothing is in between. */
-static ps_rgb carried_over(const struct eye_work *work, const struct connections *links, size_t k)
-{
-    const struct bdpt *bdpt = work->bdpt;
-    const struct vertex *vertex = &work->vertices->items[links->lights[k]];
-    const struct subpath *eye = &work->walk.ends[links->eyes[k]], *light = &vertex->end;
-    const ps_bsdf_value *at_eye = &links->eye_values[k], *at_light = &links->light_values[k];
-    if (!(ps_rgb_maximum(at_eye->value) > 0.0f && ps_rgb_maximum(at_light->value) > 0.0f))
-        return (ps_rgb){0, 0, 0};
-    ps_vec3 between = ps_subtract(vertex->hit.position, links->eye_hits[k].position);
-    float distance2 = ps_dot(between, between);
-    float cos_eye = ps_dot(links->to_lights[k], links->eye_hits[k].geometric_normal);
-    float cos_light = ps_dot(links->to_eyes[k], vertex->hit.geometric_normal);
-    float others = bdpt_square(at_eye->pdf * cos_light / distance2) *
-                       (light->vcm + light->vc * bdpt_square(at_light->reverse_pdf)) +
-                   bdpt_square(at_light->pdf * cos_eye / distance2) *
-                       (eye->vcm + eye->vc * bdpt_square(at_eye->reverse_pdf));
-    struct scattering here =
-        scattering_at(&work->walk, links->eyes[k], links->to_lights[k], at_eye);
-    uint32_t room = bdpt_room(bdpt, eye->bounces + light->bounces);
-    struct scattering there = {at_light->value, at_light->value};
-    if (work->at_points)
-        here.diffuse = (ps_rgb){0, 0, 0};
-    if (room < 2 && vertex->hit.flags & PS_HIT_SPECULAR)
-        there.diffuse = diffuse_from_light(bdpt, vertex, links->to_eyes[k]);
-    ps_rgb scattered = bdpt_scattered(room, &here, &there);
-    ps_rgb carried = ps_rgb_multiply(eye->throughput, light->throughput);
-    return ps_rgb_scale(ps_rgb_multiply(carried, scattered), bdpt_weight(others) / distance2);
-}
-
-/* Adds what the connections carry, and forgets them. */
-static void add_connections(struct eye_work *work, struct connections *links)
-{
-    const ps_host *host = work->bdpt->host;
-    ps_ray rays[PS_TILE_PIXELS];
-    ps_rgb light[PS_TILE_PIXELS];
-    uint32_t lanes[PS_TILE_PIXELS];
-    uint8_t blocked[PS_TILE_PIXELS];
-    size_t count = 0;
-    bdpt_evaluate(work->bdpt, PS_FROM_CAMERA, links->eye_rays, links->eye_hits, links->to_lights,
-                  links->count, links->eye_values);
-    bdpt_evaluate(work->bdpt, PS_FROM_LIGHT, links->light_rays, links->light_hits, links->to_eyes,
-                  links->count, links->light_values);
-    for (size_t k = 0; k < links->count; k++) {
-        ps_vec3 from = bdpt_origin(work->bdpt, &links->eye_hits[k]);
-        ps_vec3 way = ps_subtract(bdpt_origin(work->bdpt, &links->light_hits[k]), from);
-        float distance = ps_length(way);
-        light[count] = carried_over(work, links, k);
-        rays[count] = (ps_ray){from, 0.0f, ps_scale(way, 1.0f / distance), distance};
-        lanes[count] = work->walk.ends[links->eyes[k]].lane;
-        count += ps_rgb_maximum(light[count]) > 0.0f;
-    }
-    host->occluded(host, rays, count, blocked);
-    for (size_t i = 0; i < count; i++)
-        if (!blocked[i])
-            add(work, lanes[i], light[i]);
-    links->count = 0;
-}
-
-/* Takes note of a connection whose ends face each other. */
-static void note_connection(const struct eye_work *work, size_t i, uint32_t light,
-                            struct connections *links)
-{
-    const struct vertex *vertex = &work->vertices->items[light];
-    const ps_hit *hit = &work->walk.hits[i];
-    ps_vec3 between = ps_subtract(vertex->hit.position, hit->position);
-    ps_vec3 direction = ps_normalize(between);
-    size_t k = links->count;
-    if (!(ps_dot(direction, hit->geometric_normal) > 0.0f &&
-          ps_dot(direction, hit->normal) > 0.0f &&
-          ps_dot(direction, vertex->hit.geometric_normal) < 0.0f))
-        return;
-    links->eyes[k] = (uint32_t)i;
-    links->lights[k] = light;
-    links->to_lights[k] = direction;
-    links->to_eyes[k] = ps_scale(direction, -1.0f);
-    links->eye_rays[k] = work->walk.rays[i];
-    links->light_rays[k] = vertex->ray;
-    links->eye_hits[k] = *hit;
-    links->light_hits[k] = vertex->hit;
-    links->count++;
-}
-
-static void connect_to_lights(struct eye_work *work)
-{
-    struct connections links; /* large: not to be cleared each time */
-    if (!bdpt_connects(work->bdpt))
-        return;
-    links.count = 0;
-    for (size_t i = 0; i < work->walk.count; i++) {
-        uint32_t light = work->vertices->first[work->walk.ends[i].lane];
-        for (; light != NO_VERTEX; light = work->vertices->next[light]) {
-            note_connection(work, i, light, &links);
-            if (links.count == PS_TILE_PIXELS)
-                add_connections(work, &links);
-        }
-    }
-    add_connections(work, &links);
-}
-
 /* --- the paths --- */
 
 /* The pixels' points as first surfaces: white, so that pi times what they send on is their irradiance. */
@@ -284,7 +147,6 @@ static void start_at_points(struct eye_work *work)
             .albedo = {1, 1, 1},
         };
         walk->rays[i] = (ps_ray){walk->hits[i].position, 0.0f, {0, 0, 1}, INFINITY};
-        work->targets[lane] = i;
     }
 }
 
@@ -321,18 +183,12 @@ static void forget_own_surfaces(struct eye_work *work)
 void eye_paths_trace(const struct bdpt *bdpt, const ps_points *points, const struct sight *sights,
                      const uint64_t *samples, const struct light_vertices *vertices, ps_rgb *sums)
 {
-    struct eye_work work = {.bdpt = bdpt,
-                            .points = points,
-                            .sights = sights,
-                            .samples = samples,
-                            .vertices = vertices,
-                            .sums = sums,
-                            .at_points = 1};
+    struct eye_work work = {
+        .bdpt = bdpt, .points = points, .sights = sights, .samples = samples, .sums = sums};
     struct walk *walk = &work.walk;
     start_at_points(&work);
-    connect_to_lights(&work);
+    connect_to_lights(bdpt, walk, 1, vertices, sums);
     leave_points(&work);
-    work.at_points = 0;
     for (uint32_t number = 1; walk->count > 0; number++) {
         bdpt->host->intersect(bdpt->host, walk->rays, walk->count, walk->hits);
         if (number == 1)
@@ -342,7 +198,7 @@ void eye_paths_trace(const struct bdpt *bdpt, const ps_points *points, const str
         walk_drop_lost(walk);
         walk_arrive(walk);
         add_direct(&work, number);
-        connect_to_lights(&work);
+        connect_to_lights(bdpt, walk, 0, vertices, sums);
         walk_scatter(bdpt, PS_FROM_CAMERA, PS_STREAM_PATH, number + 1, samples, walk);
     }
 }

@@ -5,6 +5,14 @@ static ps_rgb without(ps_rgb a, ps_rgb b)
     return (ps_rgb){ps_max(a.r - b.r, 0.0f), ps_max(a.g - b.g, 0.0f), ps_max(a.b - b.b, 0.0f)};
 }
 
+struct scattering bdpt_scattering(const ps_hit *hit, ps_vec3 direction, const ps_bsdf_value *value)
+{
+    float cosine = ps_max(ps_dot(direction, hit->normal), 0.0f);
+    if (!(hit->flags & PS_HIT_SPECULAR))
+        return (struct scattering){value->value, value->value};
+    return (struct scattering){value->value, ps_rgb_scale(hit->albedo, cosine / PS_PI)};
+}
+
 ps_rgb bdpt_scattered(uint32_t room, const struct scattering *a, const struct scattering *b)
 {
     if (room == 0)

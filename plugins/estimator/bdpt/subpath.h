@@ -101,6 +101,9 @@ struct scattering {
     ps_rgb all, diffuse;
 };
 
+/* That of a surface that a pixel's path met, given what bdpt_evaluate says of the direction. */
+struct scattering bdpt_scattering(const ps_hit *hit, ps_vec3 direction, const ps_bsdf_value *value);
+
 /* The product of both, but for what takes more diffuse scatterings than there is room for. */
 ps_rgb bdpt_scattered(uint32_t room, const struct scattering *a, const struct scattering *b);
 
