@@ -215,8 +215,8 @@ typedef struct ps_denoiser_vtable {
 /* --- bloom and tonemap ----------------------------------------------------------------------- */
 
 /* Since 1.5. A copy of the picture on its way to a display, row-major, to change in place: linear, with the primaries of
- * Rec. 709. Radiance times 2 to the power of the exposure, so that 1 is the brightest that the display shows; finite,
- * and not negative. No layer of radiance is made of it. */
+ * Rec. 709. Radiance times 2 to the power of the exposure, so that 1 is the brightest that the display shows; not
+ * negative, and at most 1e15. No layer of radiance is made of it. */
 typedef struct ps_display_view {
     uint32_t size;
     uint32_t width, height;

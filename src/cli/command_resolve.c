@@ -21,7 +21,7 @@ static const struct option options[] = {
     OUTPUT_OPTIONS,
     {'p', "plugin", "KIND=NAME[:KEY=VALUE,...]",
      "another normalization, denoiser, bloom or tone map, or other parameters"},
-    {0, "exposure", "STOPS", "brightness of the PNG: a factor of 2^STOPS"},
+    {0, "exposure", "STOPS", "brightness of what is shown: a factor of 2^STOPS"},
     {'t', "threads", "N", "threads; the picture does not depend on them"},
     {'q', "quiet", NULL, "print nothing but errors"},
 };
@@ -95,6 +95,45 @@ static ps_result set_number(struct render_description *render, const char *key, 
     return text ? param_set(param_find(&table, key), render, text, error) : PS_OK;
 }
 
+static bool names_path(const char *choice)
+{
+    return memchr(choice, '/', strcspn(choice, ":")) != NULL;
+}
+
+/* Whether --plugin says what strategy of that kind to use. */
+static bool is_overridden(const struct job *job, ps_kind kind)
+{
+    const char *name;
+    for (size_t i = 0; i < job->count; i++)
+        if (argument_is(&job->arguments[i], "plugin") &&
+            kind_parse(job->arguments[i].value, &name) == kind)
+            return true;
+    return false;
+}
+
+/* The strategy that the film's job had chosen. Who opens a film does not ask for programs that it names. */
+static ps_result take_strategy(struct job *job, ps_kind kind, struct error *error)
+{
+    char key[64];
+    snprintf(key, sizeof key, "psplat.%s", kinds[kind].name);
+    const char *choice = image_attribute(&job->facts, key);
+    if (!choice || is_overridden(job, kind))
+        return PS_OK;
+    if (names_path(choice))
+        return error_set(
+            error, PS_ERROR_INVALID,
+            "the film's job had %s '%.200s', a plugin that it named by its path: say by "
+            "--plugin %s=... that it may run, or choose another one",
+            kinds[kind].name, choice, kinds[kind].name);
+    return last_stages_choose(&job->stages, kind, choice, error);
+}
+
+/* The first kind that has nothing to do. */
+static ps_kind end_of_stages(const struct job *job)
+{
+    return output_list_wants_display(&job->outputs) ? PS_KINDS : PS_BLOOM;
+}
+
 /* What the film was to be resolved with. */
 static ps_result take_facts(struct job *job, struct error *error)
 {
@@ -102,13 +141,8 @@ static ps_result take_facts(struct job *job, struct error *error)
     struct render_description *description = &job->stages.description;
     const char *exposure = image_attribute(facts, "psplat.exposure");
     ps_result result = PS_OK;
-    for (int kind = PS_NORMALIZATION; kind < PS_KINDS && result == PS_OK; kind++) {
-        char key[64];
-        snprintf(key, sizeof key, "psplat.%s", kinds[kind].name);
-        const char *choice = image_attribute(facts, key);
-        if (choice)
-            result = last_stages_choose(&job->stages, (ps_kind)kind, choice, error);
-    }
+    for (int kind = PS_NORMALIZATION; kind < (int)end_of_stages(job) && result == PS_OK; kind++)
+        result = take_strategy(job, (ps_kind)kind, error);
     if (result == PS_OK)
         result = set_number(description, "indirect_exposure",
                             image_attribute(facts, "psplat.indirect_exposure"), error);
@@ -141,15 +175,18 @@ static ps_result describe(const struct job *job, const struct render_settings *s
                           struct image *image, struct error *error)
 {
     ps_result result = PS_OK;
-    char passes[32];
+    char passes[32], exposure[32];
     for (size_t i = 0; i < job->facts.attribute_count && result == PS_OK; i++) {
         const struct image_attribute *fact = &job->facts.attributes[i];
         if (strcmp(fact->name, "psplat.film") != 0)
             result = image_set_attribute(image, fact->name, fact->value, error);
     }
-    for (int kind = PS_NORMALIZATION; kind < PS_KINDS && result == PS_OK; kind++)
+    for (int kind = PS_NORMALIZATION; kind < (int)end_of_stages(job) && result == PS_OK; kind++)
         result = facts_set_strategy(image, &settings->strategies[kind], error);
+    text_from_number(job->exposure, exposure, sizeof exposure);
     snprintf(passes, sizeof passes, "%" PRIu32, pass_set_size(&job->film.passes));
+    if (result == PS_OK)
+        result = image_set_attribute(image, "psplat.exposure", exposure, error);
     return result == PS_OK ? image_set_attribute(image, "psplat.passes", passes, error) : result;
 }
 

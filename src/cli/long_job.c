@@ -221,7 +221,7 @@ static void look_at_picture(struct long_job *job, struct render *render, bool wr
     struct error error;
     double start = clock_seconds();
     uint32_t passes = pass_set_size(&render_film(render)->passes);
-    ps_result result = render_picture(render, &image, &error);
+    ps_result result = render_picture(render, write, &image, &error);
     if (schedule->error > 0.0) {
         double estimate = error_estimate_of_picture(&image);
         if (estimate < 0.0)

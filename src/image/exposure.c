@@ -5,8 +5,8 @@
  *
  * Black pixels, such as the void around a scene, are left out, where Reinhard adds a small number to each; and so are
  * the darkest and the brightest hundredth of the others, among which are fireflies and lights. A histogram finds these:
- * the upper bits of a float number its octave and 64 steps in it, so the mean is exact to a hundredth of a stop, and
- * counts do not depend on the order of pixels.
+ * the upper bits of a float number its octave and 64 steps in it, so the mean is exact to 0.012 stops, and counts
+ * do not depend on the order of pixels.
  */
 #include "image/exposure.h"
 

@@ -10,9 +10,11 @@
 #include "pipeline/render.h"
 #include "pipeline/stages.h"
 #include "plugin/shared_params.h"
-#include <float.h>
 #include <math.h>
 #include <string.h>
+
+/* Of what is shown. Brighter light would leave no bits for other pixels in the sums of a blur. */
+#define BRIGHTEST 1e15f
 
 static const char *const names[3] = {"display.R", "display.G", "display.B"};
 
@@ -41,7 +43,7 @@ struct exposing {
     float factor;
 };
 
-/* What is no number becomes 0, what is infinite the largest number. */
+/* What is no number becomes 0. */
 static void expose_row(void *user, uint64_t row, uint32_t worker)
 {
     const struct exposing *exposing = user;
@@ -50,7 +52,7 @@ static void expose_row(void *user, uint64_t row, uint32_t worker)
     (void)worker;
     for (int c = 0; c < 3; c++)
         for (size_t i = first; i < first + width; i++)
-            shown[c][i] = fminf(fmaxf(exposing->light[c][i] * exposing->factor, 0.0f), FLT_MAX);
+            shown[c][i] = fminf(fmaxf(exposing->light[c][i] * exposing->factor, 0.0f), BRIGHTEST);
 }
 
 static void expose(const struct render *render, const float *const light[3],
@@ -152,5 +154,9 @@ ps_result display_show(struct render *render, float *const planes[3], size_t wid
     const float *const light[3] = {planes[0], planes[1], planes[2]};
     ps_display_view view = view_of(planes, width, height);
     ps_kind failed;
-    return fill(render, light, &view, &failed, error);
+    ps_result result = fill(render, light, &view, &failed, error);
+    if (result == PS_CANCELLED)
+        error_set(error, result, "%s %.80s was stopped", kinds[failed].name,
+                  strategy_in(render, failed)->type->name);
+    return result;
 }

@@ -94,7 +94,8 @@ const struct film_sum *render_film(const struct render *render)
     return render->sum;
 }
 
-ps_result render_picture(struct render *render, struct image *image, struct error *error)
+ps_result render_picture(struct render *render, bool display, struct image *image,
+                         struct error *error)
 {
     *image = (struct image){0};
     if (render->sum && !render->unfinished) {
@@ -103,7 +104,7 @@ ps_result render_picture(struct render *render, struct image *image, struct erro
             return result;
         film_sum_round(render->sum, &render->film, render->settings->workers);
     }
-    return resolve_image(render, image, error);
+    return resolve_image(render, display && render->settings->display, image, error);
 }
 
 ps_result render_run(const struct scene *scene, struct render_settings *settings,
@@ -129,7 +130,7 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
         result = run_passes(&render, error);
     if (sound && (render_passes_done(&render) > 0 || render.unfinished)) {
         struct error reason;
-        ps_result resolved = render_picture(&render, image, &reason);
+        ps_result resolved = render_picture(&render, true, image, &reason);
         statistics_count(statistics, "pixels without weight", render.dark_pixels);
         if (resolved != PS_OK && (result == PS_OK || image->width == 0)) {
             result = resolved;
@@ -167,7 +168,7 @@ ps_result render_resolve(struct film_sum *film, const struct camera *camera,
     host_create(&render);
     ps_result result = start_resolving(&render, error);
     if (result == PS_OK)
-        result = render_picture(&render, image, error);
+        result = render_picture(&render, true, image, error);
     render_report_refused(&render);
     render_destroy(&render);
     return result;
@@ -179,6 +180,7 @@ ps_result render_display(float *const planes[3], size_t width, size_t height,
 {
     const struct scene scene = {.width = width, .height = height};
     struct statistics statistics;
+    settings->display = true;
     struct render render = {
         .scene = &scene,
         .settings = settings,

@@ -56,8 +56,9 @@ const struct film_sum *render_film(const struct render *render);
 bool render_missing_pass(const struct render *render, uint32_t *number);
 
 /* The picture of the passes that a render of several has so far, of which there is at least one; likewise. From
- * render_callbacks.next_pass alone. */
-ps_result render_picture(struct render *render, struct image *image, struct error *error);
+ * render_callbacks.next_pass alone. `display`: with the layer of that name, where the settings ask for it. */
+ps_result render_picture(struct render *render, bool display, struct image *image,
+                         struct error *error);
 
 /* The picture of a film, by normalization and denoiser of `settings`, whose strategies it starts. Of the scene they
  * know the camera alone. Results are those of render_run. */

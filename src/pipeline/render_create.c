@@ -6,7 +6,8 @@
 
 ps_result render_start_strategies(struct render *render, ps_kind first, struct error *error)
 {
-    for (int kind = (int)first; kind < PS_KINDS; kind++) {
+    int end = render->settings->display ? PS_KINDS : PS_BLOOM;
+    for (int kind = (int)first; kind < end; kind++) {
         ps_result result =
             strategy_start(strategy_in(render, (ps_kind)kind), &render->hosts[kind].host);
         result = render_judge(render, (ps_kind)kind, result, error);

@@ -408,13 +408,11 @@ static ps_result display(struct render *render, struct rgb_planes picture, ps_re
 {
     const float *const light[3] = {picture.r, picture.g, picture.b};
     struct error other;
-    if (!render->settings->display)
-        return earlier;
     ps_result shown = display_fill(render, light, image, earlier == PS_OK ? error : &other);
     return earlier == PS_OK ? shown : earlier;
 }
 
-ps_result resolve_image(struct render *render, struct image *image, struct error *error)
+ps_result resolve_image(struct render *render, bool shows, struct image *image, struct error *error)
 {
     static const char *const picture_names[3] = {"R", "G", "B"};
     static const char *const indirect_names[3] = {"indirect.R", "indirect.G", "indirect.B"};
@@ -425,7 +423,7 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
     ps_result result = add_rgb(image, picture_names, &picture, error);
     if (result == PS_OK)
         result = add_rgb(image, indirect_names, &indirect, error);
-    if (result == PS_OK && render->settings->display)
+    if (result == PS_OK && shows)
         result = display_add(image, error);
     if (result == PS_OK)
         result = create_estimate(render, &estimate, error);
@@ -446,7 +444,8 @@ ps_result resolve_image(struct render *render, struct image *image, struct error
         denoised = denoise_direct(render, picture, error);
     combine(render, indirect, picture);
     ps_result made = normalized != PS_OK ? normalized : denoised;
-    made = display(render, picture, made, image, error);
+    if (shows)
+        made = display(render, picture, made, image, error);
     result = move_film_layers(&render->film, image, error);
     if (result == PS_OK && estimate && denoised == PS_OK) {
         result = image_adopt_channel(image, "error", estimate, error);

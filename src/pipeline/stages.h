@@ -10,7 +10,8 @@
 ps_result render_create(struct render *render, struct error *error);
 void render_destroy(struct render *render);
 
-/* Starts the strategies of this kind and those after it; destroying the render stops them. */
+/* Starts the strategies of this kind and those after it, bloom and tone map only for a display; destroying the render
+ * stops them. */
 ps_result render_start_strategies(struct render *render, ps_kind first, struct error *error);
 
 /* Tells plugins of a pass. */
@@ -36,10 +37,11 @@ size_t picture_bytes(size_t width, size_t height, bool display);
 ps_result leave_out(struct render *render, ps_kind kind, ps_result result, const char *instead,
                     struct error *error);
 
-/* Film to image: normalization, ambient fallback, denoiser, combination, display. Uses up the film. Where memory runs
- * out there is no image; where a strategy fails or is stopped, the result says so, and there is an image
- * without what it does. */
-ps_result resolve_image(struct render *render, struct image *image, struct error *error);
+/* Film to image: normalization, ambient fallback, denoiser, combination; and display, if it `shows`. Uses up the film.
+ * Where memory runs out there is no image; where a strategy fails or is stopped, the result says so, and there is an
+ * image without what it does. */
+ps_result resolve_image(struct render *render, bool shows, struct image *image,
+                        struct error *error);
 
 /* Adds the layer `display`, of zeros, to a picture. */
 ps_result display_add(struct image *image, struct error *error);

@@ -4,17 +4,37 @@
 area=$PSPLAT_SOURCE/scenes/cornell-area.psd
 job="-q --size 48x27 -p injection=photon:count=500 -p denoiser=none --set render.aa_samples=1 --exposure 0"
 
+# pixels FILE.png: its chunk of pixels, in hexadecimal.
+pixels() {
+    od -An -v -tx1 "$1" | tr -d ' \n' | sed 's/.*49444154//'
+}
+
+# expect_same_shown A.png B.png
+expect_same_shown() {
+    pixels "$1" >a.pixels
+    pixels "$2" >b.pixels
+    cmp -s a.pixels b.pixels || fail "$1 and $2 differ"
+}
+
+# expect_other_shown A.png B.png
+expect_other_shown() {
+    pixels "$1" >a.pixels
+    pixels "$2" >b.pixels
+    ! cmp -s a.pixels b.pixels || fail "$1 and $2 show the same"
+}
+
 # --- layers of radiance stay, bit for bit ---
 
 run 0 $job -o plain.exr -o plain.png "$area"
+run 0 $job --exposure 1.5 -o bright.png "$area"
 for choice in bloom=glare tonemap=clip tonemap=reinhard:exposure=auto tonemap=chroma:exposure=-1; do
-    run 0 $job -p $choice -o other.exr -o other.png "$area"
+    run 0 $job --exposure 1.5 -p $choice -o other.exr -o other.png "$area"
     expect_same_pixels plain.exr other.exr
     run 0 compare other.exr plain.exr --metric max --fail 'max>0'
     for layer in P weight; do
         run 0 compare other.exr plain.exr --layer $layer --metric max --fail 'max>0'
     done
-    ! cmp -s plain.png other.png || fail "$choice does not change the PNG"
+    expect_other_shown bright.png other.png
 done
 run 0 info other.exr
 expect_text out "psplat.tonemap: chroma:exposure=-1,shoulder=0.6"
@@ -30,18 +50,6 @@ expect_text out "channels: B G R display.B display.G display.R"
 run 0 $job -p bloom=glare --layers all,display -o all.exr "$area"
 expect_same_pixels plain.exr all.exr
 run 0 compare all.exr shown.exr --layer display --metric max --fail 'max>0'
-
-# pixels FILE.png: its chunk of pixels, in hexadecimal.
-pixels() {
-    od -An -v -tx1 "$1" | tr -d ' \n' | sed 's/.*49444154//'
-}
-
-# expect_same_shown A.png B.png
-expect_same_shown() {
-    pixels "$1" >a.pixels
-    pixels "$2" >b.pixels
-    cmp -s a.pixels b.pixels || fail "$1 and $2 differ"
-}
 
 # expect_view PICTURE.exr PICTURE.png OPTION...: psplat view makes the one of the other.
 expect_view() {
@@ -64,7 +72,7 @@ expect_same_shown a.png c.png
 # Also where the first is automatic.
 run 0 $job -p tonemap=clip:exposure=auto -o a.png "$area"
 run 0 $job -p tonemap=clip:exposure=auto --exposure -1 -o b.png "$area"
-! cmp -s a.png b.png || fail "--exposure does not correct automatic exposure"
+expect_other_shown a.png b.png
 
 # --- films: no identity, another tone map without rendering ---
 
@@ -109,7 +117,7 @@ compile_module "$PSPLAT_SOURCE/include" "$PSPLAT_SOURCE/tests/plugins/failing_st
 run 0 $job -p tonemap=clip -o cut.png "$area"
 for kind in bloom tonemap; do
     rm -f kept.*
-    run 2 $job -p tonemap=clip -p $kind=./failing.so -o kept.exr -o kept.png "$area"
+    run 2 $job -p tonemap=reinhard -p bloom=glare:strength=0.5 -p $kind=./failing.so -o kept.exr -o kept.png "$area"
     expect_text err "psplat: warning: $kind failing failed; the picture is shown without bloom and tone map"
     expect_text err "psplat: error: $kind failing failed"
     expect_same_pixels kept.exr plain.exr
@@ -117,6 +125,23 @@ for kind in bloom tonemap; do
     run 1 view plain.exr -p $kind=./failing.so -o no.png
     expect_text err "psplat: error: $kind failing failed"
 done
+
+# --- where nothing is shown, bloom and tone map do not run ---
+
+run 0 $job -p tonemap=./failing.so -p bloom=./failing.so -o other.exr "$area"
+expect_same_pixels plain.exr other.exr
+run 0 $job --passes 1 --checkpoint named.exr -p bloom=./failing.so -o other.exr "$cornell"
+run 0 resolve named.exr -q -o other.exr
+run 2 resolve named.exr -q -o no.png
+expect_text err "the film's job had bloom './failing.so', a plugin that it named by its path: say by --plugin bloom=..."
+run 0 resolve named.exr -q -p bloom=none -o other.png
+run 2 resolve named.exr -q -p bloom=./failing.so -o kept.png
+expect_text err "bloom failing failed"
+
+# --- light that no display shows ---
+
+run 0 view plain.exr --exposure 130 -p bloom=glare:strength=1,radius=0.5 -o bright.png
+expect_no_text err "no numbers"
 
 # --- trials: a bloom that makes light, and a tone map that makes none of numbers ---
 
