@@ -183,7 +183,11 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
                  .camera = {.size = sizeof(ps_camera)}},
         .samples = (uint64_t)state->samples,
     };
+    ps_vec3 center;
+    float radius;
     host->camera(host, &work.bdpt.camera);
+    host->scene_bounds(host, &center, &radius);
+    work.bdpt.area = radius * radius;
     ps_result result = allocate(&work) ? trace_all(&work) : PS_ERROR_MEMORY;
     release(&work);
     return result;

@@ -109,7 +109,7 @@ static void make_record(void *user, uint64_t index, uint32_t worker)
     const struct overture_round *round = user;
     const struct work *work = round->work;
     size_t number = round->first_record + index;
-    uint64_t first_sample = ((uint64_t)work->pass->number << 44) + ((uint64_t)number << 20);
+    uint64_t first_sample = ((uint64_t)work->pass->number << 44) + ((uint64_t)number << 17);
     record_make(&work->setting, &work->rooms[worker], first_sample, &work->cache.records[number]);
 }
 
@@ -255,7 +255,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     ps_vec3 center;
     float radius;
     host->scene_bounds(host, &center, &radius);
-    work.setting.far = 10.0f * radius;
+    work.setting.unit = radius;
     cache_begin(host, &work.cache);
     choose_strata(state, &work.setting);
     look_through_camera(&work);
@@ -273,7 +273,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
 
 static const ps_param params[] = {
     PS_ROW(struct state, samples, PS_PARAM_INT, "1024", 6, 1 << 16, PS_PARAM_QUALITY, NULL, "rays",
-           "rays from each record"),
+           "rays from each record, or a few less, which fill whole rings"),
     PS_NUMBER(struct state, spacing, "0.1", 0, 10, PS_PARAM_OPEN_MIN, "",
               "how far apart records are; their number falls with its square"),
     PS_ROW(struct state, roulette, PS_PARAM_INT, "3", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",

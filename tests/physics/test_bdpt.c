@@ -73,6 +73,22 @@ static void test_each_strategy_in_a_sphere(void **state)
         }
 }
 
+/* Of radiance L that shines to its inside: E = pi L directly, and albedo times that with each bounce. Light paths start on
+ * the very surface that they meet. */
+static void test_shining_sphere(void **state)
+{
+    (void)state;
+    static const char sphere[] =
+        "psd: 1\n"
+        "camera: {location: [100, 0, 0], look_at: [101, 0.3, 0.2], angle: 90}\n"
+        "image: {width: 48, height: 48}\n"
+        "materials: {wall: {diffuse: 0.5, emission: 1, emission_both: yes}}\n"
+        "objects: [{sphere: {center: [100, 0, 0], radius: 2, material: wall}}]\n"
+        "render: {seed: %d}\n";
+    expect_estimate("shining sphere", measure(sphere, "estimator=bdpt:samples=64", "bounces=2"),
+                    0.5 * (0.5 + 0.25), 0.001);
+}
+
 #define SEEDED "render: {seed: %d, passes: 8}\n"
 
 /* Where light tracing finds all light; at corners of pixels that show two surfaces it is not exact. */
@@ -146,6 +162,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_each_strategy_in_a_sphere),
+        cmocka_unit_test(test_shining_sphere),
         SLOW_TEST(test_each_strategy_by_lights),
         SLOW_TEST(test_bounces_by_lobes),
         SLOW_TEST(test_scenes),

@@ -85,6 +85,26 @@ static void test_furnace(void **state)
     }
 }
 
+/* As large as scenes may be: nothing that is summed or squared on the way overflows. */
+static void test_large_furnace(void **state)
+{
+    (void)state;
+    static const char large[] =
+        "psd: 1\n"
+        "camera: {location: [0, 0, 0], look_at: [1, 0.3, 0.2], angle: 90}\n"
+        "image: {width: 32, height: 32}\n"
+        "materials: {wall: {diffuse: 0.6}}\n"
+        "lights: [{point: {location: [0, 0, 0], intensity: 9e16}}]\n"
+        "objects: [{sphere: {center: [0, 0, 0], radius: 3e8, material: wall}}]\n"
+        "render: {seed: %d, bounces: 2}\n";
+    static const struct method methods[] = {
+        {"pathtrace", {"estimator=pathtrace:samples=8", NULL}, 0},
+        {"bdpt", {"estimator=bdpt:samples=8", NULL}, 0.002},
+        {"irradiance_cache", {"estimator=irradiance_cache:samples=64", NULL}, 0.001},
+    };
+    check("large furnace", large, methods, COUNT(methods), 0.6 / PI * (0.6 + 0.36));
+}
+
 /* A spotlight of half angle 3 degrees lights a small disc of albedo 0.8 on the floor from 1 above;
  * a receiver of albedo 0.5 hangs 2 above it, level or tilted by 60 degrees. A disc of radius p with
  * radiant exitance M gives a parallel element on its axis M p^2 / (d^2 + p^2), and an element
@@ -169,9 +189,8 @@ static void test_ambient(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_furnace),
-        cmocka_unit_test(test_lit_patch),
-        SLOW_TEST(test_receiver_cosine),
+        cmocka_unit_test(test_furnace),   cmocka_unit_test(test_large_furnace),
+        cmocka_unit_test(test_lit_patch), SLOW_TEST(test_receiver_cosine),
         cmocka_unit_test(test_ambient),
     };
     return RUN_TESTS(tests);

@@ -40,12 +40,12 @@ static ps_rgb carried_over(const struct connecting *work, const struct connectio
     if (!(ps_rgb_maximum(at_eye->value) > 0.0f && ps_rgb_maximum(at_light->value) > 0.0f))
         return (ps_rgb){0, 0, 0};
     ps_vec3 between = ps_subtract(vertex->hit.position, links->eye_hits[k].position);
-    float distance2 = ps_dot(between, between);
+    float distance2 = ps_dot(between, between), in_units = distance2 / bdpt->area;
     float cos_eye = ps_dot(links->to_lights[k], links->eye_hits[k].geometric_normal);
     float cos_light = ps_dot(links->to_eyes[k], vertex->hit.geometric_normal);
-    float others = bdpt_square(at_eye->pdf * cos_light / distance2) *
+    float others = bdpt_square(at_eye->pdf * cos_light / in_units) *
                        (light->vcm + light->vc * bdpt_square(at_light->reverse_pdf)) +
-                   bdpt_square(at_light->pdf * cos_eye / distance2) *
+                   bdpt_square(at_light->pdf * cos_eye / in_units) *
                        (eye->vcm + eye->vc * bdpt_square(at_eye->reverse_pdf));
     struct scattering here = bdpt_scattering(&links->eye_hits[k], links->to_lights[k], at_eye);
     uint32_t room = bdpt_room(bdpt, eye->bounces + light->bounces);

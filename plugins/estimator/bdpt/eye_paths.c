@@ -48,7 +48,7 @@ static void add_emission(struct eye_work *work)
         ps_light_sample point = point_met(bdpt, &walk->rays[i], &walk->hits[i]);
         ps_light_density density;
         bdpt->host->light_densities(bdpt->host, &walk->rays[i].origin, &point, 1, &density);
-        float arrival = bdpt_connects(bdpt) ? density.arrival : 0.0f;
+        float arrival = bdpt_connects(bdpt) ? density.arrival * bdpt->area : 0.0f;
         float others = bdpt_square(density.direct) * (end->vcm + bdpt_square(arrival) * end->vc);
         ps_rgb carried = ps_rgb_scale(end->throughput, bdpt_weight(others));
         add(work, end->lane, ps_rgb_multiply(carried, radiance[i]));
@@ -90,7 +90,7 @@ static ps_rgb light_from(const struct eye_work *work, size_t i, const ps_light_s
     if (!(ps_rgb_maximum(point->irradiance) > 0.0f && ps_rgb_maximum(value->value) > 0.0f))
         return (ps_rgb){0, 0, 0};
     float cosine = ps_dot(point->direction, work->walk.hits[i].geometric_normal);
-    float arrival = bdpt_connects(bdpt) ? density->arrival * cosine : 0.0f;
+    float arrival = bdpt_connects(bdpt) ? density->arrival * bdpt->area * cosine : 0.0f;
     float others = bdpt_square(arrival) * (end->vcm + end->vc * bdpt_square(value->reverse_pdf));
     if (density->direct > 0.0f)
         others += bdpt_square(value->pdf / density->direct);
@@ -136,7 +136,7 @@ static void start_at_points(struct eye_work *work)
     walk->count = work->points->count;
     for (uint32_t i = 0; i < walk->count; i++) {
         uint32_t lane = work->points->lanes[i];
-        float density = work->sights[lane].density;
+        float density = work->sights[lane].density * work->bdpt->area;
         walk->ends[i] =
             (struct subpath){.throughput = {PS_PI, PS_PI, PS_PI}, .start = PS_PI, .lane = lane};
         walk->ends[i].vcm = density > 0.0f ? bdpt_square(1.0f / density) : 0.0f;
@@ -164,7 +164,10 @@ static void leave_points(struct eye_work *work)
         const ps_hit *hit = &walk->hits[i];
         ps_vec3 direction = ps_cosine_direction(hit->normal, numbers[i][0], numbers[i][1]);
         float pdf = ps_dot(direction, hit->normal) / PS_PI;
-        subpath_leave(&walk->ends[i], ps_dot(direction, hit->geometric_normal), pdf, 0.0f);
+        float cosine = ps_dot(direction, hit->geometric_normal);
+        subpath_leave(&walk->ends[i], cosine, pdf, 0.0f);
+        if (!(cosine > 0.0f)) /* by a bent normal; no connection goes there */
+            walk->ends[i].vcm = walk->ends[i].vc = 0.0f;
         walk->rays[i] =
             ps_leave_surface(hit->position, hit->normal, direction, bdpt->pass->surface_offset);
     }
@@ -196,7 +199,7 @@ void eye_paths_trace(const struct bdpt *bdpt, const ps_points *points, const str
         else
             add_emission(&work);
         walk_drop_lost(walk);
-        walk_arrive(walk);
+        walk_arrive(bdpt, walk);
         add_direct(&work, number);
         connect_to_lights(bdpt, walk, 0, vertices, sums);
         walk_scatter(bdpt, PS_FROM_CAMERA, PS_STREAM_PATH, number + 1, samples, walk);

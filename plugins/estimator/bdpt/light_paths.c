@@ -68,7 +68,7 @@ static void arrive_from_lights(const struct bdpt *bdpt, ps_light_sample *points,
     ps_vec3 places[PS_TILE_PIXELS];
     ps_light_density densities[PS_TILE_PIXELS];
     for (size_t i = 0; i < walk->count; i++) {
-        places[i] = walk->hits[i].position;
+        places[i] = bdpt_origin(bdpt, &walk->hits[i]); /* as from the other side: off the surface */
         points[i].direction = ps_scale(walk->rays[i].direction, -1.0f);
         if (points[i].distance < INFINITY)
             points[i].distance = walk->hits[i].distance;
@@ -76,7 +76,7 @@ static void arrive_from_lights(const struct bdpt *bdpt, ps_light_sample *points,
     bdpt->host->light_densities(bdpt->host, places, points, walk->count, densities);
     for (size_t i = 0; i < walk->count; i++) {
         float cosine = ps_dot(points[i].direction, walk->hits[i].geometric_normal);
-        float arrival = densities[i].arrival * cosine, direct = densities[i].direct;
+        float arrival = densities[i].arrival * bdpt->area * cosine, direct = densities[i].direct;
         walk->ends[i].vcm = bdpt_square(1.0f / arrival);
         walk->ends[i].vc = direct > 0.0f ? bdpt_square(1.0f / (arrival * direct)) : 0.0f;
     }
@@ -142,7 +142,8 @@ static int connect(const struct bdpt *bdpt, const struct walk *walk, size_t i, c
         !camera_pixel_at(bdpt, place, &splat->tile, &splat->lane))
         return 0;
     density /= bdpt->light_paths;
-    float others = bdpt_square(density) * (end->vcm + end->vc * bdpt_square(cosine / PS_PI));
+    float others =
+        bdpt_square(density * bdpt->area) * (end->vcm + end->vc * bdpt_square(cosine / PS_PI));
     float weight = bdpt_connects(bdpt) ? bdpt_weight(others) : 1.0f;
     float shading = cosine / ps_dot(in, hit->geometric_normal); /* Veach 1997, section 5.3 */
     ps_rgb albedo = bdpt_albedo_towards(bdpt, hit, ray->direction);
@@ -194,7 +195,7 @@ int light_paths_trace(const struct bdpt *bdpt, uint32_t tile, const uint64_t *sa
         walk_scatter(bdpt, PS_FROM_LIGHT, PS_STREAM_ESTIMATOR, number, samples, &walk);
         bdpt->host->intersect(bdpt->host, walk.rays, walk.count, walk.hits);
         walk_drop_lost(&walk);
-        walk_arrive(&walk);
+        walk_arrive(bdpt, &walk);
     }
     return 1;
 }

@@ -90,12 +90,13 @@ void walk_drop_lost(struct walk *walk)
     walk->count = met;
 }
 
-void walk_arrive(struct walk *walk)
+void walk_arrive(const struct bdpt *bdpt, struct walk *walk)
 {
     for (size_t i = 0; i < walk->count; i++) {
         const ps_hit *hit = &walk->hits[i];
         float cosine = -ps_dot(walk->rays[i].direction, hit->geometric_normal);
-        walk->ends[i].vcm *= bdpt_square(hit->distance * hit->distance / cosine);
+        float distance2 = hit->distance * hit->distance / bdpt->area;
+        walk->ends[i].vcm *= bdpt_square(distance2 / cosine);
         walk->ends[i].vc *= bdpt_square(1.0f / cosine);
     }
 }

@@ -39,6 +39,8 @@ struct bdpt {
     uint32_t roulette; /* bounce from which on subpaths may be ended */
     int strategies;    /* bdpt_strategies */
     float light_paths; /* for each sample of all pixels: one a pixel */
+    float
+        area; /* unit of areas in weights: the square of the scene's radius, so that numbers stay small */
     ps_camera camera;
     struct sight *sights; /* of each tile's pixels, owned */
     float jitter[2];      /* where in its square of the picture each pixel looks, 0..1 */
@@ -77,7 +79,7 @@ static inline float bdpt_square(float x)
 }
 
 /* The heuristic's weight, given the squared densities of all other ways over that of this one. Where single precision
- * does not hold them, this way is all but impossible. */
+ * does not hold them, as lengths are measured by the scene, this way is all but impossible. */
 static inline float bdpt_weight(float others)
 {
     return others < INFINITY ? 1.0f / (1.0f + others) : 0.0f;
@@ -131,7 +133,7 @@ void walk_move(struct walk *walk, size_t from, size_t to);
 void walk_drop_lost(struct walk *walk);
 
 /* Partial weights of surfaces that were met, all but those that a light's own rays meet. */
-void walk_arrive(struct walk *walk);
+void walk_arrive(const struct bdpt *bdpt, struct walk *walk);
 
 /* Sends subpaths on from their hits, or ends them. `samples`: the index of each lane's random numbers. */
 void walk_scatter(const struct bdpt *bdpt, ps_direction direction, uint32_t stream, uint32_t set,

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LEAF 4 /* records, at most */
+#define LEAF 4             /* records, at most */
+#define CANCEL_EVERY 1024u /* records */
 
 /* Nodes are in depth-first order: that after a box which does not hold the point is `skip`. */
 struct cache_node {
@@ -200,6 +201,8 @@ ps_result cache_update(struct irradiance_cache *cache, size_t n)
 {
     ps_result result = build_tree(cache);
     for (size_t i = cache->count - n; result == PS_OK && i < cache->count; i++) {
+        if (i % CANCEL_EVERY == 0 && cache->host->cancelled(cache->host))
+            return PS_CANCELLED;
         struct record *record = &cache->records[i], *other;
         struct place place = {0, 0};
         while ((other = next_record(cache, record->position, &place)) != NULL) {
@@ -228,19 +231,24 @@ bool cache_interpolate(const struct irradiance_cache *cache, ps_vec3 position, p
                        ps_rgb *irradiance)
 {
     struct place place = {0, 0};
-    const struct record *record;
+    const struct record *record, *nearest = NULL;
     ps_rgb sum = {0, 0, 0};
-    float weights = 0.0f;
+    float weights = 0.0f, least = INFINITY;
     while ((record = next_record(cache, position, &place)) != NULL) {
         float distance = record_distance(record, position, normal) / (CACHE_REACH * CACHE_REACH);
+        if (distance < least) {
+            least = distance;
+            nearest = record;
+        }
         if (!(distance < 1.0f))
             continue;
         float weight = (1.0f - distance) * (1.0f - distance);
         sum = ps_rgb_add(sum, ps_rgb_scale(record_extrapolate(record, position, normal), weight));
         weights += weight;
     }
-    if (!(weights > 0.0f))
-        return false;
-    *irradiance = ps_rgb_scale(sum, 1.0f / weights);
-    return true;
+    if (weights > 0.0f)
+        *irradiance = ps_rgb_scale(sum, 1.0f / weights);
+    else if (nearest)
+        *irradiance = nearest->irradiance;
+    return nearest != NULL;
 }

@@ -36,7 +36,8 @@ ps_result cache_update(struct irradiance_cache *cache, size_t n);
 /* Whether some record is near enough. Any thread. */
 bool cache_covers(const struct irradiance_cache *cache, ps_vec3 position, ps_vec3 normal);
 
-/* Irradiance at a point by all records that reach it; false where there are none. Any thread. */
+/* Irradiance at a point by all records that reach it; where neighbours have shrunk them so that none does, by the nearest
+ * one. False where there is none. Any thread. */
 bool cache_interpolate(const struct irradiance_cache *cache, ps_vec3 position, ps_vec3 normal,
                        ps_rgb *irradiance);
 

@@ -3,7 +3,8 @@
  * Schwarzhaupt, Jensen and Jarosz 2012, "Practical Hessian-based error control for irradiance caching". What the rays of
  * neighbouring strata met are the vertices of a mesh, which stands for all that the point sees. Each triangle has one
  * radiance, that of its farthest vertex: where an object in front ends, the triangle that joins it to what is behind is seen
- * edge-on, and shows more of what is behind as the point moves. By Lambert's formula
+ * edge-on, and shows more of what is behind as the point moves. The polygon inside of the innermost ring has the mean of its
+ * vertices, and beyond the outermost all goes on as it is there. By Lambert's formula
  *
  *     E = 1/2 sum over edges of (L_left - L_right) theta n.(r1 x r2) / |r1 x r2|
  *
@@ -20,11 +21,11 @@
  * that of ring j and sector k. */
 struct hemisphere {
     uint32_t rings, sectors; /* at least 2 and 3 */
-    const ps_vec3 *hits;     /* where the rays ended, as seen from the point */
+    const ps_vec3 *hits;     /* where the rays ended, as seen from the point, within 1e-6 to 1e6 */
     const ps_rgb *radiance;  /* what they found */
 };
 
-/* Derivatives by the position in the plane z = 0, in scene units. */
+/* Derivatives by the position in the plane z = 0, in the units of the hits. */
 struct hemisphere_derivatives {
     ps_rgb gradient_x, gradient_y; /* of irradiance */
     float xx, xy, yy;              /* second ones of its luminance */

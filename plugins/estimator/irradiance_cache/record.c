@@ -5,6 +5,7 @@
 #define THICKNESS 0.25f /* of the smaller radius */
 #define LONGEST 0.45f   /* radius, of sqrt(E / c): an error of c r^2 / 2 = 0.1 E */
 #define WALL_SLOPE 0.5f /* height over distance, below which what is seen stands on the surface */
+#define FAR 10.0f       /* units, where rays that meet nothing are taken to end */
 #define TO_WALL 0.7f    /* radius, of the distance of a wall */
 
 /* --- rays --- */
@@ -80,17 +81,17 @@ static void start_group(const struct record_setting *setting, const struct recor
         ps_vec3 direction = ps_normalize(ps_add_scaled(
             ps_add_scaled(ps_scale(u, local.x), local.y, v), local.z, record->normal));
         room->directions[first + i] = direction;
-        room->hits[first + i] = ps_scale(local, setting->far);
+        room->hits[first + i] = ps_scale(local, FAR);
         paths_add(&group->paths, i,
                   ps_leave_surface(record->position, record->normal, direction,
                                    setting->paths.pass->surface_offset),
-                  1.0f);
+                  PS_PI);
     }
 }
 
-/* Where the first segments ended, in the record's frame. */
-static void keep_hits(const struct record *record, const struct record_room *room, uint32_t first,
-                      const struct ray_group *group)
+/* Where the first segments ended. */
+static void keep_hits(const struct record_setting *setting, const struct record *record,
+                      const struct record_room *room, uint32_t first, const struct ray_group *group)
 {
     ps_vec3 u, v;
     ps_frame(record->normal, &u, &v);
@@ -98,7 +99,7 @@ static void keep_hits(const struct record *record, const struct record_room *roo
         const ps_hit *hit = &group->segment.hits[i];
         if (!(hit->distance < INFINITY))
             continue;
-        ps_vec3 way = ps_subtract(hit->position, record->position);
+        ps_vec3 way = ps_scale(ps_subtract(hit->position, record->position), 1.0f / setting->unit);
         room->hits[first + group->paths.pixels[i]] =
             (ps_vec3){ps_dot(way, u), ps_dot(way, v), ps_max(ps_dot(way, record->normal), 0.0f)};
     }
@@ -111,11 +112,11 @@ static void trace_rays(const struct record_setting *setting, const struct record
     for (uint32_t first = 0; first < ray_count(setting); first += PS_TILE_PIXELS) {
         start_group(setting, record, room, first_sample, first, &group);
         paths_intersect(&setting->paths, &group.points, 1, &group.paths, &group.segment);
-        keep_hits(record, room, first, &group);
+        keep_hits(setting, record, room, first, &group);
         paths_go_on(&setting->paths, &group.points, group.samples, 1, &group.paths, &group.segment,
                     group.found);
         for (size_t i = 0; i < group.points.count; i++)
-            room->radiance[first + i] = group.found[i];
+            room->radiance[first + i] = ps_rgb_scale(group.found[i], 1.0f / PS_PI);
     }
 }
 
@@ -172,14 +173,15 @@ static void set_axes(const struct record_setting *setting, const struct hemisphe
     float spread = sqrtf(half * half + of->xy * of->xy);
     float angle = 0.5f * atan2f(of->xy, half);
     float irradiance = ps_luminance(record->irradiance);
-    const float curvatures[2] = {fabsf(mean + spread), fabsf(mean - spread)};
+    float area = setting->unit * setting->unit;
+    const float curvatures[2] = {fabsf(mean + spread) / area, fabsf(mean - spread) / area};
     for (int i = 0; i < 2; i++) {
         float x = i == 0 ? cosf(angle) : -sinf(angle), y = i == 0 ? sinf(angle) : cosf(angle);
         record->axes[i] = ps_add_scaled(ps_scale(u, x), y, v);
         record->radii[i] = radius_of(setting, record->footprint, irradiance, curvatures[i]);
-        record->gradients[i] =
-            limit(ps_rgb_add(ps_rgb_scale(of->gradient_x, x), ps_rgb_scale(of->gradient_y, y)),
-                  irradiance / record->radii[i]);
+        record->gradients[i] = limit(ps_rgb_add(ps_rgb_scale(of->gradient_x, x / setting->unit),
+                                                ps_rgb_scale(of->gradient_y, y / setting->unit)),
+                                     irradiance / record->radii[i]);
     }
 }
 
@@ -195,7 +197,8 @@ static void end_before_walls(const struct record_setting *setting, const struct 
         ps_vec3 hit = room->hits[i];
         if (hit.z > WALL_SLOPE * sqrtf(hit.x * hit.x + hit.y * hit.y))
             continue;
-        ps_vec3 wall = ps_add_scaled(ps_scale(u, TO_WALL * hit.x), TO_WALL * hit.y, v);
+        float scale = TO_WALL * setting->unit;
+        ps_vec3 wall = ps_add_scaled(ps_scale(u, scale * hit.x), scale * hit.y, v);
         float along[2] = {fabsf(ps_dot(wall, record->axes[0])),
                           fabsf(ps_dot(wall, record->axes[1]))};
         float x = along[0] / record->radii[0], y = along[1] / record->radii[1];

@@ -23,15 +23,15 @@ struct record {
 struct record_setting {
     struct paths_setting paths;
     uint32_t rings, sectors; /* of the strata of its rays */
-    float far;               /* where rays that meet nothing are taken to end */
+    float unit; /* of length, about as large as the scene, by which hits are measured */
     /* Radii, in pixels; where irradiance E has the second derivative c, the square is scale * sqrt(E / c). */
     float scale, least, most;
 };
 
 /* Room for the rays of one record, for each worker. */
 struct record_room {
-    ps_rgb *radiance; /* rings * sectors, as all */
-    ps_vec3 *directions, *hits;
+    ps_rgb *radiance;           /* rings * sectors, as all */
+    ps_vec3 *directions, *hits; /* hits: in the record's frame, in units */
 };
 
 /* Memory of rooms for all workers; NULL when out of memory. */

@@ -85,7 +85,8 @@ static inline void paths_intersect(const struct paths_setting *setting, const ps
                               segment->hits);
 }
 
-/* A path leaves a pixel's point along a ray. */
+/* A path leaves a pixel's point along a ray. Russian roulette takes throughput in proportion to pi, with which paths by the
+ * cosine start. */
 static inline void paths_add(struct paths *paths, uint32_t pixel, ps_ray ray, float throughput)
 {
     size_t i = paths->count++;
