@@ -20,7 +20,7 @@
         {0, "direct", "rays|shadowmap",                                                            \
          "how direct light finds shadows; area lights: by rays alone"},                            \
         {0, "direct-resolution", "N", "pixels along the side of each of these shadow maps"},       \
-        {0, "exposure", "STOPS", "brightness of what is shown: a factor of 2^STOPS"},                    \
+        {0, "exposure", "STOPS", "brightness of what is shown: a factor of 2^STOPS"},              \
     {                                                                                              \
         'q', "quiet", NULL, "print nothing but errors"                                             \
     }
