@@ -17,6 +17,7 @@
 #include "shared/gather_picture.h"
 #include "shared/kernel_share.h"
 #include "shared/photon_map.h"
+#include "shared/photons.h"
 
 #define SPACING 4    /* light paths, of which one's photons are places of the cache */
 #define CANDIDATES 4 /* nearest places, among which one must face alike */
@@ -51,32 +52,36 @@ static bool is_place(const ps_photon *photon)
     return photon->path % SPACING == 0;
 }
 
+/* A map, and the work that it is a part of. */
+struct part {
+    const struct work *work;
+    struct photon_map *map;
+};
+
 /* Photons that are one surface on, or places, or caustics of the pixels. */
-static bool belongs_to(const struct work *work, const struct photon_map *map,
-                       const ps_photon *photon)
+static bool belongs_to(const void *opaque, const ps_photon *photon)
 {
-    if (map == &work->caustics)
+    const struct part *part = opaque;
+    const struct work *work = part->work;
+    if (part->map == &work->caustics)
         return photon->bounce == 0;
-    return photon->bounce < work->pass->bounces && is_place(photon) == (map == &work->cache.places);
+    return photon->bounce < work->pass->bounces &&
+           is_place(photon) == (part->map == &work->cache.places);
 }
 
 /* Adds those of n photons that belong to a map, with `scale` times their power; `chosen` is room for n. */
 static ps_result add_chosen(const struct work *work, struct photon_map *map, float scale,
                             const ps_photon *photons, size_t n, ps_photon *chosen)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (!belongs_to(work, map, &photons[i]))
-            continue;
-        chosen[count] = photons[i];
-        chosen[count].power = ps_rgb_scale(photons[i].power, scale);
-        count++;
-    }
+    const struct part part = {work, map};
+    size_t count = photons_choose(photons, n, belongs_to, &part, scale, chosen);
     return photon_map_add(map, work->pass, PHOTONS_ARRIVE, chosen, count);
 }
 
-static ps_result store_batch(struct work *work, const ps_photon *photons, size_t n)
+/* A photons_take. */
+static ps_result store_batch(void *opaque, const ps_photon *photons, size_t n)
 {
+    struct work *work = opaque;
     const ps_host *host = work->host;
     const float share = (float)SPACING / (SPACING - 1); /* of the paths that are no places */
     ps_photon *chosen = host->allocate(host, n * sizeof *chosen, "photons chosen");
@@ -93,16 +98,7 @@ static ps_result store_batch(struct work *work, const ps_photon *photons, size_t
 
 static ps_result store_photons(struct work *work, int64_t neighbours)
 {
-    const ps_host *host = work->host;
-    const ps_photon *photons;
-    size_t n = 1;
-    double progress;
-    ps_result result = PS_OK;
-    while (result == PS_OK && n > 0) {
-        result = host->next_photons(host, &photons, &n, &progress);
-        if (result == PS_OK && n > 0)
-            result = store_batch(work, photons, n);
-    }
+    ps_result result = photons_for_each_batch(work->host, store_batch, work);
     if (result == PS_OK)
         result = photon_map_build(&work->all, work->pass, neighbours);
     if (result == PS_OK)

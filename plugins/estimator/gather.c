@@ -22,6 +22,7 @@
  */
 #include "gather/surfels.h"
 #include "shared/gather_picture.h"
+#include "shared/photons.h"
 
 #define MOST_PATHS 32       /* of a surfel, by default */
 #define FEWEST_SURFELS 2000 /* of a picture */
@@ -54,38 +55,35 @@ struct splatting {
     uint64_t thinning;
 };
 
-typedef bool (*choice)(const struct splatting *splatting, const ps_photon *photon);
 typedef ps_result (*splatter)(const ps_host *host, const ps_photon *photons, size_t n);
 
-static bool belongs_on_pixels(const struct splatting *splatting, const ps_photon *photon)
+static bool belongs_on_pixels(const void *opaque, const ps_photon *photon)
 {
+    const struct splatting *splatting = opaque;
     return splatting->onto_pixels && photon->bounce == 0;
 }
 
 /* Paths that share places (ps_pass.shares_places) follow one another, and are better taken together. */
-static bool belongs_on_surfels(const struct splatting *splatting, const ps_photon *photon)
+static bool belongs_on_surfels(const void *opaque, const ps_photon *photon)
 {
+    const struct splatting *splatting = opaque;
     return splatting->onto_surfels && photon->bounce <= splatting->most_bounces &&
            photon->path / THINNED_TOGETHER % splatting->thinning == 0;
 }
 
 /* Splats those of n photons that are chosen, with `scale` times their power; `chosen` is room for n. */
-static ps_result splat_chosen(const struct splatting *splatting, choice belongs, splatter splat,
-                              float scale, const ps_photon *photons, size_t n, ps_photon *chosen)
+static ps_result splat_chosen(const struct splatting *splatting, photons_belong belong,
+                              splatter splat, float scale, const ps_photon *photons, size_t n,
+                              ps_photon *chosen)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (!belongs(splatting, &photons[i]))
-            continue;
-        chosen[count] = photons[i];
-        chosen[count].power = ps_rgb_scale(photons[i].power, scale);
-        count++;
-    }
+    size_t count = photons_choose(photons, n, belong, splatting, scale, chosen);
     return count > 0 ? splat(splatting->host, chosen, count) : PS_OK;
 }
 
-static ps_result splat_batch(const struct splatting *splatting, const ps_photon *photons, size_t n)
+/* A photons_take. */
+static ps_result splat_batch(void *opaque, const ps_photon *photons, size_t n)
 {
+    const struct splatting *splatting = opaque;
     const ps_host *host = splatting->host;
     ps_photon *chosen = host->allocate(host, n * sizeof *chosen, "photons chosen");
     if (!chosen)
@@ -95,21 +93,6 @@ static ps_result splat_batch(const struct splatting *splatting, const ps_photon 
     if (result == PS_OK)
         result = splat_chosen(splatting, belongs_on_pixels, host->splat, 1.0f, photons, n, chosen);
     host->release(host, chosen);
-    return result;
-}
-
-static ps_result splat_photons(const struct splatting *splatting)
-{
-    const ps_host *host = splatting->host;
-    const ps_photon *photons;
-    size_t n = 1;
-    double progress;
-    ps_result result = PS_OK;
-    while (result == PS_OK && n > 0) {
-        result = host->next_photons(host, &photons, &n, &progress);
-        if (result == PS_OK && n > 0)
-            result = splat_batch(splatting, photons, n);
-    }
     return result;
 }
 
@@ -187,7 +170,7 @@ static ps_result splat(struct work *work)
     if (result == PS_OK && splatting.onto_surfels)
         result = host->begin_points(host, surfels->positions, surfels->normals, surfels->count);
     if (result == PS_OK && (splatting.onto_pixels || splatting.onto_surfels))
-        result = splat_photons(&splatting);
+        result = photons_for_each_batch(host, splat_batch, &splatting);
     if (result != PS_OK || !splatting.onto_surfels)
         return result;
     result = host->end_points(host, surfels->irradiance);

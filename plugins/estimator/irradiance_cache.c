@@ -13,6 +13,7 @@
  * which are splatted onto the pixels.
  */
 #include "irradiance_cache/cache.h"
+#include "shared/photons.h"
 
 #define COARSEST 64u         /* pixels between candidates of the first round */
 #define FEWEST_PIXELS 2.0f   /* least radius */
@@ -190,32 +191,30 @@ static void interpolate_tile(void *user, uint64_t index, uint32_t worker)
     }
 }
 
-static ps_result splat_caustics_of(const ps_host *host, const ps_photon *photons, size_t n)
+static bool is_caustic(const void *user, const ps_photon *photon)
 {
+    (void)user;
+    return photon->bounce == 0;
+}
+
+/* A photons_take. */
+static ps_result splat_caustics_of(void *opaque, const ps_photon *photons, size_t n)
+{
+    const struct work *work = opaque;
+    const ps_host *host = work->host;
     ps_photon *chosen = host->allocate(host, n * sizeof *chosen, "photons chosen");
-    size_t count = 0;
     if (!chosen)
         return PS_ERROR_MEMORY;
-    for (size_t i = 0; i < n; i++)
-        if (photons[i].bounce == 0)
-            chosen[count++] = photons[i];
+    size_t count = photons_choose(photons, n, is_caustic, NULL, 1.0f, chosen);
     ps_result result = count > 0 ? host->splat(host, chosen, count) : PS_OK;
     host->release(host, chosen);
     return result;
 }
 
-static ps_result splat_caustics(const ps_host *host)
+static ps_result splat_caustics(struct work *work)
 {
-    const ps_photon *photons;
-    size_t n = 1;
-    double progress;
-    ps_result result = host->begin_splats(host, 0);
-    while (result == PS_OK && n > 0) {
-        result = host->next_photons(host, &photons, &n, &progress);
-        if (result == PS_OK && n > 0)
-            result = splat_caustics_of(host, photons, n);
-    }
-    return result;
+    ps_result result = work->host->begin_splats(work->host, 0);
+    return result == PS_OK ? photons_for_each_batch(work->host, splat_caustics_of, work) : result;
 }
 
 /* --- the strategy --- */
@@ -264,7 +263,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     if (result == PS_OK)
         result = host->for_each_tile(host, interpolate_tile, &work);
     if (result == PS_OK && pass->specular)
-        result = splat_caustics(host);
+        result = splat_caustics(&work);
     host->release(host, work.wanted);
     record_rooms_release(host, work.rooms);
     cache_release(&work.cache);

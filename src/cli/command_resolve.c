@@ -117,9 +117,9 @@ static ps_result take_strategy(struct job *job, ps_kind kind, struct error *erro
     char key[64];
     snprintf(key, sizeof key, "psplat.%s", kinds[kind].name);
     const char *choice = image_attribute(&job->facts, key);
-    if (!choice || is_overridden(job, kind))
+    if (!choice)
         return PS_OK;
-    if (names_path(choice))
+    if (names_path(choice) && !is_overridden(job, kind))
         return error_set(
             error, PS_ERROR_INVALID,
             "the film's job had %s '%.200s', a plugin that it named by its path: say by "

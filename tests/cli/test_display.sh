@@ -77,7 +77,7 @@ expect_other_shown a.png b.png
 # --- films: no identity, another tone map without rendering ---
 
 run 0 $job --passes 0:1 --checkpoint 0.exr -p tonemap=clip "$cornell"
-run 0 $job --passes 1:2 --checkpoint 1.exr -p tonemap=chroma -p bloom=glare "$cornell"
+run 0 $job --passes 1:2 --checkpoint 1.exr -p tonemap=chroma:exposure=1 -p bloom=glare "$cornell"
 run 0 merge -q 0.exr 1.exr -o film.exr
 run 0 $job --passes 2 -p tonemap=reinhard:white=2 -p bloom=glare:strength=0.2 -o whole.png -o whole.exr "$cornell"
 run 0 resolve film.exr -q -p tonemap=reinhard:white=2 -p bloom=glare:strength=0.2 -o resolved.png -o resolved.exr
@@ -86,6 +86,11 @@ expect_same_pixels whole.exr resolved.exr
 run 0 resolve film.exr -q -o first.exr # as the first film's job was
 run 0 info first.exr
 expect_text out "psplat.tonemap: clip:exposure=0"
+
+# Parameters that --plugin does not name are the film's.
+run 0 resolve 1.exr -q -p tonemap=chroma:shoulder=0.5 --layers display -o kept.exr
+run 0 info kept.exr
+expect_text out "psplat.tonemap: chroma:exposure=1,shoulder=0.5"
 
 # --- a scene chooses ---
 

@@ -190,14 +190,13 @@ static void set_axes(const struct record_setting *setting, const struct hemisphe
 static void end_before_walls(const struct record_setting *setting, const struct record_room *room,
                              struct record *record)
 {
-    float least = setting->least * record->footprint;
+    float least = setting->least * record->footprint, scale = TO_WALL * setting->unit;
     ps_vec3 u, v;
     ps_frame(record->normal, &u, &v);
     for (uint32_t i = 0; i < ray_count(setting); i++) {
         ps_vec3 hit = room->hits[i];
         if (hit.z > WALL_SLOPE * sqrtf(hit.x * hit.x + hit.y * hit.y))
             continue;
-        float scale = TO_WALL * setting->unit;
         ps_vec3 wall = ps_add_scaled(ps_scale(u, scale * hit.x), scale * hit.y, v);
         float along[2] = {fabsf(ps_dot(wall, record->axes[0])),
                           fabsf(ps_dot(wall, record->axes[1]))};
