@@ -95,6 +95,8 @@ static const struct schema_row render_rows[] = {
                  "start of the random numbers")),
     VALUE(PS_INT(struct render_description, light_samples, "4", 1, 65536, "",
                  "shadow rays to each area light, for a pixel and pass")),
+    VALUE(PS_INT(struct render_description, light_choices, "8", 1, MOST_LIGHT_CHOICES, "lights",
+                 "lights that a point that is seen asks, where there are more than twice as many")),
     BOOL("discontinuity_buffer", offsetof(struct render_description, discontinuity_buffer), "no",
          "whether direct light is averaged over neighbouring pixels that see the lights alike"),
     VALUE(PS_INT(struct render_description, aa_samples, "8", 1, MOST_AA_SAMPLES, "",

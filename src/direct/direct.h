@@ -1,7 +1,7 @@
 /* direct.h: light straight from the lights, by shadow rays or maps; and what surfaces and sky emit.
  *
- * Each light is sampled once for each point; lights without a size need no random numbers. Where
- * gloss can also find a light by scattering, both ways are weighed (Veach and Guibas 1995).
+ * Each light is sampled once for each point, or some of many (receivers.h); lights without a size need no random numbers.
+ * Where gloss can also find a light by scattering, both ways are weighed (Veach and Guibas 1995).
  */
 #ifndef DIRECT_DIRECT_H
 #define DIRECT_DIRECT_H
@@ -14,6 +14,7 @@ struct lighting {
     const struct scene *scene;
     const struct trace *trace;
     const struct shadow_maps *maps; /* NULL: by shadow rays alone */
+    uint32_t choices;               /* lights that a point draws where it can't ask all */
 };
 
 /* Which random numbers choose points on lights; see ps_host.samples. */
@@ -29,7 +30,7 @@ void direct_radiance(const struct lighting *lighting, const ps_ray *rays, const 
 
 /* Radiance that what the rays met (or the sky) emits along them. `pdfs` (NULL: all 0) as in
  * ps_host.emitted_radiance. */
-void emitted_radiance(const struct scene *scene, const ps_ray *rays, const ps_hit *hits,
+void emitted_radiance(const struct lighting *lighting, const ps_ray *rays, const ps_hit *hits,
                       const float *pdfs, size_t n, ps_rgb *radiance);
 
 /* The random numbers of a tile's lanes: runs of indices, each for one lane or several. */

@@ -338,20 +338,27 @@ static void host_evaluate_bsdf(const ps_host *host, ps_direction direction, cons
                                       direction, &rays[i], &hits[i], directions[i]);
 }
 
+/* Shadow rays alone, and fewer choices than for a point that is seen: there are many such points behind each pixel. */
+static struct lighting lighting_of_paths(const struct render *render)
+{
+    return (struct lighting){render->scene, render->trace, NULL, render->scene->path_light_choices};
+}
+
 static void host_direct_radiance(const ps_host *host, const ps_ray *rays, const ps_hit *hits,
                                  uint32_t stream, uint32_t set, const uint64_t *indices, size_t n,
                                  ps_rgb *radiance)
 {
     const struct render *render = render_of(host);
     struct light_numbers numbers = {render->settings->seed, stream, set, indices};
-    struct lighting lighting = {render->scene, render->trace, NULL};
+    struct lighting lighting = lighting_of_paths(render);
     direct_radiance(&lighting, rays, hits, n, &numbers, radiance);
 }
 
 static void host_emitted_radiance(const ps_host *host, const ps_ray *rays, const ps_hit *hits,
                                   const float *pdfs, size_t n, ps_rgb *radiance)
 {
-    emitted_radiance(render_of(host)->scene, rays, hits, pdfs, n, radiance);
+    struct lighting lighting = lighting_of_paths(render_of(host));
+    emitted_radiance(&lighting, rays, hits, pdfs, n, radiance);
 }
 
 static void host_scene_bounds(const ps_host *host, ps_vec3 *center, float *radius)

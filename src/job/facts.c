@@ -28,6 +28,7 @@ static const struct fact binding[] = {
     {"psplat.bounces", "bounces"},
     {"psplat.direct", "direct"},
     {"psplat.light_samples", "light_samples"},
+    {"psplat.light_choices", "light_choices"},
     {"psplat.aa_samples", "aa_samples"},
     {"psplat.discontinuity_buffer", "discontinuity_buffer"},
     {"psplat.isa", "the instruction set (see --isa)"},
@@ -206,6 +207,8 @@ ps_result facts_of_job(struct image *image, const struct scene_description *desc
         result = set_camera(image, &scene->camera, error);
     if (result == PS_OK)
         result = set_number(image, "psplat.light_samples", scene->light_samples, error);
+    if (result == PS_OK)
+        result = set_number(image, "psplat.light_choices", scene->light_choices, error);
     if (result == PS_OK)
         result = set_number(image, "psplat.aa_samples", settings->aa_samples, error);
     if (result == PS_OK)

@@ -43,7 +43,8 @@ struct tile_work {
 
 static struct lighting lighting_of(const struct render *render)
 {
-    return (struct lighting){render->scene, render->trace, render->shadow_maps};
+    return (struct lighting){render->scene, render->trace, render->shadow_maps,
+                             render->scene->light_choices};
 }
 
 static void trace_tile(void *user, uint64_t index, uint32_t worker)

@@ -61,7 +61,7 @@ static ps_result create_edges(struct render *render, struct error *error)
     render->edges = calloc(count, sizeof *render->edges);
     if (!render->edges)
         return error_memory(error, count * sizeof *render->edges, "edges");
-    return scene->has_area_lights && scene->light_samples > 1
+    return scene_samples_lights(scene) && scene->light_samples > 1
                ? gbuffer_prepare_direct_half(&render->gbuffer, error)
                : PS_OK;
 }
@@ -73,7 +73,7 @@ static ps_result create_reflected(struct render *render, struct error *error)
 {
     const struct scene *scene = render->scene;
     const struct render_settings *settings = render->settings;
-    bool shadows = scene->has_area_lights && !settings->discontinuity_buffer;
+    bool shadows = scene_samples_lights(scene) && !settings->discontinuity_buffer;
     bool gloss = render->gbuffer.glossy != NULL;
     bool halved_shadows = shadows && scene->light_samples > 1;
     bool halved_gloss = gloss && settings->aa_samples > 1;
@@ -85,6 +85,19 @@ static ps_result create_reflected(struct render *render, struct error *error)
     if (halves && halved_shadows)
         result = gbuffer_prepare_direct_half(&render->gbuffer, error);
     return result == PS_OK ? film_add_reflected(&render->film, halves, error) : result;
+}
+
+/* Pixels that ask different lights have nothing to compare. */
+static ps_result create_join(struct render *render, struct error *error)
+{
+    const struct scene *scene = render->scene;
+    if (scene_chooses_lights(scene))
+        return error_set(
+            error, PS_ERROR_INVALID,
+            "discontinuity_buffer needs pixels that ask every light; the scene has %zu "
+            "lights and light_choices is %u, less than half of that",
+            light_bvh_count(scene->light_bvh), (unsigned)scene->light_choices);
+    return scene->has_area_lights ? gbuffer_prepare_join(&render->gbuffer, error) : PS_OK;
 }
 
 /* What the tables of some strategies ask for. */
@@ -123,8 +136,8 @@ ps_result render_create(struct render *render, struct error *error)
             film_create(scene->width, scene->height, wants_surfaces(render), &render->film, error);
     if (result == PS_OK && scene->microfacets && wants_surfaces(render))
         result = create_gloss(render, error);
-    if (result == PS_OK && render->settings->discontinuity_buffer && scene->has_area_lights)
-        result = gbuffer_prepare_join(&render->gbuffer, error);
+    if (result == PS_OK && render->settings->discontinuity_buffer)
+        result = create_join(render, error);
     if (result == PS_OK && render->settings->aa_samples > 1)
         result = create_edges(render, error);
     if (result == PS_OK)

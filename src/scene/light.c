@@ -2,6 +2,7 @@
 #include "scene/light.h"
 
 #include "scene/light_kinds.h"
+#include <assert.h>
 
 static const ps_rgb black = {0, 0, 0};
 
@@ -119,6 +120,21 @@ ps_rgb light_power(const struct light *light)
     return black;
 }
 
+bool light_is_afar(const struct light *light)
+{
+    return light->emitter == EMITTER_SUN || light->emitter == EMITTER_SKY;
+}
+
+struct light_cluster light_bounds_of(const struct light *light, size_t triangle)
+{
+    assert(!light_is_afar(light));
+    if (light->emitter == EMITTER_SPOT)
+        return light_spot_cluster(&light->spot);
+    if (light->emitter == EMITTER_SPHERE)
+        return light_sphere_cluster(&light->sphere);
+    return light_surface_cluster(&light->surface, triangle);
+}
+
 bool light_is_delta(const struct light *light)
 {
     return light->emitter == EMITTER_SPOT ||
@@ -206,6 +222,14 @@ void light_sample(const struct light *light, const ps_vec3 *positions, const ps_
     for (size_t i = 0; i < n; i++)
         if (!is_light(samples[i].weight))
             samples[i].weight = black;
+}
+
+void light_sample_triangle(const struct light *light, size_t triangle, ps_vec3 position,
+                           const float numbers[2], struct light_sample *sample)
+{
+    light_surface_sample_triangle(&light->surface, triangle, position, numbers, sample);
+    if (!is_light(sample->weight))
+        sample->weight = black;
 }
 
 ps_vec3 light_sample_normal(const struct light *light, ps_vec3 position, const float numbers[2],

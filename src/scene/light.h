@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "scene/description.h"
 #include "scene/distribution.h"
+#include "scene/light_cluster.h"
 
 /* The sphere around the scene. Sun and sky, which are infinitely far, send light paths through a
  * disc of its radius. */
@@ -149,6 +150,12 @@ ps_light light_describe(const struct light *light);
  * an estimate, good enough to share light paths by. */
 ps_rgb light_power(const struct light *light);
 
+/* Whether it shines from infinity: sun and sky. */
+bool light_is_afar(const struct light *light);
+
+/* The bounds of a light that is not afar, of triangle `triangle` of one that is a mesh. */
+struct light_cluster light_bounds_of(const struct light *light, size_t triangle);
+
 /* Whether it is a point, in place or direction, so that all its shadow rays from a point are one
  * and no other ray can meet it. */
 bool light_is_delta(const struct light *light);
@@ -182,6 +189,10 @@ struct light_sample {
  * looked at by that cosine, and light_pdf does not tell the density. */
 void light_sample(const struct light *light, const ps_vec3 *positions, const ps_vec3 *normals,
                   const float (*numbers)[2], size_t n, struct light_sample *samples);
+
+/* One sample of one triangle of a mesh that shines; its density is that of the whole mesh, see light_pdf. */
+void light_sample_triangle(const struct light *light, size_t triangle, ps_vec3 position,
+                           const float numbers[2], struct light_sample *sample);
 
 /* The normal of the light's surface, on the side that is seen, at what light_sample chose by the two numbers; 0
  * where it has no surface. */

@@ -27,6 +27,7 @@ ps_vec3 light_any_direction(float u1, float u2);
 
 ps_result light_spot_create(const struct light_description *description, struct light_spot *spot,
                             struct error *error);
+struct light_cluster light_spot_cluster(const struct light_spot *spot);
 ps_rgb light_spot_power(const struct light_spot *spot);
 ps_rgb light_spot_intensity(const struct light_spot *spot, ps_vec3 direction);
 ps_rgb light_spot_emit(const struct light_spot *spot, const float u[4], ps_ray *ray);
@@ -57,6 +58,13 @@ float light_surface_pdf(const struct light_surface *surface, ps_vec3 direction, 
 float light_surface_arrival(const struct light_surface *surface, ps_vec3 direction, float distance,
                             ps_vec3 normal);
 
+float light_surface_triangle_area(const struct light_surface *surface, size_t triangle);
+struct light_cluster light_surface_cluster(const struct light_surface *surface, size_t triangle);
+void light_surface_sample_triangle(const struct light_surface *surface, size_t triangle,
+                                   ps_vec3 position, const float numbers[2],
+                                   struct light_sample *sample);
+
+struct light_cluster light_sphere_cluster(const struct light_sphere *sphere);
 ps_rgb light_sphere_power(const struct light_sphere *sphere);
 ps_rgb light_sphere_emit(const struct light_sphere *sphere, const float u[4], ps_ray *ray,
                          ps_vec3 *normal);

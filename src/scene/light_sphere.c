@@ -13,6 +13,20 @@ static float area_of(const struct light_sphere *sphere)
     return 4.0f * PS_PI * sphere->radius * sphere->radius;
 }
 
+struct light_cluster light_sphere_cluster(const struct light_sphere *sphere)
+{
+    float r = sphere->radius;
+    return (struct light_cluster){
+        .low = ps_subtract(sphere->center, (ps_vec3){r, r, r}),
+        .high = ps_add(sphere->center, (ps_vec3){r, r, r}),
+        .axis = {0, 0, 1},
+        .cos_theta_o = -1.0f,
+        .cos_theta_e = 0.0f,
+        .intensity = PS_PI * r * r * (sphere->radiance.r + sphere->radiance.g + sphere->radiance.b),
+        .both_sides = sphere->both_sides,
+    };
+}
+
 ps_rgb light_sphere_power(const struct light_sphere *sphere)
 {
     float sides = sphere->both_sides ? 2.0f : 1.0f;

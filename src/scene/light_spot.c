@@ -10,6 +10,10 @@
  * error is below 1e-4. */
 #define PANELS 4096
 
+/* Radians: what an angle is taken to be larger by, and the widest edge whose importance may fall off by its cosine. */
+#define ROUNDING 1e-3f
+#define WIDEST_EDGE 1.4f
+
 static float cosine_of_degrees(double degrees)
 {
     return (float)cos(degrees * (PI_DOUBLE / 180.0));
@@ -92,6 +96,23 @@ ps_result light_spot_create(const struct light_description *description, struct 
         return error_set(error, PS_ERROR_INVALID, "point_at is too close to the spotlight");
     spot->unit_flux = unit_flux(spot);
     return set_intensity(description, spot, error);
+}
+
+/* A spot sends its light at no more than `falloff` from its axis. A point where it has none any more may round to either
+ * side. */
+struct light_cluster light_spot_cluster(const struct light_spot *spot)
+{
+    float inner = acosf(fminf(fmaxf(spot->cos_radius, -1.0f), 1.0f));
+    float outer = acosf(fminf(fmaxf(spot->cos_falloff, -1.0f), 1.0f)) + ROUNDING;
+    inner = fmaxf(inner, outer - WIDEST_EDGE);
+    return (struct light_cluster){
+        .low = spot->location,
+        .high = spot->location,
+        .axis = spot->axis,
+        .cos_theta_o = cosf(fminf(inner, PS_PI)),
+        .cos_theta_e = cosf(outer - inner),
+        .intensity = spot->intensity.r + spot->intensity.g + spot->intensity.b,
+    };
 }
 
 ps_rgb light_spot_power(const struct light_spot *spot)

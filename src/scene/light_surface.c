@@ -178,22 +178,63 @@ ps_rgb light_surface_power(const struct light_surface *surface)
     return ps_rgb_multiply(plain_power(surface), surface->mean);
 }
 
+/* How far below the mean of the light the pattern's in a triangle is taken to be at the most: few points tell it. */
+#define LEAST_PATTERN 0.05f
+#define TRIANGLE_EDGE 2
+
+struct light_cluster light_surface_cluster(const struct light_surface *surface, size_t triangle)
+{
+    struct corners corners = corners_of(&surface->mesh, triangle);
+    const ps_vec3 *p = corners.p;
+    ps_rgb pattern = surface->mean;
+    if (surface->mesh.pattern) {
+        ps_rgb mean = triangle_mean(&surface->mesh, triangle, TRIANGLE_EDGE);
+        ps_rgb least = ps_rgb_scale(surface->mean, LEAST_PATTERN);
+        pattern =
+            (ps_rgb){ps_max(mean.r, least.r), ps_max(mean.g, least.g), ps_max(mean.b, least.b)};
+    }
+    ps_rgb radiance = ps_rgb_multiply(surface->radiance, pattern);
+    return (struct light_cluster){
+        .low = {fminf(p[0].x, fminf(p[1].x, p[2].x)), fminf(p[0].y, fminf(p[1].y, p[2].y)),
+                fminf(p[0].z, fminf(p[1].z, p[2].z))},
+        .high = {fmaxf(p[0].x, fmaxf(p[1].x, p[2].x)), fmaxf(p[0].y, fmaxf(p[1].y, p[2].y)),
+                 fmaxf(p[0].z, fmaxf(p[1].z, p[2].z))},
+        .axis = surface->normals[triangle],
+        .cos_theta_o = 1.0f,
+        .cos_theta_e = 0.0f,
+        .intensity =
+            light_surface_triangle_area(surface, triangle) * (radiance.r + radiance.g + radiance.b),
+        .both_sides = surface->both_sides,
+    };
+}
+
+float light_surface_triangle_area(const struct light_surface *surface, size_t triangle)
+{
+    return distribution_probability(&surface->by_area, triangle) * surface->area;
+}
+
 struct surface_point {
     ps_vec3 position, normal; /* the front's */
     ps_rgb pattern;
 };
 
-/* Needs an area. */
-static struct surface_point choose_point(const struct light_surface *surface, float u1, float u2)
+static struct surface_point choose_in_triangle(const struct light_surface *surface, size_t triangle,
+                                               float u1, float u2)
 {
     struct surface_point point;
-    size_t triangle = distribution_choose(&surface->by_area, u1, &u1);
     struct corners corners = corners_of(&surface->mesh, triangle);
     struct shares shares = shares_of(u1, u2);
     point.normal = surface->normals[triangle];
     point.position = point_of(&corners, &shares);
     point.pattern = pattern_at(&surface->mesh, triangle, point.position, &shares);
     return point;
+}
+
+/* Needs an area. */
+static struct surface_point choose_point(const struct light_surface *surface, float u1, float u2)
+{
+    size_t triangle = distribution_choose(&surface->by_area, u1, &u1);
+    return choose_in_triangle(surface, triangle, u1, u2);
 }
 
 ps_rgb light_surface_emit(const struct light_surface *surface, const float u[4], ps_ray *ray,
@@ -309,4 +350,24 @@ void light_surface_sample(const struct light_surface *surface, const ps_vec3 *po
         else
             memset(samples + first, 0, some * sizeof *samples);
     }
+}
+
+void light_surface_sample_triangle(const struct light_surface *surface, size_t triangle,
+                                   ps_vec3 position, const float numbers[2],
+                                   struct light_sample *sample)
+{
+    struct surface_point point = choose_in_triangle(surface, triangle, numbers[0], numbers[1]);
+    ps_vec3 way = ps_subtract(point.position, position);
+    float distance = ps_length(way);
+    ps_vec3 direction = ps_scale(way, distance > 0.0f ? 1.0f / distance : 0.0f);
+    float cosine = cosine_at_light(direction, point.normal, surface->both_sides);
+    float area = light_surface_triangle_area(surface, triangle);
+    float pdf = light_pdf_of_area(area, distance, cosine);
+    ps_rgb radiance = ps_rgb_multiply(surface->radiance, point.pattern);
+    *sample = (struct light_sample){
+        .direction = direction,
+        .distance = distance,
+        .weight = ps_rgb_scale(radiance, pdf > 0.0f ? 1.0f / pdf : 0.0f),
+        .pdf = light_pdf_of_area(surface->area, distance, cosine),
+    };
 }

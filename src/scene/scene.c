@@ -11,6 +11,9 @@
 #define SMALLEST_RADIUS 1e-6f
 #define LARGEST_RADIUS 1e9f
 
+/* Of light_choices, on paths: lower noise there costs more than it gains. */
+#define PATH_SHARE 4
+
 void *assembly_allocate(struct assembly *assembly, size_t count, size_t size)
 {
     void *memory = calloc(count ? count : 1, size);
@@ -46,6 +49,12 @@ static ps_result assemble(struct assembly *assembly)
     return result;
 }
 
+/* Noise of what a path meets is that of its direction in the first place. */
+static uint32_t path_light_choices(uint32_t light_choices)
+{
+    return light_choices < PATH_SHARE ? 1 : light_choices / PATH_SHARE;
+}
+
 ps_result scene_create(const struct scene_description *description, struct scene *scene,
                        struct origin *where, struct error *error)
 {
@@ -54,6 +63,8 @@ ps_result scene_create(const struct scene_description *description, struct scene
         .height = (size_t)description->image.height,
         .pixel_filter = (enum pixel_filter)description->image.filter,
         .light_samples = (uint32_t)description->render.light_samples,
+        .light_choices = (uint32_t)description->render.light_choices,
+        .path_light_choices = path_light_choices((uint32_t)description->render.light_choices),
     };
     scene->camera = camera_from_description(&description->cameras[0], scene->width, scene->height);
     struct assembly assembly = {.description = description, .scene = scene, .error = error};
@@ -76,6 +87,8 @@ void scene_release(struct scene *scene)
     for (size_t i = 0; i < scene->owned_count; i++)
         free(scene->owned[i]);
     free(scene->owned);
+    light_bvh_destroy(scene->light_bvh);
+    free(scene->afar);
     free(scene->lights);
     distribution_release(&scene->light_choice);
     free(scene->object_lights);
@@ -103,5 +116,6 @@ size_t scene_bytes(const struct scene *scene)
         sum += shape_bytes(&scene->shapes[i]);
     for (size_t i = 0; i < scene->texture_count; i++)
         sum += texture_bytes(&scene->textures[i]);
+    sum += light_bvh_bytes(scene->light_bvh);
     return sum;
 }

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "scene/camera.h"
 #include "scene/light.h"
+#include "scene/light_bvh.h"
 #include "scene/material.h"
 #include "scene/shape.h"
 #include "scene/texture.h"
@@ -48,15 +49,21 @@ struct scene {
     struct light *lights;
     struct distribution light_choice; /* by power */
     size_t light_count;
-    void **owned; /* arrays that lights borrow: owned_count entries */
+    uint32_t *afar; /* those that shine from infinity: afar_count of them */
+    size_t afar_count;
+    struct light_bvh *light_bvh; /* the others */
+    void **owned;                /* arrays that lights borrow: owned_count entries */
     size_t owned_count;
     uint32_t *object_lights; /* the light that an object is, or NO_LIGHT */
     bool has_area_lights;    /* some light's sampling needs random numbers */
+    bool has_split_lights;   /* some light is a subtree of light_bvh */
     bool has_sky;            /* something shines from infinity */
     bool sky_is_hidden;      /* from the camera itself */
     struct camera camera;
     enum pixel_filter pixel_filter;
     uint32_t light_samples;
+    uint32_t light_choices; /* lights that a point that is seen asks, of more than twice as many */
+    uint32_t path_light_choices; /* the same of a point that paths meet */
     size_t width, height;
     size_t dropped_triangles; /* without area */
     ps_vec3 center;           /* of the bounding sphere of shapes */
@@ -73,6 +80,16 @@ void scene_release(struct scene *scene);
 
 /* Bytes that shapes and textures take. */
 size_t scene_bytes(const struct scene *scene);
+
+/* Whether points ask some of the lights, since there are more than twice light_choices: to choose one costs about as
+ * much as to ask it. */
+bool scene_chooses_lights(const struct scene *scene);
+
+/* Whether points choose lights, or parts of them. */
+bool scene_needs_choices(const struct scene *scene);
+
+/* Whether asking the lights again gives another answer. */
+bool scene_samples_lights(const struct scene *scene);
 
 /* Chooses a light by power with *u in [0,1), which is rescaled so that it can be used again; returns
  * its index and probability. Needs light_count > 0. */

@@ -264,6 +264,24 @@ static ps_result share_paths(struct assembly *assembly)
     return result;
 }
 
+/* Sun and sky by themselves, and a tree of the others. */
+static ps_result arrange_lights(struct assembly *assembly)
+{
+    struct scene *scene = assembly->scene;
+    scene->afar = assembly_allocate(assembly, scene->light_count, sizeof *scene->afar);
+    if (!scene->afar)
+        return PS_ERROR_MEMORY;
+    for (size_t i = 0; i < scene->light_count; i++)
+        if (light_is_afar(&scene->lights[i]))
+            scene->afar[scene->afar_count++] = (uint32_t)i;
+    ps_result result =
+        light_bvh_create(scene->lights, scene->light_count, &scene->light_bvh, assembly->error);
+    for (size_t i = 0; i < scene->light_count && result == PS_OK; i++)
+        scene->has_split_lights =
+            scene->has_split_lights || light_bvh_is_split(scene->light_bvh, i);
+    return result;
+}
+
 ps_result assembly_add_lights(struct assembly *assembly)
 {
     const struct scene_description *description = assembly->description;
@@ -280,7 +298,24 @@ ps_result assembly_add_lights(struct assembly *assembly)
             result = add_described(assembly, &description->lights[i]);
     if (result == PS_OK)
         result = add_emissive(assembly);
+    if (result == PS_OK)
+        result = arrange_lights(assembly);
     return result == PS_OK ? share_paths(assembly) : result;
+}
+
+bool scene_chooses_lights(const struct scene *scene)
+{
+    return light_bvh_count(scene->light_bvh) > 2 * (size_t)scene->light_choices;
+}
+
+bool scene_needs_choices(const struct scene *scene)
+{
+    return scene->has_split_lights || scene_chooses_lights(scene);
+}
+
+bool scene_samples_lights(const struct scene *scene)
+{
+    return scene->has_area_lights || scene_chooses_lights(scene);
 }
 
 size_t scene_choose_light(const struct scene *scene, float *u, float *probability)

@@ -25,6 +25,7 @@ struct strategy_choice {
 enum direct_light { DIRECT_RAYS, DIRECT_SHADOWMAP };
 
 #define MOST_AA_SAMPLES 1024
+#define MOST_LIGHT_CHOICES 256
 
 struct render_description {
     struct strategy_choice strategies[PS_KINDS];
@@ -33,6 +34,7 @@ struct render_description {
     ps_number_or_choice bounces; /* a whole number, or all */
     int64_t seed;
     int64_t light_samples; /* shadow rays for each area light, pixel and pass */
+    int64_t light_choices; /* lights that a point asks at the most */
     int32_t
         discontinuity_buffer; /* 1: pixels take in what shadow rays of those around them found */
     int64_t aa_samples; /* camera samples of a pixel at an edge, in each pass; 1: as everywhere */

@@ -52,11 +52,17 @@ static void add_to_lane(const struct view_pass *pass, uint32_t tile, uint32_t la
     *emitted = ps_rgb_add(*emitted, radiance);
 }
 
+static struct lighting lighting_of(const struct view_pass *pass)
+{
+    return (struct lighting){pass->scene, pass->trace, pass->maps, pass->scene->light_choices};
+}
+
 static void collect_emission(const struct view_pass *pass, uint32_t tile, uint32_t depth,
                              const struct camera_paths *paths, const ps_hit *hits)
 {
     ps_rgb radiance[PS_TILE_PIXELS];
-    emitted_radiance(pass->scene, paths->rays, hits, paths->pdfs, paths->count, radiance);
+    struct lighting lighting = lighting_of(pass);
+    emitted_radiance(&lighting, paths->rays, hits, paths->pdfs, paths->count, radiance);
     for (size_t i = 0; i < paths->count; i++) {
         bool hidden = depth == 0 && pass->scene->sky_is_hidden && !(hits[i].distance < INFINITY);
         if (!hidden)
@@ -114,7 +120,7 @@ static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t 
         indices[i] = paths->indices[paths->lanes[i]];
     }
     struct light_numbers numbers = {pass->seed, PS_STREAM_LIGHT, depth + 1, indices};
-    struct lighting lighting = {pass->scene, pass->trace, pass->maps};
+    struct lighting lighting = lighting_of(pass);
     direct_radiance(&lighting, paths->rays, glossy, paths->count, &numbers, radiance);
     for (size_t i = 0; i < paths->count; i++)
         add_to_lane(pass, tile, paths->lanes[i],

@@ -1,0 +1,265 @@
+#include "direct/receivers.h"
+
+#include "scene/heuristic.h"
+#include "scene/light_bvh.h"
+#include <psplat/math.h>
+#include <string.h>
+
+/* Questions of receivers: which light, by which of its points, and how much of the answer counts. */
+struct questions {
+    size_t count;
+    uint32_t receivers[RECEIVERS_MOST];
+    uint32_t lights[RECEIVERS_MOST];
+    float weights[RECEIVERS_MOST];
+    struct light_sample samples[RECEIVERS_MOST];
+};
+
+/* Two of a point's four numbers, or these moved by Roberts's sequence for many lights. */
+static void numbers_for_light(const float numbers[4], size_t light, float pair[2])
+{
+    size_t first = light % 2 * 2, turn = light / 2;
+    if (turn == 0) { /* as below, without two calls; few scenes have more lights */
+        memcpy(pair, numbers + first, 2 * sizeof *pair);
+        return;
+    }
+    float turns = (float)turn;
+    float a = numbers[first] + 0.7548777f * turns, b = numbers[first + 1] + 0.5698403f * turns;
+    pair[0] = ps_min(a - floorf(a), 0x1.fffffep-1f);
+    pair[1] = ps_min(b - floorf(b), 0x1.fffffep-1f);
+}
+
+/* What the receiver makes of irradiance 1 across a beam from `direction`. */
+static ps_rgb response(const struct receivers *to, size_t i, ps_vec3 direction, float light_pdf)
+{
+    float cosine = ps_max(ps_dot(direction, to->normals[i]), 0.0f);
+    if (!to->hits)
+        return (ps_rgb){cosine, cosine, cosine};
+    const ps_hit *hit = &to->hits[i];
+    if (!(ps_dot(direction, hit->geometric_normal) > 0.0f))
+        return (ps_rgb){0, 0, 0};
+    ps_rgb reflected = ps_rgb_scale(hit->albedo, cosine / PS_PI);
+    if (!(hit->flags & PS_HIT_SPECULAR))
+        return reflected;
+    return ps_rgb_add(reflected, material_gloss(&to->lighting->scene->materials[hit->material],
+                                                to->lighting->scene->microfacets, &to->rays[i], hit,
+                                                direction, light_pdf));
+}
+
+/* The normals of receivers to which light counts by the cosine alone. */
+static const ps_vec3 *normals_of_diffuse(const struct receivers *to, ps_vec3 *room)
+{
+    static const ps_vec3 none = {0, 0, 0};
+    if (!to->hits)
+        return to->normals;
+    for (size_t i = 0; i < to->n; i++)
+        room[i] = to->hits[i].flags & PS_HIT_SPECULAR ? none : to->normals[i];
+    return room;
+}
+
+/* Where a receiver's shadow rays begin. */
+static ps_vec3 origin_of(const struct receivers *to, size_t i)
+{
+    ps_vec3 away = to->hits ? to->hits[i].geometric_normal : to->normals[i];
+    return ps_add_scaled(to->positions[i], to->lighting->scene->surface_offset, away);
+}
+
+/* --- answers --- */
+
+/* The shadow ray from a receiver to a point of a light, and what arrives where nothing is in the way. */
+static ps_rgb connect(const struct receivers *to, size_t i, const struct light_sample *sample,
+                      ps_ray *ray)
+{
+    if (!(ps_rgb_maximum(sample->weight) > 0.0f &&
+          ps_dot(sample->direction, to->normals[i]) > 0.0f))
+        return (ps_rgb){0, 0, 0};
+    /* A light may lie on a surface, which must not shadow it. */
+    float radius = ps_max(sample->distance - to->lighting->scene->surface_offset, 0.0f);
+    *ray = (ps_ray){origin_of(to, i), 0.0f, sample->direction, radius};
+    return ps_rgb_multiply(sample->weight, response(to, i, sample->direction, sample->pdf));
+}
+
+/* What gets through along n shadow rays, all of it or nothing, or a share by a shadow map. */
+static void find_lit(const struct receivers *to, const struct questions *open, const ps_ray *rays,
+                     float *lit)
+{
+    const struct lighting *lighting = to->lighting;
+    uint8_t blocked[RECEIVERS_MOST];
+    size_t traced[RECEIVERS_MOST], count = 0;
+    ps_ray without_map[RECEIVERS_MOST];
+    for (size_t i = 0; i < open->count; i++) {
+        if (lighting->maps && shadow_maps_hold(lighting->maps, open->lights[i])) {
+            ps_vec3 normal = to->normals[open->receivers[i]];
+            lit[i] = shadow_maps_lit(lighting->maps, open->lights[i], rays[i].origin, normal);
+        } else {
+            without_map[count] = rays[i];
+            traced[count++] = i;
+        }
+    }
+    trace_occluded(lighting->trace, without_map, count, blocked);
+    for (size_t i = 0; i < count; i++)
+        lit[traced[i]] = blocked[i] ? 0.0f : 1.0f;
+}
+
+/* Adds the answers. Of questions that need a shadow ray the others are dropped. */
+static void answer(const struct receivers *to, struct questions *questions, ps_rgb *sums)
+{
+    ps_ray rays[RECEIVERS_MOST];
+    ps_rgb unshadowed[RECEIVERS_MOST];
+    float lit[RECEIVERS_MOST];
+    size_t open = 0;
+    for (size_t i = 0; i < questions->count; i++) {
+        uint32_t receiver = questions->receivers[i];
+        ps_rgb whole = connect(to, receiver, &questions->samples[i], &rays[open]);
+        unshadowed[open] = ps_rgb_scale(whole, questions->weights[i]);
+        questions->receivers[open] = receiver;
+        questions->lights[open] = questions->lights[i];
+        open += ps_rgb_maximum(whole) > 0.0f;
+    }
+    questions->count = open;
+    find_lit(to, questions, rays, lit);
+    for (size_t i = 0; i < open; i++) {
+        ps_rgb *sum = &sums[questions->receivers[i]];
+        *sum = ps_rgb_add(*sum, ps_rgb_scale(unshadowed[i], lit[i]));
+        if (to->occlusion)
+            to->occlusion[questions->receivers[i]] |=
+                gbuffer_occlusion(questions->lights[i], lit[i]);
+    }
+    questions->count = 0;
+}
+
+/* --- questions --- */
+
+static void pair_of(const struct receivers *to, size_t i, size_t number, float pair[2])
+{
+    pair[0] = pair[1] = 0.0f;
+    if (to->numbers)
+        numbers_for_light(to->numbers[i], number, pair);
+}
+
+/* Every receiver asks a light, by one point for each. */
+static void ask_light(const struct receivers *to, size_t light, ps_rgb *sums)
+{
+    const struct scene *scene = to->lighting->scene;
+    struct questions questions;
+    ps_vec3 normals[RECEIVERS_MOST], origins[RECEIVERS_MOST];
+    float pairs[RECEIVERS_MOST][2];
+    for (size_t i = 0; i < to->n; i++) {
+        origins[i] = origin_of(to, i);
+        pair_of(to, i, light, pairs[i]);
+        questions.receivers[i] = (uint32_t)i;
+        questions.lights[i] = (uint32_t)light;
+        questions.weights[i] = 1.0f;
+    }
+    questions.count = to->n;
+    light_sample(&scene->lights[light], origins, normals_of_diffuse(to, normals),
+                 (const float(*)[2])pairs, to->n, questions.samples);
+    answer(to, &questions, sums);
+}
+
+/* A receiver asks a light that was chosen, number `number` of those that it asks. `expected`: how often it is chosen. */
+static void ask_chosen(const struct receivers *to, size_t i, size_t number,
+                       const struct light_choice *choice, float expected,
+                       struct questions *questions, ps_rgb *sums)
+{
+    const struct light *light = &to->lighting->scene->lights[choice->light];
+    struct light_sample *sample = &questions->samples[questions->count];
+    ps_vec3 origin = origin_of(to, i);
+    float pair[1][2];
+    pair_of(to, i, number, pair[0]);
+    if (choice->triangle == WHOLE_LIGHT)
+        light_sample(light, &origin, NULL, (const float(*)[2])pair, 1, sample);
+    else
+        light_sample_triangle(light, choice->triangle, origin, pair[0], sample);
+    sample->pdf *= expected;
+    questions->receivers[questions->count] = (uint32_t)i;
+    questions->lights[questions->count] = choice->light;
+    questions->weights[questions->count++] = choice->weight;
+    if (questions->count == RECEIVERS_MOST)
+        answer(to, questions, sums);
+}
+
+/* Of a light that is split every receiver asks one triangle. */
+static void ask_triangles(const struct receivers *to, size_t light, ps_rgb *sums)
+{
+    const struct scene *scene = to->lighting->scene;
+    struct questions questions = {.count = 0};
+    for (size_t i = 0; i < to->n; i++) {
+        struct light_choice choice;
+        double turned = to->choices[i] + 0.6180339887498949 * (double)light;
+        if (light_bvh_choose_triangle(scene->light_bvh, light, to->positions[i], to->normals[i],
+                                      turned - floor(turned), &choice))
+            ask_chosen(to, i, light, &choice, 1.0f, &questions, sums);
+    }
+    answer(to, &questions, sums);
+}
+
+/* Whether the density of a receiver's questions matters. */
+static bool is_glossy(const struct receivers *to, size_t i)
+{
+    return to->hits && (to->hits[i].flags & PS_HIT_SPECULAR);
+}
+
+_Static_assert(RECEIVERS_MOST >= MOST_LIGHT_CHOICES, "room for what one receiver draws");
+
+/* What some receivers have drawn. */
+struct drawn_lights {
+    struct light_choice choices[RECEIVERS_MOST];
+    size_t counts[RECEIVERS_MOST];
+};
+
+/* Receivers `first` to before `end` ask lights that they draw, each its first one, then each its second one, and so on:
+ * draws come in the order of the tree, so these shadow rays go much the same way. */
+static void ask_drawn(const struct receivers *to, size_t first, size_t end, ps_rgb *sums)
+{
+    const struct light_bvh *bvh = to->lighting->scene->light_bvh;
+    uint32_t number = to->lighting->choices;
+    struct questions questions = {.count = 0};
+    struct drawn_lights drawn;
+    for (size_t i = first; i < end; i++)
+        drawn.counts[i - first] =
+            light_bvh_choose(bvh, to->positions[i], to->normals[i], number, to->choices[i],
+                             drawn.choices + (i - first) * number);
+    for (size_t k = 0; k < number; k++)
+        for (size_t i = first; i < end; i++) {
+            if (k >= drawn.counts[i - first])
+                continue;
+            const struct light_choice *choice = &drawn.choices[(i - first) * number + k];
+            float expected = is_glossy(to, i)
+                                 ? light_bvh_expected(bvh, choice->light, origin_of(to, i), number)
+                                 : 1.0f;
+            ask_chosen(to, i, k, choice, expected, &questions, sums);
+        }
+    answer(to, &questions, sums);
+}
+
+static void ask_some(const struct receivers *to, ps_rgb *sums)
+{
+    size_t together = RECEIVERS_MOST / to->lighting->choices;
+    for (size_t first = 0; first < to->n; first += together)
+        ask_drawn(to, first, first + together < to->n ? first + together : to->n, sums);
+}
+
+void receivers_add_lights(const struct receivers *to, ps_rgb *sums)
+{
+    const struct scene *scene = to->lighting->scene;
+    if (scene_chooses_lights(scene))
+        ask_some(to, sums);
+    for (size_t i = 0; i < scene->afar_count && scene_chooses_lights(scene); i++)
+        ask_light(to, scene->afar[i], sums);
+    for (size_t light = 0; light < scene->light_count && !scene_chooses_lights(scene); light++) {
+        if (light_bvh_is_split(scene->light_bvh, light))
+            ask_triangles(to, light, sums);
+        else
+            ask_light(to, light, sums);
+    }
+}
+
+float receivers_light_pdf(const struct lighting *lighting, size_t light, ps_vec3 origin,
+                          ps_vec3 direction, float distance, ps_vec3 normal)
+{
+    const struct scene *scene = lighting->scene;
+    float pdf = light_pdf(&scene->lights[light], origin, direction, distance, normal);
+    bool chosen = scene_chooses_lights(scene) && !light_is_afar(&scene->lights[light]);
+    return chosen ? pdf * light_bvh_expected(scene->light_bvh, light, origin, lighting->choices)
+                  : pdf;
+}

@@ -1,0 +1,59 @@
+/* light_bvh.h: which of many lights to look at from a point.
+ *
+ * A bounding volume hierarchy over lights with orientation bounds (Conty Estevez and Kulla 2018, "Importance sampling of
+ * many lights with adaptive tree splitting"; light_cluster.h has the bounds). From the root down a child is chosen in
+ * proportion to its importance at the point, so that lights are chosen about in proportion to what they give to it.
+ * Choices are drawn together by systematic sampling: `number` places, 1 apart, on a line of that length on which each node
+ * has its share of its parent. A light whose share is 1 or more is always chosen, no node is visited twice, and the
+ * choices have the variance of stratified ones. The paper's way to lower variance is to go down both children of nodes
+ * that are near; this one has a fixed cost.
+ *
+ * A mesh of more than LIGHT_BVH_TRIANGLES triangles is a subtree, of which triangles are chosen. Sun and sky have no
+ * place and are not in the tree. Constant once made; any thread may read it.
+ */
+#ifndef SCENE_LIGHT_BVH_H
+#define SCENE_LIGHT_BVH_H
+
+#include "base/error.h"
+#include "scene/light.h"
+#include "settings/render_description.h"
+
+#define LIGHT_BVH_TRIANGLES 64 /* those of a disc */
+#define WHOLE_LIGHT UINT32_MAX
+
+struct light_bvh;
+
+/* The lights must outlive it. PS_ERROR_MEMORY, or PS_OK: destroy it. */
+ps_result light_bvh_create(const struct light *lights, size_t count, struct light_bvh **created,
+                           struct error *error);
+void light_bvh_destroy(struct light_bvh *bvh);
+
+size_t light_bvh_bytes(const struct light_bvh *bvh);
+
+/* Lights that are in the tree: have a place and a size or intensity. */
+size_t light_bvh_count(const struct light_bvh *bvh);
+
+/* Whether the light is a subtree. */
+bool light_bvh_is_split(const struct light_bvh *bvh, size_t light);
+
+struct light_choice {
+    uint32_t light;
+    uint32_t triangle; /* of a light that is split; else WHOLE_LIGHT */
+    float weight;      /* how often it was drawn over how often it is in the mean */
+};
+
+/* Draws `number` (1..MOST_LIGHT_CHOICES) lights for a point by u in [0,1); writes the different ones and returns how many. Those that
+ * give nothing to the point are not chosen. `normal`: unit, of a surface there, which light reaches from its front; 0: none. */
+size_t light_bvh_choose(const struct light_bvh *bvh, ps_vec3 position, ps_vec3 normal,
+                        uint32_t number, double u, struct light_choice *choices);
+
+/* Draws a triangle of a light that is split; false: none gives anything. */
+bool light_bvh_choose_triangle(const struct light_bvh *bvh, size_t light, ps_vec3 position,
+                               ps_vec3 normal, double u, struct light_choice *choice);
+
+/* How often light_bvh_choose draws the light in the mean, for a point without a normal; a split light with all of its
+ * triangles. */
+float light_bvh_expected(const struct light_bvh *bvh, size_t light, ps_vec3 position,
+                         uint32_t number);
+
+#endif
