@@ -71,8 +71,9 @@ static double contribution(const struct light *light, ps_vec3 position, ps_vec3 
     double sum = 0.0;
     int side = light_is_delta(light) ? 1 : 8;
     for (int i = 0; i < side * side; i++) {
+        int column = i % side, row = i / side;
         float numbers[1][2] = {
-            {((float)(i % side) + 0.5f) / (float)side, ((float)(i / side) + 0.5f) / (float)side}};
+            {((float)column + 0.5f) / (float)side, ((float)row + 0.5f) / (float)side}};
         struct light_sample sample;
         light_sample(light, &position, NULL, (const float(*)[2])numbers, 1, &sample);
         float cosine = ps_dot(normal, normal) > 0.0f ? ps_dot(sample.direction, normal) : 1.0f;
