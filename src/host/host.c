@@ -117,6 +117,21 @@ void host_tell_progress(const ps_host *host, double fraction)
         callbacks->progress(callbacks->user, "indirect light", render_fraction(render, fraction));
 }
 
+void host_hand_over(const ps_host *host, const char *service, void *theirs, const void *ours,
+                    uint32_t size)
+{
+    uint32_t known;
+    memcpy(&known, theirs, sizeof known);
+    if (known <= sizeof known) {
+        char why[120];
+        snprintf(why, sizeof why, "it called %s with a struct whose size is not set", service);
+        host->fail(host, PS_ERROR_INVALID, why);
+        return;
+    }
+    memcpy((char *)theirs + sizeof known, (const char *)ours + sizeof known,
+           (known < size ? known : size) - sizeof known);
+}
+
 /* Streams from PS_STREAM_PLUGIN on are apart for each kind. */
 static void host_samples(const ps_host *host, uint32_t stream, uint32_t set,
                          const uint64_t *indices, size_t n, float (*samples)[4])
@@ -173,6 +188,7 @@ void host_create(struct render *render)
             .samples = host_samples,
         };
         host_add_scene(&own->host);
+        host_add_lights(&own->host);
         host_add_tiles(&own->host);
         host_add_photons(&own->host);
     }

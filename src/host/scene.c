@@ -1,4 +1,4 @@
-/* scene.c: the services for the scene: rays, surfaces, lights, triangles and the camera. */
+/* scene.c: the services for the scene: rays, surfaces, triangles and the camera. */
 #include "direct/direct.h"
 #include "host/host.h"
 #include "scene/triangles.h"
@@ -92,146 +92,6 @@ static void host_intersect_packets(const ps_host *host, ps_ray_packet *packets, 
     }
 }
 
-static const ps_ray nowhere = {{0, 0, 0}, 0, {0, 0, 1}, 0};
-
-/* A ray of a light, moved off what the light may lie on; and where it starts. */
-static ps_rgb emit_from(const struct scene *scene, size_t light, const float numbers[4],
-                        ps_ray *ray, ps_light_sample *point)
-{
-    const struct light *from = &scene->lights[light];
-    ps_rgb flux = light_emit(from, numbers, ray, &point->normal);
-    point->position = ray->origin;
-    point->distance = from->emitter == EMITTER_SUN || from->emitter == EMITTER_SKY ? INFINITY : 0;
-    point->light = (uint32_t)light;
-    if (light_is_delta(from))
-        ray->tnear = scene->surface_offset; /* a light may lie on a surface */
-    ray->origin = ps_add_scaled(ray->origin, scene->surface_offset, point->normal);
-    return flux;
-}
-
-/* A ray of one of the lights; black where there is none. */
-static ps_rgb emit(const struct scene *scene, const float numbers[4], ps_ray *ray,
-                   ps_light_sample *point)
-{
-    *ray = nowhere;
-    *point = (ps_light_sample){.distance = 0};
-    if (scene->light_count == 0)
-        return (ps_rgb){0, 0, 0};
-    float left[4] = {numbers[0], numbers[1], numbers[2], numbers[3]};
-    size_t light = scene_choose_light(scene, &left[2], &point->probability);
-    ps_rgb flux = emit_from(scene, light, left, ray, point);
-    return point->probability > 0.0f ? ps_rgb_scale(flux, 1.0f / point->probability)
-                                     : (ps_rgb){0, 0, 0};
-}
-
-static void host_emit_light(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
-                            ps_rgb *power)
-{
-    ps_light_sample point;
-    for (size_t i = 0; i < n; i++)
-        power[i] = emit(render_of(host)->scene, samples[i], &rays[i], &point);
-}
-
-static void host_emit_points(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
-                             ps_rgb *power, ps_light_sample *points)
-{
-    for (size_t i = 0; i < n; i++)
-        power[i] = emit(render_of(host)->scene, samples[i], &rays[i], &points[i]);
-}
-
-static uint32_t host_light_count(const ps_host *host)
-{
-    return (uint32_t)render_of(host)->scene->light_count;
-}
-
-/* Whether there is a light of that index. */
-static bool has_light(const ps_host *host, uint32_t index, const char *service)
-{
-    size_t count = render_of(host)->scene->light_count;
-    if (index < count)
-        return true;
-    host_refuse_index(host, service, index, count);
-    return false;
-}
-
-/* Gives the caller as much of a struct as it knows: the size at its front, which must have been set. */
-static void hand_over(const ps_host *host, const char *service, void *theirs, const void *ours,
-                      uint32_t size)
-{
-    uint32_t known;
-    memcpy(&known, theirs, sizeof known);
-    if (known <= sizeof known) {
-        char why[120];
-        snprintf(why, sizeof why, "it called %s with a struct whose size is not set", service);
-        host->fail(host, PS_ERROR_INVALID, why);
-        return;
-    }
-    memcpy((char *)theirs + sizeof known, (const char *)ours + sizeof known,
-           (known < size ? known : size) - sizeof known);
-}
-
-static void host_light(const ps_host *host, uint32_t index, ps_light *described)
-{
-    ps_light light = {.kind = PS_LIGHT_POINT, .axis = {0, 0, 1}};
-    if (has_light(host, index, "light"))
-        light = light_describe(&render_of(host)->scene->lights[index]);
-    hand_over(host, "light", described, &light, sizeof light);
-}
-
-static void host_light_intensity(const ps_host *host, uint32_t index, const ps_vec3 *directions,
-                                 size_t n, ps_rgb *intensity)
-{
-    bool there = has_light(host, index, "light_intensity");
-    const struct light *light = there ? &render_of(host)->scene->lights[index] : NULL;
-    for (size_t i = 0; i < n; i++)
-        intensity[i] = light ? light_intensity(light, directions[i]) : (ps_rgb){0, 0, 0};
-}
-
-static void host_emit_from(const ps_host *host, uint32_t index, const float (*samples)[4], size_t n,
-                           ps_ray *rays, ps_rgb *power)
-{
-    bool there = has_light(host, index, "emit_from");
-    ps_light_sample point;
-    for (size_t i = 0; i < n; i++) {
-        rays[i] = nowhere;
-        power[i] = there ? emit_from(render_of(host)->scene, index, samples[i], &rays[i], &point)
-                         : (ps_rgb){0, 0, 0};
-    }
-}
-
-/* One place's. */
-static ps_light_sample sample_light(const struct scene *scene, ps_vec3 place,
-                                    const float numbers[4])
-{
-    ps_light_sample sampled = {.distance = INFINITY};
-    if (scene->light_count == 0)
-        return sampled;
-    float choice = numbers[2];
-    struct light_sample sample;
-    uint32_t index = (uint32_t)scene_choose_light(scene, &choice, &sampled.probability);
-    const struct light *light = &scene->lights[index];
-    const float point[1][2] = {{numbers[0], numbers[1]}};
-    light_sample(light, &place, NULL, point, 1, &sample);
-    float far = 4.0f * scene->radius;
-    sampled.light = index;
-    sampled.distance = sample.distance;
-    sampled.direction = sample.direction;
-    sampled.pdf = sample.pdf;
-    sampled.position =
-        ps_add_scaled(place, sample.distance < INFINITY ? sample.distance : far, sample.direction);
-    sampled.normal = light_sample_normal(light, place, point[0], &sample);
-    if (sampled.probability > 0.0f)
-        sampled.irradiance = ps_rgb_scale(sample.weight, 1.0f / sampled.probability);
-    return sampled;
-}
-
-static void host_sample_light(const ps_host *host, const ps_vec3 *places, const float (*samples)[4],
-                              size_t n, ps_light_sample *sampled)
-{
-    for (size_t i = 0; i < n; i++)
-        sampled[i] = sample_light(render_of(host)->scene, places[i], samples[i]);
-}
-
 static bool has_object(const ps_host *host, uint32_t index, const char *service)
 {
     size_t count = render_of(host)->scene->object_count;
@@ -272,50 +132,6 @@ static int32_t host_is_shown(const ps_host *host, uint32_t object)
     const struct instance *instance = instance_of(scene, object);
     uint32_t shape = instance->group->first_shape + (object - instance->first_object);
     return !instance->hidden && !scene->shapes[shape].hidden;
-}
-
-static ps_light_density density_of(const struct scene *scene, uint32_t light, ps_vec3 place,
-                                   const ps_light_sample *point)
-{
-    const struct light *from = &scene->lights[light];
-    ps_vec3 front = light_front(from, place, point->normal);
-    return (ps_light_density){
-        distribution_probability(&scene->light_choice, light) *
-            light_pdf(from, place, point->direction, point->distance, front),
-        light_arrival(from, place, point->direction, point->distance, front),
-    };
-}
-
-/* Of all that shines from a direction, but suns without an angle. Their rays fill the same disc. */
-static ps_light_density density_from_afar(const struct scene *scene, ps_vec3 place,
-                                          const ps_light_sample *point)
-{
-    ps_light_density sum = {0, 0};
-    for (uint32_t i = 0; i < scene->light_count; i++) {
-        enum emitter emitter = scene->lights[i].emitter;
-        if (emitter != EMITTER_SUN && emitter != EMITTER_SKY)
-            continue;
-        ps_light_density own = density_of(scene, i, place, point);
-        sum.direct += own.direct;
-        sum.arrival = own.arrival;
-    }
-    return sum;
-}
-
-static void host_light_densities(const ps_host *host, const ps_vec3 *places,
-                                 const ps_light_sample *points, size_t n,
-                                 ps_light_density *densities)
-{
-    const struct scene *scene = render_of(host)->scene;
-    for (size_t i = 0; i < n; i++) {
-        bool there = points[i].light < scene->light_count;
-        bool afar = !(points[i].distance < INFINITY);
-        densities[i] = (ps_light_density){0, 0};
-        if (afar && !(there && light_is_delta(&scene->lights[points[i].light])))
-            densities[i] = density_from_afar(scene, places[i], &points[i]);
-        else if (there)
-            densities[i] = density_of(scene, points[i].light, places[i], &points[i]);
-    }
 }
 
 static void host_sample_bsdf(const ps_host *host, ps_direction direction, const ps_ray *rays,
@@ -393,7 +209,7 @@ static void host_camera(const ps_host *host, ps_camera *described)
         .aperture = camera->aperture,
         .focus = camera->focus,
     };
-    hand_over(host, "camera", described, &whole, sizeof whole);
+    host_hand_over(host, "camera", described, &whole, sizeof whole);
 }
 
 static void host_project(const ps_host *host, const ps_vec3 *points, size_t n, float (*pixels)[2])
@@ -413,16 +229,8 @@ void host_add_scene(ps_host *host)
     host->evaluate_bsdf = host_evaluate_bsdf;
     host->direct_radiance = host_direct_radiance;
     host->emitted_radiance = host_emitted_radiance;
-    host->emit_light = host_emit_light;
-    host->light_count = host_light_count;
-    host->light = host_light;
-    host->light_intensity = host_light_intensity;
-    host->emit_from = host_emit_from;
-    host->sample_light = host_sample_light;
-    host->emit_points = host_emit_points;
     host->light_of_object = host_light_of_object;
     host->is_shown = host_is_shown;
-    host->light_densities = host_light_densities;
     host->scene_bounds = host_scene_bounds;
     host->triangle_count = host_triangle_count;
     host->triangles = host_triangles;

@@ -94,6 +94,14 @@ static void test_paths(void **state)
     expect_alike("white", bulbs, "estimator=pathtrace:samples=16", "indirect.G", 0.01);
 }
 
+/* All strategies together, each of which tells the chance of a light that another one drew. */
+static void test_bidirectional_paths(void **state)
+{
+    (void)state;
+    expect_alike("white", points, "estimator=bdpt:samples=16", "indirect.G", 0.01);
+    expect_alike("gloss", bulbs, "estimator=bdpt:samples=16", "indirect.G", 0.01);
+}
+
 static void test_splats(void **state)
 {
     (void)state;
@@ -113,6 +121,7 @@ int main(void)
         cmocka_unit_test(test_direct_light_of_points),
         cmocka_unit_test(test_direct_light_of_bulbs),
         cmocka_unit_test(test_paths),
+        cmocka_unit_test(test_bidirectional_paths),
         cmocka_unit_test(test_splats),
         cmocka_unit_test(test_gloss),
     };
