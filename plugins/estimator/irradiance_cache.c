@@ -13,7 +13,7 @@
  * which are splatted onto the pixels.
  */
 #include "irradiance_cache/cache.h"
-#include "shared/photons.h"
+#include "shared/caustics.h"
 
 #define COARSEST 64u         /* pixels between candidates of the first round */
 #define FEWEST_PIXELS 2.0f   /* least radius */
@@ -191,24 +191,11 @@ static void interpolate_tile(void *user, uint64_t index, uint32_t worker)
     }
 }
 
-static bool is_caustic(const void *user, const ps_photon *photon)
-{
-    (void)user;
-    return photon->bounce == 0;
-}
-
 /* A photons_take. */
 static ps_result splat_caustics_of(void *opaque, const ps_photon *photons, size_t n)
 {
     const struct work *work = opaque;
-    const ps_host *host = work->host;
-    ps_photon *chosen = host->allocate(host, n * sizeof *chosen, "photons chosen");
-    if (!chosen)
-        return PS_ERROR_MEMORY;
-    size_t count = photons_choose(photons, n, is_caustic, NULL, 1.0f, chosen);
-    ps_result result = count > 0 ? host->splat(host, chosen, count) : PS_OK;
-    host->release(host, chosen);
-    return result;
+    return caustics_splat(work->host, photons, n);
 }
 
 static ps_result splat_caustics(struct work *work)

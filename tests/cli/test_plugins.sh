@@ -169,7 +169,7 @@ for choice in filter=box filter=tent filter=gaussian:sigma=0.2 filter=cone filte
     filter=epanechnikov visibility=none \
     visibility=shadowmap:resolution=4 visibility=shadowmap:radius=60 visibility=shadowmap:step_back=auto \
     visibility=shadowmap:step_back=15,bias=5 visibility=shadowmap:bandwidth_scale=0 visibility=shadowmap:depth=1 \
-    estimator=pathtrace estimator=bdpt estimator=bdpt:strategies=camera estimator=bdpt:strategies=light estimator=photonmap estimator=sppm:neighbours=20 estimator=final_gather estimator=vpl estimator=lightcuts estimator=lightcuts:error=0.5 estimator=irradiance_cache:samples=16 estimator=irradiance_cache:spacing=0.3 estimator=ambient estimator=ssao estimator=hbao estimator=hbao:cosine=no estimator=vpl:visibility=rays estimator=vpl:visibility=none estimator=vpl:compensation=0 estimator=gather \
+    estimator=pathtrace estimator=bdpt estimator=bdpt:strategies=camera estimator=bdpt:strategies=light estimator=photonmap estimator=sppm:neighbours=20 estimator=final_gather estimator=vpl estimator=lightcuts estimator=lightcuts:error=0.5 estimator=irradiance_cache:samples=16 estimator=irradiance_cache:spacing=0.3 estimator=voxel_cone:resolution=64 estimator=voxel_cone:resolution=32,cones=5 estimator=voxel_cone:resolution=64,turn=pass estimator=ambient estimator=ssao estimator=hbao estimator=hbao:cosine=no estimator=vpl:visibility=rays estimator=vpl:visibility=none estimator=vpl:compensation=0 estimator=gather \
     normalization=weight normalization=intensity:exposure=9 denoiser=gaussian \
     denoiser=bilateral denoiser=bilateral:normal=1,sigma=9 denoiser=regression denoiser=regression:distance=9 injection=photon:roulette=1 injection=rsm; do
     run 0 -q $small -p $choice -o other.exr "$cornell"

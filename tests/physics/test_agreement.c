@@ -81,6 +81,7 @@ static void test_single_bounce(void **state)
         {"gather", "estimator=gather:samples=64", "injection=photon:count=1000", NULL, 0.01},
         {"bdpt", "estimator=bdpt:samples=128", NULL, NULL, 0.01},
         {"irradiance_cache", "estimator=irradiance_cache:samples=4096", NULL, NULL, 0.01},
+        {"voxel_cone", "estimator=voxel_cone:cones=64", NULL, NULL, 0.1},
     };
     compare(cornell_text(WIDTH, HEIGHT), "bounces=1", "estimator=pathtrace:samples=512", methods,
             sizeof methods / sizeof methods[0]);
@@ -108,6 +109,7 @@ static void test_all_bounces(void **state)
         {"gather", "estimator=gather:samples=64", "injection=photon:count=50000", NULL, 0.01},
         {"bdpt", "estimator=bdpt:samples=128", NULL, NULL, 0.01},
         {"irradiance_cache", "estimator=irradiance_cache:samples=4096", NULL, NULL, 0.01},
+        {"voxel_cone", "estimator=voxel_cone:cones=64", NULL, NULL, 0.1},
     };
     compare(cornell_text(WIDTH, HEIGHT), "bounces=all", "estimator=pathtrace:samples=512", methods,
             sizeof methods / sizeof methods[0]);
@@ -128,6 +130,7 @@ static void test_other_scenes(void **state)
         {"lightcuts", "estimator=lightcuts", "injection=photon:count=100000", NULL, 0.02},
         {"bdpt", "estimator=bdpt:samples=256", NULL, NULL, 0.02},
         {"irradiance_cache", "estimator=irradiance_cache:samples=4096", NULL, NULL, 0.02},
+        {"voxel_cone", "estimator=voxel_cone:cones=64", NULL, NULL, 0.1},
     };
     static const char *const scenes[] = {"corridor", "columns"};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {

@@ -93,6 +93,10 @@ static const struct method mirror_methods[] = {
      {"estimator=irradiance_cache:samples=512", "injection=photon:count=100000", "bounces=all",
       "visibility=shadowmap:radius=0.08", NULL},
      0.01},
+    {"voxel_cone",
+     {"estimator=voxel_cone", "injection=photon:count=100000", "bounces=all",
+      "visibility=shadowmap:radius=0.08", NULL},
+     0.06}, /* what the mirror gets from the floor leaves it in a wide lobe */
     {"final_gather",
      {"estimator=final_gather:samples=16", "injection=photon:count=100000", "bounces=all", NULL},
      0.015},

@@ -53,6 +53,7 @@ static const struct method in_furnace[] = {
     {"lightcuts", {"estimator=lightcuts:clamp=0", "injection=photon:count=2000", NULL}, 0.004},
     {"gather", {"estimator=gather:samples=8", "injection=photon:count=5000", NULL}, 0.003},
     {"irradiance_cache", {"estimator=irradiance_cache:samples=64", NULL}, 0.001},
+    {"voxel_cone", {"estimator=voxel_cone:resolution=64", NULL}, 0.04},
 };
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -101,6 +102,7 @@ static void test_large_furnace(void **state)
         {"pathtrace", {"estimator=pathtrace:samples=8", NULL}, 0},
         {"bdpt", {"estimator=bdpt:samples=8", NULL}, 0.002},
         {"irradiance_cache", {"estimator=irradiance_cache:samples=64", NULL}, 0.001},
+        {"voxel_cone", {"estimator=voxel_cone:resolution=64", NULL}, 0.04},
     };
     check("large furnace", large, methods, COUNT(methods), 0.6 / PI * (0.6 + 0.36));
 }
@@ -146,6 +148,7 @@ static const struct method patch_methods[] = {
      {"estimator=gather:samples=512", "injection=photon:count=500", "bounces=1", NULL},
      0},
     {"irradiance_cache", {"estimator=irradiance_cache:samples=20000", "bounces=1", NULL}, 0.01},
+    {"voxel_cone", {"estimator=voxel_cone:cones=1024", "bounces=1", NULL}, 0.02},
 };
 
 static double patch_radiance(double tilt_degrees)
