@@ -30,6 +30,7 @@ small_choice() {
     injection=voxel) echo "$1:resolution=32" ;;
     estimator=pathtrace) echo "$1:samples=4" ;;
     estimator=irradiance_cache) echo "$1:samples=16" ;;
+    estimator=lpv) echo "$1:cells=8" ;;
     estimator=voxel_cone) echo "$1:resolution=16,cones=5" ;;
     estimator=bdpt) echo "$1:samples=2" ;;
     estimator=vpl) echo "$1:lights=50" ;;

@@ -82,6 +82,7 @@ static void test_single_bounce(void **state)
         {"bdpt", "estimator=bdpt:samples=128", NULL, NULL, 0.01},
         {"irradiance_cache", "estimator=irradiance_cache:samples=4096", NULL, NULL, 0.01},
         {"voxel_cone", "estimator=voxel_cone:cones=64", NULL, NULL, 0.1},
+        {"lpv", "estimator=lpv", NULL, NULL, 0.15},
     };
     compare(cornell_text(WIDTH, HEIGHT), "bounces=1", "estimator=pathtrace:samples=512", methods,
             sizeof methods / sizeof methods[0]);
@@ -110,6 +111,7 @@ static void test_all_bounces(void **state)
         {"bdpt", "estimator=bdpt:samples=128", NULL, NULL, 0.01},
         {"irradiance_cache", "estimator=irradiance_cache:samples=4096", NULL, NULL, 0.01},
         {"voxel_cone", "estimator=voxel_cone:cones=64", NULL, NULL, 0.1},
+        {"lpv", "estimator=lpv", NULL, NULL, 0.15},
     };
     compare(cornell_text(WIDTH, HEIGHT), "bounces=all", "estimator=pathtrace:samples=512", methods,
             sizeof methods / sizeof methods[0]);
