@@ -94,6 +94,8 @@ static ps_result make_volume(const struct state *state, struct work *work, const
     ps_vec3 center;
     float radius;
     host->scene_bounds(host, &center, &radius);
+    if (!(radius > 0.0f)) /* no surfaces, or planes alone */
+        return PS_OK;
     const struct surface_lines lines = {
         .host = host,
         .grid = voxel_grid_around(center, radius, (uint32_t)state->resolution, shift),

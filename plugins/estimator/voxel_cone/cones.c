@@ -225,6 +225,8 @@ ps_rgb cone_trace(const struct volume *volume, float spread, ps_vec3 position, p
     struct walk walk = {.volume = volume, .spread = spread};
     struct layer layers[3];
     struct passage passage = {1.0f, 0.0f, {0, 0, 0}};
+    if (volume->level_count == 0)
+        return passage.sum;
     voxel_grid_place(&volume->grid, position, walk.origin);
     voxel_components(direction, walk.direction);
     voxel_components(normal, walk.normal);
