@@ -200,7 +200,10 @@ static void take_once(struct inclusion *inclusion, const struct source *source,
     if (!kept->name)
         return;
     struct origin from = reader_origin(inclusion->reader, at);
-    diagnostics_set_includer(inclusion->reader->sink, kept->name, &from);
+    if (!diagnostics_set_includer(inclusion->reader->sink, kept->name, &from)) {
+        inclusion->out_of_memory = true;
+        return;
+    }
     take_file(inclusion, kept, at, text->bytes, text->length);
 }
 

@@ -109,17 +109,18 @@ const char *diagnostics_add_source(struct diagnostics *sink, const char *name, c
     return sink->sources[index].name;
 }
 
-void diagnostics_set_includer(struct diagnostics *sink, const char *name, const struct origin *from)
+bool diagnostics_set_includer(struct diagnostics *sink, const char *name, const struct origin *from)
 {
     size_t index = find_source(sink, name), includer = find_source(sink, from->file);
     if (index == NO_SOURCE)
         index = append_source(sink, name);
     if (index == NO_SOURCE || includer == NO_SOURCE)
-        return;
+        return false;
     struct source *source = &sink->sources[index];
     source->includer = includer;
     source->includer_line = from->line;
     source->includer_column = from->column;
+    return true;
 }
 
 /* Replaces what would garble or steer a terminal: control characters and broken UTF-8. */

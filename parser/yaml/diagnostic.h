@@ -34,8 +34,8 @@ const char *diagnostics_add_source(struct diagnostics *sink, const char *name, c
                                    size_t length);
 
 /* Says which place in which file includes that one, whose first message is printed below "In file
- * included from scene.psd:3:10:". Running out of memory leaves that line away. */
-void diagnostics_set_includer(struct diagnostics *sink, const char *name,
+ * included from scene.psd:3:10:". False: out of memory. */
+bool diagnostics_set_includer(struct diagnostics *sink, const char *name,
                               const struct origin *from);
 
 /* `width` characters from the origin are underlined (0 counts as 1). An origin of NULL or with
