@@ -283,6 +283,14 @@ struct ps_host {
      * not exist. [any thread] */
     void (*light_densities)(const ps_host *host, const ps_vec3 *places,
                             const ps_light_sample *points, size_t n, ps_light_density *densities);
+
+    /* --- points of surfaces --- */
+
+    /* Since 1.6: the surfaces at points of triangles, as intersect tells them, and rays at right angles to the triangles
+     * that meet them there; of a sphere, where it lies above or below its triangle. Object PS_NO_OBJECT, at distance
+     * INFINITY, where the surface has a hole, or there is no such triangle. [any thread] */
+    void (*surface_points)(const ps_host *host, const ps_surface_point *points, size_t n,
+                           ps_ray *rays, ps_hit *hits);
 };
 
 #define PS_SPHERE_TRIANGLES 512u

@@ -186,6 +186,14 @@ typedef struct ps_triangle {
     uint32_t object, material;
 } ps_triangle;
 
+/* A point of one of the triangles of ps_triangle. */
+typedef struct ps_surface_point {
+    uint32_t object;
+    uint32_t triangle; /* of those of the object, in their order, from 0 */
+    float u, v;        /* weights of the triangle's second and third corner */
+    uint32_t back;     /* 1: the back of it */
+} ps_surface_point;
+
 typedef enum ps_projection { PS_PERSPECTIVE = 0, PS_ORTHOGRAPHIC = 1 } ps_projection;
 
 /* The camera. The point (x, y) of the picture, in pixels from its upper left corner, is seen from

@@ -2,6 +2,7 @@
 #include "direct/direct.h"
 #include "host/host.h"
 #include "scene/triangles.h"
+#include "trace/surface.h"
 #include <math.h>
 #include <psplat/math.h>
 #include <stdio.h>
@@ -108,20 +109,6 @@ static uint32_t host_light_of_object(const ps_host *host, uint32_t object)
                : PS_NO_LIGHT;
 }
 
-/* The instance that an object past the world's own shapes stands in. Instances go by their objects. */
-static const struct instance *instance_of(const struct scene *scene, uint32_t object)
-{
-    size_t first = 0, end = scene->instance_count;
-    while (end - first > 1) {
-        size_t middle = first + (end - first) / 2;
-        if (scene->instances[middle].first_object <= object)
-            first = middle;
-        else
-            end = middle;
-    }
-    return &scene->instances[first];
-}
-
 static int32_t host_is_shown(const ps_host *host, uint32_t object)
 {
     const struct scene *scene = render_of(host)->scene;
@@ -129,9 +116,39 @@ static int32_t host_is_shown(const ps_host *host, uint32_t object)
         return 0;
     if (object < scene->world_shape_count)
         return !scene->shapes[object].hidden;
-    const struct instance *instance = instance_of(scene, object);
+    const struct instance *instance = scene_instance_of(scene, object);
     uint32_t shape = instance->group->first_shape + (object - instance->first_object);
     return !instance->hidden && !scene->shapes[shape].hidden;
+}
+
+/* Whether the point's object has that triangle. */
+static bool has_triangle(const ps_host *host, const ps_surface_point *point)
+{
+    const struct scene *scene = render_of(host)->scene;
+    if (!has_object(host, point->object, "surface_points"))
+        return false;
+    const struct shape *shape = &scene->shapes[point->object];
+    if (point->object >= scene->world_shape_count) {
+        const struct instance *instance = scene_instance_of(scene, point->object);
+        shape =
+            &scene->shapes[instance->group->first_shape + (point->object - instance->first_object)];
+    }
+    uint64_t count = triangles_of_shape(shape);
+    if (point->triangle < count)
+        return true;
+    host_refuse_index(host, "surface_points", point->triangle, count);
+    return false;
+}
+
+static void host_surface_points(const ps_host *host, const ps_surface_point *points, size_t n,
+                                ps_ray *rays, ps_hit *hits)
+{
+    for (size_t i = 0; i < n; i++) {
+        rays[i] = (ps_ray){{0, 0, 0}, 0, {0, 0, 1}, 0};
+        hits[i] = (ps_hit){.distance = INFINITY, .object = PS_NO_OBJECT};
+        if (has_triangle(host, &points[i]))
+            hits[i] = surface_at(render_of(host)->scene, &points[i], &rays[i]);
+    }
 }
 
 static void host_sample_bsdf(const ps_host *host, ps_direction direction, const ps_ray *rays,
@@ -231,6 +248,7 @@ void host_add_scene(ps_host *host)
     host->emitted_radiance = host_emitted_radiance;
     host->light_of_object = host_light_of_object;
     host->is_shown = host_is_shown;
+    host->surface_points = host_surface_points;
     host->scene_bounds = host_scene_bounds;
     host->triangle_count = host_triangle_count;
     host->triangles = host_triangles;

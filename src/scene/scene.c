@@ -119,3 +119,17 @@ size_t scene_bytes(const struct scene *scene)
     sum += light_bvh_bytes(scene->light_bvh);
     return sum;
 }
+
+/* Instances go by their objects. */
+const struct instance *scene_instance_of(const struct scene *scene, uint32_t object)
+{
+    size_t first = 0, end = scene->instance_count;
+    while (end - first > 1) {
+        size_t middle = first + (end - first) / 2;
+        if (scene->instances[middle].first_object <= object)
+            first = middle;
+        else
+            end = middle;
+    }
+    return &scene->instances[first];
+}

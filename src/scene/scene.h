@@ -78,6 +78,9 @@ ps_result scene_create(const struct scene_description *description, struct scene
                        struct origin *where, struct error *error);
 void scene_release(struct scene *scene);
 
+/* The instance that an object past the world's own shapes stands in. */
+const struct instance *scene_instance_of(const struct scene *scene, uint32_t object);
+
 /* Bytes that shapes and textures take. */
 size_t scene_bytes(const struct scene *scene);
 

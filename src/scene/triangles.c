@@ -36,7 +36,7 @@ static bool find_shape(const struct scene *scene, size_t index, size_t *instance
     return false;
 }
 
-static uint64_t count_of(const struct shape *shape)
+uint64_t triangles_of_shape(const struct shape *shape)
 {
     return shape->kind == SHAPE_SPHERE ? PS_SPHERE_TRIANGLES : shape->triangle_count;
 }
@@ -47,7 +47,7 @@ uint64_t triangles_count(const struct scene *scene)
     size_t instance = 0;
     struct placed_shape placed;
     for (size_t i = 0; find_shape(scene, i, &instance, &placed); i++)
-        count += count_of(placed.shape);
+        count += triangles_of_shape(placed.shape);
     return count;
 }
 
@@ -76,6 +76,15 @@ static void sphere_triangle(uint32_t index, ps_vec3 corners[3])
     corners[0] = left;
     corners[1] = upper ? above_right : right;
     corners[2] = upper ? above_left : above_right;
+}
+
+ps_vec3 triangles_on_sphere(uint32_t triangle, const float weights[2])
+{
+    ps_vec3 corners[3];
+    sphere_triangle(triangle, corners);
+    ps_vec3 p = ps_scale(corners[0], 1.0f - weights[0] - weights[1]);
+    p = ps_add_scaled(p, weights[0], corners[1]);
+    return ps_add_scaled(p, weights[1], corners[2]);
 }
 
 static ps_vec3 area_vector(const ps_vec3 corners[3])
@@ -136,7 +145,7 @@ size_t triangles_get(const struct scene *scene, uint64_t first, size_t n, ps_tri
     float scale = sphere_scale();
     struct placed_shape placed;
     for (size_t i = 0; done < n && find_shape(scene, i, &instance, &placed); i++) {
-        uint64_t count = count_of(placed.shape);
+        uint64_t count = triangles_of_shape(placed.shape);
         for (; first < count && done < n; first++)
             triangles[done++] = triangle_of(&placed, first, scale);
         first -= first < count ? first : count;

@@ -14,4 +14,11 @@ uint64_t triangles_count(const struct scene *scene);
 /* Triangles `first` and on, at most n; returns how many. The order is that of objects. */
 size_t triangles_get(const struct scene *scene, uint64_t first, size_t n, ps_triangle *triangles);
 
+/* How many triangles a shape is given as. */
+uint64_t triangles_of_shape(const struct shape *shape);
+
+/* The direction from the centre of a sphere to a point of one of its triangles; `weights`: of the second and third
+ * corner. Its length is about 1. */
+ps_vec3 triangles_on_sphere(uint32_t triangle, const float weights[2]);
+
 #endif

@@ -1,6 +1,7 @@
 #include "trace/surface.h"
 
 #include "scene/bump.h"
+#include "scene/triangles.h"
 
 /* The shape, and how it stands in the world. */
 struct placed {
@@ -182,4 +183,54 @@ bool surface_is_opaque(const struct scene *scene, const struct intersection *at)
     ps_hit hit;
     locate_texture(shape, shape->kind == SHAPE_SPHERE ? unit(at->normal) : at->normal, at, &hit);
     return material_is_opaque(material, hit.texture_point, hit.uv);
+}
+
+/* The position in the world of a point of a shape, and at->normal there. */
+static ps_vec3 place_of(const struct placed *placed, struct intersection *at)
+{
+    const struct shape *shape = placed->shape;
+    ps_vec3 position;
+    if (shape->kind == SHAPE_SPHERE) {
+        const float weights[2] = {at->u, at->v};
+        at->normal = ps_normalize(triangles_on_sphere(at->triangle, weights));
+        position = ps_add_scaled(shape->center, shape->radius, at->normal);
+    } else {
+        const uint32_t *corner = shape->triangles[at->triangle];
+        ps_vec3 first = shape->vertices[corner[0]];
+        position = interpolate(shape->vertices, corner, at->u, at->v);
+        at->normal = ps_cross(unit(ps_subtract(shape->vertices[corner[1]], first)),
+                              unit(ps_subtract(shape->vertices[corner[2]], first)));
+    }
+    return placed->instance ? affine_point(&placed->instance->placement, position) : position;
+}
+
+ps_hit surface_at(const struct scene *scene, const ps_surface_point *point, ps_ray *ray)
+{
+    bool in_world = point->object < scene->world_shape_count;
+    const struct instance *instance = in_world ? NULL : scene_instance_of(scene, point->object);
+    struct intersection at = {
+        .instance = in_world ? NO_INSTANCE : (uint32_t)(instance - scene->instances),
+        .shape = in_world ? point->object : point->object - instance->first_object,
+        .triangle = point->triangle,
+        .u = point->u,
+        .v = point->v,
+        .distance = scene->surface_offset,
+    };
+    /* Mirrored triangles are given with these two corners exchanged (scene/triangles.c). */
+    if (instance && instance->front < 0.0f) {
+        at.u = point->v;
+        at.v = point->u;
+    }
+    struct placed placed = find(scene, &at);
+    ps_vec3 position = place_of(&placed, &at);
+    ps_vec3 outward = normal_to_world(&placed, at.normal);
+    ray->direction = ps_scale(outward, point->back ? 1.0f : -1.0f);
+    ray->origin = ps_add_scaled(position, -at.distance, ray->direction);
+    ray->tnear = 0.0f;
+    ray->tfar = INFINITY;
+    if (!surface_is_opaque(scene, &at))
+        return (ps_hit){.distance = INFINITY, .object = PS_NO_OBJECT};
+    ps_hit hit = surface_resolve(scene, ray, &at);
+    hit.position = position;
+    return hit;
 }

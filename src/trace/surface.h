@@ -20,6 +20,10 @@ struct intersection {
 ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray,
                        const struct intersection *intersection);
 
+/* The surface at a point of a triangle (scene/triangles.h), and a ray at right angles to the triangle that meets it; its
+ * distance is INFINITY where the surface has a hole. The point's object and triangle must be there. */
+ps_hit surface_at(const struct scene *scene, const ps_surface_point *point, ps_ray *ray);
+
 /* Whether the surface is there at all, for materials with cut-outs; the distance does not matter. */
 bool surface_is_opaque(const struct scene *scene, const struct intersection *intersection);
 

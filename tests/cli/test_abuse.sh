@@ -67,6 +67,10 @@ for service in light_of_object is_shown; do
     abuse $service estimator
     refused "estimator abusive: it called $service with index 9999 of "
 done
+abuse surface_points estimator
+refused "estimator abusive: it called surface_points with index 9999 of "
+abuse surface_triangle estimator
+refused "estimator abusive: it called surface_points with index 9999 of "
 abuse size estimator
 refused "estimator abusive: it called light with a struct whose size is not set"
 

@@ -130,6 +130,14 @@ static ps_result accumulate(void *state, const ps_host *host, const ps_pass *pas
     if (does("is_shown"))
         host->is_shown(host, 9999);
 #endif
+#if PS_ABI_MINOR >= 6
+    static const ps_surface_point no_object = {.object = 9999}, no_triangle = {.triangle = 9999};
+    ps_hit hit;
+    if (does("surface_points"))
+        host->surface_points(host, &no_object, 1, &ray, &hit);
+    if (does("surface_triangle"))
+        host->surface_points(host, &no_triangle, 1, &ray, &hit);
+#endif
     if (does("splat"))
         return host->splat(host, &lamp, 1);
     if (does("gather_short_range"))

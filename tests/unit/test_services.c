@@ -326,6 +326,91 @@ static void test_objects_that_shine_or_are_hidden(void **state)
                  look_at_objects);
 }
 
+/* The point of a triangle is where a ray at right angles to it meets the surface, with all that a ray learns of it. */
+static void compare_point(const ps_host *host, const ps_triangle *triangle, uint32_t number,
+                          uint32_t back)
+{
+    const ps_surface_point point = {triangle->object, number, 0.3f, 0.25f, back};
+    const ps_vec3 *corners = triangle->vertices;
+    ps_vec3 expected = ps_add_scaled(ps_add_scaled(ps_scale(corners[0], 0.45f), 0.3f, corners[1]),
+                                     0.25f, corners[2]);
+    ps_ray ray;
+    ps_hit at, met;
+    host->surface_points(host, &point, 1, &ray, &at);
+    host->intersect(host, &ray, 1, &met);
+    assert_int_equal(at.object, triangle->object);
+    assert_int_equal(met.object, triangle->object);
+    assert_int_equal(at.material, met.material);
+    assert_int_equal(at.flags, met.flags);
+    assert_int_equal((at.flags & PS_HIT_BACK) != 0, back);
+    /* A sphere's triangles are up to 2 % of its radius from it. */
+    assert_true(ps_length(ps_subtract(at.position, expected)) < 0.02f);
+    assert_true(ps_length(ps_subtract(at.position, met.position)) < 1e-4f);
+    assert_true(ps_dot(at.geometric_normal, met.geometric_normal) > 0.9999f);
+    assert_true(ps_dot(at.normal, met.normal) > 0.9999f);
+    assert_true(ps_dot(at.geometric_normal, triangle->normal) * (back ? -1.0f : 1.0f) > 0.98f);
+    assert_true(fabsf(at.albedo.g - met.albedo.g) < 1e-3f);
+}
+
+static void look_at_points(const ps_host *host)
+{
+    uint32_t number = 0, object = PS_NO_OBJECT, objects = 0;
+    for (uint64_t i = 0; i < host->triangle_count(host); i++) {
+        ps_triangle triangle;
+        host->triangles(host, i, 1, &triangle);
+        if (triangle.object != object) {
+            number = 0;
+            objects++;
+        }
+        object = triangle.object;
+        compare_point(host, &triangle, number, 0);
+        compare_point(host, &triangle, number++, 1);
+    }
+    assert_int_equal(objects, 6);
+}
+
+static void test_points_of_triangles(void **state)
+{
+    (void)state;
+    with_host_of(
+        SCENE_HEAD
+        "  striped: {diffuse: {checker: {colors: [0.2, 0.7]}}}\n" WHITE_FLOOR
+        "  - sphere: {center: [0, 4, 0], radius: 1, material: white}\n"
+        "  - instance: {of: pair, translate: [4, 0, 0]}\n"
+        "  - instance: {of: pair, scale: [-1, 1, 1], rotate: [0, 40, 0], translate: [-4, 0, 2]}\n"
+        "groups:\n"
+        "  pair: [{sphere: {center: [0, 2, 0], radius: 0.5, material: white}},\n"
+        "         {box: {corners: [[1, 1, 0], [2, 2, 1]], material: striped}}]\n",
+        look_at_points);
+}
+
+static void look_at_hole(const ps_host *host)
+{
+    uint32_t holes = 0;
+    for (int i = 0; i < 100; i++) {
+        const ps_surface_point point = {0, 0, 0.09f * (float)(i % 10), 0.01f * (float)(i / 10), 0};
+        ps_ray ray;
+        ps_hit hit;
+        host->surface_points(host, &point, 1, &ray, &hit);
+        holes += hit.object == PS_NO_OBJECT && !(hit.distance < INFINITY);
+    }
+    assert_true(holes > 20 && holes < 80);
+}
+
+static void test_points_in_holes(void **state)
+{
+    (void)state;
+    with_host_of(
+        "psd: 1\n"
+        "camera: {location: [0, 5, 5], look_at: [0, 0, 0], angle: 60}\n"
+        "image: {width: 16, height: 16}\n"
+        "materials: {net: {diffuse: 0.5, opacity: {checker: {colors: [0, 1]}}}}\n"
+        "lights: [{point: {location: [0, 9, 0], intensity: 1}}]\n"
+        "objects:\n"
+        "  - quad: {corners: [[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-4, 0, -4]], material: net}\n",
+        look_at_hole);
+}
+
 static void expect_darkness(const ps_host *host)
 {
     static const ps_vec3 place = {0, 1, 0};
@@ -524,6 +609,8 @@ int main(void)
         cmocka_unit_test(test_densities_are_those_of_light_paths),
         cmocka_unit_test(test_densities_from_afar_add_up),
         cmocka_unit_test(test_objects_that_shine_or_are_hidden),
+        cmocka_unit_test(test_points_of_triangles),
+        cmocka_unit_test(test_points_in_holes),
         cmocka_unit_test(test_no_light_gives_no_sample),
         cmocka_unit_test(test_triangles_have_the_scenes_area),
         cmocka_unit_test(test_pixels_are_where_the_camera_sees_them),
