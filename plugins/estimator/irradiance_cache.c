@@ -191,19 +191,6 @@ static void interpolate_tile(void *user, uint64_t index, uint32_t worker)
     }
 }
 
-/* A photons_take. */
-static ps_result splat_caustics_of(void *opaque, const ps_photon *photons, size_t n)
-{
-    const struct work *work = opaque;
-    return caustics_splat(work->host, photons, n);
-}
-
-static ps_result splat_caustics(struct work *work)
-{
-    ps_result result = work->host->begin_splats(work->host, 0);
-    return result == PS_OK ? photons_for_each_batch(work->host, splat_caustics_of, work) : result;
-}
-
 /* --- the strategy --- */
 
 /* Strata about as wide as they are high, in the middle of the hemisphere. */
@@ -250,7 +237,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     if (result == PS_OK)
         result = host->for_each_tile(host, interpolate_tile, &work);
     if (result == PS_OK && pass->specular)
-        result = splat_caustics(&work);
+        result = caustics_splat(host);
     host->release(host, work.wanted);
     record_rooms_release(host, work.rooms);
     cache_release(&work.cache);

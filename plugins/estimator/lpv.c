@@ -13,6 +13,7 @@
  */
 #include "lpv/cascades.h"
 #include "shared/caustics.h"
+#include "shared/photons.h"
 
 #define STREAM_GRID PS_STREAM_PLUGIN /* shift of the grids */
 #define LINES_PER_CELL 3
@@ -70,7 +71,7 @@ static ps_result inject(void *opaque, const ps_photon *photons, size_t n)
             !cascades_inject(&work->cascades, photon))
             work->lost++;
     }
-    return work->pass->specular ? caustics_splat(work->host, photons, n) : PS_OK;
+    return work->pass->specular ? caustics_splat_photons(work->host, photons, n) : PS_OK;
 }
 
 static ps_result fill(const struct state *state, struct work *work)

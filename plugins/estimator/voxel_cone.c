@@ -12,6 +12,7 @@
  * Each pass shifts the grid by a part of a voxel and turns the cones, so that what depends on either is averaged.
  */
 #include "shared/caustics.h"
+#include "shared/photons.h"
 #include "voxel_cone/cones.h"
 #include "voxel_cone/voxelize.h"
 
@@ -63,7 +64,7 @@ static ps_result take_photons(void *opaque, const ps_photon *photons, size_t n)
     for (size_t i = 0; i < n; i++)
         if (is_wanted(work->pass, &photons[i]))
             photon_light_add(&photon_work->light, &photons[i]);
-    return work->pass->specular ? caustics_splat(work->host, photons, n) : PS_OK;
+    return work->pass->specular ? caustics_splat_photons(work->host, photons, n) : PS_OK;
 }
 
 static ps_result light_by_photons(struct work *work)

@@ -29,6 +29,7 @@ small_choice() {
     injection=rsm) echo "$1:count=5000,resolution=32" ;;
     injection=voxel) echo "$1:resolution=32" ;;
     estimator=pathtrace) echo "$1:samples=4" ;;
+    estimator=radiosity) echo "$1:epsilon=1e-3,samples=4" ;;
     estimator=irradiance_cache) echo "$1:samples=16" ;;
     estimator=lpv) echo "$1:cells=8" ;;
     estimator=voxel_cone) echo "$1:resolution=16,cones=5" ;;

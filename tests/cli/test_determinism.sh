@@ -89,7 +89,7 @@ for stratification in grid:centre=camera,threshold=3,levels=4 cascade octree; do
     run 0 $few --threads 3 --batch 100 -o merged3.exr
     expect_same merged1.exr merged3.exr
 done
-for estimator in splat:interleave=4 pathtrace:samples=4 bdpt:samples=5 photonmap photonmap:gather=2 sppm final_gather:samples=6 vpl:lights=50 vpl:lights=50,visibility=rays lightcuts:lights=500 irradiance_cache:samples=16 voxel_cone:resolution=32 lpv:cascades=3 ambient ssao hbao gather:samples=6; do
+for estimator in splat:interleave=4 pathtrace:samples=4 bdpt:samples=5 photonmap photonmap:gather=2 sppm final_gather:samples=6 vpl:lights=50 vpl:lights=50,visibility=rays lightcuts:lights=500 irradiance_cache:samples=16 radiosity:epsilon=1e-3,samples=4 radiosity:epsilon=1e-3,reconstruction=elements voxel_cone:resolution=32 lpv:cascades=3 ambient ssao hbao gather:samples=6; do
     few="--size 80x45 --passes 2 -p injection=photon:count=1000 -p estimator=$estimator $cornell"
     run 0 $few --threads 1 -o estimator1.exr
     run 0 $few --threads 3 --batch 100 -o estimator3.exr

@@ -106,7 +106,7 @@ photon="$splats -p injection=photon:count=200"
 gather_statistics $splats -p injection=rsm:resolution=8
 gather_statistics $splats -p injection=voxel:resolution=8
 gather_statistics $photon --set render.aa_samples=1 --passes 2
-for choice in stratification=cascade estimator=splat estimator=photonmap estimator=sppm estimator=final_gather:samples=1 estimator=vpl:lights=8 estimator=lightcuts:lights=8 estimator=bdpt:samples=1 estimator=irradiance_cache:samples=6 estimator=voxel_cone:resolution=8 estimator=lpv:cells=4 estimator=ssao estimator=hbao estimator=gather:samples=1 \
+for choice in stratification=cascade estimator=splat estimator=photonmap estimator=sppm estimator=final_gather:samples=1 estimator=vpl:lights=8 estimator=lightcuts:lights=8 estimator=bdpt:samples=1 estimator=irradiance_cache:samples=6 estimator=radiosity:epsilon=1e-3 estimator=voxel_cone:resolution=8 estimator=lpv:cells=4 estimator=ssao estimator=hbao estimator=gather:samples=1 \
     denoiser=gaussian bloom=glare visibility=imperfect:points=1000; do
     gather_statistics $photon -p $choice --direct shadowmap --direct-resolution 8
 done

@@ -68,7 +68,7 @@ offset=0
 
 few="-t 1 -q --size 32x18 -p injection=photon:count=500"
 every $few -o new/a.exr -o new/a.png --passes 2 --checkpoint new/film.exr "$cornell"
-for estimator in splat pathtrace bdpt photonmap sppm final_gather vpl lightcuts irradiance_cache voxel_cone lpv ssao hbao; do
+for estimator in splat pathtrace bdpt photonmap sppm final_gather vpl lightcuts irradiance_cache radiosity voxel_cone lpv ssao hbao; do
     every $few -p "$(small_choice estimator=$estimator)" -o new/a.exr "$cornell"
 done
 every $few -p estimator=splat -p injection=rsm:count=500,resolution=16 -p stratification=octree -o new/a.exr "$cornell"

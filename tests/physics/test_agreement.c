@@ -83,6 +83,7 @@ static void test_single_bounce(void **state)
         {"irradiance_cache", "estimator=irradiance_cache:samples=4096", NULL, NULL, 0.01},
         {"voxel_cone", "estimator=voxel_cone:cones=64", NULL, NULL, 0.1},
         {"lpv", "estimator=lpv", NULL, NULL, 0.15},
+        {"radiosity", "estimator=radiosity", NULL, NULL, 0.01},
     };
     compare(cornell_text(WIDTH, HEIGHT), "bounces=1", "estimator=pathtrace:samples=512", methods,
             sizeof methods / sizeof methods[0]);
@@ -112,6 +113,7 @@ static void test_all_bounces(void **state)
         {"irradiance_cache", "estimator=irradiance_cache:samples=4096", NULL, NULL, 0.01},
         {"voxel_cone", "estimator=voxel_cone:cones=64", NULL, NULL, 0.1},
         {"lpv", "estimator=lpv", NULL, NULL, 0.15},
+        {"radiosity", "estimator=radiosity", NULL, NULL, 0.01},
     };
     compare(cornell_text(WIDTH, HEIGHT), "bounces=all", "estimator=pathtrace:samples=512", methods,
             sizeof methods / sizeof methods[0]);
@@ -133,6 +135,7 @@ static void test_other_scenes(void **state)
         {"bdpt", "estimator=bdpt:samples=256", NULL, NULL, 0.02},
         {"irradiance_cache", "estimator=irradiance_cache:samples=4096", NULL, NULL, 0.02},
         {"voxel_cone", "estimator=voxel_cone:cones=64", NULL, NULL, 0.1},
+        {"radiosity", "estimator=radiosity:epsilon=1e-5", NULL, NULL, 0.02},
     };
     static const char *const scenes[] = {"corridor", "columns"};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {

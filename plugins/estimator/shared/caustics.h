@@ -1,27 +1,14 @@
 /* caustics.h: light that comes from lamps by mirrors, glass and gloss alone, which changes too fast for what estimators
- * interpolate: its photons are splatted onto the pixels, by the visibility and filter chosen.
- */
+ * interpolate: its photons are splatted onto the pixels, by the visibility and filter chosen. */
 #ifndef PSPLAT_ESTIMATOR_CAUSTICS_H
 #define PSPLAT_ESTIMATOR_CAUSTICS_H
 
-#include "photons.h"
+#include <psplat/plugin.h>
 
-static inline bool caustics_belong(const void *user, const ps_photon *photon)
-{
-    (void)user;
-    return photon->bounce == 0;
-}
+/* Adds the pass's caustics to the tiles. Main thread. */
+ps_result caustics_splat(const ps_host *host);
 
-/* Splats those of n photons that are caustics. After begin_splats; main thread. */
-static inline ps_result caustics_splat(const ps_host *host, const ps_photon *photons, size_t n)
-{
-    ps_photon *chosen = host->allocate(host, n * sizeof *chosen, "photons chosen");
-    if (!chosen)
-        return PS_ERROR_MEMORY;
-    size_t count = photons_choose(photons, n, caustics_belong, NULL, 1.0f, chosen);
-    ps_result result = count > 0 ? host->splat(host, chosen, count) : PS_OK;
-    host->release(host, chosen);
-    return result;
-}
+/* The same of n photons, those that are caustics; after begin_splats. */
+ps_result caustics_splat_photons(const ps_host *host, const ps_photon *photons, size_t n);
 
 #endif
