@@ -95,7 +95,7 @@ static ps_result make_volume(const struct state *state, struct work *work, const
     ps_vec3 center;
     float radius;
     host->scene_bounds(host, &center, &radius);
-    if (!(radius > 0.0f)) /* no surfaces, or planes alone */
+    if (!(radius > 0.0f)) /* no surfaces */
         return PS_OK;
     const struct surface_lines lines = {
         .host = host,

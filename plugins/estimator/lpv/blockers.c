@@ -59,7 +59,8 @@ ps_result blockers_create(const struct surface_lines *lines, struct blockers *bl
     for (uint32_t i = 0; result == PS_OK && i < 3 * across; i++) {
         if (host->cancelled(host))
             result = PS_CANCELLED;
-        surface_lines_follow(lines, i / across, i % across, mark, &marking);
+        else
+            surface_lines_follow(lines, i / across, i % across, mark, &marking);
     }
     host->release(host, marking.last_faces);
     return result;

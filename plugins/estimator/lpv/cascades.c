@@ -1,7 +1,7 @@
 #include "cascades.h"
 
 #define FADE_FROM 1.0f /* cells from the border: no light of this grid */
-#define FADE_TO 3.0f   /* all of it */
+#define FADE_TO 3.0f   /* all of it; nearer in a grid that is not so wide */
 
 /* The focus, moved so that a grid of half the width `half` lies inside of that of the scene. */
 static ps_vec3 middle_of(ps_vec3 focus, ps_vec3 center, float radius, float half)
@@ -38,7 +38,7 @@ ps_result cascades_create(const struct cascades_setting *setting, struct cascade
     setting->host->scene_bounds(setting->host, &center, &radius);
     *cascades = (struct cascades){.host = setting->host};
     ps_result result = PS_OK;
-    if (!(radius > 0.0f)) /* no surfaces, or planes alone */
+    if (!(radius > 0.0f)) /* no surfaces */
         return result;
     while (result == PS_OK && cascades->count < setting->count) {
         float half = ldexpf(radius, (int)cascades->count - (int)setting->count + 1);
@@ -100,7 +100,8 @@ static float share_of(const struct voxel_grid *grid, ps_vec3 position)
     voxel_grid_place(grid, position, place);
     for (int k = 0; k < 3; k++)
         nearest = ps_min(nearest, ps_min(place[k], (float)grid->across - place[k]));
-    return ps_min(ps_max((nearest - FADE_FROM) / (FADE_TO - FADE_FROM), 0.0f), 1.0f);
+    float to = ps_min(FADE_TO, 0.5f * (float)grid->across);
+    return ps_min(ps_max((nearest - FADE_FROM) / (to - FADE_FROM), 0.0f), 1.0f);
 }
 
 ps_rgb cascades_irradiance(const struct cascades *cascades, ps_vec3 position, ps_vec3 normal)

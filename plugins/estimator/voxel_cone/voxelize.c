@@ -23,7 +23,8 @@ struct layer {
 struct work {
     const struct surface_lines *lines;
     const ps_pass *pass;
-    struct column *columns; /* a layer for each worker */
+    struct column *columns; /* a layer for each worker, all 0 between layers */
+    uint64_t *touched;      /* a bit for each of its columns that is not 0 */
     uint32_t *last_cells;   /* of the lines in a row, for each worker: the cell that each was in */
     struct layer *layers;   /* one for each axis and row of cells */
 };
@@ -32,6 +33,7 @@ struct work {
 struct layer_work {
     const struct work *work;
     struct column *columns;
+    uint64_t *touched;
     uint32_t *last_cells;
 };
 
@@ -96,7 +98,9 @@ static void take_crossings(void *user, struct surface_crossings *crossings)
             continue; /* behind what was seen first */
         *last = cell;
         size_t row = crossings->columns[i] / lines->per_cell;
-        struct column *column = &layer->columns[row * lines->grid.across + cell];
+        size_t place = row * lines->grid.across + cell;
+        struct column *column = &layer->columns[place];
+        layer->touched[place / 64] |= UINT64_C(1) << place % 64;
         ps_rgb *light = &column->light[crossings->way < 3];
         column->covered++;
         column->depth += depth;
@@ -105,41 +109,71 @@ static void take_crossings(void *user, struct surface_crossings *crossings)
     }
 }
 
-/* Keeps what surfaces lie in. */
-static ps_result keep_layer(const struct work *work, const struct column *columns, uint32_t axis,
-                            uint32_t row, struct layer *layer)
+static size_t touched_words(uint32_t across)
 {
-    const struct surface_lines *lines = work->lines;
-    uint32_t across = lines->grid.across;
-    float share = 1.0f / (float)(lines->per_cell * lines->per_cell);
+    return ((size_t)across * across + 63) / 64;
+}
+
+static size_t count_touched(const struct layer_work *layer, uint32_t across)
+{
     size_t count = 0;
-    for (size_t i = 0; i < (size_t)across * across; i++)
-        count += columns[i].covered > 0;
-    if (count == 0)
-        return PS_OK;
-    layer->parts = lines->host->allocate(lines->host, count * sizeof *layer->parts, VOLUME_MEMORY);
-    if (!layer->parts)
-        return PS_ERROR_MEMORY;
+    for (size_t word = 0; word < touched_words(across); word++)
+        for (uint64_t bits = layer->touched[word]; bits; bits &= bits - 1)
+            count++;
+    return count;
+}
+
+static struct volume_part part_of(const struct column *column, const struct surface_lines *lines,
+                                  uint32_t axis, const uint32_t at[3])
+{
+    float share = 1.0f / (float)(lines->per_cell * lines->per_cell);
+    return (struct volume_part){
+        .x = at[0],
+        .y = at[1],
+        .z = at[2],
+        .axis = axis,
+        .opacity = 0.5f * share * (float)column->covered,
+        .depth = column->depth / (float)column->covered,
+        .tilt = column->tilt,
+        .light = {ps_rgb_scale(column->light[0], share), ps_rgb_scale(column->light[1], share)},
+    };
+}
+
+/* Takes what surfaces lie in out of the columns, in their order; `parts` has room for it, or is NULL: it is dropped. */
+static void take_columns(const struct layer_work *work, uint32_t axis, uint32_t row,
+                         struct layer *layer)
+{
+    const struct surface_lines *lines = work->work->lines;
+    uint32_t across = lines->grid.across;
     for (size_t i = 0; i < (size_t)across * across; i++) {
         uint32_t at[3];
-        if (columns[i].covered == 0)
+        if (i % 64 == 0 && work->touched[i / 64] == 0) {
+            i += 63;
+            continue;
+        }
+        if (!(work->touched[i / 64] >> i % 64 & 1))
             continue;
         at[axis] = (uint32_t)(i % across);
         at[(axis + 1) % 3] = (uint32_t)(i / across);
         at[(axis + 2) % 3] = row;
-        layer->parts[layer->count++] = (struct volume_part){
-            .x = at[0],
-            .y = at[1],
-            .z = at[2],
-            .axis = axis,
-            .opacity = 0.5f * share * (float)columns[i].covered,
-            .depth = columns[i].depth / (float)columns[i].covered,
-            .tilt = columns[i].tilt,
-            .light = {ps_rgb_scale(columns[i].light[0], share),
-                      ps_rgb_scale(columns[i].light[1], share)},
-        };
+        if (layer->parts)
+            layer->parts[layer->count++] = part_of(&work->columns[i], lines, axis, at);
+        work->columns[i] = (struct column){.covered = 0};
     }
-    return PS_OK;
+    memset(work->touched, 0, touched_words(across) * sizeof *work->touched);
+}
+
+/* Keeps what surfaces lie in, and leaves the columns empty. */
+static ps_result keep_layer(const struct layer_work *work, uint32_t axis, uint32_t row,
+                            struct layer *layer)
+{
+    const struct surface_lines *lines = work->work->lines;
+    size_t count = count_touched(work, lines->grid.across);
+    if (count == 0)
+        return PS_OK;
+    layer->parts = lines->host->allocate(lines->host, count * sizeof *layer->parts, VOLUME_MEMORY);
+    take_columns(work, axis, row, layer);
+    return layer->parts ? PS_OK : PS_ERROR_MEMORY;
 }
 
 static void find_layer(void *user, uint64_t index, uint32_t worker)
@@ -151,6 +185,7 @@ static void find_layer(void *user, uint64_t index, uint32_t worker)
     struct layer_work layer = {
         .work = work,
         .columns = work->columns + (size_t)worker * across * across,
+        .touched = work->touched + worker * touched_words(across),
         .last_cells = work->last_cells + (size_t)worker * surface_lines_across(lines),
     };
     struct layer *kept = &work->layers[index];
@@ -158,11 +193,10 @@ static void find_layer(void *user, uint64_t index, uint32_t worker)
         kept->result = PS_CANCELLED;
         return;
     }
-    memset(layer.columns, 0, (size_t)across * across * sizeof *layer.columns);
     for (uint32_t i = 0; i < 2 * lines->per_cell; i++)
         surface_lines_follow(lines, axis + 3 * (i & 1), row * lines->per_cell + i / 2,
                              take_crossings, &layer);
-    kept->result = keep_layer(work, layer.columns, axis, row, kept);
+    kept->result = keep_layer(&layer, axis, row, kept);
 }
 
 /* --- the volume --------------------------------------------------------------------------------------------- */
@@ -198,8 +232,10 @@ ps_result voxelize(const struct surface_lines *lines, const ps_pass *pass, struc
     size_t across = lines->grid.across, layers = 3 * across;
     struct work work = {.lines = lines, .pass = pass};
     *volume = (struct volume){.host = host};
-    work.columns = host->allocate(host, pass->thread_count * across * across * sizeof *work.columns,
-                                  VOLUME_MEMORY);
+    size_t columns = pass->thread_count * across * across * sizeof *work.columns;
+    size_t touched = pass->thread_count * touched_words((uint32_t)across) * sizeof *work.touched;
+    work.columns = host->allocate(host, columns, VOLUME_MEMORY);
+    work.touched = host->allocate(host, touched, VOLUME_MEMORY);
     work.last_cells = host->allocate(
         host, pass->thread_count * surface_lines_across(lines) * sizeof *work.last_cells,
         VOLUME_MEMORY);
@@ -207,7 +243,9 @@ ps_result voxelize(const struct surface_lines *lines, const ps_pass *pass, struc
     ps_result result = PS_ERROR_MEMORY;
     if (work.layers)
         memset(work.layers, 0, layers * sizeof *work.layers);
-    if (work.columns && work.last_cells && work.layers) {
+    if (work.columns && work.touched && work.last_cells && work.layers) {
+        memset(work.columns, 0, columns);
+        memset(work.touched, 0, touched);
         host->parallel_for(host, layers, find_layer, &work);
         result = join(&work, volume);
     }
@@ -215,6 +253,7 @@ ps_result voxelize(const struct surface_lines *lines, const ps_pass *pass, struc
         host->release(host, work.layers[i].parts);
     host->release(host, work.layers);
     host->release(host, work.last_cells);
+    host->release(host, work.touched);
     host->release(host, work.columns);
     return result;
 }
