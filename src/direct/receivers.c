@@ -5,8 +5,8 @@
 #include <psplat/math.h>
 #include <string.h>
 
-/* Questions of receivers: which light, by which of its points, and how much of the answer counts. */
-struct questions {
+/* Receivers connected with points of lights, and what each connection is multiplied by. */
+struct connections {
     size_t count;
     uint32_t receivers[RECEIVERS_MOST];
     uint32_t lights[RECEIVERS_MOST];
@@ -63,7 +63,7 @@ static ps_vec3 origin_of(const struct receivers *to, size_t i)
     return ps_add_scaled(to->positions[i], to->lighting->scene->surface_offset, away);
 }
 
-/* --- answers --- */
+/* --- shadow rays --- */
 
 /* The shadow ray from a receiver to a point of a light, and what arrives where nothing is in the way. */
 static ps_rgb connect(const struct receivers *to, size_t i, const struct light_sample *sample,
@@ -79,7 +79,7 @@ static ps_rgb connect(const struct receivers *to, size_t i, const struct light_s
 }
 
 /* What gets through along n shadow rays, all of it or nothing, or a share by a shadow map. */
-static void find_lit(const struct receivers *to, const struct questions *open, const ps_ray *rays,
+static void find_lit(const struct receivers *to, const struct connections *open, const ps_ray *rays,
                      float *lit)
 {
     const struct lighting *lighting = to->lighting;
@@ -100,34 +100,35 @@ static void find_lit(const struct receivers *to, const struct questions *open, c
         lit[traced[i]] = blocked[i] ? 0.0f : 1.0f;
 }
 
-/* Adds the answers. Of questions that need a shadow ray the others are dropped. */
-static void answer(const struct receivers *to, struct questions *questions, ps_rgb *sums)
+/* Traces the connections, adds what they bring and forgets them. Those that bring nothing have no shadow ray. */
+static void trace_connections(const struct receivers *to, struct connections *connections,
+                              ps_rgb *sums)
 {
     ps_ray rays[RECEIVERS_MOST];
     ps_rgb unshadowed[RECEIVERS_MOST];
     float lit[RECEIVERS_MOST];
     size_t open = 0;
-    for (size_t i = 0; i < questions->count; i++) {
-        uint32_t receiver = questions->receivers[i];
-        ps_rgb whole = connect(to, receiver, &questions->samples[i], &rays[open]);
-        unshadowed[open] = ps_rgb_scale(whole, questions->weights[i]);
-        questions->receivers[open] = receiver;
-        questions->lights[open] = questions->lights[i];
+    for (size_t i = 0; i < connections->count; i++) {
+        uint32_t receiver = connections->receivers[i];
+        ps_rgb whole = connect(to, receiver, &connections->samples[i], &rays[open]);
+        unshadowed[open] = ps_rgb_scale(whole, connections->weights[i]);
+        connections->receivers[open] = receiver;
+        connections->lights[open] = connections->lights[i];
         open += ps_rgb_maximum(whole) > 0.0f;
     }
-    questions->count = open;
-    find_lit(to, questions, rays, lit);
+    connections->count = open;
+    find_lit(to, connections, rays, lit);
     for (size_t i = 0; i < open; i++) {
-        ps_rgb *sum = &sums[questions->receivers[i]];
+        ps_rgb *sum = &sums[connections->receivers[i]];
         *sum = ps_rgb_add(*sum, ps_rgb_scale(unshadowed[i], lit[i]));
         if (to->occlusion)
-            to->occlusion[questions->receivers[i]] |=
-                gbuffer_occlusion(questions->lights[i], lit[i]);
+            to->occlusion[connections->receivers[i]] |=
+                gbuffer_occlusion(connections->lights[i], lit[i]);
     }
-    questions->count = 0;
+    connections->count = 0;
 }
 
-/* --- questions --- */
+/* --- connections --- */
 
 static void pair_of(const struct receivers *to, size_t i, size_t number, float pair[2])
 {
@@ -136,33 +137,33 @@ static void pair_of(const struct receivers *to, size_t i, size_t number, float p
         numbers_for_light(to->numbers[i], number, pair);
 }
 
-/* Every receiver asks a light, by one point for each. */
-static void ask_light(const struct receivers *to, size_t light, ps_rgb *sums)
+/* Every receiver samples a light once. */
+static void sample_light(const struct receivers *to, size_t light, ps_rgb *sums)
 {
     const struct scene *scene = to->lighting->scene;
-    struct questions questions;
+    struct connections connections;
     ps_vec3 normals[RECEIVERS_MOST], origins[RECEIVERS_MOST];
     float pairs[RECEIVERS_MOST][2];
     for (size_t i = 0; i < to->n; i++) {
         origins[i] = origin_of(to, i);
         pair_of(to, i, light, pairs[i]);
-        questions.receivers[i] = (uint32_t)i;
-        questions.lights[i] = (uint32_t)light;
-        questions.weights[i] = 1.0f;
+        connections.receivers[i] = (uint32_t)i;
+        connections.lights[i] = (uint32_t)light;
+        connections.weights[i] = 1.0f;
     }
-    questions.count = to->n;
+    connections.count = to->n;
     light_sample(&scene->lights[light], origins, normals_of_diffuse(to, normals),
-                 (const float(*)[2])pairs, to->n, questions.samples);
-    answer(to, &questions, sums);
+                 (const float(*)[2])pairs, to->n, connections.samples);
+    trace_connections(to, &connections, sums);
 }
 
-/* A receiver asks a light that was chosen, number `number` of those that it asks. `expected`: how often it is chosen. */
-static void ask_chosen(const struct receivers *to, size_t i, size_t number,
-                       const struct light_choice *choice, float expected,
-                       struct questions *questions, ps_rgb *sums)
+/* A receiver samples a light that it drew, number `number` of those. `expected`: how often it draws it in the mean. */
+static void add_connection(const struct receivers *to, size_t i, size_t number,
+                           const struct light_choice *choice, float expected,
+                           struct connections *connections, ps_rgb *sums)
 {
     const struct light *light = &to->lighting->scene->lights[choice->light];
-    struct light_sample *sample = &questions->samples[questions->count];
+    struct light_sample *sample = &connections->samples[connections->count];
     ps_vec3 origin = origin_of(to, i);
     float pair[1][2];
     pair_of(to, i, number, pair[0]);
@@ -171,29 +172,29 @@ static void ask_chosen(const struct receivers *to, size_t i, size_t number,
     else
         light_sample_triangle(light, choice->triangle, origin, pair[0], sample);
     sample->pdf *= expected;
-    questions->receivers[questions->count] = (uint32_t)i;
-    questions->lights[questions->count] = choice->light;
-    questions->weights[questions->count++] = choice->weight;
-    if (questions->count == RECEIVERS_MOST)
-        answer(to, questions, sums);
+    connections->receivers[connections->count] = (uint32_t)i;
+    connections->lights[connections->count] = choice->light;
+    connections->weights[connections->count++] = choice->weight;
+    if (connections->count == RECEIVERS_MOST)
+        trace_connections(to, connections, sums);
 }
 
-/* Of a light that is split every receiver asks one triangle. */
-static void ask_triangles(const struct receivers *to, size_t light, ps_rgb *sums)
+/* Of a light that is split every receiver samples one triangle. */
+static void sample_triangles(const struct receivers *to, size_t light, ps_rgb *sums)
 {
     const struct scene *scene = to->lighting->scene;
-    struct questions questions = {.count = 0};
+    struct connections connections = {.count = 0};
     for (size_t i = 0; i < to->n; i++) {
         struct light_choice choice;
         double turned = to->choices[i] + 0.6180339887498949 * (double)light;
         if (light_bvh_choose_triangle(scene->light_bvh, light, to->positions[i], to->normals[i],
                                       turned - floor(turned), &choice))
-            ask_chosen(to, i, light, &choice, 1.0f, &questions, sums);
+            add_connection(to, i, light, &choice, 1.0f, &connections, sums);
     }
-    answer(to, &questions, sums);
+    trace_connections(to, &connections, sums);
 }
 
-/* Whether the density of a receiver's questions matters. */
+/* Whether the densities of a receiver's samples matter. */
 static bool is_glossy(const struct receivers *to, size_t i)
 {
     return to->hits && (to->hits[i].flags & PS_HIT_SPECULAR);
@@ -207,13 +208,13 @@ struct drawn_lights {
     size_t counts[RECEIVERS_MOST];
 };
 
-/* Receivers `first` to before `end` ask lights that they draw, each its first one, then each its second one, and so on:
+/* Receivers `first` to before `end` sample lights that they draw, each its first one, then each its second one, and so on:
  * draws come in the order of the tree, so these shadow rays go much the same way. */
-static void ask_drawn(const struct receivers *to, size_t first, size_t end, ps_rgb *sums)
+static void sample_drawn(const struct receivers *to, size_t first, size_t end, ps_rgb *sums)
 {
     const struct light_bvh *bvh = to->lighting->scene->light_bvh;
     uint32_t number = to->lighting->choices;
-    struct questions questions = {.count = 0};
+    struct connections connections = {.count = 0};
     struct drawn_lights drawn;
     for (size_t i = first; i < end; i++)
         drawn.counts[i - first] =
@@ -227,30 +228,30 @@ static void ask_drawn(const struct receivers *to, size_t first, size_t end, ps_r
             float expected = is_glossy(to, i)
                                  ? light_bvh_expected(bvh, choice->light, origin_of(to, i), number)
                                  : 1.0f;
-            ask_chosen(to, i, k, choice, expected, &questions, sums);
+            add_connection(to, i, k, choice, expected, &connections, sums);
         }
-    answer(to, &questions, sums);
+    trace_connections(to, &connections, sums);
 }
 
-static void ask_some(const struct receivers *to, ps_rgb *sums)
+static void sample_some(const struct receivers *to, ps_rgb *sums)
 {
     size_t together = RECEIVERS_MOST / to->lighting->choices;
     for (size_t first = 0; first < to->n; first += together)
-        ask_drawn(to, first, first + together < to->n ? first + together : to->n, sums);
+        sample_drawn(to, first, first + together < to->n ? first + together : to->n, sums);
 }
 
 void receivers_add_lights(const struct receivers *to, ps_rgb *sums)
 {
     const struct scene *scene = to->lighting->scene;
     if (scene_chooses_lights(scene))
-        ask_some(to, sums);
+        sample_some(to, sums);
     for (size_t i = 0; i < scene->afar_count && scene_chooses_lights(scene); i++)
-        ask_light(to, scene->afar[i], sums);
+        sample_light(to, scene->afar[i], sums);
     for (size_t light = 0; light < scene->light_count && !scene_chooses_lights(scene); light++) {
         if (light_bvh_is_split(scene->light_bvh, light))
-            ask_triangles(to, light, sums);
+            sample_triangles(to, light, sums);
         else
-            ask_light(to, light, sums);
+            sample_light(to, light, sums);
     }
 }
 

@@ -131,9 +131,9 @@ bool light_bvh_choose_triangle(const struct light_bvh *bvh, size_t light, ps_vec
                                ps_vec3 normal, double u, struct light_choice *choice)
 {
     const struct draw draw = {bvh, position, normal, u};
-    const struct seat *seat = &bvh->seats[light];
-    return seat->node != NO_NODE &&
-           choose_below(&draw, bvh->nodes[seat->node].children[seat->lane].index, 1, choice) == 1;
+    const struct leaf *leaf = &bvh->leaves[light];
+    return leaf->node != NO_NODE &&
+           choose_below(&draw, bvh->nodes[leaf->node].children[leaf->lane].index, 1, choice) == 1;
 }
 
 float light_bvh_expected(const struct light_bvh *bvh, size_t light, ps_vec3 position,
@@ -141,17 +141,17 @@ float light_bvh_expected(const struct light_bvh *bvh, size_t light, ps_vec3 posi
 {
     static const ps_vec3 none = {0, 0, 0};
     float expected = (float)number;
-    struct seat seat = bvh->seats[light];
-    if (seat.node == NO_NODE)
+    struct leaf leaf = bvh->leaves[light];
+    if (leaf.node == NO_NODE)
         return 0.0f;
-    while (seat.node != NO_NODE) {
-        const struct node *node = &bvh->nodes[seat.node];
+    while (leaf.node != NO_NODE) {
+        const struct node *node = &bvh->nodes[leaf.node];
         float importance[LIGHT_LANES], sum = 0.0f;
         light_lanes_importance(&node->bounds, position, none, importance);
         for (int i = 0; i < LIGHT_LANES; i++)
             sum += importance[i];
-        expected *= sum > 0.0f ? importance[seat.lane] / sum : 0.0f;
-        seat = (struct seat){node->parent, node->lane};
+        expected *= sum > 0.0f ? importance[leaf.lane] / sum : 0.0f;
+        leaf = (struct leaf){node->parent, node->lane};
     }
     return expected;
 }

@@ -146,7 +146,7 @@ static int make_groups(struct item *items, size_t count, size_t smallest, uint32
 /* A node is being built: of lights, or of the triangles of one. */
 struct building {
     struct light_bvh *bvh;
-    uint32_t light; /* or NO_LIGHT_YET */
+    uint32_t light; /* or NO_LIGHT_ABOVE */
     struct error *error;
 };
 
@@ -200,14 +200,14 @@ static ps_result build_child(const struct building *building, const struct group
     struct light_bvh *bvh = building->bvh;
     uint32_t first = group->items[0].index;
     child->kind = CHILD_NODE;
-    if (building->light == NO_LIGHT_YET && group->count == 1) {
-        bvh->seats[first] = (struct seat){parent, (uint32_t)lane};
+    if (building->light == NO_LIGHT_ABOVE && group->count == 1) {
+        bvh->leaves[first] = (struct leaf){parent, (uint32_t)lane};
         if (light_bvh_is_split(bvh, first))
             return build_triangles(building, first, parent, lane, &child->index);
         *child = (struct child){first, CHILD_LIGHT, 0};
         return PS_OK;
     }
-    if (building->light == NO_LIGHT_YET || group->count > LIGHT_BVH_RUN)
+    if (building->light == NO_LIGHT_ABOVE || group->count > LIGHT_BVH_RUN)
         return build(building, group->items, group->count, parent, lane, depth + 1, &child->index);
     *child = (struct child){(uint32_t)bvh->triangle_count, CHILD_TRIANGLES, (uint8_t)group->count};
     for (size_t i = 0; i < group->count; i++)
@@ -219,7 +219,7 @@ static ps_result build(const struct building *building, struct item *items, size
                        uint32_t parent, int lane, uint32_t depth, uint32_t *index)
 {
     struct group groups[LIGHT_LANES];
-    size_t smallest = building->light == NO_LIGHT_YET ? 1 : LIGHT_BVH_RUN;
+    size_t smallest = building->light == NO_LIGHT_ABOVE ? 1 : LIGHT_BVH_RUN;
     int made = make_groups(items, count, smallest, depth, groups);
     ps_result result = add_node(building, parent, lane, index);
     for (int i = 0; i < made && result == PS_OK; i++) {
@@ -245,13 +245,13 @@ static struct light_cluster bounds_of_light(const struct light *light)
 static ps_result build_lights(struct light_bvh *bvh, struct item *items, struct error *error)
 {
     for (size_t i = 0; i < bvh->light_count; i++) {
-        bvh->seats[i] = (struct seat){NO_NODE, 0};
+        bvh->leaves[i] = (struct leaf){NO_NODE, 0};
         if (light_is_afar(&bvh->lights[i]))
             continue;
         items[bvh->placed] = (struct item){bounds_of_light(&bvh->lights[i]), (uint32_t)i};
         bvh->placed += items[bvh->placed].cluster.intensity > 0.0f;
     }
-    const struct building building = {bvh, NO_LIGHT_YET, error};
+    const struct building building = {bvh, NO_LIGHT_ABOVE, error};
     uint32_t root;
     return bvh->placed > 0 ? build(&building, items, bvh->placed, NO_NODE, 0, 0, &root) : PS_OK;
 }
@@ -272,10 +272,10 @@ ps_result light_bvh_create(const struct light *lights, size_t count, struct ligh
         return error_memory(error, sizeof *bvh, "the tree of lights");
     *bvh = (struct light_bvh){.lights = lights, .light_count = count};
     size_t triangles = split_triangles(bvh);
-    bvh->seats = malloc((count + 1) * sizeof *bvh->seats);
+    bvh->leaves = malloc((count + 1) * sizeof *bvh->leaves);
     bvh->triangles = malloc((triangles + 1) * sizeof *bvh->triangles);
     struct item *items = malloc((count + 1) * sizeof *items);
-    ps_result result = bvh->seats && bvh->triangles && items
+    ps_result result = bvh->leaves && bvh->triangles && items
                            ? build_lights(bvh, items, error)
                            : error_memory(error, (count + 1) * sizeof *items, "the tree of lights");
     free(items);
@@ -291,14 +291,14 @@ void light_bvh_destroy(struct light_bvh *bvh)
     if (!bvh)
         return;
     free(bvh->nodes);
-    free(bvh->seats);
+    free(bvh->leaves);
     free(bvh->triangles);
     free(bvh);
 }
 
 size_t light_bvh_bytes(const struct light_bvh *bvh)
 {
-    return bvh->node_room * sizeof *bvh->nodes + bvh->light_count * sizeof *bvh->seats +
+    return bvh->node_room * sizeof *bvh->nodes + bvh->light_count * sizeof *bvh->leaves +
            bvh->triangle_count * sizeof *bvh->triangles;
 }
 

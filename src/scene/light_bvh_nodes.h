@@ -7,7 +7,7 @@
 #define LIGHT_BVH_RUN 4 /* triangles that are one child, at most; among them area decides */
 
 #define NO_NODE UINT32_MAX
-#define NO_LIGHT_YET UINT32_MAX
+#define NO_LIGHT_ABOVE UINT32_MAX
 
 enum child_kind { CHILD_NONE, CHILD_NODE, CHILD_LIGHT, CHILD_TRIANGLES };
 
@@ -21,11 +21,11 @@ struct node {
     struct child children[LIGHT_LANES];
     uint32_t parent; /* NO_NODE at the root */
     uint8_t lane;    /* which child of its parent it is */
-    uint32_t light;  /* whose triangles are below; or NO_LIGHT_YET */
+    uint32_t light;  /* whose triangles are below; or NO_LIGHT_ABOVE */
 };
 
 /* Where a light is: a child of a node; a split light's node is that child. */
-struct seat {
+struct leaf {
     uint32_t node; /* NO_NODE: it is not in the tree */
     uint32_t lane;
 };
@@ -35,7 +35,7 @@ struct light_bvh {
     size_t light_count, placed;
     struct node *nodes;
     size_t node_count, node_room;
-    struct seat *seats;
+    struct leaf *leaves;
     uint32_t *triangles;
     size_t triangle_count;
 };
