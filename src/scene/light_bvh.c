@@ -1,5 +1,6 @@
 /* light_bvh.c: draws lights from a light BVH; see light_bvh.h. */
 #include "scene/light_bvh_nodes.h"
+#include "scene/light_kinds.h"
 
 /* A point that asks, and the line of its draws: place i lies at i + u. */
 struct draw {
@@ -45,15 +46,15 @@ static inline float weight_of(const struct part *part)
 static size_t choose_triangles(const struct draw *draw, uint32_t light, const struct child *run,
                                const struct part *part, struct light_choice *choices)
 {
-    const struct distribution *areas = &draw->bvh->lights[light].surface.by_area;
+    const struct light_surface *surface = &draw->bvh->lights[light].surface;
     const uint32_t *triangles = &draw->bvh->triangles[run->index];
-    float sum = 0.0f, below = 0.0f;
+    float areas[LIGHT_BVH_RUN], sum = 0.0f, below = 0.0f;
     struct part own = {0, part->low, part->low, part->first, part->first};
     size_t count = 0;
     for (uint32_t i = 0; i < run->run; i++)
-        sum += distribution_probability(areas, triangles[i]);
+        sum += areas[i] = light_surface_triangle_area(surface, triangles[i]);
     for (uint32_t i = 0; i < run->run && own.end < part->end; i++) {
-        below += distribution_probability(areas, triangles[i]);
+        below += areas[i];
         own = cut_part(draw, part, own.high, own.end, below, sum);
         if (own.first < own.end)
             choices[count++] = (struct light_choice){light, triangles[i], weight_of(&own)};

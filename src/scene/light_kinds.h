@@ -58,6 +58,7 @@ float light_surface_pdf(const struct light_surface *surface, ps_vec3 direction, 
 float light_surface_arrival(const struct light_surface *surface, ps_vec3 direction, float distance,
                             ps_vec3 normal);
 
+/* Not from the table, which rounds the small ones away. */
 float light_surface_triangle_area(const struct light_surface *surface, size_t triangle);
 struct light_cluster light_surface_cluster(const struct light_surface *surface, size_t triangle);
 void light_surface_sample_triangle(const struct light_surface *surface, size_t triangle,

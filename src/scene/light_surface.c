@@ -178,8 +178,10 @@ ps_rgb light_surface_power(const struct light_surface *surface)
     return ps_rgb_multiply(plain_power(surface), surface->mean);
 }
 
-/* How far below the mean of the light the pattern's in a triangle is taken to be at the most: few points tell it. */
+/* The least that the pattern in a triangle is taken to be: a part of the mean of the light, and a number, since the points
+ * that tell both may miss all that shines. */
 #define LEAST_PATTERN 0.05f
+#define LEAST_RADIANCE 1e-3f
 #define TRIANGLE_EDGE 2
 
 struct light_cluster light_surface_cluster(const struct light_surface *surface, size_t triangle)
@@ -190,8 +192,9 @@ struct light_cluster light_surface_cluster(const struct light_surface *surface, 
     if (surface->mesh.pattern) {
         ps_rgb mean = triangle_mean(&surface->mesh, triangle, TRIANGLE_EDGE);
         ps_rgb least = ps_rgb_scale(surface->mean, LEAST_PATTERN);
-        pattern =
-            (ps_rgb){ps_max(mean.r, least.r), ps_max(mean.g, least.g), ps_max(mean.b, least.b)};
+        pattern = (ps_rgb){ps_max(mean.r, ps_max(least.r, LEAST_RADIANCE)),
+                           ps_max(mean.g, ps_max(least.g, LEAST_RADIANCE)),
+                           ps_max(mean.b, ps_max(least.b, LEAST_RADIANCE))};
     }
     ps_rgb radiance = ps_rgb_multiply(surface->radiance, pattern);
     return (struct light_cluster){
@@ -210,7 +213,9 @@ struct light_cluster light_surface_cluster(const struct light_surface *surface, 
 
 float light_surface_triangle_area(const struct light_surface *surface, size_t triangle)
 {
-    return distribution_probability(&surface->by_area, triangle) * surface->area;
+    struct corners corners = corners_of(&surface->mesh, triangle);
+    ps_vec3 normal;
+    return (float)measure(&corners, &normal);
 }
 
 struct surface_point {

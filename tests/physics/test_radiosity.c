@@ -60,6 +60,17 @@ static void test_closed_scene_absorbs_all(void **state)
     }
 }
 
+/* Triangles of a sphere that is a point to single precision have no area. */
+static void test_what_is_too_small_is_left_out(void **state)
+{
+    (void)state;
+    double sent = 4 * PI * (1 + 2 + 3);
+    struct balance balance = balance_of(
+        SCENE CLOSED "  - sphere: {center: [0.9, 0.9, 0.9], radius: 1e-9, material: block}\n",
+        "bounces=all", "estimator=radiosity:epsilon=1e-3");
+    assert_true(fabs(balance.absorbed - sent) < 1e-3 * sent);
+}
+
 static void test_open_scene_absorbs_or_loses(void **state)
 {
     (void)state;
@@ -83,6 +94,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_closed_scene_absorbs_all),
+        cmocka_unit_test(test_what_is_too_small_is_left_out),
         cmocka_unit_test(test_open_scene_absorbs_or_loses),
         cmocka_unit_test(test_bounces_are_counted),
     };

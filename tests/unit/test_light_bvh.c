@@ -248,6 +248,50 @@ static void test_triangles_of_a_mesh_are_drawn(void **state)
     light_release(&light);
 }
 
+/* Shines where no grid of points looks. */
+static ps_rgb speck(const void *user, ps_vec3 position, const float uv[2])
+{
+    (void)user;
+    (void)uv;
+    float lit = fabsf(position.y - 0.41234f) < 1e-4f ? 1.0f : 0.0f;
+    return (ps_rgb){lit, lit, lit};
+}
+
+/* What is known of a pattern by points may be all dark; the light is in the tree, by its parts or whole. */
+static void test_light_whose_pattern_is_missed(void **state)
+{
+    (void)state;
+    static struct band band;
+    for (int i = 0; i < 2; i++) {
+        struct light_mesh mesh = band_mesh(&band);
+        struct light light;
+        struct error error;
+        mesh.pattern = speck;
+        mesh.triangle_count = i == 0 ? TRIANGLES : LIGHT_BVH_TRIANGLES;
+        assert_int_equal(light_create_mesh(&mesh, (ps_rgb){1, 1, 1}, false, &light, &error), PS_OK);
+        assert_true(light.surface.mean.r == 0.0f);
+        struct light_bvh *bvh = bvh_of(&light, 1);
+        assert_true(light_bvh_expected(bvh, 0, (ps_vec3){1.5f, 0.5f, 0}, 1) > 0.0f);
+        light_bvh_destroy(bvh);
+        light_release(&light);
+    }
+}
+
+/* A triangle that is a millionth of a billionth of its mesh has its own area. */
+static void test_small_triangles_have_their_area(void **state)
+{
+    (void)state;
+    static const ps_vec3 vertices[] = {{0, 0, 0}, {1e5f, 0, 0},  {0, 0, 1e5f},
+                                       {0, 1, 0}, {1e-3f, 1, 0}, {0, 1, 1e-3f}};
+    static const uint32_t triangles[][3] = {{0, 1, 2}, {3, 4, 5}};
+    struct light_mesh mesh = {.vertices = vertices, .triangles = triangles, .triangle_count = 2};
+    struct light light;
+    struct error error;
+    assert_int_equal(light_create_mesh(&mesh, (ps_rgb){1, 1, 1}, false, &light, &error), PS_OK);
+    expect_close((double)light_bounds_of(&light, 1).intensity, 3 * 0.5e-6, 1e-4);
+    light_release(&light);
+}
+
 /* --- limits --- */
 
 static void expect_finite(const struct light_bvh *bvh, ps_vec3 position)
@@ -309,6 +353,8 @@ int main(void)
         cmocka_unit_test(test_no_light_is_left_out),
         cmocka_unit_test(test_draws_come_as_often_as_expected),
         cmocka_unit_test(test_triangles_of_a_mesh_are_drawn),
+        cmocka_unit_test(test_light_whose_pattern_is_missed),
+        cmocka_unit_test(test_small_triangles_have_their_area),
         cmocka_unit_test(test_hostile_places),
         cmocka_unit_test(test_lights_that_are_left_out),
     };

@@ -3,7 +3,8 @@
 
 #include <assert.h>
 
-#define READ 256u /* triangles of the host at a time */
+#define READ 256u         /* triangles of the host at a time */
+#define LEAST_AREA 1e-30f /* in squares of the scene's radius */
 #define NORMAL_WEIGHT                                                                              \
     0.25f /* a difference of normals, in radii of the scene, when clusters are parted */
 
@@ -35,6 +36,14 @@ static void sides_of(const struct elements *elements, const ps_triangle *triangl
     }
 }
 
+/* Instances and spheres may be so small that their triangles have no area left, nor a normal. */
+static bool has_area(const struct elements *elements, const ps_triangle *triangle)
+{
+    ps_vec3 n = triangle->normal;
+    return triangle->area / elements->unit / elements->unit > LEAST_AREA &&
+           isfinite(n.x + n.y + n.z);
+}
+
 static ps_result read_triangles(struct building *building)
 {
     struct elements *elements = building->elements;
@@ -56,16 +65,21 @@ static ps_result read_triangles(struct building *building)
     for (uint64_t first = 0; first < count; first += READ)
         host->triangles(host, first, READ < count - first ? READ : (size_t)(count - first),
                         building->triangles + first);
+    size_t side = 0;
     for (size_t i = 0; i < count; i++, number++) {
-        const ps_triangle *triangle = &building->triangles[i];
-        if (triangle->object != object)
+        const ps_triangle triangle = building->triangles[i];
+        if (triangle.object != object)
             number = 0;
-        object = triangle->object;
-        sides_of(elements, triangle, number, &elements->sides[2 * i], &building->points[2 * i]);
-        building->points[2 * i].side = (uint32_t)(2 * i);
-        building->points[2 * i + 1].side = (uint32_t)(2 * i + 1);
+        object = triangle.object;
+        if (!has_area(elements, &triangle))
+            continue;
+        building->triangles[side / 2] = triangle;
+        sides_of(elements, &triangle, number, &elements->sides[side], &building->points[side]);
+        building->points[side].side = (uint32_t)side;
+        building->points[side + 1].side = (uint32_t)(side + 1);
+        side += 2;
     }
-    elements->side_count = (size_t)count * 2;
+    elements->side_count = side;
     return PS_OK;
 }
 

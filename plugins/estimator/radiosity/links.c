@@ -139,7 +139,7 @@ static void judge_batch(void *user, uint64_t batch, uint32_t worker)
     struct refinement *work = user;
     const struct pair *pairs = work->pairs.items;
     size_t first = batch * BATCH, end = first + BATCH;
-    if (batch % 64 == 0 && work->elements->host->cancelled(work->elements->host))
+    if (work->elements->host->cancelled(work->elements->host))
         return;
     for (size_t i = first; i < end && i < work->pairs.count; i++)
         work->judgements[i] = judge(work, pairs[i]);

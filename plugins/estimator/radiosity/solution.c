@@ -79,7 +79,7 @@ static void exchange_light(const struct solving *work)
 
 /* --- the sums of form factors --- */
 
-/* Elements that see out keep their sums, but for what is above 1; `targets` are the sums to be. */
+/* Elements that see out keep their sums; `targets` are the sums to be. */
 static void find_targets(const struct solving *work, float *targets)
 {
     const struct elements *elements = &work->solution->elements;
