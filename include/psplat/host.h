@@ -172,9 +172,9 @@ struct ps_host {
                       ps_ray *rays, ps_rgb *power);
 
     /* For each of n places, a light chosen with the third of four numbers, and a point of it by the first two, looked
-     * at from there; nothing is traced. Few lights are chosen by power, many by what they may give to the place;
-     * then irradiance was divided by others than probability and pdf, which are for weights (light_densities) alone. Irradiance 0 where there is no light, or the
-     * point does not shine there. [any thread] */
+     * at from there; nothing is traced. Few lights are chosen by power, many by what they may give to the place; then
+     * irradiance was divided by others than probability and pdf, which are for weights (light_densities) alone.
+     * Irradiance 0 where there is no light, or the point does not shine there. [any thread] */
     void (*sample_light)(const ps_host *host, const ps_vec3 *places, const float (*samples)[4],
                          size_t n, ps_light_sample *sampled);
 

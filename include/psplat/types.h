@@ -163,8 +163,8 @@ typedef struct ps_light_sample {
     float probability; /* by which the light was chosen */
     ps_rgb
         irradiance; /* across the direction, W/m^2: what the sample stands for, both chances divided
-                          out (see ps_host.sample_light). Times the receiver's cosine it is an estimate of the irradiance of all
-                          lights */
+                          out (see ps_host.sample_light). Times the receiver's cosine it is an
+                          estimate of the irradiance of all lights */
     uint32_t light; /* its index */
 } ps_light_sample;
 

@@ -5,8 +5,8 @@
  * pixel (radiosity/local_pass.h).
  *
  * The solution knows diffuse surfaces alone. Mirrors, glass and gloss are black to it, but for their diffuse part, and
- * stand in the way: what they pass on to a surface that others see is lost. What lamps send to the pixels by them alone, caustics,
- * comes by photons, which are splatted (shared/caustics.h), and what the camera sees in mirrors is lit like all else.
+ * stand in the way: what they pass on to a surface that others see is lost. What lamps send to the pixels by them
+ * alone, caustics, comes by photons, which are splatted (shared/caustics.h), and what the camera sees in mirrors is lit like all else.
  *
  * All passes share one solution, made in the first of them: it goes by the seed alone.
  */

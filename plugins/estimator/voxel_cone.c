@@ -125,7 +125,8 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
     ps_collect_points(tile, &points);
     for (size_t i = 0; i < points.count; i++)
         samples[i] = ps_tile_sample(index, points.lanes[i], work->pass->number, 1);
-    work->host->samples(work->host, STREAM_TURN, 0, samples, points.count, turns);
+    if (work->turn == TURN_PIXEL)
+        work->host->samples(work->host, STREAM_TURN, 0, samples, points.count, turns);
     for (size_t i = 0; i < points.count; i++) {
         float turn = work->turn == TURN_PIXEL ? turns[i][0] : work->pass_turn;
         ps_add_irradiance(tile, points.lanes[i],

@@ -78,26 +78,41 @@ static ps_rgb connect(const struct receivers *to, size_t i, const struct light_s
     return ps_rgb_multiply(sample->weight, response(to, i, sample->direction, sample->pdf));
 }
 
-/* What gets through along n shadow rays, all of it or nothing, or a share by a shadow map. */
+/* Whether light gets along each of n shadow rays: 0 or 1. */
+static void trace_lit(const struct lighting *lighting, const ps_ray *rays, size_t n, float *lit)
+{
+    uint8_t blocked[RECEIVERS_MOST];
+    if (n == 0)
+        return;
+    trace_occluded(lighting->trace, rays, n, blocked);
+    for (size_t i = 0; i < n; i++)
+        lit[i] = blocked[i] ? 0.0f : 1.0f;
+}
+
+/* The share of the light that gets along each connection, by rays, or by the maps of lights that have them. */
 static void find_lit(const struct receivers *to, const struct connections *open, const ps_ray *rays,
                      float *lit)
 {
     const struct lighting *lighting = to->lighting;
-    uint8_t blocked[RECEIVERS_MOST];
-    size_t traced[RECEIVERS_MOST], count = 0;
+    size_t places[RECEIVERS_MOST], count = 0;
     ps_ray without_map[RECEIVERS_MOST];
+    float traced[RECEIVERS_MOST];
+    if (!lighting->maps) {
+        trace_lit(lighting, rays, open->count, lit);
+        return;
+    }
     for (size_t i = 0; i < open->count; i++) {
-        if (lighting->maps && shadow_maps_hold(lighting->maps, open->lights[i])) {
+        if (shadow_maps_hold(lighting->maps, open->lights[i])) {
             ps_vec3 normal = to->normals[open->receivers[i]];
             lit[i] = shadow_maps_lit(lighting->maps, open->lights[i], rays[i].origin, normal);
         } else {
             without_map[count] = rays[i];
-            traced[count++] = i;
+            places[count++] = i;
         }
     }
-    trace_occluded(lighting->trace, without_map, count, blocked);
+    trace_lit(lighting, without_map, count, traced);
     for (size_t i = 0; i < count; i++)
-        lit[traced[i]] = blocked[i] ? 0.0f : 1.0f;
+        lit[places[i]] = traced[i];
 }
 
 /* Traces the connections, adds what they bring and forgets them. Those that bring nothing have no shadow ray. */

@@ -18,7 +18,7 @@ static ps_rgb emit_from(const struct scene *scene, size_t light, const float num
     const struct light *from = &scene->lights[light];
     ps_rgb flux = light_emit(from, numbers, ray, &point->normal);
     point->position = ray->origin;
-    point->distance = from->emitter == EMITTER_SUN || from->emitter == EMITTER_SKY ? INFINITY : 0;
+    point->distance = light_is_afar(from) ? INFINITY : 0;
     point->light = (uint32_t)light;
     if (light_is_delta(from))
         ray->tnear = scene->surface_offset; /* a light may lie on a surface */
@@ -130,25 +130,26 @@ static float light_probability(const struct scene *scene, size_t light, ps_vec3 
     return (1.0f - afar_share(scene)) * light_bvh_expected(scene->light_bvh, light, place, 1);
 }
 
-/* False: no light gives anything. */
-static bool draw_light(const struct scene *scene, ps_vec3 place, float u, struct drawn_light *drawn)
+/* Draws by power. */
+static void draw_of_few(const struct scene *scene, float u, struct drawn_light *drawn)
+{
+    size_t light = scene_choose_light(scene, &u, &drawn->probability);
+    drawn->choice = (struct light_choice){(uint32_t)light, WHOLE_LIGHT, 1.0f / drawn->probability};
+}
+
+/* Draws suns and skies by power, and the others by the BVH. False: none of those gives anything. */
+static bool draw_of_many(const struct scene *scene, ps_vec3 place, float u,
+                         struct drawn_light *drawn)
 {
     static const ps_vec3 no_normal = {0, 0, 0};
     float share = afar_share(scene), below = 0.0f;
-    if (!scene_chooses_lights(scene)) {
-        size_t light = scene_choose_light(scene, &u, &drawn->probability);
-        drawn->choice =
-            (struct light_choice){(uint32_t)light, WHOLE_LIGHT, 1.0f / drawn->probability};
-        return drawn->probability > 0.0f;
-    }
     for (size_t i = 0; i < scene->afar_count; i++) {
         drawn->probability = power_share(scene, scene->afar[i]);
         below += drawn->probability;
-        if (u < below) {
-            drawn->choice =
-                (struct light_choice){scene->afar[i], WHOLE_LIGHT, 1.0f / drawn->probability};
+        drawn->choice =
+            (struct light_choice){scene->afar[i], WHOLE_LIGHT, 1.0f / drawn->probability};
+        if (u < below)
             return true;
-        }
     }
     double rest = ((double)u - (double)share) / (1.0 - (double)share);
     if (light_bvh_choose(scene->light_bvh, place, no_normal, 1, rest, &drawn->choice) != 1)
@@ -156,6 +157,15 @@ static bool draw_light(const struct scene *scene, ps_vec3 place, float u, struct
     drawn->choice.weight /= 1.0f - share;
     drawn->probability = light_probability(scene, drawn->choice.light, place);
     return true;
+}
+
+/* False: no light gives anything. */
+static bool draw_light(const struct scene *scene, ps_vec3 place, float u, struct drawn_light *drawn)
+{
+    if (scene_chooses_lights(scene))
+        return draw_of_many(scene, place, u, drawn);
+    draw_of_few(scene, u, drawn);
+    return drawn->probability > 0.0f;
 }
 
 /* What a place sees of what it drew, and the normal there. */
@@ -226,11 +236,8 @@ static ps_light_density density_from_afar(const struct scene *scene, ps_vec3 pla
                                           const ps_light_sample *point)
 {
     ps_light_density sum = {0, 0};
-    for (uint32_t i = 0; i < scene->light_count; i++) {
-        enum emitter emitter = scene->lights[i].emitter;
-        if (emitter != EMITTER_SUN && emitter != EMITTER_SKY)
-            continue;
-        ps_light_density own = density_of(scene, i, place, point);
+    for (size_t i = 0; i < scene->afar_count; i++) {
+        ps_light_density own = density_of(scene, scene->afar[i], place, point);
         sum.direct += own.direct;
         sum.arrival = own.arrival;
     }

@@ -114,26 +114,16 @@ static int32_t host_is_shown(const ps_host *host, uint32_t object)
     const struct scene *scene = render_of(host)->scene;
     if (!has_object(host, object, "is_shown"))
         return 0;
-    if (object < scene->world_shape_count)
-        return !scene->shapes[object].hidden;
     const struct instance *instance = scene_instance_of(scene, object);
-    uint32_t shape = instance->group->first_shape + (object - instance->first_object);
-    return !instance->hidden && !scene->shapes[shape].hidden;
+    return !(instance && instance->hidden) && !scene_shape_of(scene, object)->hidden;
 }
 
 /* Whether the point's object has that triangle. */
 static bool has_triangle(const ps_host *host, const ps_surface_point *point)
 {
-    const struct scene *scene = render_of(host)->scene;
     if (!has_object(host, point->object, "surface_points"))
         return false;
-    const struct shape *shape = &scene->shapes[point->object];
-    if (point->object >= scene->world_shape_count) {
-        const struct instance *instance = scene_instance_of(scene, point->object);
-        shape =
-            &scene->shapes[instance->group->first_shape + (point->object - instance->first_object)];
-    }
-    uint64_t count = triangles_of_shape(shape);
+    uint64_t count = triangles_of_shape(scene_shape_of(render_of(host)->scene, point->object));
     if (point->triangle < count)
         return true;
     host_refuse_index(host, "surface_points", point->triangle, count);

@@ -124,6 +124,8 @@ size_t scene_bytes(const struct scene *scene)
 const struct instance *scene_instance_of(const struct scene *scene, uint32_t object)
 {
     size_t first = 0, end = scene->instance_count;
+    if (object < scene->world_shape_count)
+        return NULL;
     while (end - first > 1) {
         size_t middle = first + (end - first) / 2;
         if (scene->instances[middle].first_object <= object)
@@ -132,4 +134,12 @@ const struct instance *scene_instance_of(const struct scene *scene, uint32_t obj
             end = middle;
     }
     return &scene->instances[first];
+}
+
+const struct shape *scene_shape_of(const struct scene *scene, uint32_t object)
+{
+    const struct instance *instance = scene_instance_of(scene, object);
+    return instance
+               ? &scene->shapes[instance->group->first_shape + (object - instance->first_object)]
+               : &scene->shapes[object];
 }

@@ -57,7 +57,6 @@ struct scene {
     uint32_t *object_lights; /* the light that an object is, or NO_LIGHT */
     bool has_area_lights;    /* some light's sampling needs random numbers */
     bool has_split_lights;   /* some light is a subtree of light_bvh */
-    bool has_sky;            /* something shines from infinity */
     bool sky_is_hidden;      /* from the camera itself */
     struct camera camera;
     enum pixel_filter pixel_filter;
@@ -78,8 +77,11 @@ ps_result scene_create(const struct scene_description *description, struct scene
                        struct origin *where, struct error *error);
 void scene_release(struct scene *scene);
 
-/* The instance that an object past the world's own shapes stands in. */
+/* The instance that an object stands in; NULL for the world's own shapes. */
 const struct instance *scene_instance_of(const struct scene *scene, uint32_t object);
+
+/* The shape of an object. */
+const struct shape *scene_shape_of(const struct scene *scene, uint32_t object);
 
 /* Bytes that shapes and textures take. */
 size_t scene_bytes(const struct scene *scene);

@@ -93,7 +93,6 @@ static ps_result add_described(struct assembly *assembly, const struct light_des
     if (result != PS_OK)
         return result;
     scene->light_count++;
-    scene->has_sky = scene->has_sky || light->kind == LIGHT_SKY || light->kind == LIGHT_SUN;
     scene->sky_is_hidden = scene->sky_is_hidden || (light->kind == LIGHT_SKY && !light->visible);
     return PS_OK;
 }

@@ -206,11 +206,10 @@ static ps_vec3 place_of(const struct placed *placed, struct intersection *at)
 
 ps_hit surface_at(const struct scene *scene, const ps_surface_point *point, ps_ray *ray)
 {
-    bool in_world = point->object < scene->world_shape_count;
-    const struct instance *instance = in_world ? NULL : scene_instance_of(scene, point->object);
+    const struct instance *instance = scene_instance_of(scene, point->object);
     struct intersection at = {
-        .instance = in_world ? NO_INSTANCE : (uint32_t)(instance - scene->instances),
-        .shape = in_world ? point->object : point->object - instance->first_object,
+        .instance = instance ? (uint32_t)(instance - scene->instances) : NO_INSTANCE,
+        .shape = instance ? point->object - instance->first_object : point->object,
         .triangle = point->triangle,
         .u = point->u,
         .v = point->v,

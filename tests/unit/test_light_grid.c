@@ -26,6 +26,11 @@ static ps_vec3 direction_of(int i, int n)
     return (ps_vec3){(float)(radius * cos(angle)), (float)(radius * sin(angle)), (float)z};
 }
 
+static float sh_evaluate(const struct sh *f, ps_vec3 w)
+{
+    return f->c[0] * SH_Y0 + (f->c[1] * w.x + f->c[2] * w.y + f->c[3] * w.z) * SH_Y1;
+}
+
 /* Coefficients are the integrals of the function times each basis function, and reproduce order 1. */
 static void test_clamped_cosine(void **state)
 {

@@ -52,7 +52,8 @@ static void take(void *user, struct surface_crossings *crossings)
         ps_vec3 n = crossings->hits[i].geometric_normal;
         ps_vec3 out = ps_subtract(crossings->hits[i].position, (ps_vec3){10, 20, 30});
         int inside = ps_dot(n, out) < 0.0f;
-        double area = (double)surface_lines_area(found->lines, n);
+        double step = (double)found->lines->grid.side / found->lines->per_cell;
+        double area = step * step * (double)surface_lines_area(n);
         found->area[inside] += area;
         found->moments[0] += inside ? 0 : area * (double)(n.x * n.x);
         found->moments[1] += inside ? 0 : area * (double)(n.y * n.y);

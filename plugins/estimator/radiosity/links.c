@@ -128,8 +128,7 @@ static struct judgement judge(const struct refinement *work, struct pair pair)
     if (may_divide && exchange->most * light * (shadow ? IN_SHADOW : 1.0f) > work->allowed)
         return judgement;
     judgement.verdict = LINK;
-    if (judgement.verdict == LINK)
-        exchange->is_clear = exchange_is_clear(elements, pair.p, pair.q, exchange);
+    exchange->is_clear = exchange_is_clear(elements, pair.p, pair.q, exchange);
     return judgement;
 }
 

@@ -49,9 +49,9 @@ static bool is_far(const struct receiver *receiver, const struct element *source
 
 static float triangle_form_factor(const struct receiver *receiver, const struct element *source)
 {
-    ps_vec3 way = ps_subtract(source->centre, receiver->place);
-    if (ps_dot(way, way) > FAR_SQUARED * source->radius * source->radius)
-        return form_factor_small(receiver->normal, way, source->normal, source->area);
+    if (is_far(receiver, source))
+        return form_factor_small(receiver->normal, ps_subtract(source->centre, receiver->place),
+                                 source->normal, source->area);
     return form_factor_triangle(receiver->place, receiver->normal, source->corners);
 }
 

@@ -24,11 +24,6 @@ static inline float sh_integral(const struct sh *f)
     return f->c[0] / SH_Y0;
 }
 
-static inline float sh_evaluate(const struct sh *f, ps_vec3 w)
-{
-    return f->c[0] * SH_Y0 + (f->c[1] * w.x + f->c[2] * w.y + f->c[3] * w.z) * SH_Y1;
-}
-
 /* max(0, axis.w), projected: its integral is pi. */
 static inline struct sh sh_clamped_cosine(ps_vec3 axis)
 {

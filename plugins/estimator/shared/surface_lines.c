@@ -71,9 +71,3 @@ void surface_lines_follow(const struct surface_lines *lines, uint32_t way, uint3
         }
     }
 }
-
-float surface_lines_area(const struct surface_lines *lines, ps_vec3 normal)
-{
-    float step = lines->grid.side / (float)lines->per_cell;
-    return step * step / (fabsf(normal.x) + fabsf(normal.y) + fabsf(normal.z));
-}

@@ -59,8 +59,11 @@ static inline uint32_t surface_lines_across(const struct surface_lines *lines)
 void surface_lines_follow(const struct surface_lines *lines, uint32_t way, uint32_t row,
                           surface_lines_take take, void *user);
 
-/* The area (square scene units) that a crossing stands for, all lines of a way taken together with those of the two other
- * axes; each side of a surface has its own. */
-float surface_lines_area(const struct surface_lines *lines, ps_vec3 normal);
+/* The area that a crossing stands for, in squares of the distance between lines, all lines of a way taken together with
+ * those of the two other axes; each side of a surface has its own. */
+static inline float surface_lines_area(ps_vec3 normal)
+{
+    return 1.0f / (fabsf(normal.x) + fabsf(normal.y) + fabsf(normal.z));
+}
 
 #endif

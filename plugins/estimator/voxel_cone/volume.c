@@ -5,12 +5,6 @@
 
 /* --- one level ------------------------------------------------------------------------------------------ */
 
-static uint32_t *place_of(const struct volume_level *level, uint32_t x, uint32_t y, uint32_t z)
-{
-    size_t row = (size_t)(z >> 2) * level->bricks_across + (y >> 2);
-    return &level->table[row * level->bricks_across + (x >> 2)];
-}
-
 /* A level without bricks. */
 static ps_result start_level(const ps_host *host, uint32_t across, struct volume_level *level)
 {
@@ -26,7 +20,7 @@ static ps_result start_level(const ps_host *host, uint32_t across, struct volume
 /* There shall be a brick around this voxel. */
 static void want_brick(struct volume_level *level, uint32_t x, uint32_t y, uint32_t z)
 {
-    *place_of(level, x, y, z) = 1;
+    *volume_brick_at(level, x, y, z) = 1;
 }
 
 /* Makes all bricks that are wanted, without voxels. */
@@ -57,14 +51,9 @@ static ps_result make_bricks(const ps_host *host, struct volume_level *level)
 /* There shall be a voxel here; its brick is there. */
 static void want_voxel(struct volume_level *level, uint32_t x, uint32_t y, uint32_t z)
 {
-    struct voxel_brick *brick = &level->bricks[*place_of(level, x, y, z)];
+    struct voxel_brick *brick = &level->bricks[*volume_brick_at(level, x, y, z)];
     assert(brick != level->bricks);
     brick->mask |= UINT64_C(1) << volume_bit(x, y, z);
-}
-
-static uint32_t voxels_of(const struct voxel_brick *brick)
-{
-    return volume_bits_before(brick->mask, 63) + (uint32_t)(brick->mask >> 63);
 }
 
 /* Makes all voxels that are wanted: black and transparent. */
@@ -72,7 +61,7 @@ static ps_result make_voxels(const ps_host *host, struct volume_level *level)
 {
     for (size_t i = 0; i < level->brick_count; i++) {
         level->bricks[i].first = (uint32_t)level->voxel_count;
-        level->voxel_count += voxels_of(&level->bricks[i]);
+        level->voxel_count += volume_count_bits(level->bricks[i].mask);
     }
     size_t bytes = (level->voxel_count + 1) * sizeof *level->voxels;
     level->voxels = host->allocate(host, bytes, VOLUME_MEMORY);
@@ -141,8 +130,8 @@ static void raise_brick(void *user, uint64_t index, uint32_t worker)
     const struct voxel_brick *brick = &raising->level->bricks[index];
     struct voxel *voxel = raising->level->voxels + brick->first;
     for (uint32_t bit = 0; bit < 64; bit++) {
-        const uint32_t place[3] = {4 * brick->x + (bit & 3), 4 * brick->y + (bit >> 2 & 3),
-                                   4 * brick->z + (bit >> 4)};
+        uint32_t place[3];
+        volume_place(brick, bit, place);
         if (brick->mask >> bit & 1)
             raise_voxel(raising->below, place, voxel++);
     }
@@ -161,10 +150,12 @@ static void want_above(const struct volume_level *below, struct volume_level *le
 {
     for (size_t i = 1; i < below->brick_count; i++) {
         const struct voxel_brick *brick = &below->bricks[i];
-        for (uint32_t bit = 0; bit < 64; bit++)
+        for (uint32_t bit = 0; bit < 64; bit++) {
+            uint32_t place[3];
+            volume_place(brick, bit, place);
             if (brick->mask >> bit & 1)
-                want(level, (4 * brick->x + (bit & 3)) / 2, (4 * brick->y + (bit >> 2 & 3)) / 2,
-                     (4 * brick->z + (bit >> 4)) / 2);
+                want(level, place[0] / 2, place[1] / 2, place[2] / 2);
+        }
     }
 }
 
@@ -229,8 +220,8 @@ static void light_brick(void *user, uint64_t index, uint32_t worker)
     const struct voxel_brick *brick = &level->bricks[index];
     struct voxel *voxel = level->voxels + brick->first;
     for (uint32_t bit = 0; bit < 64; bit++) {
-        const uint32_t place[3] = {4 * brick->x + (bit & 3), 4 * brick->y + (bit >> 2 & 3),
-                                   4 * brick->z + (bit >> 4)};
+        uint32_t place[3];
+        volume_place(brick, bit, place);
         if (brick->mask >> bit & 1)
             light_voxel(lighting, place, voxel++);
     }

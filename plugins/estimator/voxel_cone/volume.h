@@ -100,17 +100,33 @@ static inline uint32_t volume_bit(uint32_t x, uint32_t y, uint32_t z)
     return (z & 3) << 4 | (y & 3) << 2 | (x & 3);
 }
 
-static inline uint32_t volume_bits_before(uint64_t mask, uint32_t bit)
+/* The place of that voxel in its level. */
+static inline void volume_place(const struct voxel_brick *brick, uint32_t bit, uint32_t place[3])
 {
-    uint64_t below = mask & ((UINT64_C(1) << bit) - 1);
+    place[0] = 4 * brick->x + (bit & 3);
+    place[1] = 4 * brick->y + (bit >> 2 & 3);
+    place[2] = 4 * brick->z + (bit >> 4);
+}
+
+/* How many bits are set. */
+static inline uint32_t volume_count_bits(uint64_t mask)
+{
 #ifdef __GNUC__
-    return (uint32_t)__builtin_popcountll(below);
+    return (uint32_t)__builtin_popcountll(mask);
 #else
     uint32_t count = 0;
-    for (; below; below &= below - 1)
+    for (; mask; mask &= mask - 1)
         count++;
     return count;
 #endif
+}
+
+/* The entry of the table for the brick around (x, y, z). */
+static inline uint32_t *volume_brick_at(const struct volume_level *level, uint32_t x, uint32_t y,
+                                        uint32_t z)
+{
+    size_t row = (size_t)(z >> 2) * level->bricks_across + (y >> 2);
+    return &level->table[row * level->bricks_across + (x >> 2)];
 }
 
 /* The voxel of a level at (x, y, z), or NULL where there is none. */
@@ -119,13 +135,12 @@ static inline struct voxel *volume_at(const struct volume_level *level, uint32_t
 {
     if (x >= level->across || y >= level->across || z >= level->across)
         return NULL;
-    size_t row = (size_t)(z >> 2) * level->bricks_across + (y >> 2);
-    const struct voxel_brick *brick =
-        &level->bricks[level->table[row * level->bricks_across + (x >> 2)]];
+    const struct voxel_brick *brick = &level->bricks[*volume_brick_at(level, x, y, z)];
     uint32_t bit = volume_bit(x, y, z);
     if (!(brick->mask >> bit & 1))
         return NULL;
-    return &level->voxels[brick->first + volume_bits_before(brick->mask, bit)];
+    uint64_t before = brick->mask & ((UINT64_C(1) << bit) - 1);
+    return &level->voxels[brick->first + volume_count_bits(before)];
 }
 
 #endif

@@ -71,10 +71,8 @@ static uint32_t cell_along(const struct voxel_grid *grid, uint32_t axis, ps_vec3
 
 static void add_tilt(ps_vec3 normal, struct voxel_tilt *tilt)
 {
-    float n[3];
+    float n[3], area = surface_lines_area(normal);
     voxel_components(normal, n);
-    float area =
-        1.0f / (fabsf(n[0]) + fabsf(n[1]) + fabsf(n[2])); /* surface_lines_area, in steps */
     for (int k = 0; k < 3; k++) {
         tilt->diagonal[k] += n[k] * n[k] * area;
         tilt->mixed[k] += n[k] * n[(k + 1) % 3] * area;
@@ -118,8 +116,7 @@ static size_t count_touched(const struct layer_work *layer, uint32_t across)
 {
     size_t count = 0;
     for (size_t word = 0; word < touched_words(across); word++)
-        for (uint64_t bits = layer->touched[word]; bits; bits &= bits - 1)
-            count++;
+        count += volume_count_bits(layer->touched[word]);
     return count;
 }
 
