@@ -24,16 +24,54 @@ static inline int32_t place_from(const struct draw *draw, double at)
     return whole + ((double)whole < number);
 }
 
-/* Cuts off the front of a part, which has the first `below` of `sum` shares; `low`: where that before ended. */
-static inline struct part cut_part(const struct draw *draw, const struct part *part, double low,
-                                   int32_t first, float below, float sum)
+/* Cuts shares down to `most`, and gives what is cut to the others, as long as that makes shares too large. */
+static void limit_shares(const float *importance, const float *most, int count, double length,
+                         double *shares)
 {
-    struct part front = {0, low, part->high, first, part->end};
-    if (below < sum) {
-        front.high = part->low + (part->high - part->low) * (double)(below / sum);
-        front.end = place_from(draw, front.high);
+    bool cut = true;
+    while (cut) {
+        double left = length, sum = 0.0;
+        cut = false;
+        for (int i = 0; i < count; i++) {
+            bool full = shares[i] >= (double)most[i];
+            left -= full ? (double)most[i] : 0.0;
+            sum += full ? 0.0 : (double)importance[i];
+        }
+        for (int i = 0; i < count; i++) {
+            if (shares[i] >= (double)most[i]) {
+                shares[i] = (double)most[i];
+            } else if (importance[i] > 0.0f) {
+                shares[i] = (double)importance[i] * (left / sum);
+                cut |= shares[i] >= (double)most[i];
+            }
+        }
     }
-    return front;
+}
+
+/* Shares `length` among children by importance, but no child gets more than it has lights: what is above that goes to the
+ * others. What none of them can take is left. */
+static inline void share_length(const float *importance, const float *most, int count,
+                                double length, double *shares)
+{
+    double sum = 0.0;
+    for (int i = 0; i < count; i++)
+        sum += (double)importance[i];
+    double scale = sum > 0.0 ? length / sum : 0.0;
+    for (int i = 0; i < count; i++)
+        shares[i] = (double)importance[i] * scale;
+    if (length > 1.0)
+        limit_shares(importance, most, count, length, shares);
+}
+
+/* The front of what is left of a part, of a length: it begins where the child before it ended. */
+static inline struct part next_part(const struct draw *draw, const struct part *part,
+                                    const struct part *before, double length)
+{
+    struct part next = {0, before->high, before->high + length, before->end, 0};
+    next.end = place_from(draw, next.high);
+    if (next.end > part->end)
+        next.end = part->end;
+    return next;
 }
 
 /* How often a choice was drawn over how often it is in the mean. */
@@ -46,16 +84,18 @@ static inline float weight_of(const struct part *part)
 static size_t choose_triangles(const struct draw *draw, uint32_t light, const struct child *run,
                                const struct part *part, struct light_choice *choices)
 {
+    static const float most[LIGHT_BVH_RUN] = {1.0f, 1.0f, 1.0f, 1.0f};
     const struct light_surface *surface = &draw->bvh->lights[light].surface;
     const uint32_t *triangles = &draw->bvh->triangles[run->index];
-    float areas[LIGHT_BVH_RUN], sum = 0.0f, below = 0.0f;
+    float areas[LIGHT_BVH_RUN];
+    double shares[LIGHT_BVH_RUN];
     struct part own = {0, part->low, part->low, part->first, part->first};
     size_t count = 0;
     for (uint32_t i = 0; i < run->run; i++)
-        sum += areas[i] = light_surface_triangle_area(surface, triangles[i]);
+        areas[i] = light_surface_triangle_area(surface, triangles[i]);
+    share_length(areas, most, run->run, part->high - part->low, shares);
     for (uint32_t i = 0; i < run->run && own.end < part->end; i++) {
-        below += areas[i];
-        own = cut_part(draw, part, own.high, own.end, below, sum);
+        own = next_part(draw, part, &own, shares[i]);
         if (own.first < own.end)
             choices[count++] = (struct light_choice){light, triangles[i], weight_of(&own)};
     }
@@ -90,16 +130,13 @@ static inline void choose_child(const struct draw *draw, const struct node *node
 static void choose_children(const struct draw *draw, const struct part *part, struct drawn *drawn)
 {
     const struct node *node = &draw->bvh->nodes[part->node];
-    float importance[LIGHT_LANES], sum = 0.0f, below = 0.0f;
+    float importance[LIGHT_LANES];
+    double shares[LIGHT_LANES];
     struct part own = {0, part->low, part->low, part->first, part->first};
     light_lanes_importance(&node->bounds, draw->position, draw->normal, importance);
-    for (int i = 0; i < LIGHT_LANES; i++)
-        sum += importance[i];
-    for (int i = 0; i < LIGHT_LANES && own.end < part->end && sum > 0.0f; i++) {
-        if (!(importance[i] > 0.0f))
-            continue;
-        below += importance[i];
-        own = cut_part(draw, part, own.high, own.end, below, sum);
+    share_length(importance, node->most, LIGHT_LANES, part->high - part->low, shares);
+    for (int i = 0; i < LIGHT_LANES && own.end < part->end; i++) {
+        own = next_part(draw, part, &own, shares[i]);
         if (own.first < own.end)
             choose_child(draw, node, i, &own, drawn);
     }
@@ -137,22 +174,26 @@ bool light_bvh_choose_triangle(const struct light_bvh *bvh, size_t light, ps_vec
            choose_below(&draw, bvh->nodes[leaf->node].children[leaf->lane].index, 1, choice) == 1;
 }
 
+/* The part of the line that a child of a node has. */
+static double length_of(const struct light_bvh *bvh, const struct leaf *leaf, ps_vec3 position,
+                        uint32_t number)
+{
+    static const ps_vec3 none = {0, 0, 0};
+    if (leaf->node == NO_NODE)
+        return (double)number;
+    const struct node *node = &bvh->nodes[leaf->node];
+    const struct leaf above = {node->parent, node->lane};
+    float importance[LIGHT_LANES];
+    double shares[LIGHT_LANES];
+    light_lanes_importance(&node->bounds, position, none, importance);
+    share_length(importance, node->most, LIGHT_LANES, length_of(bvh, &above, position, number),
+                 shares);
+    return shares[leaf->lane];
+}
+
 float light_bvh_expected(const struct light_bvh *bvh, size_t light, ps_vec3 position,
                          uint32_t number)
 {
-    static const ps_vec3 none = {0, 0, 0};
-    float expected = (float)number;
-    struct leaf leaf = bvh->leaves[light];
-    if (leaf.node == NO_NODE)
-        return 0.0f;
-    while (leaf.node != NO_NODE) {
-        const struct node *node = &bvh->nodes[leaf.node];
-        float importance[LIGHT_LANES], sum = 0.0f;
-        light_lanes_importance(&node->bounds, position, none, importance);
-        for (int i = 0; i < LIGHT_LANES; i++)
-            sum += importance[i];
-        expected *= sum > 0.0f ? importance[leaf.lane] / sum : 0.0f;
-        leaf = (struct leaf){node->parent, node->lane};
-    }
-    return expected;
+    const struct leaf *leaf = &bvh->leaves[light];
+    return leaf->node == NO_NODE ? 0.0f : (float)length_of(bvh, leaf, position, number);
 }

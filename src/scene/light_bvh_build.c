@@ -215,6 +215,20 @@ static ps_result build_child(const struct building *building, const struct group
     return PS_OK;
 }
 
+/* What can be drawn of a group. */
+static float most_draws(const struct building *building, const struct group *group)
+{
+    const struct light_bvh *bvh = building->bvh;
+    if (building->light != NO_LIGHT_ABOVE)
+        return (float)group->count;
+    size_t sum = 0;
+    for (size_t i = 0; i < group->count; i++) {
+        uint32_t light = group->items[i].index;
+        sum += light_bvh_is_split(bvh, light) ? bvh->lights[light].surface.mesh.triangle_count : 1;
+    }
+    return (float)sum;
+}
+
 static ps_result build(const struct building *building, struct item *items, size_t count,
                        uint32_t parent, int lane, uint32_t depth, uint32_t *index)
 {
@@ -227,6 +241,7 @@ static ps_result build(const struct building *building, struct item *items, size
         light_lanes_set(&building->bvh->nodes[*index].bounds, i, &groups[i].cluster);
         result = build_child(building, &groups[i], *index, i, depth, &child);
         building->bvh->nodes[*index].children[i] = child;
+        building->bvh->nodes[*index].most[i] = most_draws(building, &groups[i]);
     }
     return result;
 }

@@ -18,6 +18,7 @@ struct child {
 
 struct node {
     struct light_lanes bounds; /* of the children */
+    float most[LIGHT_LANES];   /* lights and triangles of split lights that are in them */
     struct child children[LIGHT_LANES];
     uint32_t parent; /* NO_NODE at the root */
     uint8_t lane;    /* which child of its parent it is */

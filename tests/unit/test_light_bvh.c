@@ -137,6 +137,36 @@ static void test_draws_have_the_mean_of_all_lights(void **state)
     release_lights(lights, LIGHTS);
 }
 
+/* What draws of the lights beside the first give, which shines with `strength`. */
+static struct drawn draw_beside(float strength, uint32_t number)
+{
+    struct light *lights = random_lights(1, LIGHTS, 5.0f);
+    struct light_description lamp = {.kind = LIGHT_POINT,
+                                     .location = {1, 1, 1},
+                                     .amount = {strength, strength, strength},
+                                     .unit = UNIT_INTENSITY};
+    ps_vec3 position = {2, 6, -1};
+    double contributions[LIGHTS] = {0.0};
+    light_release(&lights[0]);
+    lights[0] = light_of(&lamp, NULL);
+    for (size_t i = 1; i < LIGHTS; i++)
+        contributions[i] = contribution(&lights[i], position, no_normal);
+    struct light_bvh *bvh = bvh_of(lights, LIGHTS);
+    struct drawn drawn = draw_often(bvh, contributions, position, no_normal, number);
+    light_bvh_destroy(bvh);
+    release_lights(lights, LIGHTS);
+    return drawn;
+}
+
+/* A lamp that outshines all others takes one draw, even where something is in its way. */
+static void test_strong_light_takes_one_draw(void **state)
+{
+    (void)state;
+    struct drawn strong = draw_beside(1e6f, 8), dark = draw_beside(0.0f, 7);
+    expect_close(strong.mean, dark.mean, 0.02);
+    assert_true(strong.standard_error < 1.3 * dark.standard_error);
+}
+
 /* What gives light to a point can be drawn there. */
 static void test_no_light_is_left_out(void **state)
 {
@@ -350,6 +380,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_draws_have_the_mean_of_all_lights),
+        cmocka_unit_test(test_strong_light_takes_one_draw),
         cmocka_unit_test(test_no_light_is_left_out),
         cmocka_unit_test(test_draws_come_as_often_as_expected),
         cmocka_unit_test(test_triangles_of_a_mesh_are_drawn),
