@@ -145,8 +145,8 @@ struct ps_host {
 
     /* --- lights --- */
 
-    /* Starts light paths: chooses lights by power, and for each gives the ray and the power (W)
-     * that it would carry if it were the only one; divide by the number of paths. The first two
+    /* Starts light paths: chooses lights by power, and photons' also by what each light gives to the picture; for each
+     * gives the ray and the power (W) that it would carry if it were the only one; divide by the number of paths. The first two
      * numbers choose the direction, the others the light and the point on it. Zero power where there
      * are no lights. [any thread] */
     void (*emit_light)(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,

@@ -26,16 +26,26 @@ static ps_rgb emit_from(const struct scene *scene, size_t light, const float num
     return flux;
 }
 
+/* By which light paths choose their lights. */
+static const struct distribution *emission_of(const struct render *render)
+{
+    return render->importance.lights.count > 0 ? &render->importance.lights
+                                               : &render->scene->light_choice;
+}
+
 /* A ray of one of the lights; black where there is none. */
-static ps_rgb emit(const struct scene *scene, const float numbers[4], ps_ray *ray,
+static ps_rgb emit(const struct render *render, const float numbers[4], ps_ray *ray,
                    ps_light_sample *point)
 {
+    const struct scene *scene = render->scene;
+    const struct distribution *lights = emission_of(render);
     *ray = nowhere;
     *point = (ps_light_sample){.distance = 0};
     if (scene->light_count == 0)
         return (ps_rgb){0, 0, 0};
     float left[4] = {numbers[0], numbers[1], numbers[2], numbers[3]};
-    size_t light = scene_choose_light(scene, &left[2], &point->probability);
+    size_t light = distribution_choose(lights, left[2], &left[2]);
+    point->probability = distribution_probability(lights, light);
     ps_rgb flux = emit_from(scene, light, left, ray, point);
     return point->probability > 0.0f ? ps_rgb_scale(flux, 1.0f / point->probability)
                                      : (ps_rgb){0, 0, 0};
@@ -46,14 +56,14 @@ static void host_emit_light(const ps_host *host, const float (*samples)[4], size
 {
     ps_light_sample point;
     for (size_t i = 0; i < n; i++)
-        power[i] = emit(render_of(host)->scene, samples[i], &rays[i], &point);
+        power[i] = emit(render_of(host), samples[i], &rays[i], &point);
 }
 
 static void host_emit_points(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
                              ps_rgb *power, ps_light_sample *points)
 {
     for (size_t i = 0; i < n; i++)
-        power[i] = emit(render_of(host)->scene, samples[i], &rays[i], &points[i]);
+        power[i] = emit(render_of(host), samples[i], &rays[i], &points[i]);
 }
 
 static uint32_t host_light_count(const ps_host *host)
@@ -215,13 +225,14 @@ static void host_sample_light(const ps_host *host, const ps_vec3 *places, const 
         sampled[i] = sample_light(render_of(host)->scene, places[i], samples[i]);
 }
 
-static ps_light_density density_of(const struct scene *scene, uint32_t light, ps_vec3 place,
+static ps_light_density density_of(const struct render *render, uint32_t light, ps_vec3 place,
                                    const ps_light_sample *point)
 {
+    const struct scene *scene = render->scene;
     const struct light *from = &scene->lights[light];
     ps_vec3 front = light_front(from, place, point->normal);
     float probability = light_probability(scene, light, place);
-    float emitted = power_share(scene, light); /* that of emission */
+    float emitted = distribution_probability(emission_of(render), light);
     if (!(probability > 0.0f))
         return (ps_light_density){0, 0};
     return (ps_light_density){
@@ -232,12 +243,13 @@ static ps_light_density density_of(const struct scene *scene, uint32_t light, ps
 }
 
 /* Of all that shines from a direction, but suns without an angle. Their rays fill the same disc. */
-static ps_light_density density_from_afar(const struct scene *scene, ps_vec3 place,
+static ps_light_density density_from_afar(const struct render *render, ps_vec3 place,
                                           const ps_light_sample *point)
 {
+    const struct scene *scene = render->scene;
     ps_light_density sum = {0, 0};
     for (size_t i = 0; i < scene->afar_count; i++) {
-        ps_light_density own = density_of(scene, scene->afar[i], place, point);
+        ps_light_density own = density_of(render, scene->afar[i], place, point);
         sum.direct += own.direct;
         sum.arrival = own.arrival;
     }
@@ -248,15 +260,16 @@ static void host_light_densities(const ps_host *host, const ps_vec3 *places,
                                  const ps_light_sample *points, size_t n,
                                  ps_light_density *densities)
 {
-    const struct scene *scene = render_of(host)->scene;
+    const struct render *render = render_of(host);
+    const struct scene *scene = render->scene;
     for (size_t i = 0; i < n; i++) {
         bool there = points[i].light < scene->light_count;
         bool afar = !(points[i].distance < INFINITY);
         densities[i] = (ps_light_density){0, 0};
         if (afar && !(there && light_is_delta(&scene->lights[points[i].light])))
-            densities[i] = density_from_afar(scene, places[i], &points[i]);
+            densities[i] = density_from_afar(render, places[i], &points[i]);
         else if (there)
-            densities[i] = density_of(scene, points[i].light, places[i], &points[i]);
+            densities[i] = density_of(render, points[i].light, places[i], &points[i]);
     }
 }
 

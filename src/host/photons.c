@@ -29,15 +29,22 @@ static void end_batch(struct unseen *unseen, size_t n)
         unseen->many = (double)atomic_load(&unseen->in_batch) > ENOUGH_UNSEEN * (double)n;
 }
 
+/* Light paths that land where the picture may see it. */
+static uint64_t near_paths(const struct render *render)
+{
+    return (uint64_t)((double)render->photons.path_count * render->photons.near_share + 0.5);
+}
+
 struct placement_scene place_scene(const struct render *render)
 {
     float radius = render->scene->radius, spread = render->photons.spread;
-    uint64_t paths = render->photons.path_count;
+    float seen = render->importance.radius > 0.0f ? render->importance.radius : radius;
+    uint64_t paths = near_paths(render);
     return (struct placement_scene){
         .radius = radius,
         .surface_offset = render->scene->surface_offset,
-        .automatic_radius = radius_automatic(radius, spread, paths, render->pass.number),
-        .automatic_gather_distance = radius_automatic_gather_distance(radius, spread, paths),
+        .automatic_radius = radius_automatic(seen, spread, paths, render->pass.number),
+        .automatic_gather_distance = radius_automatic_gather_distance(seen, spread, paths),
         .seed = render->settings->seed,
         .camera = &render->scene->camera,
     };

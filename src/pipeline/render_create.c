@@ -162,6 +162,7 @@ void render_destroy(struct render *render)
     free(render->placed);
     gathered_light_release(&render->gathered_light);
     photon_stream_release(&render->photons);
+    importance_release(&render->importance);
     for (int kind = 0; kind < PS_KINDS; kind++)
         strategy_stop(&render->settings->strategies[kind]);
     render_report_kept(render);

@@ -167,14 +167,33 @@ static float spread_of(const struct landing *sum)
     return (float)sqrt(fmax(sum->distance2 / sum->flux - x * x - y * y - z * z, 0.0));
 }
 
-static float find_spread(const struct photon_stream *stream)
+/* Whether the picture may see a place, straight or by one surface more. */
+static bool is_near(const struct importance *importance, ps_vec3 place)
 {
+    ps_vec3 from = ps_subtract(place, importance->center);
+    return !(importance->radius > 0.0f) ||
+           ps_dot(from, from) < importance->radius * importance->radius;
+}
+
+/* How wide light lands, and which part of the paths lands, where the picture may see it. */
+static void find_spread(struct photon_stream *stream)
+{
+    const struct importance *importance = &stream->render->importance;
     struct landing sum = {.flux = 0.0};
+    double near = 0.0, landings = 0.0;
     for (int i = 0; i < BATCH_CHUNKS; i++)
-        for (size_t j = 0; j < stream->chunks[i].count; j++)
-            if (stream->chunks[i].items[j].bounce == 1)
-                add_landing(&stream->chunks[i].items[j], &sum);
-    return spread_of(&sum);
+        for (size_t j = 0; j < stream->chunks[i].count; j++) {
+            const ps_photon *photon = &stream->chunks[i].items[j];
+            if (photon->bounce != 1)
+                continue;
+            landings += 1.0;
+            if (is_near(importance, photon->position)) {
+                near += 1.0;
+                add_landing(photon, &sum);
+            }
+        }
+    stream->spread = spread_of(&sum);
+    stream->near_share = near > 0.0 ? near / landings : 1.0;
 }
 
 static ps_result prepare_injection(struct photon_stream *stream, struct error *error)
@@ -194,16 +213,31 @@ static ps_result prepare_injection(struct photon_stream *stream, struct error *e
 }
 
 /* Not before photons are asked for: not all estimators do. */
+/* Once a render. */
+static ps_result find_importance(struct render *render, struct error *error)
+{
+    if (render->has_importance)
+        return PS_OK;
+    double start = clock_seconds();
+    ps_result result = importance_create(own_host(render), &render->pass, render->scene,
+                                         &render->importance, error);
+    render->has_importance = result == PS_OK;
+    statistics_add_seconds(render->statistics, "inject", clock_seconds() - start);
+    return result;
+}
+
 ps_result photon_stream_prepare(struct photon_stream *stream, struct error *error)
 {
     if (stream->prepared)
         return PS_OK;
-    ps_result result = prepare_injection(stream, error);
+    ps_result result = find_importance(stream->render, error);
+    if (result == PS_OK)
+        result = prepare_injection(stream, error);
     if (result == PS_OK)
         result = fill_chunks(stream, error);
     if (result != PS_OK)
         return result;
-    stream->spread = find_spread(stream);
+    find_spread(stream);
     stream->prepared = true;
     return PS_OK;
 }

@@ -22,9 +22,11 @@ struct photon_stream {
     struct photon_list *chunks; /* one for each chunk of a batch of paths; owned */
     struct photon_list batch;   /* what was handed out last */
     uint64_t next_path, path_count;
-    /* How far apart light lands that comes straight from the lights, by the pass's first paths: the root mean
-     * square distance from its middle, weighed by flux, in scene units; 0 where none lands. */
+    /* How far apart light lands that comes straight from the lights, where the picture may see it (importance.h), by
+     * the pass's first paths: the root mean square distance from its middle, weighed by flux, in scene units; 0 where
+     * none lands. And the part of the paths that lands there. */
     float spread;
+    double near_share;
     bool prepared; /* the injection, for this pass */
     bool filled;   /* the chunks, with the next paths' photons */
 };

@@ -6,6 +6,7 @@
 #include "direct/shadow_maps.h"
 #include "film/film_sum.h"
 #include "gather/gathered_light.h"
+#include "importance/importance.h"
 #include "render/callbacks.h"
 #include "render/photons.h"
 #include "render/settings.h"
@@ -53,6 +54,8 @@ struct render {
     double dark_pixels; /* of the last picture: without weight */
     bool *edges;        /* pixels that take several samples (edges.h), owned; NULL: none does */
     struct photon_stream photons;
+    struct importance importance; /* made when light paths are first asked for */
+    bool has_importance;
     struct kernel_variant kernel;
     struct splatter splatter; /* onto pixels; made when an estimator first splats */
     struct splatter points;   /* onto points, from begin_points to end_points */

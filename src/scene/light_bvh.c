@@ -197,3 +197,24 @@ float light_bvh_expected(const struct light_bvh *bvh, size_t light, ps_vec3 posi
     const struct leaf *leaf = &bvh->leaves[light];
     return leaf->node == NO_NODE ? 0.0f : (float)length_of(bvh, leaf, position, number);
 }
+
+/* Lists the lights below a node from `lights` on; returns where the list ends. */
+static uint32_t *list_below(const struct light_bvh *bvh, uint32_t index, uint32_t *lights)
+{
+    const struct node *node = &bvh->nodes[index];
+    for (int i = 0; i < LIGHT_LANES; i++) {
+        const struct child *child = &node->children[i];
+        if (child->kind == CHILD_LIGHT)
+            *lights++ = child->index;
+        else if (child->kind == CHILD_NODE && bvh->nodes[child->index].light != NO_LIGHT_ABOVE)
+            *lights++ = bvh->nodes[child->index].light;
+        else if (child->kind == CHILD_NODE)
+            lights = list_below(bvh, child->index, lights);
+    }
+    return lights;
+}
+
+size_t light_bvh_list(const struct light_bvh *bvh, uint32_t *lights)
+{
+    return bvh->placed > 0 ? (size_t)(list_below(bvh, 0, lights) - lights) : 0;
+}

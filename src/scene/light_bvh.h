@@ -34,6 +34,9 @@ size_t light_bvh_bytes(const struct light_bvh *bvh);
 /* Lights that are in the tree: have a place and a size or intensity. */
 size_t light_bvh_count(const struct light_bvh *bvh);
 
+/* The lights that are in the tree, neighbours side by side; returns how many. */
+size_t light_bvh_list(const struct light_bvh *bvh, uint32_t *lights);
+
 /* Whether the light is a subtree. */
 bool light_bvh_is_split(const struct light_bvh *bvh, size_t light);
 
