@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LONGEST_MESSAGE 512
 #define NO_SOURCE SIZE_MAX
 
 /* Of a long line, this many characters are shown; where the error is beyond the first of them,
@@ -31,7 +30,7 @@ struct entry {
     enum severity severity;
     size_t source;
     int line, column, width;
-    char message[LONGEST_MESSAGE];
+    char message[sizeof((struct error *)0)->text];
 };
 
 struct diagnostics {
@@ -261,8 +260,8 @@ static void print_entry(const struct diagnostics *sink, const struct entry *entr
     const struct source *source = entry->source == NO_SOURCE ? NULL : &sink->sources[entry->source];
     if (source && entry->line > 0)
         fprintf(stream, "%s:%d:%d: ", source->name, entry->line, entry->column);
-    else if (source)
-        fprintf(stream, "%s: ", source->name);
+    else
+        fprintf(stream, "%s: ", source ? source->name : "psplat");
     fprintf(stream, "%s: %s\n", entry->severity == SEVERITY_ERROR ? "error" : "warning",
             entry->message);
     if (source && entry->line > 0)
@@ -296,12 +295,44 @@ static int compare_entries(const void *a, const void *b)
     return first < second ? -1 : 1;
 }
 
-void diagnostics_print(const struct diagnostics *sink, FILE *stream)
+static void sort_entries(const struct diagnostics *sink,
+                         const struct entry *sorted[2 * DIAGNOSTICS_KEPT])
 {
-    const struct entry *sorted[2 * DIAGNOSTICS_KEPT];
     for (size_t i = 0; i < sink->entry_count; i++)
         sorted[i] = &sink->entries[i];
     qsort(sorted, sink->entry_count, sizeof sorted[0], compare_entries);
+}
+
+void diagnostics_each(const struct diagnostics *sink, diagnostics_visit visit, void *user)
+{
+    const struct entry *sorted[2 * DIAGNOSTICS_KEPT];
+    sort_entries(sink, sorted);
+    for (size_t i = 0; i < sink->entry_count; i++) {
+        const struct entry *entry = sorted[i];
+        struct origin origin = {.line = entry->line, .column = entry->column};
+        char *text = NULL;
+        size_t length = 0;
+        FILE *stream = open_memstream(&text, &length);
+        if (entry->source != NO_SOURCE)
+            origin.file = sink->sources[entry->source].name;
+        if (stream && (i == 0 || entry->source != sorted[i - 1]->source))
+            print_includers(sink, entry->source, stream);
+        if (stream)
+            print_entry(sink, entry, stream);
+        if (stream && fclose(stream) == 0) {
+            text[length - 1] = '\0'; /* the last line's end */
+            visit(user, entry->severity, &origin, text);
+        } else {
+            visit(user, entry->severity, &origin, entry->message);
+        }
+        free(text);
+    }
+}
+
+void diagnostics_print(const struct diagnostics *sink, FILE *stream)
+{
+    const struct entry *sorted[2 * DIAGNOSTICS_KEPT];
+    sort_entries(sink, sorted);
     for (size_t i = 0; i < sink->entry_count; i++) {
         if (i == 0 || sorted[i]->source != sorted[i - 1]->source)
             print_includers(sink, sorted[i]->source, stream);

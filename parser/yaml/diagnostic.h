@@ -53,8 +53,14 @@ size_t diagnostics_warning_count(const struct diagnostics *sink);
 /* Whether further errors would only be counted, so that effort on their wording is wasted. */
 bool diagnostics_is_full(const struct diagnostics *sink);
 
-/* Prints all in the order of file and position, with carets, then "N errors" when there is more
- * than one. */
+/* Calls back for each, in the order of diagnostics_print, with what that prints of it: lines, without the last one's
+ * end; origin->file is NULL where it has no file. Both are there until the call returns. */
+typedef void (*diagnostics_visit)(void *user, enum severity severity, const struct origin *origin,
+                                  const char *text);
+void diagnostics_each(const struct diagnostics *sink, diagnostics_visit visit, void *user);
+
+/* Prints all in the order of file and position, with carets, and last those that have no file, as "psplat: error:
+ * ...". Then "N errors" when there is more than one. */
 void diagnostics_print(const struct diagnostics *sink, FILE *stream);
 
 #endif

@@ -104,8 +104,41 @@ static void test_no_position(void **state)
     report_at(sink, "a.psd", 99, 1, 1, "after the end");
     expect_printed(sink, "a.psd:99:1: error: after the end\n"
                          "c.psd: error: cannot open\n"
-                         "warning: nowhere\n"
+                         "psplat: warning: nowhere\n"
                          "2 errors\n");
+}
+
+struct visits {
+    char text[LONGEST_OUTPUT];
+    size_t count;
+    struct origin last;
+};
+
+static void note(void *user, enum severity severity, const struct origin *origin, const char *words)
+{
+    struct visits *visits = user;
+    size_t used = strlen(visits->text);
+    snprintf(visits->text + used, sizeof visits->text - used, "%d[%s]", (int)severity, words);
+    visits->last = *origin;
+    visits->count++;
+}
+
+static void test_each(void **state)
+{
+    (void)state;
+    struct diagnostics *sink = create();
+    struct visits visits = {.count = 0};
+    diagnostics_each(sink, note, &visits);
+    assert_int_equal(visits.count, 0);
+    diagnostics_report(sink, SEVERITY_ERROR, NULL, 0, "nowhere");
+    report_at(sink, "a.psd", 1, 5, 2, "wrong");
+    diagnostics_each(sink, note, &visits);
+    assert_int_equal(visits.count, 2);
+    assert_string_equal(visits.text, "1[a.psd:1:5: error: wrong\n    1 | one two\n      |     ^~]"
+                                     "1[psplat: error: nowhere]");
+    assert_null(visits.last.file);
+    assert_int_equal(visits.last.line, 0);
+    diagnostics_destroy(sink);
 }
 
 static void test_errors_past_the_cap_are_counted(void **state)
@@ -160,6 +193,7 @@ int main(void)
         cmocka_unit_test(test_terminal_is_safe),
         cmocka_unit_test(test_order_and_count),
         cmocka_unit_test(test_no_position),
+        cmocka_unit_test(test_each),
         cmocka_unit_test(test_errors_past_the_cap_are_counted),
         cmocka_unit_test(test_long_lines_are_cut),
         cmocka_unit_test(test_byte_order_mark_is_no_column),
