@@ -2,6 +2,7 @@
 
 #include "base/suggestion.h"
 #include "base/text.h"
+#include "cli/option_value.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -104,15 +105,19 @@ bool command_parse(const struct command *command, char *const words[], size_t co
     return true;
 }
 
+static bool print_unless_good(ps_result result, const struct error *error)
+{
+    if (result != PS_OK)
+        print_error(error->text);
+    return result == PS_OK;
+}
+
 bool parse_whole_number(const char *option, const char *text, double minimum, double maximum,
                         double *value)
 {
-    if (text_to_number(text, value) && *value >= minimum && *value <= maximum &&
-        floor(*value) == *value)
-        return true;
-    fprintf(stderr, "psplat: error: --%s: expected a whole number %.0f..%.0f, got '%s'\n", option,
-            minimum, maximum, text);
-    return false;
+    struct error error;
+    return print_unless_good(option_whole_number(option, text, minimum, maximum, value, &error),
+                             &error);
 }
 
 bool parse_rectangle(const char *option, const char *text, struct rectangle *rectangle)
@@ -137,27 +142,10 @@ bool parse_rectangle(const char *option, const char *text, struct rectangle *rec
     return i == 4;
 }
 
-bool parse_bytes(const char *option, const char *text, double *bytes)
-{
-    static const char units[] = "KMGT";
-    size_t length = strlen(text);
-    const char *unit = length > 1 ? strchr(units, text[length - 1]) : NULL;
-    length -= unit != NULL;
-    if (text_part_to_number(text, length, bytes) && *bytes > 0.0) {
-        *bytes *= pow(1024.0, unit ? (double)(unit - units + 1) : 0.0);
-        return true;
-    }
-    fprintf(stderr, "psplat: error: --%s: expected a size such as 500M or 8G, got '%s'\n", option,
-            text);
-    return false;
-}
-
 bool parse_exposure(const char *text, double *stops)
 {
-    if (text_to_number(text, stops) && *stops >= -20 && *stops <= 20)
-        return true;
-    fprintf(stderr, "psplat: error: --exposure: expected a number -20..20, got '%s'\n", text);
-    return false;
+    struct error error;
+    return print_unless_good(option_exposure(text, stops, &error), &error);
 }
 
 int status_of(ps_result result)

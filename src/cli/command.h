@@ -71,9 +71,6 @@ void print_warning(const char *message);
 bool parse_whole_number(const char *option, const char *text, double minimum, double maximum,
                         double *value);
 
-/* "500M", "8G": bytes, in powers of 1024; likewise. */
-bool parse_bytes(const char *option, const char *text, double *bytes);
-
 /* Stops of exposure; likewise. */
 bool parse_exposure(const char *text, double *stops);
 

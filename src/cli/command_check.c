@@ -1,6 +1,6 @@
 /* command_check.c: psplat check: is a scene file right? */
 #include "cli/command.h"
-#include "cli/scene_input.h"
+#include "cli/render_arguments.h"
 #include "pipeline/render.h"
 
 #include <stdio.h>
@@ -24,30 +24,29 @@ static bool builds(struct scene_input *input, struct render_settings *settings)
     static const struct render_callbacks callbacks = {.log = print_log};
     struct scene scene;
     struct error error;
-    ps_result result = scene_input_build(input, &scene, &error);
-    if (result == PS_OK) {
-        result = render_try(&scene, settings, &callbacks, &error);
-        scene_release(&scene);
-    }
-    if (result != PS_OK && error.text[0])
+    ps_result result = scene_input_build(input, &scene);
+    print_problems(input);
+    if (result != PS_OK)
+        return false;
+    result = render_try(&scene, settings, &callbacks, &error);
+    scene_release(&scene);
+    if (result != PS_OK)
         print_error(error.text);
     return result == PS_OK;
 }
 
-static bool check_scene(const struct argument *arguments, size_t count,
-                        const struct scene_options *scene_options, const char *path)
+static bool check_scene(const struct render_arguments *taken, const char *path)
 {
     struct scene_input input;
     struct render_settings settings;
-    bool good = scene_input_read(&input, path, scene_options);
-    for (size_t i = 0; i < count && good; i++)
-        if (argument_is(&arguments[i], "plugin"))
-            good = scene_input_override(&input, arguments[i].value);
+    bool good = render_arguments_read(taken, path, &input);
     if (good) {
-        good = scene_input_resolve(&input, 1, 1, &settings);
+        good = scene_input_resolve(&input.description.render, 1, 1, input.sink, &settings) == PS_OK;
         if (good) {
             good = builds(&input, &settings);
             settings_release(&settings);
+        } else {
+            print_problems(&input);
         }
     }
     scene_input_release(&input);
@@ -87,7 +86,7 @@ static bool list_parameters(const struct scene_options *scene_options, const cha
 }
 
 static int check_scenes(const struct argument *arguments, size_t count,
-                        const struct scene_options *scene_options)
+                        const struct render_arguments *taken)
 {
     int status = STATUS_OK;
     size_t scenes = 0;
@@ -99,8 +98,7 @@ static int check_scenes(const struct argument *arguments, size_t count,
         if (arguments[i].option)
             continue;
         scenes++;
-        if (!(lists ? list_parameters(scene_options, path)
-                    : check_scene(arguments, count, scene_options, path)))
+        if (!(lists ? list_parameters(&taken->options.scene, path) : check_scene(taken, path)))
             status = STATUS_USAGE;
     }
     if (scenes > 0)
@@ -111,11 +109,11 @@ static int check_scenes(const struct argument *arguments, size_t count,
 
 static int run(const struct argument *arguments, size_t count)
 {
-    struct scene_options scene_options;
+    struct render_arguments taken;
     int status = STATUS_USAGE;
-    if (scene_options_take(&scene_options, arguments, count))
-        status = check_scenes(arguments, count, &scene_options);
-    scene_options_release(&scene_options);
+    if (render_arguments_take(&taken, arguments, count))
+        status = check_scenes(arguments, count, &taken);
+    render_arguments_release(&taken);
     return status;
 }
 

@@ -1,11 +1,11 @@
 /* command_debug.c: psplat debug: pictures of what goes on inside of a render. */
 #include "cli/command.h"
-#include "cli/output.h"
 #include "cli/progress.h"
-#include "cli/render_options.h"
+#include "cli/render_arguments.h"
 #include "debug/debug.h"
 
 #include "base/text.h"
+#include "cli/output.h"
 #include "job/facts.h"
 #include <math.h>
 #include <stdio.h>
@@ -22,7 +22,7 @@ static const struct option options[] = {
 };
 
 struct job {
-    struct render_options options;
+    struct render_arguments taken;
     struct debug_request request;
     const char *view;
     const char *output;
@@ -93,7 +93,7 @@ static bool take_arguments(struct job *job, const struct argument *arguments, si
         } else if (operands++ == 0) {
             job->view = arguments[i].value;
         } else {
-            job->options.scene_path = arguments[i].value;
+            job->taken.scene_path = arguments[i].value;
         }
     }
     if (operands != 2)
@@ -120,7 +120,7 @@ static bool choose_output(struct job *job)
         for (int i = 0; i < length && i < (int)sizeof suffix; i++)
             if (suffix[i] == ':')
                 suffix[i] = '-';
-        job->default_output = output_default_path(job->options.scene_path, suffix);
+        job->default_output = output_default_path(job->taken.scene_path, suffix);
         job->output = job->default_output;
     }
     if (!job->output) {
@@ -138,14 +138,14 @@ static ps_result write_canvas(const struct job *job, const struct canvas *canvas
                               const struct render_settings *settings, struct error *error)
 {
     struct image facts = {0};
-    ps_result result = facts_of_settings(&facts, job->options.scene_path, settings, error);
+    ps_result result = facts_of_settings(&facts, job->taken.scene_path, settings, error);
     if (result == PS_OK)
         result = image_set_attribute(&facts, "psplat.debug", job->view, error);
     if (result == PS_OK)
         result = image_write_png(job->output, canvas->width, canvas->height, canvas->rgb,
                                  facts.attributes, facts.attribute_count, error);
     image_release(&facts);
-    if (result == PS_OK && !job->options.quiet)
+    if (result == PS_OK && !job->taken.quiet)
         fprintf(stderr, "psplat: wrote %s\n", job->output);
     return result;
 }
@@ -171,13 +171,14 @@ static ps_result draw_and_write(struct job *job, const struct scene *scene,
 static int draw_job(struct job *job, struct scene_input *input, struct render_settings *settings)
 {
     struct scene scene;
-    struct error error;
+    struct error error = {.text = ""};
     job->request.options.exposure = input->description.image.exposure;
     const struct render_size size = {.width = (size_t)input->description.image.width,
                                      .height = (size_t)input->description.image.height};
     ps_result result = render_check_memory(&size, INFINITY, &error);
     if (result == PS_OK)
-        result = scene_input_build(input, &scene, &error);
+        result = scene_input_build(input, &scene);
+    print_problems(input);
     if (result == PS_OK) {
         result = draw_and_write(job, &scene, settings, &error);
         scene_release(&scene);
@@ -194,7 +195,7 @@ static int load_and_draw(struct job *job)
     struct scene_input input;
     struct render_settings settings;
     int status = STATUS_USAGE;
-    if (render_options_load(&job->options, &input, &settings)) {
+    if (render_arguments_load(&job->taken, &input, &settings)) {
         status = draw_job(job, &input, &settings);
         settings_release(&settings);
     }
@@ -206,14 +207,14 @@ static int run(const struct argument *arguments, size_t count)
 {
     struct job job = {.view = NULL};
     int status = STATUS_USAGE;
-    if (render_options_take(&job.options, arguments, count) &&
+    if (render_arguments_take(&job.taken, arguments, count) &&
         take_arguments(&job, arguments, count) && find_view(&job)) {
         status = STATUS_FAILED;
-        progress_start(&job.progress, PROGRESS_AUTO, job.options.quiet);
+        progress_start(&job.progress, PROGRESS_AUTO, job.taken.quiet);
         if (choose_output(&job))
             status = load_and_draw(&job);
     }
-    render_options_release(&job.options);
+    render_arguments_release(&job.taken);
     free(job.default_output);
     return status;
 }

@@ -19,7 +19,7 @@ struct job {
     const char *output;
     const struct argument *arguments;
     size_t count;
-    enum image_compression compression;
+    struct output_options how;
     double threads; /* negative: not given */
     bool quiet;
     struct workers *workers;
@@ -28,14 +28,17 @@ struct job {
 static bool take_option(struct job *job, const struct argument *argument)
 {
     const char *name = argument->option->name, *value = argument->value;
+    struct error error;
     if (strcmp(name, "output") == 0)
         job->output = value;
     else if (strcmp(name, "quiet") == 0)
         job->quiet = true;
     else if (strcmp(name, "threads") == 0)
         return parse_whole_number(name, value, 1, 1024, &job->threads);
-    else
-        return output_parse_compression(value, &job->compression);
+    else if (output_options_set(&job->how, name, value, &error) != PS_OK) {
+        print_error(error.text);
+        return false;
+    }
     return true;
 }
 
@@ -112,8 +115,8 @@ static ps_result merge(struct job *job, struct error *error)
         if (!job->arguments[i].option)
             result = add(job, &all, job->arguments[i].value, error);
     if (result == PS_OK)
-        result = film_file_write(job->output, &all.sum, &all.facts, job->compression, job->workers,
-                                 error);
+        result = film_file_write(job->output, &all.sum, &all.facts, job->how.compression,
+                                 job->workers, error);
     if (result == PS_OK && !job->quiet)
         fprintf(stderr, "psplat: wrote %s: %u passes\n", job->output,
                 pass_set_size(&all.sum.passes));

@@ -2,10 +2,11 @@
 #include "base/clock.h"
 #include "cli/command.h"
 #include "cli/long_job.h"
+#include "cli/output.h"
 #include "cli/output_list.h"
-#include "cli/preview.h"
 #include "cli/progress.h"
-#include "cli/render_options.h"
+#include "cli/remark.h"
+#include "cli/render_arguments.h"
 
 #include <math.h>
 #include <signal.h>
@@ -25,12 +26,11 @@ static const struct option options[] = {
 };
 
 struct job {
-    struct render_options options;
+    struct render_arguments taken;
     struct output_list outputs;
     struct long_job passes;
     const char *stats_path;
     enum progress_mode progress_mode;
-    double memory_limit; /* bytes; INFINITY: none of the user's */
     struct progress progress;
     bool has_stopped; /* passes ended by a signal; their picture is made all the same */
     const struct scene_description *description; /* while it renders */
@@ -81,8 +81,6 @@ static bool take_option(struct job *job, const struct argument *argument)
         job->stats_path = argument->value;
     else if (argument_is(argument, "progress"))
         return progress_parse_mode(argument->value, &job->progress_mode);
-    else if (argument_is(argument, "memory-limit"))
-        return parse_bytes("memory-limit", argument->value, &job->memory_limit);
     return true; /* another's */
 }
 
@@ -92,17 +90,17 @@ static bool take_arguments(struct job *job, const struct argument *arguments, si
         if (arguments[i].option) {
             if (!take_option(job, &arguments[i]))
                 return false;
-        } else if (job->options.scene_path) {
+        } else if (job->taken.scene_path) {
             fprintf(stderr, "psplat: error: one scene at a time: '%s' after '%s'\n",
-                    arguments[i].value, job->options.scene_path);
+                    arguments[i].value, job->taken.scene_path);
             return false;
         } else {
-            job->options.scene_path = arguments[i].value;
+            job->taken.scene_path = arguments[i].value;
         }
     }
-    if (!job->options.scene_path)
+    if (!job->taken.scene_path)
         print_error("which scene? Try 'psplat --help'.");
-    return job->options.scene_path != NULL;
+    return job->taken.scene_path != NULL;
 }
 
 /* Part of the passes makes no picture that anybody waits for, unless it is named. */
@@ -110,8 +108,8 @@ static bool choose_outputs(struct job *job)
 {
     if (job->outputs.count > 0)
         return true;
-    if (!job->passes.is_shard)
-        return output_list_add_defaults(&job->outputs, job->options.scene_path);
+    if (!job->passes.range.is_shard)
+        return output_list_add_defaults(&job->outputs, job->taken.scene_path);
     if (!job->passes.checkpoint)
         print_error("--passes A:B: where to? Name the film with --checkpoint, or a picture with "
                     "--output.");
@@ -134,21 +132,11 @@ static bool check_outputs(const struct job *job)
     return good;
 }
 
-/* Pixels that look black, or ambient, for want of splats. */
 static void tell_of_dark_pixels(const struct job *job, const struct statistics *statistics)
 {
-    double dark = statistics_counter(statistics, "pixels without weight");
-    if (dark > 0.0 && !job->options.quiet)
-        fprintf(stderr, "psplat: no indirect light reached %.0f pixel%s\n", dark,
-                dark == 1.0 ? "" : "s");
-}
-
-/* Those that the picture holds: what was interrupted is repeated by asking for the passes that were done. */
-static struct render_settings settings_of_picture(const struct job *job, uint32_t passes)
-{
-    struct render_settings settings = *job->settings;
-    settings.passes = settings.first_pass + passes;
-    return settings;
+    char remark[REMARK_TEXT];
+    if (remark_dark_pixels(statistics, remark) && !job->taken.quiet)
+        fprintf(stderr, "psplat: %s\n", remark);
 }
 
 /* Writes all files that can be written. */
@@ -156,13 +144,14 @@ static ps_result write_picture(struct job *job, struct image *image, uint32_t pa
                                struct error *error)
 {
     const struct scene_description *description = job->description;
-    struct render_settings settings = settings_of_picture(job, passes);
+    const struct render_settings *settings = job->settings;
     /* What was interrupted in its first pass, or has gaps, no command repeats. */
-    bool is_run = passes > 0 && long_job_has_run(&job->passes, settings.first_pass, passes);
-    ps_result result =
-        output_describe(image, description->path, &job->options.scene, &settings, is_run, error);
-    return result == PS_OK ? output_list_write(&job->outputs, image, settings.workers, quiet, error)
-                           : result;
+    bool is_run = passes > 0 && long_job_has_run(&job->passes, settings->first_pass, passes);
+    ps_result result = output_describe(image, description->path, &job->taken.options.scene,
+                                       settings, passes, is_run, error);
+    return result == PS_OK
+               ? output_list_write(&job->outputs, image, settings->workers, quiet, error)
+               : result;
 }
 
 static ps_result write_picture_on_the_way(void *user, struct image *image, uint32_t passes,
@@ -212,7 +201,7 @@ static ps_result write_files(struct job *job, struct image *image, struct statis
     ps_result first = PS_OK;
     if (image->width > 0)
         first = write_picture(job, image, (uint32_t)statistics_counter(statistics, "passes"),
-                              job->options.quiet, error);
+                              job->taken.quiet, error);
     ps_result kept = long_job_write_film(&job->passes, &reason);
     if (kept != PS_OK && first == PS_OK) {
         first = kept;
@@ -263,15 +252,8 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
 static ps_result check_memory(const struct job *job, const struct scene_input *input,
                               struct error *error)
 {
-    bool keeps_film = long_job_keeps_film(&job->passes);
-    const struct render_size size = {
-        .width = (size_t)input->description.image.width,
-        .height = (size_t)input->description.image.height,
-        .several_passes = keeps_film || settings_pass_count(job->settings) > 1,
-        .keeps_film = keeps_film,
-        .display = job->settings->display,
-    };
-    return render_check_memory(&size, job->memory_limit, error);
+    return render_options_check_memory(&job->taken.options, &input->description.image,
+                                       job->settings, long_job_keeps_film(&job->passes), error);
 }
 
 static int render_job(struct job *job, struct scene_input *input)
@@ -284,7 +266,8 @@ static int render_job(struct job *job, struct scene_input *input)
     statistics_add_seconds(&statistics, "load", start - job->progress.start);
     ps_result result = check_memory(job, input, &error);
     if (result == PS_OK)
-        result = scene_input_build(input, &scene, &error);
+        result = scene_input_build(input, &scene);
+    print_problems(input);
     statistics_add_seconds(&statistics, "scene", clock_seconds() - start);
     if (result == PS_OK) {
         result = long_job_begin(&job->passes, &input->description, &scene, job->settings, &error);
@@ -316,7 +299,7 @@ static int load_and_render(struct job *job)
     struct scene_input input;
     struct render_settings settings;
     int status = STATUS_USAGE;
-    if (render_options_load(&job->options, &input, &settings)) {
+    if (render_arguments_load(&job->taken, &input, &settings)) {
         job->settings = &settings;
         job->description = &input.description;
         job->passes.workers = settings.workers;
@@ -337,7 +320,7 @@ static void write_nothing(struct job *job)
 {
     job->outputs.count = 0;
     job->stats_path = NULL;
-    job->options.quiet = true;
+    job->taken.quiet = true;
     job->progress_mode = PROGRESS_NONE;
 }
 
@@ -345,24 +328,24 @@ static int run_job(struct job *job)
 {
     if (!long_job_is_first(&job->passes))
         write_nothing(job);
-    progress_start(&job->progress, job->progress_mode, job->options.quiet);
+    progress_start(&job->progress, job->progress_mode, job->taken.quiet);
     job->passes.schedule.start = job->progress.start;
-    job->passes.compression = job->outputs.compression;
-    job->passes.quiet = job->options.quiet;
+    job->passes.compression = job->outputs.options.compression;
+    job->passes.quiet = job->taken.quiet;
     job->passes.write_now = &write_now;
     job->passes.write_picture = write_picture_on_the_way;
     job->passes.user = job;
     return check_outputs(job) ? load_and_render(job) : STATUS_FAILED;
 }
 
-static int run_arguments(const struct argument *arguments, size_t count)
+static int run(const struct argument *arguments, size_t count)
 {
-    struct job job = {.memory_limit = INFINITY};
+    struct job job = {.stats_path = NULL};
     int status = STATUS_USAGE;
-    if (render_options_take(&job.options, arguments, count) &&
+    if (render_arguments_take(&job.taken, arguments, count) &&
         output_list_take(&job.outputs, arguments, count) &&
-        long_job_take(&job.passes, arguments, count) && take_arguments(&job, arguments, count) &&
-        choose_outputs(&job)) {
+        long_job_take(&job.passes, arguments, count, &job.taken.options.passes) &&
+        take_arguments(&job, arguments, count) && choose_outputs(&job)) {
         status = STATUS_FAILED;
         if (long_job_join(&job.passes))
             status = run_job(&job);
@@ -370,16 +353,7 @@ static int run_arguments(const struct argument *arguments, size_t count)
     }
     long_job_release(&job.passes);
     output_list_release(&job.outputs);
-    render_options_release(&job.options);
-    return status;
-}
-
-static int run(const struct argument *arguments, size_t count)
-{
-    size_t expanded_count;
-    struct argument *expanded = preview_expand(arguments, count, &expanded_count);
-    int status = expanded ? run_arguments(expanded, expanded_count) : STATUS_FAILED;
-    free(expanded);
+    render_arguments_release(&job.taken);
     return status;
 }
 

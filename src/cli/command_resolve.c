@@ -5,7 +5,6 @@
 #include "cli/last_stages.h"
 #include "cli/output_list.h"
 #include "cli/progress.h"
-#include "cli/render_options.h"
 #include "job/facts.h"
 #include "job/film_file.h"
 #include "parser/schema/schema.h"

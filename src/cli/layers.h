@@ -7,15 +7,24 @@
 #define CLI_LAYERS_H
 
 #include "image/image.h"
+#include "render/settings.h"
 #include <stdbool.h>
 
-/* Whether it is a list of layers that pictures have; if not, says so on stderr. */
-bool layers_check(const char *list);
+/* Whether it is a list of layers that pictures have: PS_ERROR_INVALID. */
+ps_result layers_check(const char *list, struct error *error);
 
 /* Whether a list has that name; `all` is a name as the others. */
 bool layers_name(const char *list, const char *layer);
 
-/* Takes what the list, checked before, does not name out of a picture. */
-void layers_keep(struct image *image, const char *list);
+/* PS_ERROR_INVALID where the list has the layer `error` and the denoiser does not make it. */
+ps_result layers_suit(const char *list, const struct render_settings *settings,
+                      struct error *error);
+
+/* Whether a list, checked before, has any layer; and that which tells the denoiser's error. */
+bool layers_are_some(const char *list);
+bool layers_have_error(const char *list);
+
+/* Whether a channel such as "N.X" stays in a picture by the list. */
+bool layers_keep(const char *list, const char *channel);
 
 #endif

@@ -24,12 +24,8 @@ static bool tells_error(const struct render_settings *settings)
 
 bool long_job_set_passes(const struct long_job *job, struct render_settings *settings)
 {
-    if (job->has_passes) {
-        settings->first_pass = job->first;
-        settings->passes = job->end;
-    } else if (long_job_has_budget(job)) {
-        settings->passes = LONG_JOB_MOST_PASSES;
-    }
+    if (!job->range.is_given && long_job_has_budget(job))
+        settings->passes = MOST_PASSES;
     if (job->schedule.error > 0.0 && !tells_error(settings)) {
         fprintf(stderr,
                 "psplat: error: --error: denoiser '%s' does not estimate its error; "

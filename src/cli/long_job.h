@@ -5,6 +5,7 @@
 #include "base/lock_file.h"
 #include "cli/command.h"
 #include "cli/output_list.h"
+#include "cli/pass_range.h"
 #include "film/film_sum.h"
 #include "job/schedule.h"
 #include "job/team.h"
@@ -26,12 +27,9 @@
         0, "mpi", NULL, "share the passes with the other processes that mpirun started"            \
     }
 
-#define LONG_JOB_MOST_PASSES 1000000
-
 struct long_job {
-    bool has_passes, is_shard; /* --passes; A:B */
-    uint32_t first, end;       /* of --passes */
-    const char *checkpoint;    /* NULL: no film is kept */
+    struct pass_range range; /* --passes */
+    const char *checkpoint;  /* NULL: no film is kept */
     bool resume;
     bool wants_mpi;
     struct schedule schedule;
@@ -55,14 +53,15 @@ struct long_job {
     void *user;
 };
 
-/* Takes those of the arguments that are its options. False, printed, where one is wrong, or they do not go
- * together. */
-bool long_job_take(struct long_job *job, const struct argument *arguments, size_t count);
+/* Takes those of the arguments that are its options; --passes is taken already. False, printed, where one is wrong, or
+ * they do not go together. */
+bool long_job_take(struct long_job *job, const struct argument *arguments, size_t count,
+                   const struct pass_range *passes);
 
 /* Whether passes go on until a budget is used up. */
 bool long_job_has_budget(const struct long_job *job);
 
-/* Lays the passes over the settings. False, printed, where the denoiser does not tell the error that is asked
+/* Lays a budget's passes over the settings. False, printed, where the denoiser does not tell the error that is asked
  * for. */
 bool long_job_set_passes(const struct long_job *job, struct render_settings *settings);
 

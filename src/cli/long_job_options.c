@@ -1,4 +1,4 @@
-/* long_job_options.c: the command line of long jobs: times, percentages, passes. */
+/* long_job_options.c: the command line of long jobs: times and percentages. */
 #include "base/text.h"
 #include "cli/long_job.h"
 #include <math.h>
@@ -43,32 +43,9 @@ static bool parse_percent(const char *text, double *share)
     return false;
 }
 
-/* "N" or "A:B". */
-static bool parse_passes(struct long_job *job, const char *text)
-{
-    const char *colon = strchr(text, ':');
-    char before[32];
-    double first = 0, end = 0;
-    job->has_passes = true;
-    job->is_shard = colon != NULL;
-    if (colon) {
-        snprintf(before, sizeof before, "%.*s", (int)(colon - text < 31 ? colon - text : 31), text);
-        if (!parse_whole_number("passes", before, 0, LONG_JOB_MOST_PASSES - 1, &first))
-            return false;
-    }
-    if (!parse_whole_number("passes", colon ? colon + 1 : text, first + 1, LONG_JOB_MOST_PASSES,
-                            &end))
-        return false;
-    job->first = (uint32_t)first;
-    job->end = (uint32_t)end;
-    return true;
-}
-
 static bool take_option(struct long_job *job, const struct argument *argument)
 {
     const char *value = argument->value;
-    if (argument_is(argument, "passes"))
-        return parse_passes(job, value);
     if (argument_is(argument, "time"))
         return parse_time("time", value, &job->schedule.seconds);
     if (argument_is(argument, "error"))
@@ -100,9 +77,11 @@ static bool goes_together(const struct long_job *job)
     return !wrong;
 }
 
-bool long_job_take(struct long_job *job, const struct argument *arguments, size_t count)
+bool long_job_take(struct long_job *job, const struct argument *arguments, size_t count,
+                   const struct pass_range *passes)
 {
     *job = (struct long_job){
+        .range = *passes,
         .schedule = {.seconds = INFINITY, .write_every = INFINITY, .checkpoint_every = INFINITY},
         .lock = {.descriptor = -1},
         .muted = -1,

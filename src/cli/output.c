@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
+#include "cli/layers.h"
 #include "image/tonemap.h"
 #include "job/facts.h"
 #include <errno.h>
@@ -26,16 +27,6 @@ bool output_is_writable_format(const char *path)
 bool output_holds_layers(const char *path)
 {
     return has_suffix(path, ".exr");
-}
-
-bool output_parse_compression(const char *name, enum image_compression *compression)
-{
-    if (image_compression_named(name, compression))
-        return true;
-    fprintf(stderr,
-            "psplat: error: --compression: expected one of " IMAGE_COMPRESSIONS ", got '%s'\n",
-            name);
-    return false;
 }
 
 char *output_default_path(const char *scene_path, const char *suffix)
@@ -89,13 +80,31 @@ static ps_result write_png(const struct image *image, const char *path, struct w
     return result;
 }
 
+/* A picture of those channels that the list keeps, which stay the other's. */
+static ps_result write_exr(const struct image *image, const char *path,
+                           const struct output_options *options, struct workers *workers,
+                           struct error *error)
+{
+    size_t bytes = image->channel_count * sizeof *image->channels;
+    struct image kept = *image;
+    kept.channels = malloc(bytes + 1);
+    kept.channel_count = 0;
+    if (!kept.channels)
+        return error_memory(error, bytes, "the picture's channels");
+    for (size_t i = 0; i < image->channel_count; i++)
+        if (layers_keep(output_options_layers(options), image->channels[i].name))
+            kept.channels[kept.channel_count++] = image->channels[i];
+    ps_result result = image_write_exr(&kept, path, options->compression, workers, error);
+    free(kept.channels);
+    return result;
+}
+
 ps_result output_write(const struct image *image, const char *path,
-                       enum image_compression compression, struct workers *workers,
+                       const struct output_options *options, struct workers *workers,
                        struct error *error)
 {
-    if (output_holds_layers(path))
-        return image_write_exr(image, path, compression, workers, error);
-    return write_png(image, path, workers, error);
+    return output_holds_layers(path) ? write_exr(image, path, options, workers, error)
+                                     : write_png(image, path, workers, error);
 }
 
 bool output_check(const char *path, struct error *error)
@@ -145,7 +154,7 @@ static void print_next(void *stream, const char *word)
 
 static void print_command(FILE *stream, const struct image *image, const char *scene_path,
                           const struct scene_options *options,
-                          const struct render_settings *settings)
+                          const struct render_settings *settings, uint32_t passes)
 {
     fprintf(stream, "psplat render");
     print_next(stream, strcmp(scene_path, "<stdin>") == 0 ? "-" : scene_path);
@@ -153,7 +162,7 @@ static void print_command(FILE *stream, const struct image *image, const char *s
     fprintf(stream, " --size %zux%zu --passes ", image->width, image->height);
     if (settings->first_pass > 0)
         fprintf(stream, "%" PRIu32 ":", settings->first_pass);
-    fprintf(stream, "%" PRIu32 " --seed %" PRIu64, settings->passes, settings->seed);
+    fprintf(stream, "%" PRIu32 " --seed %" PRIu64, settings->first_pass + passes, settings->seed);
     fprintf(stream, " --bounces %s", image_attribute(image, "psplat.bounces"));
     if (settings->isa)
         fprintf(stream, " --isa %s", settings->isa);
@@ -176,14 +185,15 @@ static void print_command(FILE *stream, const struct image *image, const char *s
 
 static ps_result set_command(struct image *image, const char *scene_path,
                              const struct scene_options *options,
-                             const struct render_settings *settings, struct error *error)
+                             const struct render_settings *settings, uint32_t passes,
+                             struct error *error)
 {
     char *text = NULL;
     size_t length = 0;
     FILE *stream = open_memstream(&text, &length);
     if (!stream)
         return error_memory(error, 4096, "the picture's description");
-    print_command(stream, image, scene_path, options, settings);
+    print_command(stream, image, scene_path, options, settings, passes);
     fclose(stream);
     ps_result result = image_set_attribute(image, "psplat.command", text, error);
     free(text);
@@ -192,14 +202,15 @@ static ps_result set_command(struct image *image, const char *scene_path,
 
 ps_result output_describe(struct image *image, const char *scene_path,
                           const struct scene_options *options,
-                          const struct render_settings *settings, bool repeatable,
+                          const struct render_settings *settings, uint32_t passes, bool repeatable,
                           struct error *error)
 {
-    char passes[32];
-    snprintf(passes, sizeof passes, "%" PRIu32, settings_pass_count(settings));
+    char number[32];
+    snprintf(number, sizeof number, "%" PRIu32, passes);
     ps_result result = facts_of_settings(image, scene_path, settings, error);
     if (result == PS_OK)
-        result = image_set_attribute(image, "psplat.passes", passes, error);
-    return result == PS_OK && repeatable ? set_command(image, scene_path, options, settings, error)
-                                         : result;
+        result = image_set_attribute(image, "psplat.passes", number, error);
+    return result == PS_OK && repeatable
+               ? set_command(image, scene_path, options, settings, passes, error)
+               : result;
 }

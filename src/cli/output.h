@@ -3,6 +3,7 @@
 #define CLI_OUTPUT_H
 
 #include "base/parallel.h"
+#include "cli/output_options.h"
 #include "cli/scene_options.h"
 #include "image/image.h"
 #include "render/settings.h"
@@ -13,24 +14,21 @@ bool output_is_writable_format(const char *path);
 /* Whether files of that name hold layers beside the picture. */
 bool output_holds_layers(const char *path);
 
-/* The compression of that name; false, printed, where there is none. */
-bool output_parse_compression(const char *name, enum image_compression *compression);
-
 /* The scene's name with another suffix, in the current folder; "-" gives "stdin". The caller frees
  * it. */
 char *output_default_path(const char *scene_path, const char *suffix);
 
-/* Writes the picture by its name's suffix: an EXR of all its layers, or a PNG of the layer `display`, which must be
- * there then. The workers change its time, not the file. */
+/* Writes the picture by its name's suffix: an EXR of the layers that the options keep, or a PNG of the layer `display`,
+ * which must be there then. The workers change its time, not the file. */
 ps_result output_write(const struct image *image, const char *path,
-                       enum image_compression compression, struct workers *workers,
+                       const struct output_options *options, struct workers *workers,
                        struct error *error);
 
-/* Attributes that say how the picture was made: version, scene, every setting, and, where it can be repeated, the
- * command that does so. */
+/* Attributes that say how the picture of so many passes was made: version, scene, every setting, and, where it can be
+ * repeated, the command that does so: what was interrupted, by asking for the passes that were done. */
 ps_result output_describe(struct image *image, const char *scene_path,
                           const struct scene_options *options,
-                          const struct render_settings *settings, bool repeatable,
+                          const struct render_settings *settings, uint32_t passes, bool repeatable,
                           struct error *error);
 
 /* Whether the folder of a file that is to be written is there and can be written to; the message

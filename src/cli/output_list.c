@@ -21,19 +21,21 @@ static bool take_path(struct output_list *list, const char *path)
 
 static bool take_option(struct output_list *list, const struct argument *argument)
 {
+    struct error error;
     if (argument_is(argument, "output"))
         return take_path(list, argument->value);
-    if (argument_is(argument, "compression"))
-        return output_parse_compression(argument->value, &list->compression);
-    if (!argument_is(argument, "layers"))
+    if (!argument->option || !output_options_has(argument->option->name))
         return true; /* another's */
-    list->layers = argument->value;
-    return layers_check(argument->value);
+    if (output_options_set(&list->options, argument->option->name, argument->value, &error) ==
+        PS_OK)
+        return true;
+    print_error(error.text);
+    return false;
 }
 
 bool output_list_take(struct output_list *list, const struct argument *arguments, size_t count)
 {
-    *list = (struct output_list){.layers = "all"};
+    *list = (struct output_list){.count = 0};
     for (size_t i = 0; i < count; i++)
         if (!take_option(list, &arguments[i]))
             return false;
@@ -42,6 +44,7 @@ bool output_list_take(struct output_list *list, const struct argument *arguments
 
 void output_list_release(struct output_list *list)
 {
+    output_options_release(&list->options);
     free(list->defaults[0]);
     free(list->defaults[1]);
 }
@@ -71,49 +74,48 @@ bool output_list_check(const struct output_list *list)
     return good;
 }
 
+static const char *layers(const struct output_list *list)
+{
+    return output_options_layers(&list->options);
+}
+
 bool output_list_wants_layers(const struct output_list *list)
 {
     bool wanted = false;
     for (size_t i = 0; i < list->count; i++)
         wanted |= output_holds_layers(list->paths[i]);
-    return wanted && strcmp(list->layers, "none") != 0;
+    return wanted && layers_are_some(layers(list));
 }
 
 bool output_list_wants_error(const struct output_list *list)
 {
-    return layers_name(list->layers, "all") || layers_name(list->layers, "error");
+    return layers_have_error(layers(list));
 }
 
 bool output_list_wants_display(const struct output_list *list)
 {
     bool wanted = false;
     for (size_t i = 0; i < list->count; i++)
-        wanted |= !output_holds_layers(list->paths[i]) || layers_name(list->layers, "display");
+        wanted |= !output_holds_layers(list->paths[i]) || layers_name(layers(list), "display");
     return wanted;
 }
 
 bool output_list_suits(const struct output_list *list, const struct render_settings *settings)
 {
-    const struct strategy_type *denoiser = settings->strategies[PS_DENOISER].type;
-    if (!layers_name(list->layers, "error") || denoiser->table.denoiser.flags & PS_DENOISER_ERROR)
+    struct error error;
+    if (layers_suit(layers(list), settings, &error) == PS_OK)
         return true;
-    fprintf(stderr,
-            "psplat: error: --layers: denoiser '%s' does not estimate its error; "
-            "denoiser=regression does\n",
-            denoiser->name);
+    print_error(error.text);
     return false;
 }
 
-/* Those that hold layers, or the others. */
-static ps_result write_some(const struct output_list *list, const struct image *image, bool layers,
+ps_result output_list_write(const struct output_list *list, const struct image *image,
                             struct workers *workers, bool quiet, struct error *error)
 {
     ps_result first = PS_OK;
     for (size_t i = 0; i < list->count; i++) {
         struct error reason;
-        if (output_holds_layers(list->paths[i]) != layers)
-            continue;
-        ps_result result = output_write(image, list->paths[i], list->compression, workers, &reason);
+        ps_result result = output_write(image, list->paths[i], &list->options, workers, &reason);
         if (result == PS_OK && !quiet)
             fprintf(stderr, "psplat: wrote %s\n", list->paths[i]);
         if (result != PS_OK && first == PS_OK) {
@@ -122,16 +124,4 @@ static ps_result write_some(const struct output_list *list, const struct image *
         }
     }
     return first;
-}
-
-ps_result output_list_write(const struct output_list *list, struct image *image,
-                            struct workers *workers, bool quiet, struct error *error)
-{
-    struct error reason;
-    ps_result plain = write_some(list, image, false, workers, quiet, error);
-    layers_keep(image, list->layers);
-    ps_result layered = write_some(list, image, true, workers, quiet, &reason);
-    if (plain == PS_OK && layered != PS_OK)
-        *error = reason;
-    return plain != PS_OK ? plain : layered;
 }

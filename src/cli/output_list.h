@@ -21,9 +21,8 @@
 struct output_list {
     const char *paths[MOST_OUTPUTS];
     size_t count;
-    char *defaults[2];  /* owned */
-    const char *layers; /* a list of layers.h */
-    enum image_compression compression;
+    char *defaults[2]; /* owned */
+    struct output_options options;
 };
 
 /* Takes those of the arguments that are its options. False, printed, where one is wrong. */
@@ -46,9 +45,8 @@ bool output_list_wants_display(const struct output_list *list);
 /* Whether the denoiser makes what is asked for; if not, says so. */
 bool output_list_suits(const struct output_list *list, const struct render_settings *settings);
 
-/* Writes all files that can be written, those with layers last, from which what is not wanted is dropped; the error is
- * the first one's. Says what was written unless `quiet`. */
-ps_result output_list_write(const struct output_list *list, struct image *image,
+/* Writes all files that can be written; the error is the first one's. Says what was written unless `quiet`. */
+ps_result output_list_write(const struct output_list *list, const struct image *image,
                             struct workers *workers, bool quiet, struct error *error);
 
 #endif

@@ -1,18 +1,15 @@
-/* preview.h: --preview: a quick look, as the options that it stands for.
+/* preview.h: a quick look at a scene, as the options that it stands for.
  *
  * One pass of few light paths with large splats and coarse maps: noise and small shadows are given up,
- * the light's amount and colour are not. What is given besides --preview goes before it.
+ * the light's amount and colour are not.
  */
 #ifndef CLI_PREVIEW_H
 #define CLI_PREVIEW_H
 
-#include "cli/command.h"
-#include "scene/description.h"
+#include "cli/render_options.h"
 
-/* The arguments, and before them those that --preview stands for, if it is among them. NULL, printed,
- * when out of memory; the caller frees it. */
-struct argument *preview_expand(const struct argument *arguments, size_t count,
-                                size_t *expanded_count);
+/* Lays what a preview stands for under what the options say. */
+ps_result preview_apply(struct render_options *options, struct error *error);
 
 /* Makes a picture that is larger fit into 640x360 pixels, in its own proportions. */
 void preview_shrink(struct image_description *image);

@@ -1,136 +1,241 @@
 #include "cli/render_options.h"
 
-#include "base/parallel.h"
 #include "base/param.h"
-#include "base/text.h"
+#include "base/suggestion.h"
+#include "cli/option_value.h"
 #include "cli/preview.h"
 #include "parser/schema/schema.h"
-#include <stdio.h>
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#define DEFAULT_BATCH 4096
-
-static bool take_option(struct render_options *options, const struct argument *argument)
+struct render_options render_options_init(void)
 {
-    const char *name = argument->option->name, *value = argument->value;
-    if (strcmp(name, "quiet") == 0)
-        options->quiet = true;
-    else if (strcmp(name, "preview") == 0)
-        options->preview = true;
-    else if (strcmp(name, "isa") == 0)
-        options->isa = value;
-    else if (strcmp(name, "size") == 0)
-        options->size = value;
-    else if (strcmp(name, "exposure") == 0)
-        options->exposure = value;
-    else if (strcmp(name, "bounces") == 0)
-        options->bounces = value;
-    else if (strcmp(name, "quality") == 0)
-        options->quality = value;
-    else if (strcmp(name, "direct") == 0)
-        options->direct = value;
-    else if (strcmp(name, "direct-resolution") == 0)
-        return parse_whole_number(name, value, 1, 8192, &options->direct_resolution);
-    else if (strcmp(name, "seed") == 0)
-        return parse_whole_number(name, value, 0, 9007199254740992.0, &options->seed);
-    else if (strcmp(name, "threads") == 0)
-        return parse_whole_number(name, value, 1, 1024, &options->threads);
-    else if (strcmp(name, "batch") == 0)
-        return parse_whole_number(name, value, 1, 4096, &options->batch);
-    return true; /* another's, or one that waits for the scene */
-}
-
-bool render_options_take(struct render_options *options, const struct argument *arguments,
-                         size_t count)
-{
-    *options = (struct render_options){
+    return (struct render_options){
         .seed = -1,
         .threads = -1,
         .batch = -1,
         .direct_resolution = -1,
-        .arguments = arguments,
-        .argument_count = count,
+        .exposure = NAN,
+        .memory_limit = INFINITY,
+        .direct = -1,
     };
-    for (size_t i = 0; i < count; i++)
-        if (arguments[i].option && !take_option(options, &arguments[i]))
-            return false;
-    return scene_options_take(&options->scene, arguments, count);
 }
 
 void render_options_release(struct render_options *options)
 {
     scene_options_release(&options->scene);
+    output_options_release(&options->output);
+    word_list_release(&options->plugins);
+    free(options->isa);
+    free(options->bounces);
+    free(options->quality);
+    *options = render_options_init();
 }
 
-static bool override_size(const char *text, struct image_description *image)
+/* --- one function for each option ------------------------------------------------------------------- */
+
+static ps_result set_parameter(struct render_options *options, const char *value,
+                               struct error *error)
 {
-    size_t length = strcspn(text, "x");
-    double w, h;
-    if (!text[length] || !text_part_to_number(text, length, &w) ||
-        !text_to_number(text + length + 1, &h) || w < 1 || h < 1 || w > 65536 || h > 65536 ||
-        w != (double)(int64_t)w || h != (double)(int64_t)h) {
-        fprintf(stderr, "psplat: error: --size: expected WxH, each 1..65536, got '%s'\n", text);
-        return false;
-    }
-    image->width = (int64_t)w;
-    image->height = (int64_t)h;
-    return true;
+    return scene_options_add_parameter(&options->scene, value, error);
 }
 
-/* As the render section of a file reads it. */
-static bool override_setting(const char *key, const char *text, struct render_description *render)
+static ps_result set_set(struct render_options *options, const char *value, struct error *error)
 {
-    struct error error;
+    return scene_options_add_set(&options->scene, options->scene.sets.count, value, error);
+}
+
+static ps_result set_camera(struct render_options *options, const char *value, struct error *error)
+{
+    return word_replace(&options->scene.camera, value, error);
+}
+
+static ps_result set_restrict(struct render_options *options, const char *value,
+                              struct error *error)
+{
+    return scene_options_restrict(&options->scene, value, error);
+}
+
+static ps_result set_allow_plugins(struct render_options *options, const char *value,
+                                   struct error *error)
+{
+    (void)value;
+    (void)error;
+    options->scene.psd.allow_plugin_paths = true;
+    return PS_OK;
+}
+
+static ps_result set_plugin(struct render_options *options, const char *value, struct error *error)
+{
+    return word_list_insert(&options->plugins, options->plugins.count, value, error);
+}
+
+static ps_result set_size(struct render_options *options, const char *value, struct error *error)
+{
+    return option_size(value, &options->width, &options->height, error);
+}
+
+/* As the render section of a file reads it, which is tried on a description that nobody uses. */
+static ps_result set_word(const char *key, const char *value, char **word, struct error *error)
+{
     struct param_table table = schema_table(schema_only("render"));
-    if (!text || param_set(param_find(&table, key), render, text, &error) == PS_OK)
-        return true;
-    fprintf(stderr, "psplat: error: --%s: %s\n", key, error.text);
-    return false;
+    struct render_description unused = {0};
+    struct error reason;
+    if (param_set(param_find(&table, key), &unused, value, &reason) != PS_OK)
+        return error_set(error, PS_ERROR_INVALID, "--%s: %.4000s", key, reason.text);
+    return word_replace(word, value, error);
 }
 
-static bool override_direct(const char *text, int32_t *direct)
+static ps_result set_quality(struct render_options *options, const char *value, struct error *error)
 {
-    bool maps = strcmp(text, "shadowmap") == 0;
-    if (!maps && strcmp(text, "rays") != 0) {
-        fprintf(stderr, "psplat: error: --direct: expected rays or shadowmap, got '%s'\n", text);
-        return false;
-    }
-    *direct = maps ? DIRECT_SHADOWMAP : DIRECT_RAYS;
-    return true;
+    return set_word("quality", value, &options->quality, error);
 }
 
-/* Lays the command line over the scene. */
-static bool override(const struct render_options *options, struct scene_input *input)
+static ps_result set_bounces(struct render_options *options, const char *value, struct error *error)
 {
-    struct scene_description *description = &input->description;
-    for (size_t i = 0; i < options->argument_count; i++) {
-        const struct argument *argument = &options->arguments[i];
-        if (argument_is(argument, "plugin") && !scene_input_override(input, argument->value))
-            return false;
-    }
-    if (options->seed >= 0)
-        description->render.seed = (int64_t)options->seed;
-    if (options->direct_resolution > 0)
-        description->render.direct_resolution = (int64_t)options->direct_resolution;
-    if (options->preview)
-        preview_shrink(&description->image);
-    return (!options->size || override_size(options->size, &description->image)) &&
-           (!options->exposure ||
-            parse_exposure(options->exposure, &description->image.exposure)) &&
-           override_setting("bounces", options->bounces, &description->render) &&
-           override_setting("quality", options->quality, &description->render) &&
-           (!options->direct || override_direct(options->direct, &description->render.direct));
+    return set_word("bounces", value, &options->bounces, error);
 }
 
-bool render_options_load(const struct render_options *options, struct scene_input *input,
-                         struct render_settings *settings)
+static ps_result set_passes(struct render_options *options, const char *value, struct error *error)
 {
-    uint32_t threads =
-        options->threads > 0 ? (uint32_t)options->threads : parallel_processor_count();
-    size_t batch = options->batch > 0 ? (size_t)options->batch : DEFAULT_BATCH;
-    if (!scene_input_read(input, options->scene_path, &options->scene) ||
-        !override(options, input) || !scene_input_resolve(input, threads, batch, settings))
-        return false;
-    settings->isa = options->isa;
-    return true;
+    return pass_range_parse(value, &options->passes, error);
+}
+
+static ps_result set_seed(struct render_options *options, const char *value, struct error *error)
+{
+    return option_whole_number("seed", value, 0, 9007199254740992.0, &options->seed, error);
+}
+
+static ps_result set_threads(struct render_options *options, const char *value, struct error *error)
+{
+    return option_whole_number("threads", value, 1, 1024, &options->threads, error);
+}
+
+static ps_result set_isa(struct render_options *options, const char *value, struct error *error)
+{
+    return word_replace(&options->isa, value, error);
+}
+
+static ps_result set_batch(struct render_options *options, const char *value, struct error *error)
+{
+    return option_whole_number("batch", value, 1, 4096, &options->batch, error);
+}
+
+static ps_result set_direct(struct render_options *options, const char *value, struct error *error)
+{
+    bool maps = strcmp(value, "shadowmap") == 0;
+    if (!maps && strcmp(value, "rays") != 0)
+        return error_set(error, PS_ERROR_INVALID,
+                         "--direct: expected rays or shadowmap, got '%.500s'", value);
+    options->direct = maps ? DIRECT_SHADOWMAP : DIRECT_RAYS;
+    return PS_OK;
+}
+
+static ps_result set_direct_resolution(struct render_options *options, const char *value,
+                                       struct error *error)
+{
+    return option_whole_number("direct-resolution", value, 1, 8192, &options->direct_resolution,
+                               error);
+}
+
+static ps_result set_exposure(struct render_options *options, const char *value,
+                              struct error *error)
+{
+    return option_exposure(value, &options->exposure, error);
+}
+
+static ps_result set_memory_limit(struct render_options *options, const char *value,
+                                  struct error *error)
+{
+    return option_bytes("memory-limit", value, &options->memory_limit, error);
+}
+
+static ps_result set_layers(struct render_options *options, const char *value, struct error *error)
+{
+    return output_options_set(&options->output, "layers", value, error);
+}
+
+static ps_result set_compression(struct render_options *options, const char *value,
+                                 struct error *error)
+{
+    return output_options_set(&options->output, "compression", value, error);
+}
+
+static ps_result set_preview(struct render_options *options, const char *value, struct error *error)
+{
+    (void)value;
+    return options->preview ? PS_OK : preview_apply(options, error);
+}
+
+static const struct row {
+    const char *name;
+    bool is_flag;
+    ps_result (*set)(struct render_options *options, const char *value, struct error *error);
+} rows[] = {
+    {"param", false, set_parameter},
+    {"set", false, set_set},
+    {"camera", false, set_camera},
+    {"restrict", false, set_restrict},
+    {"allow-scene-plugins", true, set_allow_plugins},
+    {"plugin", false, set_plugin},
+    {"size", false, set_size},
+    {"quality", false, set_quality},
+    {"bounces", false, set_bounces},
+    {"passes", false, set_passes},
+    {"seed", false, set_seed},
+    {"threads", false, set_threads},
+    {"isa", false, set_isa},
+    {"batch", false, set_batch},
+    {"direct", false, set_direct},
+    {"direct-resolution", false, set_direct_resolution},
+    {"exposure", false, set_exposure},
+    {"memory-limit", false, set_memory_limit},
+    {"layers", false, set_layers},
+    {"compression", false, set_compression},
+    {"preview", true, set_preview},
+};
+
+#define ROWS (sizeof rows / sizeof rows[0])
+
+static const struct row *find(const char *name)
+{
+    for (size_t i = 0; i < ROWS; i++)
+        if (strcmp(rows[i].name, name) == 0)
+            return &rows[i];
+    return NULL;
+}
+
+bool render_options_has(const char *name)
+{
+    return find(name) != NULL;
+}
+
+bool render_options_is_flag(const char *name)
+{
+    const struct row *row = find(name);
+    return row && row->is_flag;
+}
+
+static ps_result unknown(const char *name, struct error *error)
+{
+    struct suggestion suggestion = suggestion_start(name);
+    char hint[SUGGESTION_TEXT];
+    for (size_t i = 0; i < ROWS; i++)
+        suggestion_consider(&suggestion, rows[i].name);
+    suggestion_text(&suggestion, hint);
+    return error_set(error, PS_ERROR_INVALID, "unknown option '%.200s'%s", name, hint);
+}
+
+ps_result render_options_set(struct render_options *options, const char *name, const char *value,
+                             struct error *error)
+{
+    const struct row *row = find(name);
+    if (!row)
+        return unknown(name, error);
+    if (row->is_flag != !value)
+        return error_set(error, PS_ERROR_INVALID, "--%s: %s", name,
+                         value ? "it takes no value" : "a value is missing");
+    ps_result result = row->set(options, value, error);
+    return result == PS_OK ? scene_options_agree(&options->scene, error) : result;
 }

@@ -1,51 +1,55 @@
-/* render_options.h: what `render` and `debug` share: the options that say what a scene is rendered
- * with, and the way from them to settings. */
+/* render_options.h: what a scene is rendered with besides what it says itself, by the names that the command line has
+ * for it (psplat(1)), and the way from there to settings.
+ */
 #ifndef CLI_RENDER_OPTIONS_H
 #define CLI_RENDER_OPTIONS_H
 
+#include "cli/output_options.h"
+#include "cli/pass_range.h"
 #include "cli/scene_input.h"
 
-/* Their rows for a command's table. */
-#define RENDER_OPTIONS                                                                             \
-    {'p', "plugin", "KIND=NAME[:KEY=VALUE,...]", "use another strategy, or other parameters"},     \
-        SCENE_OPTIONS, {0, "size", "WxH", "width and height of the picture in pixels"},            \
-        {0, "quality", "NAME",                                                                     \
-         "draft, normal, high or final: how many samples, where none are given"},                  \
-        {0, "bounces", "N|all", "surfaces that indirect light may meet, for every estimator"},     \
-        {0, "seed", "N", "seed of the random numbers"},                                            \
-        {'t', "threads", "N", "threads; the picture does not depend on them"},                     \
-        {0, "isa", "NAME",                                                                         \
-         "instruction set: baseline, avx2 or avx512; default: the best there is"},                 \
-        {0, "batch", "N", "splats held in memory at a time; nor on these"},                        \
-        {0, "direct", "rays|shadowmap",                                                            \
-         "how direct light finds shadows; area lights: by rays alone"},                            \
-        {0, "direct-resolution", "N", "pixels along the side of each of these shadow maps"},       \
-        {0, "exposure", "STOPS", "brightness of what is shown: a factor of 2^STOPS"},              \
-    {                                                                                              \
-        'q', "quiet", NULL, "print nothing but errors"                                             \
-    }
-
+/* Owns its words. Made by render_options_init. */
 struct render_options {
-    const char *scene_path;
     struct scene_options scene;
-    const char *size, *exposure, *isa, *direct;
+    struct output_options output;
+    struct word_list plugins; /* KIND=NAME[:KEY=VALUE,...]; the later goes before the earlier */
+    struct pass_range passes;
+    int64_t width, height; /* 0: the scene's, which a preview makes smaller */
+    char *isa;             /* as the following, NULL: not given */
+    char *bounces, *quality;
     double seed, threads, batch, direct_resolution; /* negative: not given */
-    const char *bounces, *quality;
-    bool quiet;
-    bool preview;                     /* see preview_shrink; `size` goes before it */
-    const struct argument *arguments; /* borrowed; --plugin waits for the scene */
-    size_t argument_count;
+    double exposure;                                /* NAN: not given */
+    double memory_limit;                            /* bytes; INFINITY: the machine's alone */
+    int32_t direct;                                 /* enum direct_light; negative: not given */
+    bool preview;
 };
 
-/* Picks them from the arguments, whose values must outlive this; `scene_path` is for the caller, since
- * operands differ. False, printed, where one is wrong; to be released in any case. */
-bool render_options_take(struct render_options *options, const struct argument *arguments,
-                         size_t count);
+struct render_options render_options_init(void);
 void render_options_release(struct render_options *options);
 
-/* Reads the scene with all options laid over it, and resolves its settings. False, printed, where
- * that fails; the input is to be released in any case, the settings on success. */
-bool render_options_load(const struct render_options *options, struct scene_input *input,
-                         struct render_settings *settings);
+/* Whether it is the name of an option, without dashes; and of one that takes no value. */
+bool render_options_has(const char *name);
+bool render_options_is_flag(const char *name);
+
+/* Gives an option a value (NULL for a flag), which is copied. `param`, `set` and `plugin` add to those given before; of
+ * the others the last counts. `preview` stands for values of others, before which goes what is given itself, earlier or
+ * later. PS_ERROR_INVALID: there is no such option, or no such value, or it excludes another. */
+ps_result render_options_set(struct render_options *options, const char *name, const char *value,
+                             struct error *error);
+
+/* Lays the options over a scene that was read with options->scene. What is wrong is in the input's sink. */
+ps_result render_options_lay_over(const struct render_options *options, struct scene_input *input);
+
+/* Makes settings of a description over which the options were laid, and starts the threads. Settings refer to the
+ * options. What is wrong is in the sink. */
+ps_result render_options_resolve(const struct render_options *options,
+                                 const struct render_description *description,
+                                 struct diagnostics *sink, struct render_settings *settings);
+
+/* PS_ERROR_MEMORY where a picture takes more than the options allow, or this machine lends. */
+ps_result render_options_check_memory(const struct render_options *options,
+                                      const struct image_description *image,
+                                      const struct render_settings *settings, bool keeps_film,
+                                      struct error *error);
 
 #endif

@@ -1,78 +1,77 @@
 #include "cli/scene_input.h"
 
-#include "cli/command.h"
 #include "plugin/kind.h"
-#include <stdio.h>
-#include <string.h>
 
-static void warn(void *user, const char *message)
+ps_result scene_input_create(struct scene_input *input, struct error *error)
 {
-    (void)user;
-    print_warning(message);
-}
-
-bool scene_input_read(struct scene_input *input, const char *path,
-                      const struct scene_options *options)
-{
-    struct error error;
     *input = (struct scene_input){.sink = diagnostics_create()};
-    if (!input->sink) {
-        print_error("out of memory");
-        return false;
-    }
-    if (loader_create(&input->loader, &error) != PS_OK) {
-        print_error(error.text);
-        return false;
-    }
-    loader_set_warnings(input->loader, warn, NULL);
-    ps_result result = psd_read_file_with(path, &options->psd, input->sink, &input->description);
-    if (result != PS_OK)
-        diagnostics_print(input->sink, stderr);
-    return result == PS_OK && scene_options_choose_camera(options, &input->description);
+    return input->sink ? PS_OK : error_set(error, PS_ERROR_MEMORY, "out of memory");
 }
 
-bool scene_input_override(struct scene_input *input, const char *text)
+ps_result scene_input_read(struct scene_input *input, const char *path,
+                           const struct scene_options *options)
+{
+    ps_result result = psd_read_file_with(path, &options->psd, input->sink, &input->description);
+    return result == PS_OK ? scene_options_choose_camera(options, &input->description, input->sink)
+                           : result;
+}
+
+ps_result scene_input_read_text(struct scene_input *input, const char *name, const char *text,
+                                size_t length, const struct scene_options *options)
+{
+    ps_result result =
+        psd_read_text_with(name, text, length, &options->psd, input->sink, &input->description);
+    return result == PS_OK ? scene_options_choose_camera(options, &input->description, input->sink)
+                           : result;
+}
+
+ps_result scene_input_override(struct scene_input *input, const char *text)
 {
     struct strategy_choice choice;
     struct error error;
-    char message[sizeof error.text + 64];
     const char *wanted;
     ps_kind kind = kind_parse(text, &wanted);
     if (kind == PS_KINDS || !wanted) {
-        snprintf(message, sizeof message,
-                 "--plugin: expected KIND=NAME[:KEY=VALUE,...], got '%.200s'; 'psplat plugins' "
-                 "lists the kinds",
-                 text);
-        print_error(message);
-        return false;
+        diagnostics_report(input->sink, SEVERITY_ERROR, NULL, 0,
+                           "--plugin: expected KIND=NAME[:KEY=VALUE,...], got '%.200s'; 'psplat "
+                           "plugins' lists the kinds",
+                           text);
+        return PS_ERROR_INVALID;
     }
     ps_result result = settings_parse_choice(wanted, &choice, &error);
     if (result == PS_OK)
         result = settings_override(&input->description.render.strategies[kind], &choice, &error);
-    if (result == PS_OK)
-        return true;
-    snprintf(message, sizeof message, "--plugin %s: %s", kinds[kind].name, error.text);
-    print_error(message);
-    return false;
-}
-
-static void report(void *user, const struct origin *origin, const char *message)
-{
-    struct diagnostics *sink = user;
-    if (origin->line > 0)
-        diagnostics_report(sink, SEVERITY_ERROR, origin, 0, "%s", message);
-    else
-        print_error(message);
-}
-
-bool scene_input_resolve(struct scene_input *input, uint32_t threads, size_t batch,
-                         struct render_settings *settings)
-{
-    ps_result result = settings_resolve(input->loader, &input->description.render, threads, batch,
-                                        report, input->sink, settings);
     if (result != PS_OK)
-        diagnostics_print(input->sink, stderr);
-    return result == PS_OK;
+        diagnostics_report(input->sink, SEVERITY_ERROR, NULL, 0, "--plugin %s: %s",
+                           kinds[kind].name, error.text);
+    return result;
+}
+
+static void warn(void *sink, const char *message)
+{
+    diagnostics_report(sink, SEVERITY_WARNING, NULL, 0, "%s", message);
+}
+
+static void report(void *sink, const struct origin *origin, const char *message)
+{
+    diagnostics_report(sink, SEVERITY_ERROR, origin->line > 0 ? origin : NULL, 0, "%s", message);
+}
+
+ps_result scene_input_resolve(const struct render_description *description, uint32_t threads,
+                              size_t batch, struct diagnostics *sink,
+                              struct render_settings *settings)
+{
+    struct loader *loader;
+    struct error error;
+    ps_result result = loader_create(&loader, &error);
+    if (result != PS_OK) {
+        diagnostics_report(sink, SEVERITY_ERROR, NULL, 0, "%s", error.text);
+        return result;
+    }
+    loader_set_warnings(loader, warn, sink);
+    result = settings_resolve(loader, description, threads, batch, report, sink, settings);
+    loader_destroy(loader);
+    return result;
 }
 
 static void warn_of_dropped(struct diagnostics *sink, const struct origin *first, size_t count)
@@ -85,23 +84,20 @@ static void warn_of_dropped(struct diagnostics *sink, const struct origin *first
                            count);
 }
 
-ps_result scene_input_build(struct scene_input *input, struct scene *scene, struct error *error)
+ps_result scene_input_build(struct scene_input *input, struct scene *scene)
 {
     struct origin where = {0};
-    ps_result result = scene_create(&input->description, scene, &where, error);
-    if (result == PS_OK) {
+    struct error error;
+    ps_result result = scene_create(&input->description, scene, &where, &error);
+    if (result == PS_OK)
         warn_of_dropped(input->sink, &where, scene->dropped_triangles);
-    } else if (where.line > 0) {
-        diagnostics_report(input->sink, SEVERITY_ERROR, &where, 0, "%s", error->text);
-        error->text[0] = '\0';
-    }
-    diagnostics_print(input->sink, stderr);
+    else
+        report(input->sink, &where, error.text);
     return result;
 }
 
 void scene_input_release(struct scene_input *input)
 {
     scene_description_release(&input->description);
-    loader_destroy(input->loader);
     diagnostics_destroy(input->sink);
 }

@@ -6,65 +6,59 @@
 #include <stdlib.h>
 #include <string.h>
 
-static size_t collect(const struct argument *arguments, size_t count, const char *name,
-                      const char **words)
+/* The parser's view of the lists, which may have moved. */
+static void refer_to_words(struct scene_options *options)
 {
-    size_t found = 0;
-    for (size_t i = 0; i < count; i++)
-        if (argument_is(&arguments[i], name))
-            words[found++] = arguments[i].value;
-    return found;
+    options->psd.parameters = (const char *const *)options->parameters.words;
+    options->psd.parameter_count = options->parameters.count;
+    options->psd.sets = (const char *const *)options->sets.words;
+    options->psd.set_count = options->sets.count;
 }
 
-static const char *last_value(const struct argument *arguments, size_t count, const char *name)
+ps_result scene_options_add_parameter(struct scene_options *options, const char *word,
+                                      struct error *error)
 {
-    while (count > 0 && !argument_is(&arguments[count - 1], name))
-        count--;
-    return count > 0 ? arguments[count - 1].value : NULL;
+    ps_result result =
+        word_list_insert(&options->parameters, options->parameters.count, word, error);
+    refer_to_words(options);
+    return result;
 }
 
-/* A plugin can read any file, so that it makes no sense to limit which ones the scene names. */
-static bool restrict_to(struct scene_options *options, const char *path)
+ps_result scene_options_add_set(struct scene_options *options, size_t index, const char *word,
+                                struct error *error)
 {
-    struct error error;
-    if (!path)
-        return true;
-    if (options->psd.allow_plugin_paths) {
-        print_error("--restrict and --allow-scene-plugins exclude each other");
-        return false;
-    }
-    options->folder = input_folder_resolve(path, &error);
-    options->psd.folder = options->folder;
-    if (!options->folder)
-        fprintf(stderr, "psplat: error: --restrict: %s\n", error.text);
-    return options->folder != NULL;
+    ps_result result = word_list_insert(&options->sets, index, word, error);
+    refer_to_words(options);
+    return result;
 }
 
-bool scene_options_take(struct scene_options *options, const struct argument *arguments,
-                        size_t count)
+ps_result scene_options_restrict(struct scene_options *options, const char *path,
+                                 struct error *error)
 {
-    *options = (struct scene_options){.words = calloc(count + 1, sizeof *options->words)};
-    if (!options->words) {
-        print_error("out of memory");
-        return false;
-    }
-    options->psd.parameters = options->words;
-    options->psd.parameter_count = collect(arguments, count, "param", options->words);
-    options->psd.sets = options->words + options->psd.parameter_count;
-    options->psd.set_count =
-        collect(arguments, count, "set", options->words + options->psd.parameter_count);
-    options->camera = last_value(arguments, count, "camera");
-    for (size_t i = 0; i < count; i++)
-        if (argument_is(&arguments[i], "allow-scene-plugins"))
-            options->psd.allow_plugin_paths = true;
-    return restrict_to(options, last_value(arguments, count, "restrict"));
+    struct error reason;
+    char *folder = input_folder_resolve(path, &reason);
+    if (!folder)
+        return error_set(error, PS_ERROR_IO, "--restrict: %.4000s", reason.text);
+    free(options->folder);
+    options->psd.folder = options->folder = folder;
+    return PS_OK;
 }
 
 void scene_options_release(struct scene_options *options)
 {
-    free(options->words);
+    word_list_release(&options->parameters);
+    word_list_release(&options->sets);
     free(options->folder);
+    free(options->camera);
     *options = (struct scene_options){0};
+}
+
+ps_result scene_options_agree(const struct scene_options *options, struct error *error)
+{
+    if (options->folder && options->psd.allow_plugin_paths)
+        return error_set(error, PS_ERROR_INVALID,
+                         "--restrict and --allow-scene-plugins exclude each other");
+    return PS_OK;
 }
 
 /* A scene's only camera needs no name. */
@@ -73,33 +67,38 @@ static const char *name_of(const struct camera_description *camera)
     return camera->name ? camera->name : "camera";
 }
 
-static void report_unknown(const char *name, const struct scene_description *description)
+static void report_unknown(const char *name, const struct scene_description *description,
+                           struct diagnostics *sink)
 {
     struct suggestion suggestion = suggestion_start(name);
-    char hint[SUGGESTION_TEXT];
+    char hint[SUGGESTION_TEXT], names[1000] = "";
     for (size_t i = 0; i < description->camera_count; i++)
         suggestion_consider(&suggestion, name_of(&description->cameras[i]));
     suggestion_text(&suggestion, hint);
-    fprintf(stderr, "psplat: error: --camera: the scene has no camera '%s'%s", name, hint);
-    for (size_t i = 0; i < description->camera_count && !suggestion.best; i++)
-        fprintf(stderr, "%s%s", i > 0 ? ", " : "; it has ", name_of(&description->cameras[i]));
-    fprintf(stderr, "\n");
+    for (size_t i = 0; i < description->camera_count && !suggestion.best; i++) {
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", i > 0 ? ", " : "; it has ",
+                 name_of(&description->cameras[i]));
+    }
+    diagnostics_report(sink, SEVERITY_ERROR, NULL, 0, "--camera: the scene has no camera '%s'%s%s",
+                       name, hint, names);
 }
 
-bool scene_options_choose_camera(const struct scene_options *options,
-                                 struct scene_description *description)
+ps_result scene_options_choose_camera(const struct scene_options *options,
+                                      struct scene_description *description,
+                                      struct diagnostics *sink)
 {
     if (!options->camera)
-        return true;
+        return PS_OK;
     for (size_t i = 0; i < description->camera_count; i++)
         if (strcmp(name_of(&description->cameras[i]), options->camera) == 0) {
             struct camera_description chosen = description->cameras[i];
             memmove(description->cameras + 1, description->cameras, i * sizeof chosen);
             description->cameras[0] = chosen;
-            return true;
+            return PS_OK;
         }
-    report_unknown(options->camera, description);
-    return false;
+    report_unknown(options->camera, description, sink);
+    return PS_ERROR_INVALID;
 }
 
 static void each_option(const char *option, const char *const *values, size_t count,
@@ -114,9 +113,10 @@ static void each_option(const char *option, const char *const *values, size_t co
 void scene_options_each_word(const struct scene_options *options,
                              void (*each)(void *user, const char *word), void *user)
 {
+    const char *camera = options->camera;
     each_option("--param", options->psd.parameters, options->psd.parameter_count, each, user);
     each_option("--set", options->psd.sets, options->psd.set_count, each, user);
-    each_option("--camera", &options->camera, options->camera ? 1 : 0, each, user);
+    each_option("--camera", &camera, camera ? 1 : 0, each, user);
     if (options->psd.allow_plugin_paths)
         each(user, "--allow-scene-plugins");
 }

@@ -1,37 +1,39 @@
-/* scene_options.h: the options of `render` and `check` that change what a scene says as it is read.
+/* scene_options.h: what changes a scene as it is read: parameters, values set in its tree, the camera, limits.
  */
 #ifndef CLI_SCENE_OPTIONS_H
 #define CLI_SCENE_OPTIONS_H
 
-#include "cli/command.h"
+#include "cli/word_list.h"
 #include "parser/psd.h"
 
-/* Their rows for a command's table. */
-#define SCENE_OPTIONS                                                                              \
-    {0, "param", "NAME=VALUE", "give a parameter of the scene a value"},                           \
-        {0, "set", "KEY.KEY=VALUE", "set a value in the scene; items of lists count from 0"},      \
-        {0, "camera", "NAME", "look through another camera of the scene"},                         \
-        {0, "restrict", "DIR", "refuse files outside of DIR to the scene"},                        \
-    {                                                                                              \
-        0, "allow-scene-plugins", NULL, "let the scene run plugins that it names by a path"        \
-    }
-
+/* Zeroed: nothing. */
 struct scene_options {
-    struct psd_options psd;
-    const char *camera; /* NULL: the first */
-    const char **words; /* owned: those of `psd` */
-    char *folder;       /* owned: that of `psd`; NULL: any */
+    struct psd_options psd; /* of the following */
+    struct word_list parameters, sets;
+    char *folder; /* owned; NULL: any */
+    char *camera; /* owned; NULL: the first */
 };
 
-/* Picks them from the arguments, whose values must outlive this. False, printed, where one is wrong; to
- * be released in any case. */
-bool scene_options_take(struct scene_options *options, const struct argument *arguments,
-                        size_t count);
+/* "NAME=VALUE", "KEY.KEY=VALUE"; those given later count. */
+ps_result scene_options_add_parameter(struct scene_options *options, const char *word,
+                                      struct error *error);
+ps_result scene_options_add_set(struct scene_options *options, size_t index, const char *word,
+                                struct error *error);
+
+/* Refuses files outside of a folder to the scene. PS_ERROR_IO: there is none. */
+ps_result scene_options_restrict(struct scene_options *options, const char *path,
+                                 struct error *error);
+
 void scene_options_release(struct scene_options *options);
 
-/* Puts the camera that was asked for first. Prints what is wrong if there is none of that name. */
-bool scene_options_choose_camera(const struct scene_options *options,
-                                 struct scene_description *description);
+/* A plugin can read any file, so that it makes no sense to let a scene run one and limit which files it names:
+ * PS_ERROR_INVALID. */
+ps_result scene_options_agree(const struct scene_options *options, struct error *error);
+
+/* Puts the camera that was asked for first. PS_ERROR_INVALID, reported, if there is none of that name. */
+ps_result scene_options_choose_camera(const struct scene_options *options,
+                                      struct scene_description *description,
+                                      struct diagnostics *sink);
 
 /* Calls back for each word of a command that gives the same options. */
 void scene_options_each_word(const struct scene_options *options,

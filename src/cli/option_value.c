@@ -1,0 +1,59 @@
+#include "cli/option_value.h"
+
+#include "base/text.h"
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#define MOST_PIXELS 65536
+
+ps_result option_whole_number(const char *option, const char *text, double minimum, double maximum,
+                              double *value, struct error *error)
+{
+    if (text_to_number(text, value) && *value >= minimum && *value <= maximum &&
+        floor(*value) == *value)
+        return PS_OK;
+    return error_set(error, PS_ERROR_INVALID,
+                     "--%s: expected a whole number %.0f..%.0f, got '%.500s'", option, minimum,
+                     maximum, text);
+}
+
+ps_result option_bytes(const char *option, const char *text, double *bytes, struct error *error)
+{
+    static const char units[] = "KMGT";
+    size_t length = strlen(text);
+    const char *unit = length > 1 ? strchr(units, text[length - 1]) : NULL;
+    length -= unit != NULL;
+    if (text_part_to_number(text, length, bytes) && *bytes > 0.0) {
+        *bytes *= pow(1024.0, unit ? (double)(unit - units + 1) : 0.0);
+        return PS_OK;
+    }
+    return error_set(error, PS_ERROR_INVALID,
+                     "--%s: expected a size such as 500M or 8G, got '%.500s'", option, text);
+}
+
+ps_result option_exposure(const char *text, double *stops, struct error *error)
+{
+    if (text_to_number(text, stops) && *stops >= -20 && *stops <= 20)
+        return PS_OK;
+    return error_set(error, PS_ERROR_INVALID, "--exposure: expected a number -20..20, got '%.500s'",
+                     text);
+}
+
+static bool is_side(double pixels)
+{
+    return pixels >= 1 && pixels <= MOST_PIXELS && pixels == floor(pixels);
+}
+
+ps_result option_size(const char *text, int64_t *width, int64_t *height, struct error *error)
+{
+    size_t length = strcspn(text, "x");
+    double w, h;
+    if (!text[length] || !text_part_to_number(text, length, &w) ||
+        !text_to_number(text + length + 1, &h) || !is_side(w) || !is_side(h))
+        return error_set(error, PS_ERROR_INVALID, "--size: expected WxH, each 1..%d, got '%.500s'",
+                         MOST_PIXELS, text);
+    *width = (int64_t)w;
+    *height = (int64_t)h;
+    return PS_OK;
+}

@@ -1,0 +1,21 @@
+/* option_value.h: reads values of options. What is wrong is told in the words of the command line ("--seed: expected
+ * ..."), and the result is PS_ERROR_INVALID then. */
+#ifndef CLI_OPTION_VALUE_H
+#define CLI_OPTION_VALUE_H
+
+#include "base/error.h"
+
+/* A whole decimal number in [minimum, maximum]. */
+ps_result option_whole_number(const char *option, const char *text, double minimum, double maximum,
+                              double *value, struct error *error);
+
+/* "500M", "8G": bytes, in powers of 1024. */
+ps_result option_bytes(const char *option, const char *text, double *bytes, struct error *error);
+
+/* Stops of exposure. */
+ps_result option_exposure(const char *text, double *stops, struct error *error);
+
+/* "WxH": pixels, each 1..65536. */
+ps_result option_size(const char *text, int64_t *width, int64_t *height, struct error *error);
+
+#endif

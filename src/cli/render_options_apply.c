@@ -1,0 +1,79 @@
+/* render_options_apply.c: options laid over a scene, and what they make of it. */
+#include "base/parallel.h"
+#include "base/param.h"
+#include "cli/preview.h"
+#include "cli/render_options.h"
+#include "parser/schema/schema.h"
+#include "pipeline/render.h"
+#include <math.h>
+
+#define DEFAULT_BATCH 4096
+
+/* It was tried before. */
+static void lay_word(const char *key, const char *word, struct render_description *render)
+{
+    struct error error;
+    struct param_table table = schema_table(schema_only("render"));
+    if (word)
+        param_set(param_find(&table, key), render, word, &error);
+}
+
+ps_result render_options_lay_over(const struct render_options *options, struct scene_input *input)
+{
+    struct scene_description *description = &input->description;
+    for (size_t i = 0; i < options->plugins.count; i++) {
+        ps_result result = scene_input_override(input, options->plugins.words[i]);
+        if (result != PS_OK)
+            return result;
+    }
+    if (options->seed >= 0)
+        description->render.seed = (int64_t)options->seed;
+    if (options->direct_resolution > 0)
+        description->render.direct_resolution = (int64_t)options->direct_resolution;
+    if (options->preview)
+        preview_shrink(&description->image);
+    if (options->width > 0) {
+        description->image.width = options->width;
+        description->image.height = options->height;
+    }
+    if (!isnan(options->exposure))
+        description->image.exposure = options->exposure;
+    lay_word("bounces", options->bounces, &description->render);
+    lay_word("quality", options->quality, &description->render);
+    if (options->direct >= 0)
+        description->render.direct = options->direct;
+    return PS_OK;
+}
+
+ps_result render_options_resolve(const struct render_options *options,
+                                 const struct render_description *description,
+                                 struct diagnostics *sink, struct render_settings *settings)
+{
+    uint32_t threads =
+        options->threads > 0 ? (uint32_t)options->threads : parallel_processor_count();
+    size_t batch = options->batch > 0 ? (size_t)options->batch : DEFAULT_BATCH;
+    ps_result result = scene_input_resolve(description, threads, batch, sink, settings);
+    if (result != PS_OK)
+        return result;
+    settings->isa = options->isa;
+    if (options->passes.is_given) {
+        settings->first_pass = options->passes.first;
+        settings->passes = options->passes.end;
+    }
+    return PS_OK;
+}
+
+ps_result render_options_check_memory(const struct render_options *options,
+                                      const struct image_description *image,
+                                      const struct render_settings *settings, bool keeps_film,
+                                      struct error *error)
+{
+    const struct render_size size = {
+        .width = (size_t)image->width,
+        .height = (size_t)image->height,
+        .several_passes = keeps_film || settings_pass_count(settings) > 1,
+        .keeps_film = keeps_film,
+        .display = settings->display,
+    };
+    return render_check_memory(&size, options->memory_limit, error);
+}
