@@ -2,7 +2,7 @@
 
 #include "base/suggestion.h"
 #include "base/text.h"
-#include "cli/option_value.h"
+#include "session/option_value.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -5,8 +5,8 @@
 #include "debug/debug.h"
 
 #include "base/text.h"
-#include "cli/output.h"
 #include "job/facts.h"
+#include "session/output.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

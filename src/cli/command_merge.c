@@ -1,8 +1,8 @@
 /* command_merge.c: psplat merge: films of one job become the film of all their passes. */
 #include "cli/command.h"
-#include "cli/output.h"
 #include "job/facts.h"
 #include "job/film_file.h"
+#include "session/output.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,11 +2,11 @@
 #include "base/clock.h"
 #include "cli/command.h"
 #include "cli/long_job.h"
-#include "cli/output.h"
 #include "cli/output_list.h"
 #include "cli/progress.h"
-#include "cli/remark.h"
 #include "cli/render_arguments.h"
+#include "session/output.h"
+#include "session/remark.h"
 
 #include <math.h>
 #include <signal.h>

@@ -5,11 +5,11 @@
 #include "base/lock_file.h"
 #include "cli/command.h"
 #include "cli/output_list.h"
-#include "cli/pass_range.h"
 #include "film/film_sum.h"
 #include "job/schedule.h"
 #include "job/team.h"
 #include "pipeline/render.h"
+#include "session/pass_range.h"
 #include <signal.h>
 
 /* Rows for a command's table. */

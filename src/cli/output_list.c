@@ -1,6 +1,6 @@
 #include "cli/output_list.h"
 
-#include "cli/layers.h"
+#include "session/layers.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

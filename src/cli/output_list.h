@@ -3,7 +3,7 @@
 #define CLI_OUTPUT_LIST_H
 
 #include "cli/command.h"
-#include "cli/output.h"
+#include "session/output.h"
 
 #define MOST_OUTPUTS 16
 

@@ -4,7 +4,7 @@
 #define CLI_RENDER_ARGUMENTS_H
 
 #include "cli/command.h"
-#include "cli/render_options.h"
+#include "session/render_options.h"
 
 /* Rows for a command's table: what changes a scene as it is read. */
 #define SCENE_OPTIONS                                                                              \

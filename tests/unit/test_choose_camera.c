@@ -9,9 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The program's own files, which no library holds. */
-#include "cli/scene_options.c" // NOLINT(bugprone-suspicious-include)
-#include "cli/word_list.c"     // NOLINT(bugprone-suspicious-include)
+#include "session/scene_options.h"
 
 static void expect_order(const char *wanted, const char *expected)
 {

@@ -1,6 +1,6 @@
 /* output_options.h: how a picture is written to files: which layers EXR files hold, and their compression. */
-#ifndef CLI_OUTPUT_OPTIONS_H
-#define CLI_OUTPUT_OPTIONS_H
+#ifndef SESSION_OUTPUT_OPTIONS_H
+#define SESSION_OUTPUT_OPTIONS_H
 
 #include "image/image.h"
 

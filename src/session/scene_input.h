@@ -1,12 +1,12 @@
 /* scene_input.h: the way from a scene file, and what is laid over it, to a scene and settings. All problems on the way
  * are reported to one sink: errors where a step fails, and warnings.
  */
-#ifndef CLI_SCENE_INPUT_H
-#define CLI_SCENE_INPUT_H
+#ifndef SESSION_SCENE_INPUT_H
+#define SESSION_SCENE_INPUT_H
 
-#include "cli/scene_options.h"
 #include "render/settings.h"
 #include "scene/scene.h"
+#include "session/scene_options.h"
 
 struct scene_input {
     struct diagnostics *sink;

@@ -1,10 +1,10 @@
-#include "cli/output.h"
+#include "session/output.h"
 
 #include "base/parallel.h"
 #include "base/text.h"
-#include "cli/layers.h"
 #include "image/tonemap.h"
 #include "job/facts.h"
+#include "session/layers.h"
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>

@@ -3,10 +3,10 @@
  * One pass of few light paths with large splats and coarse maps: noise and small shadows are given up,
  * the light's amount and colour are not.
  */
-#ifndef CLI_PREVIEW_H
-#define CLI_PREVIEW_H
+#ifndef SESSION_PREVIEW_H
+#define SESSION_PREVIEW_H
 
-#include "cli/render_options.h"
+#include "session/render_options.h"
 
 /* Lays what a preview stands for under what the options say. */
 ps_result preview_apply(struct render_options *options, struct error *error);

@@ -1,6 +1,6 @@
 /* pass_range.h: which passes of a render are asked for (--passes). */
-#ifndef CLI_PASS_RANGE_H
-#define CLI_PASS_RANGE_H
+#ifndef SESSION_PASS_RANGE_H
+#define SESSION_PASS_RANGE_H
 
 #include "base/error.h"
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-#include "cli/scene_options.h"
+#include "session/scene_options.h"
 
 #include "base/input_file.h"
 #include "base/suggestion.h"

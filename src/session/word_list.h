@@ -1,6 +1,6 @@
 /* word_list.h: a growing list of words. */
-#ifndef CLI_WORD_LIST_H
-#define CLI_WORD_LIST_H
+#ifndef SESSION_WORD_LIST_H
+#define SESSION_WORD_LIST_H
 
 #include "base/error.h"
 

@@ -1,12 +1,12 @@
 /* render_options.h: what a scene is rendered with besides what it says itself, by the names that the command line has
  * for it (psplat(1)), and the way from there to settings.
  */
-#ifndef CLI_RENDER_OPTIONS_H
-#define CLI_RENDER_OPTIONS_H
+#ifndef SESSION_RENDER_OPTIONS_H
+#define SESSION_RENDER_OPTIONS_H
 
-#include "cli/output_options.h"
-#include "cli/pass_range.h"
-#include "cli/scene_input.h"
+#include "session/output_options.h"
+#include "session/pass_range.h"
+#include "session/scene_input.h"
 
 /* Owns its words. Made by render_options_init. */
 struct render_options {

@@ -1,10 +1,10 @@
 /* render_options_apply.c: options laid over a scene, and what they make of it. */
 #include "base/parallel.h"
 #include "base/param.h"
-#include "cli/preview.h"
-#include "cli/render_options.h"
 #include "parser/schema/schema.h"
 #include "pipeline/render.h"
+#include "session/preview.h"
+#include "session/render_options.h"
 #include <math.h>
 
 #define DEFAULT_BATCH 4096

@@ -1,4 +1,4 @@
-#include "cli/layers.h"
+#include "session/layers.h"
 
 #include "pipeline/render.h"
 #include <string.h>

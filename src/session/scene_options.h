@@ -1,10 +1,10 @@
 /* scene_options.h: what changes a scene as it is read: parameters, values set in its tree, the camera, limits.
  */
-#ifndef CLI_SCENE_OPTIONS_H
-#define CLI_SCENE_OPTIONS_H
+#ifndef SESSION_SCENE_OPTIONS_H
+#define SESSION_SCENE_OPTIONS_H
 
-#include "cli/word_list.h"
 #include "parser/psd.h"
+#include "session/word_list.h"
 
 /* Zeroed: nothing. */
 struct scene_options {

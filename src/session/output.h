@@ -1,12 +1,12 @@
 /* output.h: writes a rendered picture to the files that were asked for. */
-#ifndef CLI_OUTPUT_H
-#define CLI_OUTPUT_H
+#ifndef SESSION_OUTPUT_H
+#define SESSION_OUTPUT_H
 
 #include "base/parallel.h"
-#include "cli/output_options.h"
-#include "cli/scene_options.h"
 #include "image/image.h"
 #include "render/settings.h"
+#include "session/output_options.h"
+#include "session/scene_options.h"
 
 /* Whether a name ends in a format that psplat writes: .exr or .png. */
 bool output_is_writable_format(const char *path);

@@ -1,4 +1,4 @@
-#include "cli/word_list.h"
+#include "session/word_list.h"
 
 #include <assert.h>
 #include <stdlib.h>

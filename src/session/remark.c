@@ -1,4 +1,4 @@
-#include "cli/remark.h"
+#include "session/remark.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* remark.h: what is said of a picture that was made. */
-#ifndef CLI_REMARK_H
-#define CLI_REMARK_H
+#ifndef SESSION_REMARK_H
+#define SESSION_REMARK_H
 
 #include "base/statistics.h"
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-#include "cli/preview.h"
+#include "session/preview.h"
 
 #include <math.h>
 

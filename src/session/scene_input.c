@@ -1,4 +1,4 @@
-#include "cli/scene_input.h"
+#include "session/scene_input.h"
 
 #include "plugin/kind.h"
 

@@ -1,6 +1,6 @@
-#include "cli/pass_range.h"
+#include "session/pass_range.h"
 
-#include "cli/option_value.h"
+#include "session/option_value.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -3,8 +3,8 @@
  * A list is `none`, or names with commas between them, among which `all` stands for every layer but `display`. The
  * picture itself, R, G and B, always stays.
  */
-#ifndef CLI_LAYERS_H
-#define CLI_LAYERS_H
+#ifndef SESSION_LAYERS_H
+#define SESSION_LAYERS_H
 
 #include "image/image.h"
 #include "render/settings.h"

@@ -1,4 +1,4 @@
-#include "cli/option_value.h"
+#include "session/option_value.h"
 
 #include "base/text.h"
 #include <math.h>

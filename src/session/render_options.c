@@ -1,10 +1,10 @@
-#include "cli/render_options.h"
+#include "session/render_options.h"
 
 #include "base/param.h"
 #include "base/suggestion.h"
-#include "cli/option_value.h"
-#include "cli/preview.h"
 #include "parser/schema/schema.h"
+#include "session/option_value.h"
+#include "session/preview.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

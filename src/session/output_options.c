@@ -1,7 +1,7 @@
-#include "cli/output_options.h"
+#include "session/output_options.h"
 
-#include "cli/layers.h"
-#include "cli/word_list.h"
+#include "session/layers.h"
+#include "session/word_list.h"
 #include <stdlib.h>
 #include <string.h>
 

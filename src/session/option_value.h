@@ -1,7 +1,7 @@
 /* option_value.h: reads values of options. What is wrong is told in the words of the command line ("--seed: expected
  * ..."), and the result is PS_ERROR_INVALID then. */
-#ifndef CLI_OPTION_VALUE_H
-#define CLI_OPTION_VALUE_H
+#ifndef SESSION_OPTION_VALUE_H
+#define SESSION_OPTION_VALUE_H
 
 #include "base/error.h"
 
