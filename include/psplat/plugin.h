@@ -12,6 +12,7 @@
 #include <psplat/module.h>
 #include <psplat/param.h>
 #include <psplat/path.h>
+#include <psplat/result.h>
 #include <psplat/strata.h>
 #include <psplat/strategy.h>
 #include <psplat/tile.h>

@@ -10,6 +10,7 @@
 #ifndef PSPLAT_TYPES_H
 #define PSPLAT_TYPES_H
 
+#include <psplat/result.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -20,15 +21,6 @@ typedef struct ps_vec3 {
 typedef struct ps_rgb {
     float r, g, b;
 } ps_rgb;
-
-/* What a function that can fail returns; 0 is success. */
-typedef enum ps_result {
-    PS_OK = 0,
-    PS_ERROR_MEMORY = 1,
-    PS_ERROR_INVALID = 2, /* a setting or input that makes no sense */
-    PS_ERROR_IO = 3,
-    PS_CANCELLED = 4
-} ps_result;
 
 typedef struct ps_ray {
     ps_vec3 origin;

@@ -303,30 +303,37 @@ static void sort_entries(const struct diagnostics *sink,
     qsort(sorted, sink->entry_count, sizeof sorted[0], compare_entries);
 }
 
+static void visit_entry(const struct diagnostics *sink, const struct entry *entry,
+                        bool first_of_source, diagnostics_visit visit, void *user)
+{
+    const struct origin origin = {sink->sources[entry->source].name, entry->line, entry->column};
+    char *text = NULL;
+    size_t length = 0;
+    FILE *stream = open_memstream(&text, &length);
+    if (stream && first_of_source)
+        print_includers(sink, entry->source, stream);
+    if (stream)
+        print_entry(sink, entry, stream);
+    if (stream && fclose(stream) == 0) {
+        text[length - 1] = '\0'; /* the last line's end */
+        visit(user, entry->severity, &origin, text);
+    } else {
+        visit(user, entry->severity, &origin, entry->message);
+    }
+    free(text);
+}
+
 void diagnostics_each(const struct diagnostics *sink, diagnostics_visit visit, void *user)
 {
+    static const struct origin nowhere = {.file = NULL};
     const struct entry *sorted[2 * DIAGNOSTICS_KEPT];
     sort_entries(sink, sorted);
-    for (size_t i = 0; i < sink->entry_count; i++) {
-        const struct entry *entry = sorted[i];
-        struct origin origin = {.line = entry->line, .column = entry->column};
-        char *text = NULL;
-        size_t length = 0;
-        FILE *stream = open_memstream(&text, &length);
-        if (entry->source != NO_SOURCE)
-            origin.file = sink->sources[entry->source].name;
-        if (stream && (i == 0 || entry->source != sorted[i - 1]->source))
-            print_includers(sink, entry->source, stream);
-        if (stream)
-            print_entry(sink, entry, stream);
-        if (stream && fclose(stream) == 0) {
-            text[length - 1] = '\0'; /* the last line's end */
-            visit(user, entry->severity, &origin, text);
-        } else {
-            visit(user, entry->severity, &origin, entry->message);
-        }
-        free(text);
-    }
+    for (size_t i = 0; i < sink->entry_count; i++)
+        if (sorted[i]->source == NO_SOURCE)
+            visit(user, sorted[i]->severity, &nowhere, sorted[i]->message);
+        else
+            visit_entry(sink, sorted[i], i == 0 || sorted[i]->source != sorted[i - 1]->source,
+                        visit, user);
 }
 
 void diagnostics_print(const struct diagnostics *sink, FILE *stream)

@@ -54,7 +54,8 @@ size_t diagnostics_warning_count(const struct diagnostics *sink);
 bool diagnostics_is_full(const struct diagnostics *sink);
 
 /* Calls back for each, in the order of diagnostics_print, with what that prints of it: lines, without the last one's
- * end; origin->file is NULL where it has no file. Both are there until the call returns. */
+ * end. Where it has no file, origin->file is NULL and the text the message alone. Both are there until the call
+ * returns. */
 typedef void (*diagnostics_visit)(void *user, enum severity severity, const struct origin *origin,
                                   const char *text);
 void diagnostics_each(const struct diagnostics *sink, diagnostics_visit visit, void *user);

@@ -76,8 +76,7 @@ bool text_part_to_number(const char *text, size_t length, double *value)
     return text_to_number(part, value);
 }
 
-/* Gives a text that printf wrote the decimal point '.'. */
-static void delocalize(char *text)
+void text_delocalize(char *text)
 {
     const char *local_point = localeconv()->decimal_point;
     char *found = strcmp(local_point, ".") ? strstr(text, local_point) : NULL;
@@ -95,7 +94,7 @@ void text_from_number(double value, char *text, size_t size)
         if (strtod(text, NULL) == value)
             break;
     }
-    delocalize(text);
+    text_delocalize(text);
 }
 
 void text_from_float(float value, char *text, size_t size)
@@ -105,7 +104,7 @@ void text_from_float(float value, char *text, size_t size)
         if (strtof(text, NULL) == value)
             break;
     }
-    delocalize(text);
+    text_delocalize(text);
 }
 
 size_t text_distance(const char *a, const char *b)

@@ -16,6 +16,9 @@ bool text_part_to_number(const char *text, size_t length, double *value);
 void text_from_number(double value, char *text, size_t size);
 void text_from_float(float value, char *text, size_t size);
 
+/* Gives a number that printf wrote the decimal point '.'. */
+void text_delocalize(char *text);
+
 /* Optimal string alignment distance (Damerau-Levenshtein without repeated edits), for did-you-mean.
  */
 size_t text_distance(const char *a, const char *b);

@@ -83,16 +83,26 @@ static ps_result set_texts(struct image *image, const char *const facts[][2], si
     return result;
 }
 
+static void format_colour(ps_rgb colour, char *text, size_t size)
+{
+    const float values[3] = {colour.r, colour.g, colour.b};
+    char numbers[3][32];
+    for (int i = 0; i < 3; i++) {
+        snprintf(numbers[i], sizeof numbers[i], "%.9g", (double)values[i]);
+        text_delocalize(numbers[i]);
+    }
+    snprintf(text, size, "[%s, %s, %s]", numbers[0], numbers[1], numbers[2]);
+}
+
 ps_result facts_of_settings(struct image *image, const char *scene_path,
                             const struct render_settings *settings, struct error *error)
 {
-    char direct[64] = "rays", indirect[32], ambient[64];
+    char direct[64] = "rays", indirect[32], ambient[128];
     if (settings->direct == DIRECT_SHADOWMAP)
         snprintf(direct, sizeof direct, "shadowmap:resolution=%" PRIu32,
                  settings->direct_resolution);
     text_from_number(settings->indirect_exposure, indirect, sizeof indirect);
-    snprintf(ambient, sizeof ambient, "[%.9g, %.9g, %.9g]", (double)settings->ambient.r,
-             (double)settings->ambient.g, (double)settings->ambient.b);
+    format_colour(settings->ambient, ambient, sizeof ambient);
     const char *const facts[][2] = {{"psplat.version", PSPLAT_VERSION},
                                     {"psplat.scene", scene_path},
                                     {"psplat.direct", direct},

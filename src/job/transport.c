@@ -1,6 +1,6 @@
 #include "job/transport.h"
 
-#include "plugin/loader.h"
+#include "plugin/own_folder.h"
 #include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,8 +16,8 @@ static transport_entry entry_of(void *library)
 
 ps_result transport_load_mpi(struct transport *transport, struct error *error)
 {
-    char folder[LOADER_LONGEST_PATH], path[LOADER_LONGEST_PATH + 16], message[256];
-    if (!loader_own_folder(folder))
+    char folder[LONGEST_PATH], path[LONGEST_PATH + 16], message[256];
+    if (!own_folder_find(folder))
         return error_set(error, PS_ERROR_IO, "--mpi: psplat's own folder can't be found");
     snprintf(path, sizeof path, "%s/../mpi.so", folder);
     /* MPI's own modules look for its symbols in the program. */

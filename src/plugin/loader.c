@@ -1,6 +1,7 @@
 #include "plugin/loader.h"
 
 #include "plugin/elf_check.h"
+#include "plugin/own_folder.h"
 #include <dirent.h>
 #include <dlfcn.h>
 #include <stdio.h>
@@ -64,25 +65,10 @@ static ps_result add_environment(struct loader *loader, struct error *error)
     return PS_OK;
 }
 
-bool loader_own_folder(char path[LOADER_LONGEST_PATH])
-{
-    static const char from_program[] = PSPLAT_PLUGINS_FROM_PROGRAM;
-    static const char installed[] = PSPLAT_PLUGINS_INSTALLED;
-    ssize_t length = readlink("/proc/self/exe", path, LOADER_LONGEST_PATH);
-    while (length > 0 && path[length - 1] != '/')
-        length--;
-    if (length > 0 && (size_t)length + sizeof from_program <= LOADER_LONGEST_PATH) {
-        memcpy(path + length, from_program, sizeof from_program);
-        return true;
-    }
-    snprintf(path, LOADER_LONGEST_PATH, "%s", installed);
-    return sizeof installed <= LOADER_LONGEST_PATH;
-}
-
 static bool add_own_folder(struct loader *loader)
 {
-    char path[LOADER_LONGEST_PATH];
-    return loader_own_folder(path) && add_folder(loader, path, strlen(path));
+    char path[LONGEST_PATH];
+    return own_folder_find(path) && add_folder(loader, path, strlen(path));
 }
 
 ps_result loader_create(struct loader **created, struct error *error)
@@ -92,7 +78,7 @@ ps_result loader_create(struct loader **created, struct error *error)
         return error_memory(error, sizeof *loader, "the plugin loader");
     ps_result result = add_environment(loader, error);
     if (result == PS_OK && !add_own_folder(loader))
-        result = error_memory(error, LOADER_LONGEST_PATH, "the plugin path");
+        result = error_memory(error, LONGEST_PATH, "the plugin path");
     if (result == PS_OK)
         *created = loader;
     else
@@ -209,17 +195,17 @@ static void append_note(struct trail *trail, const char *format, const char *one
 
 /* Where a strategy of that name would lie. */
 static void path_of(const struct loader *loader, size_t folder, ps_kind kind, const char *name,
-                    char path[LOADER_LONGEST_PATH])
+                    char path[LONGEST_PATH])
 {
-    snprintf(path, LOADER_LONGEST_PATH, "%s/%s/%s" SUFFIX, loader->folders[folder],
-             kinds[kind].name, name);
+    snprintf(path, LONGEST_PATH, "%s/%s/%s" SUFFIX, loader->folders[folder], kinds[kind].name,
+             name);
 }
 
 /* Notes the files after the one that was taken which have the same name. */
 static void note_hidden(const struct loader *loader, size_t first, ps_kind kind, const char *name,
                         const char *taken, struct trail *trail)
 {
-    char path[LOADER_LONGEST_PATH];
+    char path[LONGEST_PATH];
     for (size_t i = first; i < loader->folder_count; i++) {
         path_of(loader, i, kind, name, path);
         if (access(path, F_OK) == 0)
@@ -241,7 +227,7 @@ static struct strategy_type *search(const struct loader *loader, ps_kind kind, c
         snprintf(trail->attempts, sizeof trail->attempts, "; tried the program's own: %.1500s",
                  reason.text);
     for (size_t i = 0; i < loader->folder_count && !type; i++) {
-        char path[LOADER_LONGEST_PATH];
+        char path[LONGEST_PATH];
         path_of(loader, i, kind, name, path);
         ps_result result = load_file(path, kind, name, &type, &reason);
         size_t used = strlen(trail->attempts);
@@ -342,7 +328,7 @@ static bool add_name(struct names *names, const char *name, size_t length)
 
 static bool add_names_of_folder(struct names *names, const char *folder, ps_kind kind)
 {
-    char path[LOADER_LONGEST_PATH];
+    char path[LONGEST_PATH];
     snprintf(path, sizeof path, "%s/%s", folder, kinds[kind].name);
     DIR *directory = opendir(path);
     if (!directory)

@@ -12,13 +12,7 @@
 #include "plugin/strategy_type.h"
 #include <stdbool.h>
 
-#define LOADER_LONGEST_PATH 4096
-
 struct loader;
-
-/* The folder of psplat's own plugins: found from the program's folder, so that an installed tree runs from any place;
- * where the system does not tell what that is, the place that the build was made for. False: its name is too long. */
-bool loader_own_folder(char path[LOADER_LONGEST_PATH]);
 
 /* PS_ERROR_INVALID: $PSPLAT_PLUGIN_PATH is wrong; PS_ERROR_MEMORY. */
 ps_result loader_create(struct loader **loader, struct error *error);

@@ -61,9 +61,7 @@ static ps_result set_allow_plugins(struct render_options *options, const char *v
                                    struct error *error)
 {
     (void)value;
-    (void)error;
-    options->scene.psd.allow_plugin_paths = true;
-    return PS_OK;
+    return scene_options_allow_plugins(&options->scene, error);
 }
 
 static ps_result set_plugin(struct render_options *options, const char *value, struct error *error)
@@ -236,6 +234,5 @@ ps_result render_options_set(struct render_options *options, const char *name, c
     if (row->is_flag != !value)
         return error_set(error, PS_ERROR_INVALID, "--%s: %s", name,
                          value ? "it takes no value" : "a value is missing");
-    ps_result result = row->set(options, value, error);
-    return result == PS_OK ? scene_options_agree(&options->scene, error) : result;
+    return row->set(options, value, error);
 }

@@ -32,9 +32,25 @@ ps_result scene_options_add_set(struct scene_options *options, size_t index, con
     return result;
 }
 
+static ps_result refuse_both(struct error *error)
+{
+    return error_set(error, PS_ERROR_INVALID,
+                     "--restrict and --allow-scene-plugins exclude each other");
+}
+
+ps_result scene_options_allow_plugins(struct scene_options *options, struct error *error)
+{
+    if (options->folder)
+        return refuse_both(error);
+    options->psd.allow_plugin_paths = true;
+    return PS_OK;
+}
+
 ps_result scene_options_restrict(struct scene_options *options, const char *path,
                                  struct error *error)
 {
+    if (options->psd.allow_plugin_paths)
+        return refuse_both(error);
     struct error reason;
     char *folder = input_folder_resolve(path, &reason);
     if (!folder)
@@ -51,14 +67,6 @@ void scene_options_release(struct scene_options *options)
     free(options->folder);
     free(options->camera);
     *options = (struct scene_options){0};
-}
-
-ps_result scene_options_agree(const struct scene_options *options, struct error *error)
-{
-    if (options->folder && options->psd.allow_plugin_paths)
-        return error_set(error, PS_ERROR_INVALID,
-                         "--restrict and --allow-scene-plugins exclude each other");
-    return PS_OK;
 }
 
 /* A scene's only camera needs no name. */

@@ -20,15 +20,13 @@ ps_result scene_options_add_parameter(struct scene_options *options, const char 
 ps_result scene_options_add_set(struct scene_options *options, size_t index, const char *word,
                                 struct error *error);
 
-/* Refuses files outside of a folder to the scene. PS_ERROR_IO: there is none. */
+/* Refuses files outside of a folder to the scene (PS_ERROR_IO: there is none), or lets it run plugins that it names by
+ * a path. A plugin can read any file, so that both together make no sense: PS_ERROR_INVALID. */
 ps_result scene_options_restrict(struct scene_options *options, const char *path,
                                  struct error *error);
+ps_result scene_options_allow_plugins(struct scene_options *options, struct error *error);
 
 void scene_options_release(struct scene_options *options);
-
-/* A plugin can read any file, so that it makes no sense to let a scene run one and limit which files it names:
- * PS_ERROR_INVALID. */
-ps_result scene_options_agree(const struct scene_options *options, struct error *error);
 
 /* Puts the camera that was asked for first. PS_ERROR_INVALID, reported, if there is none of that name. */
 ps_result scene_options_choose_camera(const struct scene_options *options,

@@ -45,8 +45,10 @@ check_file() {
 check_contents() {
     prefix=$1
     [ -x "$prefix/bin/psplat" ] || fail "not installed: $prefix/bin/psplat"
-    # Nothing but the plugins is a library, and these export what the loader looks for alone.
-    [ -z "$(find "$prefix" -name 'lib*.so*')" ] || fail "a library is installed"
+    for name in libpsplat.so libpsplat.so.0; do
+        check_file "$prefix/$libdir/$name"
+    done
+    # Plugins export what the loader looks for alone.
     for plugin in "$prefix/$libdir"/psplat/plugins-1/*/*.so; do
         [ "$(nm -D --defined-only "$plugin" | awk '$2 ~ /[A-TV-Z]/ { print $3 }')" = psplat_module_v1 ] ||
             fail "$plugin exports more than its module"
@@ -68,7 +70,10 @@ check_contents() {
     for scene in "$PSPLAT_SOURCE"/scenes/*.psd; do
         check_file "$prefix/share/psplat/scenes/$(basename "$scene")"
     done
-    for page in "$PSPLAT_SOURCE"/man/*.[157]; do
+    for example in "$PSPLAT_SOURCE"/examples/*; do
+        check_file "$prefix/share/psplat/examples/$(basename "$example")"
+    done
+    for page in "$PSPLAT_SOURCE"/man/*.[1357]; do
         [ -f "$page" ] || continue
         check_file "$prefix/share/man/man${page##*.}/$(basename "$page")"
     done
@@ -76,7 +81,7 @@ check_contents() {
 
 # What is installed must not lean on the folders it was built in.
 check_independence() {
-    for file in "$1/bin/psplat" "$1/$libdir/psplat/plugins-1"/*/*.so; do
+    for file in "$1/bin/psplat" "$1/$libdir/libpsplat.so" "$1/$libdir/psplat/plugins-1"/*/*.so; do
         if grep -qF "$PSPLAT_BUILD/lib" "$file"; then
             fail "$file names the build folder"
         fi

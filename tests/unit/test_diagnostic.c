@@ -135,7 +135,7 @@ static void test_each(void **state)
     diagnostics_each(sink, note, &visits);
     assert_int_equal(visits.count, 2);
     assert_string_equal(visits.text, "1[a.psd:1:5: error: wrong\n    1 | one two\n      |     ^~]"
-                                     "1[psplat: error: nowhere]");
+                                     "1[nowhere]");
     assert_null(visits.last.file);
     assert_int_equal(visits.last.line, 0);
     diagnostics_destroy(sink);

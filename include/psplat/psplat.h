@@ -1,0 +1,143 @@
+/* psplat.h: renders scenes, from C or from any language that calls C: what the command `psplat render` does
+ * (psplat(1)), as functions. Link with what `pkg-config --cflags --libs psplat` says; libpsplat(3) is the manual.
+ *
+ *     psplat_error error;
+ *     psplat_picture *picture = NULL;
+ *     psplat_scene *scene = psplat_scene_create();
+ *     if (scene && psplat_scene_set(scene, "size", "640x360", &error) == PS_OK &&
+ *         psplat_scene_load(scene, "room.psd", &error) == PS_OK &&
+ *         psplat_render(scene, NULL, &picture, &error) == PS_OK)
+ *         psplat_picture_write(picture, "room.exr", &error);
+ *     psplat_picture_destroy(picture);
+ *     psplat_scene_destroy(scene);
+ *
+ * Results: PS_OK is 0; after any other a psplat_error says why. No function exits, prints, or changes the working
+ * folder, the locale or signal handlers. Mesh files are read in a child process, made by fork().
+ *
+ * Threads: there is no state but in the handles. A handle may be passed between threads. Functions that take it const
+ * may run in several threads at once, all others need it alone. So several threads render at once, different scenes
+ * or the same; each render starts threads of its own.
+ *
+ * Texts are UTF-8, end in NUL, and are copied where they are kept. Texts and samples that are returned stay valid until
+ * the handle that they come from is destroyed.
+ */
+#ifndef PSPLAT_PSPLAT_H
+#define PSPLAT_PSPLAT_H
+
+#include <psplat/result.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Why a function failed: written by that function alone, and only if it fails. The caller's, with nothing to free.
+ * Wherever one is taken, NULL will do. */
+typedef struct psplat_error {
+    ps_result result;
+    int32_t line, column; /* the first problem's place in `file`, from 1; 0 where it has none */
+    char file[1024];      /* "": no place in a file is to blame */
+    char message[8192];   /* what the command would print: all problems of a scene, in lines */
+} psplat_error;
+
+/* The version of the library: "1.2.3". */
+const char *psplat_version(void);
+
+/* --- scenes: options first, then a file or a text --------------------------------------------------- */
+
+typedef struct psplat_scene psplat_scene;
+
+/* NULL when out of memory. */
+psplat_scene *psplat_scene_create(void);
+void psplat_scene_destroy(psplat_scene *scene); /* NULL is nothing */
+
+/* Gives an option of `psplat render` a value, by its long name without dashes:
+ *
+ *     param, set, plugin             add to those given before
+ *     camera, restrict, allow-scene-plugins, size, quality, bounces, passes, seed, threads, isa, batch, direct,
+ *     direct-resolution, exposure, memory-limit, layers, compression, preview
+ *                                    the last counts
+ *
+ * Values are those of the command line; NULL for preview and allow-scene-plugins, which take none. What was loaded is
+ * released: options come before loading. PS_ERROR_INVALID: there is no such option, or no such value; PS_ERROR_IO: no
+ * such folder; what is loaded stays then. */
+ps_result psplat_scene_set(psplat_scene *scene, const char *option, const char *value,
+                           psplat_error *error);
+
+/* Who is told of warnings, and of remarks such as how many pixels no light reached, line by line: while scenes are
+ * loaded and rendered. Calls come from any thread, of one render not two at once. NULL: nobody, as from the start. */
+typedef void (*psplat_listener)(void *user, int is_warning, const char *message);
+void psplat_scene_listen(psplat_scene *scene, psplat_listener listener, void *user);
+
+/* Reads a scene (psd(5)) and checks all that can be told before a render: its text, files, strategies, their
+ * parameters, and memory. It takes the place of what was loaded before; where it fails, nothing is loaded. "-" is
+ * standard input. */
+ps_result psplat_scene_load(psplat_scene *scene, const char *path, psplat_error *error);
+
+/* The same for a text of `length` bytes, which may have none of its own on disk: `name` stands for its file in
+ * messages, and files that it names are looked for beside that: "/home/ann/models/lamp.psd". NULL: "<text>". */
+ps_result psplat_scene_load_text(psplat_scene *scene, const char *text, size_t length,
+                                 const char *name, psplat_error *error);
+
+/* --- renders ----------------------------------------------------------------------------------------- */
+
+typedef struct psplat_picture psplat_picture;
+typedef struct psplat_rendering psplat_rendering; /* under way; the library's */
+
+/* What a render calls, each NULL or a function; zero all that you don't use. They may use other handles as they like,
+ * but must not change the scene that is being rendered. */
+typedef struct psplat_callbacks {
+    size_t size; /* sizeof(psplat_callbacks) */
+    void *user;
+
+    /* How much of the render is done, 0..1, and what is being done. Called by the thread that called psplat_render. */
+    void (*progress)(void *user, const char *stage, double fraction);
+
+    /* Whether to stop: asked often, by any thread, and by several at once. */
+    int (*cancelled)(void *user);
+
+    /* Between passes, when so many are done and another follows. By the thread that called psplat_render. */
+    void (*pass)(void *user, psplat_rendering *rendering, uint32_t passes);
+} psplat_callbacks;
+
+/* Renders what is loaded. `callbacks`: NULL, or borrowed until it returns. *picture becomes the caller's, to be
+ * destroyed, or NULL. PS_CANCELLED: the picture holds the passes that were complete; it is NULL where there is nothing
+ * to show. Where a pass or a stage at the end fails, the picture is made without it, if there is something to show. The
+ * same scene, options, version and instruction set give the same picture, bit for bit, and that of the command. */
+ps_result psplat_render(const psplat_scene *scene, const psplat_callbacks *callbacks,
+                        psplat_picture **picture, psplat_error *error);
+
+/* The picture of the passes so far, likewise; from the callback `pass` alone. */
+ps_result psplat_rendering_picture(psplat_rendering *rendering, psplat_picture **picture,
+                                   psplat_error *error);
+
+/* --- pictures ---------------------------------------------------------------------------------------- */
+
+void psplat_picture_destroy(psplat_picture *picture); /* NULL is nothing */
+
+size_t psplat_picture_width(const psplat_picture *picture);
+size_t psplat_picture_height(const psplat_picture *picture);
+
+/* Channels by their index: the picture's own, "R", "G" and "B" (radiance, linear Rec.709); those of the layers that the
+ * option `layers` says, such as "indirect.R" or "Z" (psplat(1) lists them with their units); and "display.R",
+ * "display.G", "display.B": what a display shows, 0..1, linear. NULL beyond the last. */
+size_t psplat_picture_channel_count(const psplat_picture *picture);
+const char *psplat_picture_channel_name(const psplat_picture *picture, size_t index);
+
+/* Its samples, row by row from the top, width * height; NULL where there is no such channel. */
+const float *psplat_picture_channel(const psplat_picture *picture, const char *name);
+
+/* What the picture says of how it was made, such as "psplat.seed"; psplat(1) lists them. NULL: it has none such. */
+const char *psplat_picture_attribute(const psplat_picture *picture, const char *name);
+
+/* Writes an OpenEXR or PNG file, by the name's end (.exr, .png), as the command does: the former has the layers
+ * that the option `layers` says, the latter what a display shows. The file appears whole or not at all. */
+ps_result psplat_picture_write(const psplat_picture *picture, const char *path,
+                               psplat_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

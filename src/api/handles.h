@@ -1,0 +1,23 @@
+/* handles.h: what the handles of psplat.h hold. */
+#ifndef API_HANDLES_H
+#define API_HANDLES_H
+
+#include "session/render_options.h"
+#include <psplat/psplat.h>
+
+struct psplat_scene {
+    struct render_options options;
+    psplat_listener listener; /* NULL: nobody */
+    void *user;               /* its */
+    bool is_loaded, is_text;
+    struct scene_input input; /* as the following, where `is_loaded` */
+    struct scene scene;
+};
+
+struct psplat_picture {
+    struct image image;
+    struct output_options output;
+    uint32_t threads; /* to write it with */
+};
+
+#endif

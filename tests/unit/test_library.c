@@ -1,0 +1,574 @@
+/* test_library.c: psplat.h, by the shared library: pictures are the command's, errors come as values, nothing is
+ * printed, and renders don't know of each other. */
+#include "scratch.h"
+
+#include <fcntl.h>
+#include <fenv.h>
+#include <psplat/psplat.h>
+#include <pthread.h>
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+#define OBJECTS                                                                                    \
+    "psd: 1\n"                                                                                     \
+    "camera: {location: [0, 1, -4], look_at: [0, 1, 0], vertical_angle: 40}\n"                     \
+    "image: {width: 32, height: 18}\n"                                                             \
+    "materials: {white: {diffuse: [0.7, 0.6, 0.5]}}\n"                                             \
+    "lights:\n"                                                                                    \
+    "  - spotlight: {location: [0, 3, -1], point_at: [0, 0, 0], radius: 40, falloff: 50, "         \
+    "intensity: [10, 10, 10]}\n"                                                                   \
+    "objects:\n"                                                                                   \
+    "  - quad: {corners: [[-2, 0, -2], [-2, 0, 2], [2, 0, 2], [2, 0, -2]], material: white}\n"     \
+    "  - box: {corners: [[-0.5, 0, -0.5], [0.5, 1, 0.5]], material: white}\n"
+#define RENDER                                                                                     \
+    "render:\n"                                                                                    \
+    "  injection: {photon: {count: 1000}}\n"
+#define SCENE OBJECTS RENDER
+
+static void write_text(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void set(psplat_scene *scene, const char *option, const char *value)
+{
+    psplat_error error;
+    if (psplat_scene_set(scene, option, value, &error) != PS_OK)
+        fail_msg("%s=%s: %s", option, value ? value : "", error.message);
+}
+
+static void load(psplat_scene *scene, const char *text)
+{
+    psplat_error error;
+    if (psplat_scene_load_text(scene, text, strlen(text), NULL, &error) != PS_OK)
+        fail_msg("%s", error.message);
+}
+
+static psplat_picture *render(const psplat_scene *scene, const psplat_callbacks *callbacks)
+{
+    psplat_error error;
+    psplat_picture *picture = NULL;
+    if (psplat_render(scene, callbacks, &picture, &error) != PS_OK)
+        fail_msg("%s", error.message);
+    assert_non_null(picture);
+    return picture;
+}
+
+static void expect_same_picture(const psplat_picture *a, const psplat_picture *b)
+{
+    size_t pixels = psplat_picture_width(a) * psplat_picture_height(a);
+    assert_int_equal(psplat_picture_width(b) * psplat_picture_height(b), pixels);
+    assert_int_equal(psplat_picture_channel_count(a), psplat_picture_channel_count(b));
+    for (size_t i = 0; i < psplat_picture_channel_count(a); i++) {
+        const char *name = psplat_picture_channel_name(a, i);
+        const float *samples = psplat_picture_channel(b, name);
+        assert_non_null(samples);
+        assert_memory_equal(psplat_picture_channel(a, name), samples, pixels * sizeof *samples);
+    }
+}
+
+/* --- pictures ---------------------------------------------------------------------------------------- */
+
+static void expect_same_files(const char *a, const char *b)
+{
+    FILE *files[2] = {fopen(a, "rb"), fopen(b, "rb")};
+    assert_non_null(files[0]);
+    assert_non_null(files[1]);
+    int byte, other;
+    size_t count = 0;
+    do {
+        byte = getc(files[0]);
+        other = getc(files[1]);
+        assert_int_equal(byte, other);
+    } while (++count && byte != EOF);
+    assert_true(count > 1000);
+    fclose(files[0]);
+    fclose(files[1]);
+}
+
+/* Files are the command's, byte by byte: so are samples, and what they say of themselves. */
+static void test_the_command_s_picture(void **state)
+{
+    char command[4096];
+    const char *program = getenv("PSPLAT");
+    char path[512], scene_path[512];
+    psplat_error error;
+    psplat_scene *scene = psplat_scene_create();
+    assert_non_null(program);
+    assert_non_null(scene);
+    snprintf(scene_path, sizeof scene_path, "%s", scratch_path(state, "scene.psd"));
+    write_text(scene_path, SCENE);
+    snprintf(command, sizeof command,
+             "'%s' -q '%s' --size 40x20 --passes 1:3 --seed 7 --plugin denoiser=none --set "
+             "render.light_samples=3 --layers all,display -o '%s' -o '%s'",
+             program, scene_path, scratch_path(state, "command.exr"),
+             scratch_path(state, "command.png"));
+    assert_int_equal(system(command), 0);
+    set(scene, "size", "40x20");
+    set(scene, "passes", "1:3");
+    set(scene, "seed", "7");
+    set(scene, "plugin", "denoiser=none");
+    set(scene, "set", "render.light_samples=3");
+    set(scene, "layers", "all,display");
+    set(scene, "threads", "3");
+    assert_int_equal(psplat_scene_load(scene, scene_path, &error), PS_OK);
+    psplat_picture *picture = render(scene, NULL);
+    assert_string_equal(psplat_picture_attribute(picture, "psplat.seed"), "7");
+    snprintf(path, sizeof path, "%s", scratch_path(state, "library.exr"));
+    assert_int_equal(psplat_picture_write(picture, path, &error), PS_OK);
+    expect_same_files(path, scratch_path(state, "command.exr"));
+    snprintf(path, sizeof path, "%s", scratch_path(state, "library.png"));
+    assert_int_equal(psplat_picture_write(picture, path, NULL), PS_OK);
+    expect_same_files(path, scratch_path(state, "command.png"));
+    psplat_picture_destroy(picture);
+    psplat_scene_destroy(scene);
+}
+
+static void test_channels(void **state)
+{
+    (void)state;
+    psplat_scene *scene = psplat_scene_create();
+    load(scene, SCENE);
+    psplat_picture *picture = render(scene, NULL);
+    assert_int_equal(psplat_picture_width(picture), 32);
+    assert_int_equal(psplat_picture_height(picture), 18);
+    size_t count = psplat_picture_channel_count(picture);
+    assert_null(psplat_picture_channel_name(picture, count));
+    assert_null(psplat_picture_channel(picture, "W"));
+    assert_null(psplat_picture_attribute(picture, "psplat.weather"));
+    assert_null(psplat_picture_attribute(picture, "psplat.command")); /* of a text */
+    const float *red = psplat_picture_channel(picture, "R");
+    const float *direct = psplat_picture_channel(picture, "direct.R");
+    const float *indirect = psplat_picture_channel(picture, "indirect.R");
+    assert_true(red && direct && indirect && psplat_picture_channel(picture, "display.B"));
+    double sum = 0, difference = 0;
+    for (size_t i = 0; i < (size_t)32 * 18; i++) {
+        sum += red[i];
+        difference += red[i] - direct[i] - indirect[i];
+    }
+    assert_true(sum > 1.0);
+    assert_true(difference * difference < 1e-6 * sum * sum);
+    psplat_picture_destroy(picture);
+    set(scene, "layers", "none");
+    load(scene, SCENE);
+    picture = render(scene, NULL);
+    assert_non_null(psplat_picture_channel(picture, "R"));
+    assert_null(psplat_picture_channel(picture, "N.X"));
+    psplat_picture_destroy(picture);
+    psplat_scene_destroy(scene);
+}
+
+static void test_a_preview_yields_to_what_is_said(void **state)
+{
+    (void)state;
+    psplat_scene *scene = psplat_scene_create();
+    set(scene, "passes", "2");
+    set(scene, "plugin", "injection=photon:count=70");
+    set(scene, "preview", NULL);
+    load(scene, SCENE);
+    psplat_picture *picture = render(scene, NULL);
+    assert_string_equal(psplat_picture_attribute(picture, "psplat.passes"), "2");
+    assert_string_equal(psplat_picture_attribute(picture, "psplat.denoiser"), "none");
+    assert_non_null(strstr(psplat_picture_attribute(picture, "psplat.injection"), "count=70"));
+    psplat_picture_destroy(picture);
+    psplat_scene_destroy(scene);
+}
+
+/* --- callbacks --------------------------------------------------------------------------------------- */
+
+struct watch {
+    uint32_t passes, stop_after;
+    double fraction;
+    psplat_rendering *rendering;
+    psplat_picture *so_far;
+    ps_result out_of_place;
+    _Atomic(int) stop;
+};
+
+static void note_progress(void *user, const char *stage, double fraction)
+{
+    struct watch *watch = user;
+    psplat_picture *picture;
+    assert_true(stage[0] != '\0');
+    assert_true(fraction >= 0.0 && fraction <= 1.0);
+    watch->fraction = fraction;
+    if (watch->rendering)
+        watch->out_of_place = psplat_rendering_picture(watch->rendering, &picture, NULL);
+}
+
+static int asks_to_stop(void *user)
+{
+    struct watch *watch = user;
+    return watch->stop;
+}
+
+static void note_pass(void *user, psplat_rendering *rendering, uint32_t passes)
+{
+    struct watch *watch = user;
+    psplat_error error;
+    assert_int_equal(passes, ++watch->passes);
+    watch->rendering = rendering;
+    if (passes != watch->stop_after)
+        return;
+    assert_int_equal(psplat_rendering_picture(rendering, &watch->so_far, &error), PS_OK);
+    watch->stop = 1;
+}
+
+static psplat_callbacks watching(struct watch *watch)
+{
+    return (psplat_callbacks){
+        .size = sizeof(psplat_callbacks),
+        .user = watch,
+        .progress = note_progress,
+        .cancelled = asks_to_stop,
+        .pass = note_pass,
+    };
+}
+
+static void test_passes_as_they_come(void **state)
+{
+    (void)state;
+    struct watch watch = {.stop_after = 0};
+    psplat_callbacks callbacks = watching(&watch);
+    psplat_scene *scene = psplat_scene_create();
+    set(scene, "passes", "3");
+    load(scene, SCENE);
+    psplat_picture *watched = render(scene, &callbacks), *alone = render(scene, NULL);
+    assert_int_equal(watch.passes, 2);
+    assert_true(watch.fraction > 0.9);
+    assert_int_equal(watch.out_of_place, PS_ERROR_INVALID);
+    expect_same_picture(watched, alone);
+    psplat_picture_destroy(watched);
+    psplat_picture_destroy(alone);
+    psplat_scene_destroy(scene);
+}
+
+static void test_cancelled_between_passes(void **state)
+{
+    (void)state;
+    struct watch watch = {.stop_after = 2};
+    psplat_callbacks callbacks = watching(&watch);
+    psplat_error error;
+    psplat_picture *picture;
+    psplat_scene *scene = psplat_scene_create();
+    set(scene, "passes", "5");
+    load(scene, SCENE);
+    assert_int_equal(psplat_render(scene, &callbacks, &picture, &error), PS_CANCELLED);
+    assert_int_equal(error.result, PS_CANCELLED);
+    assert_non_null(picture);
+    assert_string_equal(psplat_picture_attribute(picture, "psplat.passes"), "2");
+    set(scene, "passes", "2");
+    load(scene, SCENE);
+    psplat_picture *two = render(scene, NULL);
+    expect_same_picture(watch.so_far, two);
+    psplat_picture_destroy(two);
+    psplat_picture_destroy(watch.so_far);
+    psplat_picture_destroy(picture);
+    psplat_scene_destroy(scene);
+}
+
+static void test_cancelled_from_the_start(void **state)
+{
+    (void)state;
+    struct watch watch = {.stop = 1};
+    psplat_callbacks callbacks = watching(&watch);
+    psplat_picture *picture;
+    psplat_scene *scene = psplat_scene_create();
+    load(scene, SCENE);
+    assert_int_equal(psplat_render(scene, &callbacks, &picture, NULL), PS_CANCELLED);
+    if (picture)
+        assert_string_equal(psplat_picture_attribute(picture, "psplat.passes"), "0");
+    psplat_picture_destroy(picture);
+    psplat_scene_destroy(scene);
+}
+
+static void test_callbacks_of_other_versions(void **state)
+{
+    (void)state;
+    psplat_callbacks callbacks = {.size = sizeof callbacks + 8};
+    psplat_error error;
+    psplat_picture *picture;
+    psplat_scene *scene = psplat_scene_create();
+    load(scene, SCENE);
+    assert_int_equal(psplat_render(scene, &callbacks, &picture, &error), PS_ERROR_INVALID);
+    assert_null(picture);
+    callbacks.size = 0;
+    assert_int_equal(psplat_render(scene, &callbacks, &picture, &error), PS_ERROR_INVALID);
+    assert_non_null(strstr(error.message, "psplat_callbacks.size is 0"));
+    callbacks.size = offsetof(psplat_callbacks, progress);
+    psplat_picture_destroy(render(scene, &callbacks));
+    psplat_scene_destroy(scene);
+}
+
+/* --- errors ------------------------------------------------------------------------------------------ */
+
+static void expect_error(const psplat_error *error, const char *file, int line, int column,
+                         const char *message)
+{
+    assert_string_equal(error->file, file);
+    assert_int_equal(error->line, line);
+    assert_int_equal(error->column, column);
+    if (!strstr(error->message, message))
+        fail_msg("no '%s' in '%s'", message, error->message);
+}
+
+static void test_wrong_options(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *option, *value, *message;
+    } wrong[] = {
+        {"sise", "1x1", "unknown option 'sise'; did you mean 'size'?"},
+        {"output", "a.exr", "unknown option 'output'"},
+        {"size", "10", "--size: expected WxH, each 1..65536, got '10'"},
+        {"size", NULL, "--size: a value is missing"},
+        {"preview", "yes", "--preview: it takes no value"},
+        {"threads", "0", "--threads: expected a whole number 1..1024, got '0'"},
+        {"passes", "3:2", "--passes: expected a whole number 4..1000000, got '2'"},
+        {"quality", "best", "--quality: expected"},
+        {"bounces", "-1", "--bounces: expected"},
+        {"direct", "maps", "--direct: expected rays or shadowmap, got 'maps'"},
+        {"exposure", "99", "--exposure: expected a number -20..20, got '99'"},
+        {"memory-limit", "much", "--memory-limit: expected a size such as 500M or 8G, got 'much'"},
+        {"layers", "depth", "--layers: expected none, or all and names among"},
+        {"compression", "jpeg", "--compression: expected one of"},
+        {"restrict", "/no/such/folder", "--restrict: "},
+    };
+    psplat_error error;
+    psplat_scene *scene = psplat_scene_create();
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        assert_int_not_equal(psplat_scene_set(scene, wrong[i].option, wrong[i].value, &error),
+                             PS_OK);
+        expect_error(&error, "", 0, 0, wrong[i].message);
+    }
+    set(scene, "allow-scene-plugins", NULL);
+    assert_int_equal(psplat_scene_set(scene, "restrict", "/", &error), PS_ERROR_INVALID);
+    expect_error(&error, "", 0, 0, "--restrict and --allow-scene-plugins exclude each other");
+    set(scene, "size", "8x8");
+    load(scene, SCENE);
+    psplat_picture_destroy(render(scene, NULL));
+    psplat_scene_destroy(scene);
+}
+
+static void test_wrong_scenes(void **state)
+{
+    static const char text[] = "psd: 1\ncamera: {locaton: [0, 0, -1]}\n";
+    psplat_error error;
+    psplat_picture *picture;
+    psplat_scene *scene = psplat_scene_create();
+    assert_int_equal(psplat_render(scene, NULL, &picture, &error), PS_ERROR_INVALID);
+    expect_error(&error, "", 0, 0, "no scene is loaded");
+    const char *path = scratch_path(state, "none.psd");
+    assert_int_equal(psplat_scene_load(scene, path, &error), PS_ERROR_IO);
+    expect_error(&error, "", 0, 0, "none.psd: error: cannot open: No such file or directory");
+    assert_int_equal(psplat_scene_load_text(scene, text, strlen(text), "/here/a.psd", &error),
+                     PS_ERROR_INVALID);
+    expect_error(&error, "/here/a.psd", 2, 1,
+                 "/here/a.psd:2:10: error: unknown key 'locaton' in camera; did you mean "
+                 "'location'?\n    2 | camera: {locaton: [0, 0, -1]}\n");
+    assert_int_equal(psplat_scene_load_text(scene, "", 0, NULL, NULL), PS_ERROR_INVALID);
+    assert_int_equal(psplat_render(scene, NULL, &picture, &error), PS_ERROR_INVALID);
+    assert_null(picture);
+    psplat_scene_destroy(scene);
+}
+
+static void test_wrong_strategies(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *plugin, *message;
+    } wrong[] = {
+        {"filtre=box", "--plugin: expected KIND=NAME[:KEY=VALUE,...], got 'filtre=box'"},
+        {"estimator=sun", "no estimator 'sun' (there are: "},
+        {"estimator=splat:sun=1", "unknown parameter 'sun' of estimator splat"},
+        {"injection=photon:count=-5", "injection photon: count: expected"},
+        {"injection=photon:count", "--plugin injection: "},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        psplat_error error;
+        psplat_scene *scene = psplat_scene_create();
+        set(scene, "plugin", wrong[i].plugin);
+        assert_int_equal(psplat_scene_load_text(scene, SCENE, strlen(SCENE), NULL, &error),
+                         PS_ERROR_INVALID);
+        expect_error(&error, "", 0, 0, wrong[i].message);
+        psplat_scene_destroy(scene);
+    }
+}
+
+static void test_wrong_in_the_end(void **state)
+{
+    psplat_error error;
+    psplat_scene *scene = psplat_scene_create();
+    set(scene, "memory-limit", "1K");
+    assert_int_equal(psplat_scene_load_text(scene, SCENE, strlen(SCENE), NULL, &error),
+                     PS_ERROR_MEMORY);
+    expect_error(&error, "", 0, 0, "a picture of 32x18 pixels takes");
+    set(scene, "memory-limit", "8G");
+    set(scene, "plugin", "denoiser=none");
+    set(scene, "layers", "error");
+    assert_int_equal(psplat_scene_load_text(scene, SCENE, strlen(SCENE), NULL, &error),
+                     PS_ERROR_INVALID);
+    expect_error(&error, "", 0, 0, "--layers: denoiser 'none' does not estimate its error");
+    set(scene, "layers", "all");
+    load(scene, SCENE);
+    psplat_picture *picture = render(scene, NULL);
+    assert_int_equal(psplat_picture_write(picture, "a.jpg", &error), PS_ERROR_INVALID);
+    expect_error(&error, "", 0, 0, "'a.jpg' ends neither in .exr nor in .png");
+    assert_int_equal(psplat_picture_write(picture, "/no/such/folder/a.exr", &error), PS_ERROR_IO);
+    assert_int_equal(scratch_file_count(state), 0);
+    psplat_picture_destroy(picture);
+    psplat_scene_destroy(scene);
+    psplat_scene_destroy(NULL);
+    psplat_picture_destroy(NULL);
+}
+
+static void keep_warning(void *user, int is_warning, const char *message)
+{
+    if (is_warning)
+        snprintf(user, 512, "%s", message);
+}
+
+/* Nothing goes to standard output or error, whatever happens; warnings go to who listens. */
+static void test_nothing_is_printed(void **state)
+{
+    static const char text[] =
+        OBJECTS "  - triangles: {vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [2, 0, 0]], "
+                "triangles: [[0, 1, 2], [0, 1, 3]], material: white}\n" RENDER;
+    char warning[512] = "";
+    const char *path = scratch_path(state, "printed");
+    int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0600), kept[2] = {dup(1), dup(2)};
+    fflush(stdout);
+    dup2(file, 1);
+    dup2(file, 2);
+    psplat_picture *picture = NULL;
+    psplat_scene *scene = psplat_scene_create();
+    psplat_scene_listen(scene, keep_warning, warning);
+    ps_result missing = psplat_scene_load(scene, "none.psd", NULL);
+    ps_result empty = psplat_scene_load_text(scene, "psd", 3, NULL, NULL);
+    ps_result good = psplat_scene_load_text(scene, text, strlen(text), "flat.psd", NULL);
+    ps_result rendered = good == PS_OK ? psplat_render(scene, NULL, &picture, NULL) : good;
+    psplat_picture_destroy(picture);
+    psplat_scene_destroy(scene);
+    fflush(NULL);
+    off_t printed = lseek(file, 0, SEEK_END);
+    for (int i = 0; i < 2; i++) {
+        dup2(kept[i], i + 1);
+        close(kept[i]);
+    }
+    close(file);
+    assert_int_equal(missing, PS_ERROR_IO);
+    assert_int_equal(empty, PS_ERROR_INVALID);
+    assert_int_equal(rendered, PS_OK);
+    assert_int_equal(printed, 0);
+    if (strncmp(warning, "flat.psd:", 9) != 0 ||
+        !strstr(warning, ": warning: a triangle without area is left out\n"))
+        fail_msg("%s", warning);
+}
+
+/* --- several renders --------------------------------------------------------------------------------- */
+
+#define THREADS 4
+
+struct task {
+    psplat_scene *scene;
+    psplat_picture *picture;
+    ps_result result;
+};
+
+static void *work(void *user)
+{
+    struct task *task = user;
+    task->result = psplat_render(task->scene, NULL, &task->picture, NULL);
+    return NULL;
+}
+
+/* Two scenes, each in two threads, all at once, give the pictures that they give one after another. */
+static void test_at_once(void **state)
+{
+    (void)state;
+    psplat_scene *scenes[2] = {psplat_scene_create(), psplat_scene_create()};
+    psplat_picture *alone[2];
+    struct task tasks[THREADS];
+    pthread_t threads[THREADS];
+    set(scenes[0], "threads", "2");
+    set(scenes[1], "threads", "3");
+    set(scenes[1], "passes", "2");
+    set(scenes[1], "plugin", "estimator=splat");
+    set(scenes[1], "direct", "shadowmap");
+    for (int i = 0; i < 2; i++) {
+        load(scenes[i], SCENE);
+        alone[i] = render(scenes[i], NULL);
+    }
+    for (int i = 0; i < THREADS; i++) {
+        tasks[i] = (struct task){.scene = scenes[i % 2]};
+        assert_int_equal(pthread_create(&threads[i], NULL, work, &tasks[i]), 0);
+    }
+    for (int i = 0; i < THREADS; i++) {
+        pthread_join(threads[i], NULL);
+        assert_int_equal(tasks[i].result, PS_OK);
+        expect_same_picture(tasks[i].picture, alone[i % 2]);
+        psplat_picture_destroy(tasks[i].picture);
+    }
+    for (int i = 0; i < 2; i++) {
+        psplat_picture_destroy(alone[i]);
+        psplat_scene_destroy(scenes[i]);
+    }
+}
+
+/* Nor does a picture depend on how the program rounds, or on whether it flushes denormal numbers; which stays so. */
+static void test_rounding(void **state)
+{
+    (void)state;
+    fenv_t usual;
+    psplat_scene *scene = psplat_scene_create();
+    load(scene, SCENE);
+    psplat_picture *expected = render(scene, NULL);
+    fegetenv(&usual);
+#if defined(__SSE2__)
+    _mm_setcsr(_mm_getcsr() | 0x8040u);
+#endif
+    fesetround(FE_UPWARD);
+    load(scene, SCENE);
+    psplat_picture *picture = render(scene, NULL);
+    int rounding = fegetround();
+    fesetenv(&usual);
+    assert_int_equal(rounding, FE_UPWARD);
+    expect_same_picture(picture, expected);
+    psplat_picture_destroy(picture);
+    psplat_picture_destroy(expected);
+    psplat_scene_destroy(scene);
+}
+
+static void test_version(void **state)
+{
+    (void)state;
+    int numbers[3];
+    assert_int_equal(sscanf(psplat_version(), "%d.%d.%d", &numbers[0], &numbers[1], &numbers[2]),
+                     3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        SCRATCH_TEST(test_the_command_s_picture),
+        cmocka_unit_test(test_channels),
+        cmocka_unit_test(test_a_preview_yields_to_what_is_said),
+        cmocka_unit_test(test_passes_as_they_come),
+        cmocka_unit_test(test_cancelled_between_passes),
+        cmocka_unit_test(test_cancelled_from_the_start),
+        cmocka_unit_test(test_callbacks_of_other_versions),
+        cmocka_unit_test(test_wrong_options),
+        SCRATCH_TEST(test_wrong_scenes),
+        cmocka_unit_test(test_wrong_strategies),
+        SCRATCH_TEST(test_wrong_in_the_end),
+        SCRATCH_TEST(test_nothing_is_printed),
+        cmocka_unit_test(test_at_once),
+        cmocka_unit_test(test_rounding),
+        cmocka_unit_test(test_version),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
