@@ -65,8 +65,9 @@ void psplat_scene_destroy(psplat_scene *scene); /* NULL is nothing */
 ps_result psplat_scene_set(psplat_scene *scene, const char *option, const char *value,
                            psplat_error *error);
 
-/* Who is told of warnings, and of remarks such as how many pixels no light reached, line by line: while scenes are
- * loaded and rendered. Calls come from any thread, of one render not two at once. NULL: nobody, as from the start. */
+/* Who is told of warnings, and of remarks such as how many pixels no light reached, one a call: while scenes are loaded
+ * and rendered. A warning of a scene's text ends in lines that show the place. Calls come from any thread, of one render
+ * not two at once. NULL: nobody, as from the start. */
 typedef void (*psplat_listener)(void *user, int is_warning, const char *message);
 void psplat_scene_listen(psplat_scene *scene, psplat_listener listener, void *user);
 

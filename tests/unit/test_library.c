@@ -6,6 +6,7 @@
 #include <fenv.h>
 #include <psplat/psplat.h>
 #include <pthread.h>
+#include <stdbool.h>
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
@@ -519,6 +520,48 @@ static void test_at_once(void **state)
     }
 }
 
+struct loading {
+    char path[512];
+    psplat_picture *picture;
+    psplat_error error;
+    bool good;
+};
+
+static void *load_and_render(void *user)
+{
+    struct loading *loading = user;
+    psplat_scene *scene = psplat_scene_create();
+    loading->good = scene && !psplat_scene_set(scene, "threads", "2", &loading->error) &&
+                    !psplat_scene_load(scene, loading->path, &loading->error) &&
+                    !psplat_render(scene, NULL, &loading->picture, &loading->error);
+    psplat_scene_destroy(scene);
+    return NULL;
+}
+
+/* Plugins and meshes are loaded while others load and render. */
+static void test_loading_at_once(void **state)
+{
+    struct loading loadings[THREADS] = {{.good = false}};
+    pthread_t threads[THREADS];
+    write_text(scratch_path(state, "mesh.obj"),
+               "v 0 1 0\nv 1 1 0\nv 0 2 0\nv 1 2 0\nf 1 2 3\nf 2 4 3\n");
+    write_text(scratch_path(state, "mesh.psd"),
+               OBJECTS "  - mesh: {file: mesh.obj, material: white}\n" RENDER);
+    for (int i = 0; i < THREADS; i++) {
+        snprintf(loadings[i].path, sizeof loadings[i].path, "%s", scratch_path(state, "mesh.psd"));
+        assert_int_equal(pthread_create(&threads[i], NULL, load_and_render, &loadings[i]), 0);
+    }
+    for (int i = 0; i < THREADS; i++)
+        pthread_join(threads[i], NULL);
+    for (int i = 0; i < THREADS; i++) {
+        if (!loadings[i].good)
+            fail_msg("%s", loadings[i].error.message);
+        expect_same_picture(loadings[i].picture, loadings[0].picture);
+    }
+    for (int i = 0; i < THREADS; i++)
+        psplat_picture_destroy(loadings[i].picture);
+}
+
 /* Nor does a picture depend on how the program rounds, or on whether it flushes denormal numbers; which stays so. */
 static void test_rounding(void **state)
 {
@@ -567,6 +610,7 @@ int main(void)
         SCRATCH_TEST(test_wrong_in_the_end),
         SCRATCH_TEST(test_nothing_is_printed),
         cmocka_unit_test(test_at_once),
+        SCRATCH_TEST(test_loading_at_once),
         cmocka_unit_test(test_rounding),
         cmocka_unit_test(test_version),
     };
