@@ -26,8 +26,17 @@ struct triangle_list {
     size_t count;
 };
 
+/* A point, or one to be found. */
+struct point_or_auto {
+    ps_vec3 point;
+    int32_t automatic;
+};
+
+#define AUTO_WORD "auto"
+
 struct camera_keys {
     struct camera_description camera;
+    struct point_or_auto location, look_at;
     int32_t projection; /* enum camera_kind */
 };
 

@@ -102,6 +102,8 @@ static const char *fixed_text(enum schema_form form)
     switch (form) {
     case SCHEMA_SCALE:
         return "[x, y, z] or one number";
+    case SCHEMA_POINT_OR_AUTO:
+        return AUTO_WORD " | [x, y, z] of number";
     case SCHEMA_PAIR:
         return "[u, v] or one number";
     case SCHEMA_MATERIAL:
@@ -114,8 +116,6 @@ static const char *fixed_text(enum schema_form form)
         return "path of a file";
     case SCHEMA_STRATEGY:
         return "NAME or {NAME: {PARAMETER: VALUE, ...}}";
-    case SCHEMA_MAP:
-        return "map";
     case SCHEMA_NAMED:
         return "map of maps by name";
     case SCHEMA_ITEMS:
@@ -128,6 +128,14 @@ static const char *fixed_text(enum schema_form form)
     default:
         return "";
     }
+}
+
+/* One map, or the word that stands for one. */
+static void describe_map(const struct schema_row *row, char *text, size_t size)
+{
+    const struct schema_section *section = schema_only(row->family);
+    const char *word = section ? section->word : NULL;
+    snprintf(text, size, "%s%smap", word ? word : "", word ? " | " : "");
 }
 
 void schema_describe(const struct schema_row *row, char *text, size_t size)
@@ -157,6 +165,9 @@ void schema_describe(const struct schema_row *row, char *text, size_t size)
     case SCHEMA_PIGMENT:
     case SCHEMA_SCALAR_PIGMENT:
         describe_pigment(row, text, size);
+        break;
+    case SCHEMA_MAP:
+        describe_map(row, text, size);
         break;
     default:
         snprintf(text, size, "%s", row->domain ? row->domain : fixed_text(row->form));

@@ -20,10 +20,11 @@
 
 /* How the value of a key is written, where its ps_param type does not say all. */
 enum schema_form {
-    SCHEMA_VALUE,     /* as its ps_param says */
-    SCHEMA_SCALE,     /* [x, y, z], or one number for all three */
-    SCHEMA_PAIR,      /* [u, v], or one number for both: double[2] */
-    SCHEMA_MATRIX,    /* 12 numbers: double[12] */
+    SCHEMA_VALUE,         /* as its ps_param says */
+    SCHEMA_SCALE,         /* [x, y, z], or one number for all three */
+    SCHEMA_POINT_OR_AUTO, /* [x, y, z], or auto: struct point_or_auto */
+    SCHEMA_PAIR,          /* [u, v], or one number for both: double[2] */
+    SCHEMA_MATRIX,        /* 12 numbers: double[12] */
     SCHEMA_WORDS,     /* list of choices of its ps_param: int32_t, a bit for each in their order */
     SCHEMA_POINTS,    /* list of [x, y, z]: struct point_list */
     SCHEMA_PAIRS,     /* list of [u, v]: struct pair_list */
@@ -72,6 +73,7 @@ struct schema_section {
                             is named by the user ("material", "camera"): any name */
     const char *family;  /* as the rows that hold it say; of one section: its name */
     const char *summary; /* one line, no full stop */
+    const char *word;    /* that may stand in place of the map, or NULL */
     const struct schema_row *rows;
     size_t row_count;
     int kind; /* of lights: enum light_kind; of objects: enum object_kind, or one of keys.h; of

@@ -139,12 +139,13 @@ static void write_rules(struct json_writer *writer, const struct schema_section 
 
 static void write_section(struct json_writer *writer, const struct schema_section *section)
 {
-    char name[NAME_TEXT];
+    char name[NAME_TEXT], pattern[NAME_TEXT];
     section_name(section, name);
     json_writer_open_of(writer, name, '{');
     json_writer_text_of(writer, "description", section->summary);
     json_writer_raw_of(writer, "type", "[\"object\", \"null\", \"string\"]");
-    json_writer_raw_of(writer, "pattern", "\"^=\"");
+    snprintf(pattern, sizeof pattern, section->word ? "^(=|%s$)" : "^=", section->word);
+    json_writer_text_of(writer, "pattern", pattern);
     json_writer_open_of(writer, "properties", '{');
     for (size_t i = 0; i < section->row_count; i++)
         write_row(writer, &section->rows[i]);

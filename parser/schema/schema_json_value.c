@@ -1,6 +1,8 @@
 /* schema_json_value.c: see schema_json_value.h. */
 #include "parser/schema/schema_json_value.h"
 
+#include "parser/schema/keys.h"
+
 #include <math.h>
 
 void schema_json_reference(struct json_writer *writer, const char *name)
@@ -190,6 +192,7 @@ static void write_sections(struct json_writer *writer, const struct schema_row *
 
 void schema_json_alternatives(struct json_writer *writer, const struct schema_row *row)
 {
+    static const char *const places[] = {AUTO_WORD, NULL};
     const ps_param *param = &row->param;
     ps_param number = *param;
     number.type = PS_PARAM_NUMBER;
@@ -201,6 +204,10 @@ void schema_json_alternatives(struct json_writer *writer, const struct schema_ro
     case SCHEMA_PAIR:
         write_number(writer, &number);
         write_numbers(writer, &number, row->form == SCHEMA_PAIR ? 2 : 3);
+        break;
+    case SCHEMA_POINT_OR_AUTO:
+        write_choices(writer, places);
+        write_numbers(writer, param, 3);
         break;
     case SCHEMA_PIGMENT:
         write_plain(writer, param);

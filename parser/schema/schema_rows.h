@@ -79,4 +79,11 @@ extern const struct schema_part schema_scene_part, schema_language_part, schema_
 /* A section that is alone in its family. */
 #define ONLY(name_, summary_) SECTION(name_, #name_, 0, summary_)
 
+/* The same, where a word may stand for it. */
+#define ONLY_OR_WORD(name_, word_, summary_)                                                       \
+    {                                                                                              \
+        .name = #name_, .family = #name_, .summary = (summary_), .word = (word_),                  \
+        .rows = name_##_rows, .row_count = COUNT(name_##_rows)                                     \
+    }
+
 #endif

@@ -32,10 +32,11 @@ static const char *const projections[] = {"perspective", "orthographic", NULL};
 #define CAMERA(member) offsetof(struct camera_keys, camera.member)
 
 static const struct schema_row camera_rows[] = {
-    ROW(SCHEMA_VALUE, "location", CAMERA(location), PS_PARAM_VEC3, "scene units",
-        "where the camera is", ANY),
-    ROW(SCHEMA_VALUE, "look_at", CAMERA(look_at), PS_PARAM_VEC3, "scene units",
-        "the point in the middle of the picture", ANY),
+    ROW(SCHEMA_POINT_OR_AUTO, "location", offsetof(struct camera_keys, location), PS_PARAM_VEC3,
+        "scene units", "where the camera is; auto: where it sees all there is", ANY),
+    ROW(SCHEMA_POINT_OR_AUTO, "look_at", offsetof(struct camera_keys, look_at), PS_PARAM_VEC3,
+        "scene units", "the point in the middle of the picture; auto: of what there is", ANY,
+        DEFAULT(AUTO_WORD)),
     ROW(SCHEMA_VALUE, "up", CAMERA(up), PS_PARAM_VEC3, "",
         "the direction that points upwards in the picture", ANY, DEFAULT("[0, 1, 0]")),
     VALUE(PS_CHOICE(struct camera_keys, projection, "perspective", projections,
@@ -43,14 +44,16 @@ static const struct schema_row camera_rows[] = {
     ROW(SCHEMA_VALUE, "angle", CAMERA(angle), PS_PARAM_NUMBER, "degrees",
         "horizontal field of view; excludes vertical_angle", .param.minimum = 0,
         .param.maximum = 180, .param.flags = PS_PARAM_OPEN_MIN | PS_PARAM_OPEN_MAX,
-        .absent = "67.38, unless vertical_angle is given", CHOICE(1, 1)),
+        .absent =
+            "67.38, unless vertical_angle is given; of location: auto 35 along the longer side",
+        CHOICE(1, 1)),
     ROW(SCHEMA_VALUE, "vertical_angle", CAMERA(vertical_angle), PS_PARAM_NUMBER, "degrees",
         "vertical field of view; excludes angle", .param.minimum = 0, .param.maximum = 180,
         .param.flags = PS_PARAM_OPEN_MIN | PS_PARAM_OPEN_MAX, .absent = "follows from angle",
         CHOICE(1, 2)),
     ROW(SCHEMA_VALUE, "width", CAMERA(width), PS_PARAM_NUMBER, "scene units",
         "width of what an orthographic camera shows", ABOVE_0,
-        .absent = "an orthographic camera requires it"),
+        .absent = "an orthographic camera requires it, but for location: auto"),
     ROW(SCHEMA_VALUE, "aperture", CAMERA(aperture), PS_PARAM_NUMBER, "scene units",
         "radius of the lens; 0: everything is sharp", FROM_0, DEFAULT("0")),
     ROW(SCHEMA_VALUE, "focus", CAMERA(focus), PS_PARAM_NUMBER, "scene units",
@@ -113,7 +116,7 @@ static const struct schema_row render_rows[] = {
 
 static const struct schema_section sections[] = {
     ONLY(scene, "the whole file"),
-    ONLY(camera, "from where, and how, the scene is seen"),
+    ONLY_OR_WORD(camera, AUTO_WORD, "from where, and how, the scene is seen"),
     ONLY(image, "size and exposure of the picture"),
     ONLY(render, "how the picture is made"),
 };

@@ -36,10 +36,11 @@ bool camera_exists(const struct reader *reader, const char *name)
 static bool check_projection(const struct reader *reader, const struct node *at,
                              const struct node *map, const struct camera_description *camera)
 {
+    bool finds = camera->finds_location;
     if (camera->kind == CAMERA_PERSPECTIVE)
         return check_expect(reader, camera->width == 0, check_value(map, at, "width"),
                             "width is of an orthographic camera; a perspective one has an angle");
-    bool good = check_expect(reader, camera->width > 0, at,
+    bool good = check_expect(reader, camera->width > 0 || finds, at,
                              "missing key 'width' in camera, which an orthographic one requires");
     const char *angle = camera->angle > 0 ? "angle" : "vertical_angle";
     return check_expect(reader, camera->angle == 0 && camera->vertical_angle == 0,
@@ -52,6 +53,10 @@ static bool check_camera(const struct reader *reader, const struct node *at, con
                          const struct camera_description *camera)
 {
     bool good = check_projection(reader, at, map, camera);
+    if (camera->finds_location || camera->finds_look_at)
+        return check_expect(reader, !check_zero(camera->up), check_value(map, at, "up"),
+                            "the length of up is 0") &&
+               good;
     if (ps_same(camera->location, camera->look_at))
         return check_expect(reader, false, check_value(map, at, "look_at"),
                             "look_at is the camera's location; it must be another point");
@@ -61,20 +66,40 @@ static bool check_camera(const struct reader *reader, const struct node *at, con
            good;
 }
 
+/* `auto` is a camera with that location. NULL when out of memory, noted. */
+static const struct node *map_of(struct reader *reader, const struct node *value)
+{
+    static const struct node empty = {.kind = NODE_MAP};
+    if (value->kind != NODE_SCALAR || strcmp(value->text, AUTO_WORD) != 0)
+        return value;
+    struct node *map = node_start(reader->arena, &empty);
+    const struct node *key = node_scalar(reader->arena, value, "location");
+    if (map && key && node_add(map, reader->arena, key, value))
+        return map;
+    reader->out_of_memory = true;
+    return NULL;
+}
+
 static void read_camera(struct reader *reader, const struct item *item, const char *name)
 {
     struct camera_keys keys = {.projection = CAMERA_PERSPECTIVE};
     struct camera_description *camera = camera_add(reader);
-    if (!camera)
+    const struct node *map = map_of(reader, item->value);
+    if (!camera || !map)
         return;
-    bool good = fill_section(reader, schema_only("camera"), item->key, item->value, &keys);
+    bool good = fill_section(reader, schema_only("camera"), item->key, map, &keys);
     *camera = keys.camera;
+    camera->location = keys.location.point;
+    camera->look_at = keys.look_at.point;
+    camera->finds_location = keys.location.automatic != 0;
+    camera->finds_look_at = keys.look_at.automatic != 0;
     camera->kind = (enum camera_kind)keys.projection;
     camera->name = reader_copy(reader, name);
     camera->origin = reader_origin(reader, item->key);
     if (good)
-        check_camera(reader, item->key, item->value, camera);
-    if (camera->kind == CAMERA_PERSPECTIVE && camera->angle == 0 && camera->vertical_angle == 0)
+        check_camera(reader, item->key, map, camera);
+    if (camera->kind == CAMERA_PERSPECTIVE && !camera->finds_location && camera->angle == 0 &&
+        camera->vertical_angle == 0)
         camera->angle = DEFAULT_ANGLE;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/suggestion.h"
 #include "base/text.h"
+#include "parser/schema/keys.h"
 #include "parser/sections/list_value.h"
 #include "parser/sections/sections.h"
 #include "parser/sections/value.h"
@@ -77,6 +78,23 @@ static bool fill_list(struct walk *walk, struct subject subject, const struct sc
     }
 }
 
+static bool fill_point_or_auto(struct reader *reader, struct subject subject,
+                               const struct schema_row *row, const struct node *node, void *state)
+{
+    struct point_or_auto *place = (struct point_or_auto *)((char *)state + row->param.offset);
+    bool is_word = node->kind == NODE_SCALAR && strcmp(node->text, AUTO_WORD) == 0;
+    char expected[64];
+    place->automatic = is_word;
+    if (is_word || node->kind == NODE_LIST)
+        return is_word || value_set(reader, subject, row, node, state);
+    schema_describe(row, expected, sizeof expected);
+    const char *text = value_text(reader, subject, node, expected);
+    if (text)
+        reader_error(reader, node, "%s in %s: expected %s, got '%.80s'", subject.key,
+                     subject.section, expected, text);
+    return false;
+}
+
 static bool fill_row(struct walk *walk, const struct schema_row *row, const struct node *node)
 {
     struct reader *reader = walk->reader;
@@ -88,6 +106,8 @@ static bool fill_row(struct walk *walk, const struct schema_row *row, const stru
     case SCHEMA_VALUE:
     case SCHEMA_SCALE:
         return value_set(reader, subject, row, node, walk->state);
+    case SCHEMA_POINT_OR_AUTO:
+        return fill_point_or_auto(reader, subject, row, node, walk->state);
     case SCHEMA_PAIR:
     case SCHEMA_MATRIX:
     case SCHEMA_WORDS:
@@ -126,6 +146,10 @@ static bool fill_default(const struct schema_row *row, void *state)
     const char *text = row->param.default_value;
     void *member = (char *)state + row->param.offset;
     struct error error;
+    if (row->form == SCHEMA_POINT_OR_AUTO) {
+        ((struct point_or_auto *)member)->automatic = 1;
+        return strcmp(text, AUTO_WORD) == 0;
+    }
     if (row->form == SCHEMA_PAIR) {
         double *pair = member;
         bool good = text_to_number(text, &pair[0]);
@@ -219,6 +243,11 @@ bool fill_section(struct reader *reader, const struct schema_section *section,
 {
     struct walk walk = {reader, section, at, map, state, 0};
     struct param_table table = schema_table(section);
+    if (section->word && map->kind == NODE_SCALAR && !node_is_null(map)) {
+        reader_error(reader, map, "expected %s or a map for %s, got '%.80s'", section->word,
+                     section->name, map->text);
+        return false;
+    }
     if (!fill_expect(reader, section->name, map, NODE_MAP))
         return false;
     bool good = fill_defaults(section, state);

@@ -1,6 +1,7 @@
 /* fragment.c: joins what a mesh file brought with the description. */
 #include "parser/sections/object.h"
 
+#include "import/import.h"
 #include "parser/sections/sections.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +13,20 @@ struct joint {
     const struct fragment *fragment;
     size_t *materials, *textures; /* NO_INDEX: not yet, or never */
     size_t first_mesh;
+    size_t plain; /* the material of objects without any; NO_INDEX: not needed yet */
 };
+
+/* Room for one more; NULL, noted, when out of memory. */
+static struct material_description *add_material(struct reader *reader)
+{
+    struct scene_description *description = reader->description;
+    struct material_description *materials = reader_extend(
+        reader, description->materials, description->material_count, 1, sizeof *materials);
+    if (!materials)
+        return NULL;
+    description->materials = materials;
+    return &materials[description->material_count++];
+}
 
 static size_t move_texture(struct joint *joint, size_t index)
 {
@@ -56,22 +70,30 @@ static size_t move_material(struct joint *joint, size_t index)
         return joint->materials[index];
     if (!move_components(joint, &content->materials[index]))
         return NO_INDEX;
-    struct scene_description *description = joint->reader->description;
-    struct material_description *materials = reader_extend(
-        joint->reader, description->materials, description->material_count, 1, sizeof *materials);
-    if (!materials)
+    struct material_description *material = add_material(joint->reader);
+    if (!material)
         return NO_INDEX;
-    description->materials = materials;
-    struct material_description *material = &materials[description->material_count];
     *material = content->materials[index];
     content->materials[index] = (struct material_description){.name = NULL};
+    joint->materials[index] = joint->reader->description->material_count - 1;
     struct pigment_description *pigments[] = {&material->color,     &material->specular,
                                               &material->roughness, &material->emission,
                                               &material->opacity,   &material->bump};
     for (size_t i = 0; i < sizeof pigments / sizeof pigments[0]; i++)
         move_pigment(joint, pigments[i]);
     material->normal_map = move_texture(joint, material->normal_map);
-    return joint->materials[index] = description->material_count++;
+    return joint->materials[index];
+}
+
+static size_t plain_material(struct joint *joint, const struct node *at)
+{
+    struct material_description *material =
+        joint->plain == NO_INDEX ? add_material(joint->reader) : NULL;
+    if (material) {
+        *material = mesh_material_plain(reader_origin(joint->reader, at));
+        joint->plain = joint->reader->description->material_count - 1;
+    }
+    return joint->plain;
 }
 
 static size_t choose_material(struct joint *joint, size_t index)
@@ -100,21 +122,23 @@ static void move_meshes(struct joint *joint)
     content->mesh_count = 0;
 }
 
-static bool move_objects(struct joint *joint, const struct node *at,
-                         const struct object_context *context)
+static size_t move_objects(struct joint *joint, const struct node *at,
+                           const struct object_context *context)
 {
     const struct scene_description *content = joint->fragment->content;
-    bool good = true;
+    size_t plain = 0;
     for (size_t i = 0; i < content->object_count && !joint->reader->out_of_memory; i++) {
         struct object_description object = content->objects[i];
         object.material = choose_material(joint, object.material);
         object.mesh += joint->first_mesh;
-        if (object.material == NO_INDEX)
-            good = false;
-        else if (!object_append(joint->reader, at, context, &object))
+        if (object.material == NO_INDEX) {
+            object.material = plain_material(joint, at);
+            plain++;
+        }
+        if (object.material == NO_INDEX || !object_append(joint->reader, at, context, &object))
             break;
     }
-    return good;
+    return plain;
 }
 
 static void move_lights(struct joint *joint)
@@ -168,25 +192,26 @@ static size_t *none(struct reader *reader, size_t count)
     return indices;
 }
 
-bool fragment_append(struct reader *reader, const struct node *at, const struct fragment *fragment,
-                     const struct object_context *context)
+size_t fragment_append(struct reader *reader, const struct node *at,
+                       const struct fragment *fragment, const struct object_context *context)
 {
     struct joint joint = {
         .reader = reader,
         .fragment = fragment,
         .materials = none(reader, fragment->content->material_count),
         .textures = none(reader, fragment->content->texture_count),
+        .plain = NO_INDEX,
     };
-    bool good = true;
+    size_t plain = 0;
     if (joint.materials && joint.textures) {
         if (fragment->content->mesh_count > 0)
             move_meshes(&joint);
-        good = move_objects(&joint, at, context);
+        plain = move_objects(&joint, at, context);
         if (fragment->content->light_count > 0)
             move_lights(&joint);
         move_cameras(reader, fragment->content);
     }
     free(joint.materials);
     free(joint.textures);
-    return good;
+    return plain;
 }

@@ -70,9 +70,9 @@ struct fragment {
     bool keep_materials;        /* those that nothing replaces */
 };
 
-/* Appends all to the description, objects to the context's list. Returns whether each object got a
- * material; those without are left out. Running out of memory is noted. */
-bool fragment_append(struct reader *reader, const struct node *at, const struct fragment *fragment,
-                     const struct object_context *context);
+/* Appends all to the description, objects to the context's list. Returns how many objects had no material
+ * and got the plain one (import.h). Running out of memory is noted. */
+size_t fragment_append(struct reader *reader, const struct node *at,
+                       const struct fragment *fragment, const struct object_context *context);
 
 #endif

@@ -32,6 +32,18 @@ static void warn_of(const struct reader *reader, const struct node *at, const ch
                            report->notes);
 }
 
+/* A scene that says what the file does not say gets no warning. */
+static void warn_of_plain(const struct reader *reader, const struct node *at, const char *file,
+                          size_t count)
+{
+    struct origin origin = reader_origin(reader, at);
+    if (count > 0 && !reader->out_of_memory)
+        diagnostics_report(reader->sink, SEVERITY_WARNING, &origin, at->mark.width,
+                           "%s: %zu part%s without a material: grey, of reflectance %g; 'material' "
+                           "gives another",
+                           file, count, count > 1 ? "s" : "", MESH_PLAIN_REFLECTANCE);
+}
+
 static bool names_material(const struct material_description *material, const char *name)
 {
     return material->name && strcmp(material->name, name) == 0;
@@ -85,8 +97,11 @@ static void append(struct reader *reader, const struct item *item, const struct 
                    struct scene_description *content, const struct object_context *placed)
 {
     bool good = true;
+    const char *name = reader_add_file(reader, keys->file->text);
     struct object_context context = *placed;
     context.placement = (struct affine)AFFINE_IDENTITY; /* which the import applied */
+    for (size_t i = 0; i < content->mesh_count; i++)
+        content->meshes[i].file = name;
     size_t *replacements = read_replacements(reader, keys->materials, content, &good);
     const struct fragment fragment = {
         .content = content,
@@ -94,10 +109,9 @@ static void append(struct reader *reader, const struct item *item, const struct 
         .otherwise = keys->object.material,
         .keep_materials = keys->use & USE_MATERIALS,
     };
-    if (replacements && good && !fragment_append(reader, item->key, &fragment, &context) &&
-        !reader->out_of_memory)
-        reader_error(reader, keys->file,
-                     "mesh '%s' has parts without a material; give material:", keys->file->text);
+    if (replacements && good)
+        warn_of_plain(reader, item->key, keys->file->text,
+                      fragment_append(reader, item->key, &fragment, &context));
     free(replacements);
 }
 

@@ -1,4 +1,5 @@
 /* command_check.c: psplat check: is a scene file right? */
+#include "cli/bounds.h"
 #include "cli/command.h"
 #include "cli/render_arguments.h"
 #include "pipeline/render.h"
@@ -6,6 +7,7 @@
 #include <stdio.h>
 
 static const struct option options[] = {
+    {0, "bounds", NULL, "print the boxes around the scene and its meshes, and the camera"},
     {'p', "plugin", "KIND=NAME[:KEY=VALUE,...]", "check with another strategy"},
     SCENE_OPTIONS,
     {0, "parameters", NULL, "list the parameters of the scenes instead"},
@@ -18,8 +20,16 @@ static void print_log(void *user, ps_log_level level, const char *message)
         print_warning(message);
 }
 
+static bool asks_for(const struct argument *arguments, size_t count, const char *name)
+{
+    bool found = false;
+    for (size_t i = 0; i < count; i++)
+        found = found || argument_is(&arguments[i], name);
+    return found;
+}
+
 /* Pictures are read, shapes and lights made, and strategies started: what is wrong with those shows only then. */
-static bool builds(struct scene_input *input, struct render_settings *settings)
+static bool builds(struct scene_input *input, struct render_settings *settings, bool prints_bounds)
 {
     static const struct render_callbacks callbacks = {.log = print_log};
     struct scene scene;
@@ -29,13 +39,15 @@ static bool builds(struct scene_input *input, struct render_settings *settings)
     if (result != PS_OK)
         return false;
     result = render_try(&scene, settings, &callbacks, &error);
+    if (result == PS_OK && prints_bounds)
+        result = bounds_print(&input->description, &scene, &error);
     scene_release(&scene);
     if (result != PS_OK)
         print_error(error.text);
     return result == PS_OK;
 }
 
-static bool check_scene(const struct render_arguments *taken, const char *path)
+static bool check_scene(const struct render_arguments *taken, const char *path, bool prints_bounds)
 {
     struct scene_input input;
     struct render_settings settings;
@@ -43,7 +55,7 @@ static bool check_scene(const struct render_arguments *taken, const char *path)
     if (good) {
         good = scene_input_resolve(&input.description.render, 1, 1, input.sink, &settings) == PS_OK;
         if (good) {
-            good = builds(&input, &settings);
+            good = builds(&input, &settings, prints_bounds);
             settings_release(&settings);
         } else {
             print_problems(&input);
@@ -90,15 +102,15 @@ static int check_scenes(const struct argument *arguments, size_t count,
 {
     int status = STATUS_OK;
     size_t scenes = 0;
-    bool lists = false;
-    for (size_t i = 0; i < count; i++)
-        lists = lists || argument_is(&arguments[i], "parameters");
+    bool lists = asks_for(arguments, count, "parameters");
+    bool bounds = asks_for(arguments, count, "bounds");
     for (size_t i = 0; i < count; i++) {
         const char *path = arguments[i].value;
         if (arguments[i].option)
             continue;
         scenes++;
-        if (!(lists ? list_parameters(&taken->options.scene, path) : check_scene(taken, path)))
+        if (!(lists ? list_parameters(&taken->options.scene, path)
+                    : check_scene(taken, path, bounds)))
             status = STATUS_USAGE;
     }
     if (scenes > 0)

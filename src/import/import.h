@@ -28,6 +28,11 @@ struct mesh_request {
     struct origin origin;
 };
 
+/* What parts are made of for which neither the file nor the scene has a material: diffuse grey. Without a name; it owns
+ * nothing. */
+#define MESH_PLAIN_REFLECTANCE 0.5
+struct material_description mesh_material_plain(struct origin origin);
+
 /* What was mended, for warnings. */
 struct mesh_report {
     size_t dropped_triangles, dropped_lights, missing_textures;

@@ -34,7 +34,7 @@ ps_rgb mesh_material_color(const struct aiMaterial *source, const char *key, ps_
 
 /* --- writing -------------------------------------------------------------------------------------- */
 
-struct material_description mesh_material_default(const struct mesh_job *job)
+struct material_description mesh_material_white(struct origin origin)
 {
     return (struct material_description){
         .kind = MATERIAL_DIFFUSE,
@@ -46,8 +46,15 @@ struct material_description mesh_material_default(const struct mesh_job *job)
         .opacity = mesh_pigment(mesh_grey(1)),
         .bump = mesh_pigment(mesh_grey(0)),
         .normal_map = NO_INDEX,
-        .origin = job->request->origin,
+        .origin = origin,
     };
+}
+
+struct material_description mesh_material_plain(struct origin origin)
+{
+    struct material_description plain = mesh_material_white(origin);
+    plain.color = mesh_pigment(mesh_grey(MESH_PLAIN_REFLECTANCE));
+    return plain;
 }
 
 static char *make_name(const char *name, const char *part)

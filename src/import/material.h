@@ -14,7 +14,7 @@ double mesh_material_number(const struct aiMaterial *source, const char *key, do
 ps_rgb mesh_material_color(const struct aiMaterial *source, const char *key, ps_rgb fallback);
 
 /* What is common to all kinds; diffuse and white. */
-struct material_description mesh_material_default(const struct mesh_job *job);
+struct material_description mesh_material_white(struct origin origin);
 
 /* Adds it to the fragment, with a copy of the name and, if there is a part, ":PART". */
 ps_result mesh_material_add(struct mesh_job *job, const struct material_description *material,

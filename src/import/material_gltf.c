@@ -176,7 +176,7 @@ ps_result mesh_material_read_gltf(struct mesh_job *job, const struct aiMaterial 
                                   const struct json *extras, const char *name, size_t *index)
 {
     struct pbr pbr = read_pbr(job, source);
-    struct material_description material = mesh_material_default(job);
+    struct material_description material = mesh_material_white(job->request->origin);
     ps_result result = read_surface(job, source, extras, &pbr, &material);
     if (result == PS_OK && pbr.transmission >= 0.5)
         return add_glass(job, source, &pbr, &material, name, index);

@@ -200,7 +200,7 @@ ps_result mesh_material_read_mtl(struct mesh_job *job, const struct aiMaterial *
                                  const char *name, size_t *index)
 {
     struct mtl mtl = read_mtl(job, source);
-    struct material_description material = mesh_material_default(job);
+    struct material_description material = mesh_material_white(job->request->origin);
     ps_result result = read_surface(job, source, &mtl, &material);
     if (result != PS_OK)
         return result;

@@ -25,9 +25,10 @@ struct camera_description {
     char *name;
     enum camera_kind kind;
     ps_vec3 location, look_at, up;
+    bool finds_location, finds_look_at; /* from what there is to see: camera_frame.h */
     double angle;          /* horizontal field of view; 0 when vertical_angle is given */
-    double vertical_angle; /* 0 when angle is given */
-    double width;          /* orthographic: of what the picture shows */
+    double vertical_angle; /* 0 when angle is given; both 0: chosen with the location */
+    double width;          /* orthographic: of what the picture shows; 0: chosen likewise */
     double aperture;       /* radius of the lens; 0: a pinhole */
     double focus;          /* distance at which things are sharp; 0: that of look_at */
     struct origin origin;
@@ -163,6 +164,7 @@ struct light_description {
 
 /* Triangles that objects share. */
 struct mesh_description {
+    const char *file; /* that they are from, of the description's names; NULL: the scene itself */
     ps_vec3 *vertices;
     ps_vec3 *normals; /* of each vertex, any length; NULL: flat */
     float (*uv)[2];   /* of each vertex, v upwards; NULL: none */
@@ -241,6 +243,12 @@ struct scene_description {
     char **files; /* every name that an origin refers to */
     size_t file_count;
 };
+
+/* A plane that takes its size from the rest of the scene. */
+static inline bool object_is_endless(const struct object_description *object)
+{
+    return object->kind == OBJECT_PLANE && !(object->extent > 0);
+}
 
 /* Frees what the members own, and zeroes the description. */
 void scene_description_release(struct scene_description *description);

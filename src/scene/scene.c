@@ -1,5 +1,7 @@
 #include "scene/scene.h"
 
+#include "scene/camera_frame.h"
+#include "scene/scene_box.h"
 #include "scene/scene_parts.h"
 #include <stdlib.h>
 
@@ -32,6 +34,28 @@ static ps_result check_size(const struct scene *scene, struct error *error)
                      (double)scene->radius, (double)SMALLEST_RADIUS, (double)LARGEST_RADIUS);
 }
 
+ps_result scene_find_camera(const struct scene_description *description, const struct scene *scene,
+                            struct camera_description *camera, struct error *error)
+{
+    *camera = description->cameras[0];
+    if (!camera->finds_location && !camera->finds_look_at)
+        return PS_OK;
+    struct box box = scene_box_to_frame(description, scene, camera->up);
+    return camera_frame(camera, &box, scene->width, scene->height, error);
+}
+
+/* After the geometry, as the camera may have to show it. */
+static ps_result add_camera(struct assembly *assembly)
+{
+    struct scene *scene = assembly->scene;
+    struct camera_description camera;
+    assembly->where = assembly->description->cameras[0].origin;
+    ps_result result = scene_find_camera(assembly->description, scene, &camera, assembly->error);
+    if (result == PS_OK)
+        scene->camera = camera_from_description(&camera, scene->width, scene->height);
+    return result;
+}
+
 static ps_result assemble(struct assembly *assembly)
 {
     struct scene *scene = assembly->scene;
@@ -42,6 +66,8 @@ static ps_result assemble(struct assembly *assembly)
         assembly->where = (struct origin){0};
         result = check_size(scene, assembly->error);
     }
+    if (result == PS_OK)
+        result = add_camera(assembly);
     float largest = scene->radius + ps_length(scene->center);
     scene->surface_offset = OFFSET_ULPS * 0x1p-23f * largest;
     if (result == PS_OK)
@@ -66,7 +92,6 @@ ps_result scene_create(const struct scene_description *description, struct scene
         .light_choices = (uint32_t)description->render.light_choices,
         .path_light_choices = path_light_choices((uint32_t)description->render.light_choices),
     };
-    scene->camera = camera_from_description(&description->cameras[0], scene->width, scene->height);
     struct assembly assembly = {.description = description, .scene = scene, .error = error};
     ps_result result = assemble(&assembly);
     if (where)

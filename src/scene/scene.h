@@ -77,6 +77,10 @@ ps_result scene_create(const struct scene_description *description, struct scene
                        struct origin *where, struct error *error);
 void scene_release(struct scene *scene);
 
+/* The description's first camera with what it had to find (camera_frame.h) in a scene made of it. */
+ps_result scene_find_camera(const struct scene_description *description, const struct scene *scene,
+                            struct camera_description *camera, struct error *error);
+
 /* The instance that an object stands in; NULL for the world's own shapes. */
 const struct instance *scene_instance_of(const struct scene *scene, uint32_t object);
 

@@ -2,67 +2,27 @@
  *
  * Planes without an extent are as large as the rest of the scene asks for, so they are made last.
  */
+#include "scene/scene_box.h"
 #include "scene/scene_parts.h"
 
 #include <psplat/math.h>
 #include <stdlib.h>
 
-/* A box that grows around points. */
-struct bounds {
-    ps_vec3 low, high;
-};
-
-#define NO_BOUNDS                                                                                  \
-    {                                                                                              \
-        {INFINITY, INFINITY, INFINITY},                                                            \
-        {                                                                                          \
-            -INFINITY, -INFINITY, -INFINITY                                                        \
-        }                                                                                          \
-    }
-
-static void bounds_add_point(struct bounds *bounds, ps_vec3 p)
-{
-    bounds->low =
-        (ps_vec3){fminf(bounds->low.x, p.x), fminf(bounds->low.y, p.y), fminf(bounds->low.z, p.z)};
-    bounds->high = (ps_vec3){fmaxf(bounds->high.x, p.x), fmaxf(bounds->high.y, p.y),
-                             fmaxf(bounds->high.z, p.z)};
-}
-
-/* The corners of a placed box. */
-static void bounds_add_box(struct bounds *bounds, const struct bounds *box,
-                           const struct affine *placement)
-{
-    for (unsigned i = 0; i < 8; i++) {
-        ps_vec3 corner = {i & 1 ? box->high.x : box->low.x, i & 2 ? box->high.y : box->low.y,
-                          i & 4 ? box->high.z : box->low.z};
-        bounds_add_point(bounds, affine_point(placement, corner));
-    }
-}
-
-static struct bounds bounds_of_shapes(const struct scene *scene, size_t first, size_t count)
-{
-    struct bounds bounds = NO_BOUNDS;
-    for (size_t i = first; i < first + count; i++)
-        shape_extend_bounds(&scene->shapes[i], &bounds.low, &bounds.high);
-    return bounds;
-}
-
 static void measure(struct scene *scene)
 {
-    struct bounds bounds = bounds_of_shapes(scene, 0, scene->world_shape_count);
+    struct box box = scene_box_of_shapes(scene, 0, scene->world_shape_count);
     for (size_t i = 0; i < scene->instance_count; i++) {
         const struct instance *instance = &scene->instances[i];
         const struct group *group = instance->group;
-        struct bounds box = bounds_of_shapes(scene, group->first_shape, group->shape_count);
-        if (group->shape_count > 0)
-            bounds_add_box(&bounds, &box, &instance->placement);
+        struct box shapes = scene_box_of_shapes(scene, group->first_shape, group->shape_count);
+        box_add_placed(&box, &shapes, &instance->placement);
     }
     scene->radius = 0.0f;
     scene->center = (ps_vec3){0, 0, 0};
-    if (!(bounds.low.x <= bounds.high.x))
+    if (box_is_empty(&box))
         return;
-    scene->center = ps_scale(ps_add(bounds.low, bounds.high), 0.5f);
-    scene->radius = 0.5f * ps_length(ps_subtract(bounds.high, bounds.low));
+    scene->center = box_center(&box);
+    scene->radius = 0.5f * ps_length(ps_subtract(box.high, box.low));
 }
 
 /* --- shapes -------------------------------------------------------------------------------------- */
@@ -111,12 +71,6 @@ static ps_result add_shape(struct assembly *assembly, const struct object_descri
     return PS_OK;
 }
 
-/* A plane that takes its size from the rest of the scene. */
-static bool is_endless(const struct object_description *object)
-{
-    return object->kind == OBJECT_PLANE && !(object->extent > 0);
-}
-
 /* The objects of the world that are shapes, numbered in their order: endless planes or the others. */
 static ps_result add_world(struct assembly *assembly, bool endless)
 {
@@ -128,7 +82,7 @@ static ps_result add_world(struct assembly *assembly, bool endless)
         const struct object_description *object = &description->objects[i];
         if (object->kind == OBJECT_INSTANCE)
             continue;
-        ps_result result = is_endless(object) == endless
+        ps_result result = object_is_endless(object) == endless
                                ? add_shape(assembly, object, &surroundings, slot)
                                : PS_OK;
         if (result != PS_OK)

@@ -120,6 +120,43 @@ expect_text err "plugins.psd:7:40: error: visibility shadowmap: resolution: expe
 expect_text err "plugins.psd:8:11: error: no filter 'gausian' (there are: box, "
 expect_text err "3 errors"
 
+# --bounds: of the scene without endless planes and lights, of mesh files and instances of them, and the camera.
+printf 'v 0 0 0\nv 1 0 0\nv 0 2 3\nf 1 2 3\nv 9 9 9\n' >m.obj
+cat >bounds.psd <<'END'
+psd: 1
+camera: auto
+lights: [sphere: {location: [0, 99, 0], radius: 1, power: 5}]
+materials: {a: {diffuse: 0.5}}
+groups: {g: [mesh: {file: m.obj, material: a}], h: [sphere: {center: [0, 0, 0], radius: 0.5, material: a}]}
+objects:
+  - plane: {normal: [0, 1, 0], material: a}
+  - for: i
+    in: [0, 10]
+    do: [mesh: {file: m.obj, material: a, translate: [=i, 0, 0]}]
+  - instance: {of: g, translate: [0, -4, 0]}
+  - instance: {of: h}
+END
+run 0 check --bounds bounds.psd
+expect_empty err
+cat >expected <<'END'
+bounds.psd
+  scene: extent [11.5, 6, 3.5], center [5.25, -1, 1.25], from [-0.5, -4, -0.5] to [11, 2, 3]
+  mesh m.obj (bounds.psd:10:10): extent [1, 2, 3], center [0.5, 1, 1.5], from [0, 0, 0] to [1, 2, 3]
+  mesh m.obj (bounds.psd:10:10): extent [1, 2, 3], center [10.5, 1, 1.5], from [10, 0, 0] to [11, 2, 3]
+  instance of g (bounds.psd:11:5): extent [1, 2, 3], center [0.5, -3, 1.5], from [0, -4, 0] to [1, -2, 3]
+END
+grep -v camera out >found
+expect_same found expected
+# A scene with the camera that was printed gives the same picture.
+sed -n 's/^  camera/camera/p' out >camera
+{ grep -v '^camera' bounds.psd; cat camera; } >found.psd
+for name in bounds found; do
+    run 0 -q --size 80x45 -p estimator=splat -p denoiser=none -o $name.exr $name.psd
+done
+run 0 compare bounds.exr found.exr --layer N --metric max --fail 'max>0.01'
+run 2 check --bounds bad.psd
+expect_empty out
+
 # --plugin lays over the scene.
 run 2 check --plugin filter=nope "$cornell"
 expect_text err "no filter 'nope'"

@@ -97,38 +97,40 @@ static struct scene_description file_content(void)
     return c;
 }
 
-static bool append(struct place *place, const size_t replacements[3], size_t otherwise, bool keep)
+static size_t append(struct place *place, const size_t replacements[3], size_t otherwise, bool keep)
 {
     static const struct node at = {.mark = {1, 1, 1}};
     struct scene_description content = file_content();
     const struct fragment fragment = {&content, replacements, otherwise, keep};
-    bool good = fragment_append(&place->reader, &at, &fragment, &place->context);
+    size_t plain = fragment_append(&place->reader, &at, &fragment, &place->context);
     scene_description_release(&content);
     assert_false(place->reader.out_of_memory);
-    return good;
+    return plain;
 }
 
-/* Indices are shifted, what nothing uses stays behind, and parts without a material are told. */
+/* Indices are shifted, what nothing uses stays behind, and parts without a material are grey. */
 static void test_own_materials(void **state)
 {
     (void)state;
     const size_t replacements[] = {NO_INDEX, NO_INDEX, NO_INDEX};
     struct place place;
     start(&place);
-    assert_false(append(&place, replacements, NO_INDEX, true));
+    assert_int_equal(append(&place, replacements, NO_INDEX, true), 1);
     const struct scene_description *d = &place.description;
     const struct object_description *o = place.list.items;
-    assert_int_equal(place.list.count, 3);
-    assert_int_equal(d->material_count, 3);
+    assert_int_equal(place.list.count, 4);
+    assert_int_equal(d->material_count, 4);
     assert_string_equal(d->materials[o[0].material].name, "wood");
-    assert_string_equal(d->materials[o[1].material].name, "gold");
-    assert_int_equal(o[2].material, o[0].material);
+    assert_true(d->materials[o[1].material].kind == MATERIAL_DIFFUSE &&
+                d->materials[o[1].material].color.colors[0].g == 0.5F);
+    assert_string_equal(d->materials[o[2].material].name, "gold");
+    assert_int_equal(o[3].material, o[0].material);
     assert_int_equal(d->texture_count, 3);
     assert_string_equal(d->textures[d->materials[o[0].material].color.texture].path, "1.png");
-    assert_string_equal(d->textures[d->materials[o[1].material].normal_map].path, "2.png");
+    assert_string_equal(d->textures[d->materials[o[2].material].normal_map].path, "2.png");
     assert_int_equal(d->mesh_count, 5);
     assert_int_equal(d->meshes[o[0].mesh].vertex_count, 10);
-    assert_int_equal(d->meshes[o[2].mesh].vertex_count, 13);
+    assert_int_equal(d->meshes[o[3].mesh].vertex_count, 13);
     assert_true(o[0].hidden);
     assert_int_equal(d->light_count, 1);
     assert_int_equal(d->lights[0].texture, NO_INDEX);
@@ -156,19 +158,20 @@ static void test_mixes_and_absent_materials(void **state)
     const struct fragment fragment = {&content, replacements, NO_INDEX, true};
     fragment_append(&place.reader, &at, &fragment, &place.context);
     const struct scene_description *d = &place.description;
-    const struct material_description *moved = &d->materials[place.list.items[1].material];
+    const struct material_description *moved = &d->materials[place.list.items[2].material];
     assert_string_equal(moved->name, "gold");
     assert_string_equal(d->materials[moved->components[0]].name, "unused");
     assert_string_equal(d->materials[moved->components[1]].name, "wood");
-    assert_true(moved->components[0] < place.list.items[1].material);
+    assert_true(moved->components[0] < place.list.items[2].material);
     scene_description_release(&content);
     end(&place);
     start(&place);
     content = file_content();
     content.materials[0].kind = MATERIAL_MIX; /* of nothing */
     const struct fragment lacking = {&content, replacements, NO_INDEX, true};
-    assert_false(fragment_append(&place.reader, &at, &lacking, &place.context));
-    assert_int_equal(place.list.count, 1);
+    assert_int_equal(fragment_append(&place.reader, &at, &lacking, &place.context), 3);
+    assert_int_equal(place.list.count, 4);
+    assert_int_equal(place.description.material_count, 3); /* one grey for all */
     scene_description_release(&content);
     end(&place);
 }
@@ -179,19 +182,19 @@ static void test_replacements(void **state)
     const size_t replacements[] = {0, NO_INDEX, NO_INDEX};
     struct place place;
     start(&place);
-    assert_false(append(&place, replacements, NO_INDEX, true));
+    assert_int_equal(append(&place, replacements, NO_INDEX, true), 1);
     assert_int_equal(place.list.items[0].material, 0);
-    assert_string_equal(place.description.materials[place.list.items[1].material].name, "gold");
+    assert_string_equal(place.description.materials[place.list.items[2].material].name, "gold");
     assert_int_equal(place.description.texture_count, 2);
     end(&place);
     start(&place);
-    assert_false(append(&place, replacements, NO_INDEX, false)); /* gold is not wanted */
-    assert_int_equal(place.list.count, 2);
-    assert_int_equal(place.description.material_count, 1);
+    assert_int_equal(append(&place, replacements, NO_INDEX, false), 2); /* gold is not wanted */
+    assert_int_equal(place.list.count, 4);
+    assert_int_equal(place.description.material_count, 2);
     end(&place);
     start(&place);
     const size_t none[] = {NO_INDEX, NO_INDEX, NO_INDEX};
-    assert_true(append(&place, none, 0, true)); /* material: for all */
+    assert_int_equal(append(&place, none, 0, true), 0); /* material: for all */
     assert_int_equal(place.list.count, 4);
     for (size_t i = 0; i < 4; i++)
         assert_int_equal(place.list.items[i].material, 0);
@@ -212,7 +215,7 @@ static void test_cameras_have_names_of_their_own(void **state)
     for (size_t i = 0; i < 5; i++)
         assert_string_equal(place.description.cameras[i].name, names[i]);
     assert_int_equal(place.description.mesh_count, 9);
-    assert_int_equal(place.list.items[3].mesh, 5);
+    assert_int_equal(place.list.items[4].mesh, 5);
     end(&place);
 }
 

@@ -78,6 +78,26 @@ static void test_defaults(void **state)
     scene_description_release(&d);
 }
 
+static void test_automatic_cameras(void **state)
+{
+    (void)state;
+    struct scene_description d =
+        parse_good("psd: 1\ncamera: auto\n" LIGHTS
+                   "cameras:\n  a: {location: auto, projection: orthographic, look_at: [1, 2, 3]}\n"
+                   "  b: {location: [4, 5, 6]}\n  c: auto\n  d: {location: auto, angle: 20}\n");
+    assert_int_equal(d.camera_count, 5);
+    for (size_t i = 0; i < 5; i++) {
+        assert_int_equal(d.cameras[i].finds_location, i != 2);
+        assert_int_equal(d.cameras[i].finds_look_at, i != 1);
+    }
+    assert_true(d.cameras[0].angle == 0 && d.cameras[0].vertical_angle == 0);
+    assert_vector(d.cameras[1].look_at, 1, 2, 3);
+    assert_vector(d.cameras[2].location, 4, 5, 6);
+    assert_true(d.cameras[2].angle == 67.38 && d.cameras[4].angle == 20);
+    assert_string_equal(d.cameras[3].name, "c");
+    scene_description_release(&d);
+}
+
 static void test_strategies(void **state)
 {
     (void)state;
@@ -187,9 +207,13 @@ static void test_schema(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_whole_scene),       cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_strategies),        cmocka_unit_test(test_anchors_and_merges),
-        cmocka_unit_test(test_arithmetic_values), cmocka_unit_test(test_schema),
+        cmocka_unit_test(test_whole_scene),
+        cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_automatic_cameras),
+        cmocka_unit_test(test_strategies),
+        cmocka_unit_test(test_anchors_and_merges),
+        cmocka_unit_test(test_arithmetic_values),
+        cmocka_unit_test(test_schema),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
