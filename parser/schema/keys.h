@@ -11,6 +11,14 @@
 /* Object kinds that a description has no objects of. */
 enum { KEYS_MESH_FILE = 1000, KEYS_GROUP, KEYS_INSTANCE };
 
+/* In place of a value that is to be found. */
+#define AUTO_WORD "auto"
+
+struct point_or_auto {
+    ps_vec3 point;
+    int32_t automatic;
+};
+
 struct point_list {
     ps_vec3 *items;
     size_t count;
@@ -25,14 +33,6 @@ struct triangle_list {
     uint32_t (*items)[3];
     size_t count;
 };
-
-/* A point, or one to be found. */
-struct point_or_auto {
-    ps_vec3 point;
-    int32_t automatic;
-};
-
-#define AUTO_WORD "auto"
 
 struct camera_keys {
     struct camera_description camera;
@@ -93,7 +93,7 @@ struct object_keys {
     struct point_list vertices, normals;
     struct pair_list uv;
     struct triangle_list triangles;
-    ps_number_or_choice extent;
+    ps_number_or_choice extent, distance;
     int32_t camera, open, smooth;
     const struct node *file; /* mesh, height field */
     const struct node *of;   /* instance */

@@ -91,13 +91,16 @@ static const struct schema_row disc_rows[] = {
     SHAPE_ROWS,
 };
 
-static const char *const extents[] = {"auto", NULL};
+static const char *const automatic[] = {AUTO_WORD, NULL};
 
 static const struct schema_row plane_rows[] = {
     DIRECTION_ROW("normal", normal, "direction across the plane, on its front"),
-    LENGTH_ROW("distance", distance, "from the origin, along the normal", ANY, DEFAULT("0")),
-    VALUE(PS_NUMBER_OR(struct object_keys, extent, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN, extents,
-                       "scene units", "half of its side; auto: as far as the scene needs")),
+    VALUE(PS_NUMBER_OR(struct object_keys, distance, "0", -INFINITY, INFINITY, 0, automatic,
+                       "scene units",
+                       "from the origin, along the normal; auto: just below all else")),
+    VALUE(PS_NUMBER_OR(struct object_keys, extent, "auto", 0, INFINITY, PS_PARAM_OPEN_MIN,
+                       automatic, "scene units",
+                       "half of its side; auto: as far as the scene needs")),
     SHAPE_ROWS,
 };
 

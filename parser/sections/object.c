@@ -84,6 +84,8 @@ static bool finish_shape(struct reader *reader, struct object_keys *keys,
     object->open = keys->open != 0;
     object->smooth = keys->smooth != 0;
     object->extent = keys->extent.choice < 0 ? keys->extent.number : 0;
+    if (object->kind == OBJECT_PLANE)
+        object->distance = keys->distance.choice < 0 ? keys->distance.number : DISTANCE_BELOW_ALL;
     object->normal = check_unit(object->normal);
     if (object->kind == OBJECT_HEIGHT_FIELD)
         object->texture = height_texture(reader, keys->file);

@@ -200,7 +200,8 @@ struct object_description {
     ps_vec3 points[2];
     ps_vec3 normal; /* disc, plane */
     double radius, to_radius, minor_radius, hole_radius;
-    double distance, extent;
+    double distance; /* plane; DISTANCE_BELOW_ALL: just below all that is no endless plane */
+    double extent;
     bool open;        /* cylinder, cone: without their ends */
     bool smooth;      /* height field: with normals between those of its faces */
     int64_t segments; /* around: cylinder, cone, disc, torus */
@@ -244,10 +245,19 @@ struct scene_description {
     size_t file_count;
 };
 
+#define DISTANCE_BELOW_ALL (-INFINITY)
+
 /* A plane that takes its size from the rest of the scene. */
 static inline bool object_is_endless(const struct object_description *object)
 {
     return object->kind == OBJECT_PLANE && !(object->extent > 0);
+}
+
+/* A plane that takes its size or place from the rest of the scene, and is made when that is there. */
+static inline bool object_comes_last(const struct object_description *object)
+{
+    return object_is_endless(object) ||
+           (object->kind == OBJECT_PLANE && object->distance == DISTANCE_BELOW_ALL);
 }
 
 /* Frees what the members own, and zeroes the description. */

@@ -71,18 +71,20 @@ static ps_result add_shape(struct assembly *assembly, const struct object_descri
     return PS_OK;
 }
 
-/* The objects of the world that are shapes, numbered in their order: endless planes or the others. */
-static ps_result add_world(struct assembly *assembly, bool endless)
+/* The objects of the world that are shapes, numbered in their order: planes that come last or the others. */
+static ps_result add_world(struct assembly *assembly, bool last)
 {
     const struct scene_description *description = assembly->description;
     const struct scene *scene = assembly->scene;
-    struct shape_surroundings surroundings = {.center = scene->center, .radius = scene->radius};
+    const struct box box = last ? scene_box(description, scene) : (struct box)BOX_EMPTY;
+    struct shape_surroundings surroundings = {
+        .center = scene->center, .radius = scene->radius, .box = &box};
     size_t slot = 0;
     for (size_t i = 0; i < description->object_count; i++) {
         const struct object_description *object = &description->objects[i];
         if (object->kind == OBJECT_INSTANCE)
             continue;
-        ps_result result = object_is_endless(object) == endless
+        ps_result result = object_comes_last(object) == last
                                ? add_shape(assembly, object, &surroundings, slot)
                                : PS_OK;
         if (result != PS_OK)

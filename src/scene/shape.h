@@ -31,6 +31,7 @@
 #define SCENE_SHAPE_H
 
 #include "base/error.h"
+#include "scene/box.h"
 #include "scene/description.h"
 
 /* Of round meshes: how many segments around are allowed, and the number where none is stated. A
@@ -72,6 +73,8 @@ struct height_samples {
 struct shape_surroundings {
     ps_vec3 center; /* plane without an extent: bounding sphere of the other shapes, in the space */
     float radius;   /* where the shape will be; 0: there are none */
+    const struct box
+        *box; /* plane without a distance: around the other objects, there; NULL: none */
     const struct mesh_description *meshes; /* objects' `mesh` are indices into it */
     const struct height_samples *heights;  /* height field: of the object's texture */
 };

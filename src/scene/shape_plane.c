@@ -1,6 +1,8 @@
 /* shape_plane.c: a plane, as a square large enough.
  *
- * The plane holds the points with normal . p = distance. With a stated extent the square lies
+ * The plane holds the points with normal . p = distance. A distance that is to be found puts it where its front
+ * has all corners of the box around the other objects before it, and a little lower: faces that lie in one plane would
+ * hide each other by chance. With a stated extent the square lies
  * around the plane's point next to the origin, and a placement stretches it with the rest. Without
  * one it is meant to go on for ever, so it is chosen where the shape will be: a true square around
  * the surroundings. That is carried back to lengths along the plane's own axes, which make (u, v),
@@ -12,18 +14,42 @@
 #define AUTO_RADII 4.0f
 #define AUTO_ALONE 1.0f
 
+/* How far below the box, of its diagonal. */
+#define AUTO_GAP 1e-3
+
 /* p = origin + s u + t v */
 struct sheet {
     ps_vec3 origin, u, v;
 };
 
-static struct sheet sheet_of(const struct object_description *object)
+/* Along the unit normal from the origin, in the object's space, to just below the box. With the placement A, T and
+ * the placed plane's unit normal m, that is t where m . (A n t + T) = the lowest of the box along m. */
+static double distance_below(const struct affine *placement, ps_vec3 normal, const struct box *box)
+{
+    if (!box || box_is_empty(box))
+        return 0.0;
+    ps_vec3 placed = unit_or_zero(affine_normal(placement, normal));
+    ps_vec3 step = affine_direction(placement, normal);
+    if (ps_dot(placed, step) < 0.0f)
+        placed = ps_scale(placed, -1.0f); /* of a placement that mirrors */
+    double lowest = INFINITY;
+    for (unsigned i = 0; i < 8; i++)
+        lowest = fmin(lowest, (double)ps_dot(placed, box_corner(box, i)));
+    lowest -= AUTO_GAP * (double)ps_length(ps_subtract(box->high, box->low));
+    return (lowest - (double)ps_dot(placed, placement->translation)) / (double)ps_dot(placed, step);
+}
+
+static struct sheet sheet_of(const struct object_description *object,
+                             const struct shape_surroundings *surroundings)
 {
     ps_vec3 n = object->normal, normal = unit_or_zero(n);
     double length = sqrt((double)n.x * n.x + (double)n.y * n.y + (double)n.z * n.z);
+    double distance = object->distance == DISTANCE_BELOW_ALL
+                          ? distance_below(&object->placement, normal, surroundings->box)
+                          : object->distance / length;
     struct sheet sheet;
     shape_frame(normal, &sheet.u, &sheet.v);
-    sheet.origin = ps_scale(normal, (float)(object->distance / length));
+    sheet.origin = ps_scale(normal, (float)distance);
     return sheet;
 }
 
@@ -60,7 +86,7 @@ static const char *check_plane(const struct object_description *object)
 {
     if (!has_direction(object->normal))
         return "normal has no direction";
-    if (!(fabs(object->distance) <= (double)FLT_MAX))
+    if (object->distance != DISTANCE_BELOW_ALL && !(fabs(object->distance) <= (double)FLT_MAX))
         return "distance is out of range";
     return is_length_or_zero(object->extent) ? NULL : "extent must be 0 or above";
 }
@@ -75,7 +101,7 @@ ps_result shape_plane(const struct object_description *object,
     ps_result result = shape_allocate(shape, 4, 2, MESH_UV, error);
     if (result != PS_OK)
         return result;
-    struct sheet sheet = sheet_of(object);
+    struct sheet sheet = sheet_of(object, surroundings);
     if (object->extent > 0.0)
         stated_corners((float)object->extent, shape->uv);
     else

@@ -89,6 +89,39 @@ static void test_plane_reaches_around_the_rest(void **state)
     expect_automatic(object, &nothing, 1);
 }
 
+/* Just below the box in the space where the plane will be, whatever placed it. */
+static void test_plane_below_all(void **state)
+{
+    (void)state;
+    const struct box box = {{-1, -2, -3}, {4, 5, 6}};
+    const struct shape_surroundings around = {.center = {1, 1, 1}, .radius = 7, .box = &box};
+    const struct shape_surroundings nothing = {.radius = 0};
+    const struct affine placements[] = {
+        AFFINE_IDENTITY, affine_of((ps_vec3){2, 3, 4}, (ps_vec3){10, 20, 30}, (ps_vec3){5, -6, 7}),
+        affine_of((ps_vec3){1, -1, 1}, (ps_vec3){0, 0, 0}, (ps_vec3){0, 9, 0})};
+    struct object_description object = {
+        .kind = OBJECT_PLANE, .normal = {0, 4, 0}, .distance = DISTANCE_BELOW_ALL, .extent = 3};
+    for (size_t i = 0; i < sizeof placements / sizeof placements[0]; i++) {
+        object.placement = placements[i];
+        struct shape shape = shape_of(object, &around);
+        double sum[3], nearest = INFINITY;
+        mesh_area_vector(&shape, sum);
+        ps_vec3 front = ps_normalize((ps_vec3){(float)sum[0], (float)sum[1], (float)sum[2]});
+        for (unsigned k = 0; k < 8; k++)
+            nearest =
+                fmin(nearest,
+                     (double)ps_dot(front, ps_subtract(box_corner(&box, k), corner(&shape, 0))));
+        expect_near(nearest, 1e-3 * sqrt(25 + 49 + 81), 1e-4);
+        shape_release(&shape);
+        shape = shape_of(object, &nothing);
+        ps_vec3 middle = ps_scale(ps_add(corner(&shape, 0), corner(&shape, 2)), 0.5f);
+        expect_vector(middle, (double)object.placement.translation.x,
+                      (double)object.placement.translation.y,
+                      (double)object.placement.translation.z);
+        shape_release(&shape);
+    }
+}
+
 static void test_no_plane(void **state)
 {
     (void)state;
@@ -194,6 +227,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_plane_of_stated_extent),
         cmocka_unit_test(test_plane_reaches_around_the_rest),
+        cmocka_unit_test(test_plane_below_all),
         cmocka_unit_test(test_no_plane),
         cmocka_unit_test(test_height_field_lies_as_in_pov_ray),
         cmocka_unit_test(test_smooth_normals),
