@@ -2,9 +2,13 @@
 #include "cli/bounds.h"
 #include "cli/command.h"
 #include "cli/render_arguments.h"
+#include "model/model.h"
 #include "pipeline/render.h"
 
+#include <errno.h>
 #include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
 static const struct option options[] = {
     {0, "bounds", NULL, "print the boxes around the scene and its meshes, and the camera"},
@@ -97,6 +101,22 @@ static bool list_parameters(const struct scene_options *scene_options, const cha
     return result == PS_OK;
 }
 
+/* The scene of a model has none, and is not made to say so. */
+static bool list_nothing(const char *path)
+{
+    if (access(path, R_OK) != 0) {
+        fprintf(stderr, "psplat: error: %s: %s\n", path, strerror(errno));
+        return false;
+    }
+    printf("%s:\n  no parameters\n", path);
+    return true;
+}
+
+static bool list_of(const struct scene_options *scene_options, const char *path)
+{
+    return model_is_file(path) ? list_nothing(path) : list_parameters(scene_options, path);
+}
+
 static int check_scenes(const struct argument *arguments, size_t count,
                         const struct render_arguments *taken)
 {
@@ -109,8 +129,7 @@ static int check_scenes(const struct argument *arguments, size_t count,
         if (arguments[i].option)
             continue;
         scenes++;
-        if (!(lists ? list_parameters(&taken->options.scene, path)
-                    : check_scene(taken, path, bounds)))
+        if (!(lists ? list_of(&taken->options.scene, path) : check_scene(taken, path, bounds)))
             status = STATUS_USAGE;
     }
     if (scenes > 0)
@@ -131,7 +150,7 @@ static int run(const struct argument *arguments, size_t count)
 
 const struct command command_check = {
     .name = "check",
-    .operands = "SCENE.psd...",
+    .operands = "SCENE.psd|MODEL...",
     .summary = "reads scenes and reports what is wrong with them",
     .options = options,
     .option_count = sizeof options / sizeof options[0],

@@ -221,7 +221,7 @@ static int run(const struct argument *arguments, size_t count)
 
 const struct command command_debug = {
     .name = "debug",
-    .operands = "photons|voxels|gbuffer[:LAYER]|maps|overlap SCENE.psd",
+    .operands = "photons|voxels|gbuffer[:LAYER]|maps|overlap SCENE.psd|MODEL",
     .summary = "draws what goes on inside of a render",
     .options = options,
     .option_count = sizeof options / sizeof options[0],

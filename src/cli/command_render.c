@@ -359,8 +359,8 @@ static int run(const struct argument *arguments, size_t count)
 
 const struct command command_render = {
     .name = "render",
-    .operands = "SCENE.psd",
-    .summary = "renders a scene; the command when none is named",
+    .operands = "SCENE.psd|MODEL",
+    .summary = "renders a scene, or a lone model; the command when none is named",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .run = run,

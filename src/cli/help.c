@@ -30,7 +30,7 @@ void help_print(const struct command *command)
 
 void help_print_all(void)
 {
-    printf("usage: psplat [render] [options] SCENE.psd\n       psplat COMMAND [options] ...\n"
+    printf("usage: psplat [render] [options] SCENE.psd|MODEL\n       psplat COMMAND [options] ...\n"
            "Renders indirect light by photon splatting.\n\ncommands:\n");
     for (size_t i = 0; i < command_count; i++)
         printf("  %-10s %s\n", commands[i]->name, commands[i]->summary);

@@ -47,6 +47,12 @@ struct mesh_report {
 ps_result mesh_import(const struct mesh_request *request, struct scene_description *fragment,
                       struct mesh_report *report, struct error *error);
 
+/* Whether the file's name ends as that of a format that is read. */
+bool mesh_file_is_known(const char *path);
+
+/* Which axis usually points upwards in files of that format, as mesh_request.up. */
+int32_t mesh_file_up(const char *path);
+
 struct mesh_memory_file {
     const char *path; /* as the request, or the mesh file, would name it */
     const void *bytes;

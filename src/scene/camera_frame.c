@@ -15,8 +15,8 @@
 
 #include <float.h>
 
-/* The view from a model's front: 29 degrees to the right; raised by 20 degrees, and by 40 what is flat, of which a lower
- * view shows little. */
+/* The view from a model's front: 29 degrees to the right; raised by 20 degrees, and by 40 what is flat, of which a
+ * lower view shows little. */
 #define TURN 29.0
 #define RAISED 20.0
 #define RAISED_FLAT 40.0
@@ -211,10 +211,10 @@ static ps_result check_direction(const struct camera_description *camera, struct
     return PS_OK;
 }
 
-static void find_location(struct camera_description *camera, const struct box *box, double aspect)
+/* From the side of the box that `away` points to. */
+static void find_location(struct camera_description *camera, const struct box *box,
+                          struct vector away, double aspect)
 {
-    struct vector up = unit(exact(camera->up));
-    struct vector away = three_quarter(box, up);
     struct view view = view_along((struct vector){-away.x, -away.y, -away.z}, camera->up);
     struct vector center = exact(box_center(box));
     struct vector target = camera->finds_look_at ? center : exact(camera->look_at);
@@ -238,6 +238,14 @@ static void find_location(struct camera_description *camera, const struct box *b
         camera->look_at = rounded(add_scaled(location, distance, view.forward));
 }
 
+void camera_frame_from(struct camera_description *camera, const struct box *box, ps_vec3 away,
+                       double aspect)
+{
+    camera->kind = CAMERA_PERSPECTIVE;
+    camera->finds_look_at = true;
+    find_location(camera, box, exact(away), aspect);
+}
+
 ps_result camera_frame(struct camera_description *camera, const struct box *box, size_t width,
                        size_t height, struct error *error)
 {
@@ -248,7 +256,7 @@ ps_result camera_frame(struct camera_description *camera, const struct box *box,
     if (camera->finds_location) {
         if (!(camera->angle > 0) && !(camera->vertical_angle > 0))
             *(aspect >= 1.0 ? &camera->angle : &camera->vertical_angle) = ANGLE;
-        find_location(camera, &around, aspect);
+        find_location(camera, &around, three_quarter(&around, unit(exact(camera->up))), aspect);
     } else if (camera->finds_look_at) {
         camera->look_at = box_center(&around);
     }

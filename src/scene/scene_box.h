@@ -22,7 +22,8 @@ void scene_each_box(const struct scene_description *description, const struct sc
 struct box scene_box(const struct scene_description *description, const struct scene *scene);
 
 /* Around what is worth a look: objects that the camera sees, without planes and without floors, which are quads and
- * discs that nothing reaches below, level where `up` points upwards. Around floors and planes too where there is nothing else. */
+ * discs that nothing reaches below, level where `up` points upwards. Around floors and planes too where there is
+ * nothing else. */
 struct box scene_box_to_frame(const struct scene_description *description,
                               const struct scene *scene, ps_vec3 up);
 

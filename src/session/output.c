@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "image/tonemap.h"
 #include "job/facts.h"
+#include "model/model.h"
 #include "session/layers.h"
 #include <errno.h>
 #include <inttypes.h>
@@ -35,7 +36,9 @@ char *output_default_path(const char *scene_path, const char *suffix)
     const char *name = slash ? slash + 1 : scene_path;
     if (strcmp(name, "-") == 0)
         name = "stdin";
-    size_t length = has_suffix(name, ".psd") ? strlen(name) - 4 : strlen(name);
+    size_t length = strlen(name);
+    if (has_suffix(name, ".psd") || model_is_file(name))
+        length = (size_t)(strrchr(name, '.') - name);
     size_t bytes = length + strlen(suffix) + 1;
     char *path = malloc(bytes);
     if (path)

@@ -1,6 +1,10 @@
 #include "session/scene_input.h"
 
+#include "model/model.h"
+#include "model/model_scene.h"
 #include "plugin/kind.h"
+#include <stdlib.h>
+#include <string.h>
 
 ps_result scene_input_create(struct scene_input *input, struct error *error)
 {
@@ -8,10 +12,29 @@ ps_result scene_input_create(struct scene_input *input, struct error *error)
     return input->sink ? PS_OK : error_set(error, PS_ERROR_MEMORY, "out of memory");
 }
 
+/* The text stands for the model's file in messages, and where files are looked for. */
+static ps_result read_model(struct scene_input *input, const char *path,
+                            const struct psd_options *options)
+{
+    struct error error;
+    char *text = NULL;
+    ps_result result = model_scene_make(path, NULL, options->folder, &text, &error);
+    if (result != PS_OK) {
+        diagnostics_report(input->sink, SEVERITY_ERROR, NULL, 0, "%s", error.text);
+        return result;
+    }
+    result =
+        psd_read_text_with(path, text, strlen(text), options, input->sink, &input->description);
+    free(text);
+    return result;
+}
+
 ps_result scene_input_read(struct scene_input *input, const char *path,
                            const struct scene_options *options)
 {
-    ps_result result = psd_read_file_with(path, &options->psd, input->sink, &input->description);
+    ps_result result = model_is_file(path) ? read_model(input, path, &options->psd)
+                                           : psd_read_file_with(path, &options->psd, input->sink,
+                                                                &input->description);
     return result == PS_OK ? scene_options_choose_camera(options, &input->description, input->sink)
                            : result;
 }

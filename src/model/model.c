@@ -1,0 +1,83 @@
+#include "model/model.h"
+
+#include "import/import.h"
+
+bool model_is_file(const char *path)
+{
+    return mesh_file_is_known(path);
+}
+
+static struct box box_of(const struct scene_description *fragment)
+{
+    struct box box = BOX_EMPTY;
+    for (size_t i = 0; i < fragment->object_count; i++) {
+        const struct object_description *object = &fragment->objects[i];
+        const struct mesh_description *mesh = &fragment->meshes[object->mesh];
+        for (size_t k = 0; k < mesh->triangle_count; k++)
+            for (int c = 0; c < 3; c++)
+                box_add_point(
+                    &box, affine_point(&object->placement, mesh->vertices[mesh->triangles[k][c]]));
+    }
+    return box;
+}
+
+static bool has_materials(const struct scene_description *fragment)
+{
+    bool some = false;
+    for (size_t i = 0; i < fragment->object_count; i++) {
+        size_t material = fragment->objects[i].material;
+        some =
+            some || (material != NO_INDEX && !material_is_absent(&fragment->materials[material]));
+    }
+    return some;
+}
+
+/* Whether a surface shines. It is what rooms are lit by; on other things it is a sign, or a lamp that lights
+ * little. */
+static bool shines(const struct scene_description *fragment)
+{
+    bool some = false;
+    for (size_t i = 0; i < fragment->object_count; i++) {
+        size_t material = fragment->objects[i].material;
+        if (material == NO_INDEX)
+            continue;
+        const struct pigment_description *emission = &fragment->materials[material].emission;
+        some = some || emission->kind != PIGMENT_COLOR || ps_rgb_maximum(emission->colors[0]) > 0;
+    }
+    return some;
+}
+
+ps_result model_read(const char *path, const char *folder, struct model *model, struct error *error)
+{
+    const struct mesh_request request = {
+        .path = path,
+        .folder = folder,
+        .geometry = true,
+        .materials = true,
+        .camera = true,
+        .lights = true,
+        .unit = 1,
+        .up = mesh_file_up(path),
+        .placement = AFFINE_IDENTITY,
+    };
+    struct scene_description fragment;
+    struct mesh_report report;
+    ps_result result = mesh_import(&request, &fragment, &report, error);
+    if (result != PS_OK)
+        return result;
+    *model = (struct model){
+        .box = box_of(&fragment),
+        .up = request.up,
+        .has_materials = has_materials(&fragment),
+        .has_camera = fragment.camera_count > 0,
+        .has_lights = fragment.light_count > 0,
+    };
+    if (box_is_empty(&model->box)) {
+        result = error_set(error, PS_ERROR_INVALID, "%s: there is nothing to see in it", path);
+    } else {
+        model->room = room_find(&fragment, &model->box);
+        model->has_lights = model->has_lights || (model->room.is_room && shines(&fragment));
+    }
+    scene_description_release(&fragment);
+    return result;
+}
