@@ -51,7 +51,7 @@ static ps_vec3 inside(const struct box *box, ps_vec3 share)
 static void look_in(struct room *room, const struct box *box, ps_vec3 opening)
 {
     struct camera_description camera = {.up = {0, 1, 0}, .angle = STAGE_ANGLE};
-    ps_vec3 away = opening;
+    ps_vec3 away;
     if (fabsf(opening.y) > 0.7f)
         away = (ps_vec3){opening.x, opening.y, opening.z + copysignf(0.7f, opening.z)};
     else if (fabsf(opening.x) > fabsf(opening.z))
@@ -79,7 +79,8 @@ static void aim(struct probe glances[GLANCES], ps_vec3 from, ps_vec3 to)
     ps_vec3 forward = ps_normalize(ps_subtract(to, from)), u, v;
     ps_frame(forward, &u, &v);
     for (int i = 0; i < GLANCES; i++) {
-        float across = 0.4f * (float)(i % 3 - 1), along = 0.4f * (float)(i / 3 - 1);
+        int row = i / 3;
+        float across = 0.4f * (float)(i % 3 - 1), along = 0.4f * (float)(row - 1);
         ps_vec3 direction = ps_add_scaled(ps_add_scaled(forward, across, u), along, v);
         glances[i] = (struct probe){.origin = from, .direction = ps_normalize(direction)};
     }
