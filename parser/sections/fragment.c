@@ -76,12 +76,11 @@ static size_t move_material(struct joint *joint, size_t index)
     *material = content->materials[index];
     content->materials[index] = (struct material_description){.name = NULL};
     joint->materials[index] = joint->reader->description->material_count - 1;
-    struct pigment_description *pigments[] = {&material->color,     &material->specular,
-                                              &material->roughness, &material->emission,
-                                              &material->opacity,   &material->bump};
+    struct pigment_description *pigments[] = {
+        &material->color,   &material->specular, &material->roughness,  &material->emission,
+        &material->opacity, &material->bump,     &material->normal_map, &material->share};
     for (size_t i = 0; i < sizeof pigments / sizeof pigments[0]; i++)
         move_pigment(joint, pigments[i]);
-    material->normal_map = move_texture(joint, material->normal_map);
     return joint->materials[index];
 }
 

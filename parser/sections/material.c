@@ -181,15 +181,18 @@ static bool read_kind(struct reader *reader, const struct node *map, struct mate
 }
 
 /* Normals are numbers, whatever the type of their file. */
-static size_t read_normal_map(struct reader *reader, const struct node *map)
+static struct pigment_description read_normal_map(struct reader *reader, const struct node *map)
 {
+    struct pigment_description pigment = pigment_of((ps_rgb){1, 1, 1});
     struct texture_keys keys = {.file = NULL};
     const struct item *item = node_find(map, "normal_map");
     if (!item || !fill_section(reader, schema_only("normal_map"), item->key, item->value, &keys))
-        return NO_INDEX;
+        return pigment;
     if (keys.encoding == ENCODING_AUTO)
         keys.encoding = ENCODING_LINEAR;
-    return texture_add(reader, &keys);
+    pigment.kind = PIGMENT_IMAGE;
+    pigment.texture = texture_add(reader, &keys);
+    return pigment;
 }
 
 static void read_material(struct reader *reader, const struct item *item,

@@ -26,10 +26,18 @@ static void warn_of(const struct reader *reader, const struct node *at, const ch
     struct origin origin = reader_origin(reader, at);
     warn(reader, at, report->dropped_triangles, file, "unusable triangle");
     warn(reader, at, report->dropped_lights, file, "unusable light");
-    warn(reader, at, report->missing_textures, file, "missing texture");
-    if (report->notes[0])
-        diagnostics_report(reader->sink, SEVERITY_WARNING, &origin, at->mark.width, "%s: %s", file,
-                           report->notes);
+    size_t missing = report->missing_textures;
+    if (missing > 0)
+        diagnostics_report(reader->sink, SEVERITY_WARNING, &origin, at->mark.width,
+                           "%s: %zu missing texture%s: %s%s", file, missing, missing > 1 ? "s" : "",
+                           report->missing_names, missing > MESH_MISSING_NAMES ? ", ..." : "");
+    for (const char *note = report->notes; *note;) {
+        int length = (int)strcspn(note, "\n");
+        diagnostics_report(reader->sink, SEVERITY_WARNING, &origin, at->mark.width, "%s: %.*s",
+                           file, length, note);
+        note += length;
+        note += *note == '\n';
+    }
 }
 
 /* A scene that says what the file does not say gets no warning. */

@@ -1,6 +1,7 @@
 /* geometry.c: the triangles of one of assimp's meshes that are any good. */
 #include "import/geometry.h"
 
+#include "image/tonemap.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,16 +71,60 @@ static size_t compact(struct mesh_description *mesh, uint32_t *new_indices, size
     return count;
 }
 
-static void fill_uv(const struct aiMesh *source, const uint32_t *new_indices,
-                    struct mesh_description *mesh)
+static void fill_uv(const struct aiMesh *source, unsigned set, const uint32_t *new_indices,
+                    float (*filled)[2])
 {
     for (unsigned i = 0; i < source->mNumVertices; i++) {
-        const struct aiVector3D uv = source->mTextureCoords[0][i];
+        const struct aiVector3D uv = source->mTextureCoords[set][i];
         if (new_indices[i] == UINT32_MAX)
             continue;
-        mesh->uv[new_indices[i]][0] = isfinite(uv.x) ? uv.x : 0.0f;
-        mesh->uv[new_indices[i]][1] = isfinite(uv.y) ? uv.y : 0.0f;
+        filled[new_indices[i]][0] = isfinite(uv.x) ? uv.x : 0.0f;
+        filled[new_indices[i]][1] = isfinite(uv.y) ? uv.y : 0.0f;
     }
+}
+
+static float unit_or_less(float value)
+{
+    return value > 0.0f ? fminf(value, 1.0f) : 0.0f; /* NaN: 0 */
+}
+
+/* assimp leaves the alpha of glTF's colours that have none at 0. */
+static bool has_alpha(const struct aiMesh *source)
+{
+    for (unsigned i = 0; i < source->mNumVertices; i++)
+        if (source->mColors[0][i].a != 0.0f)
+            return true;
+    return false;
+}
+
+/* glTF's colours are linear. Those of OBJ, PLY and the rest are what paint and scanning programs show, sRGB, as Blender
+ * reads them. */
+static void fill_colors(const struct mesh_job *job, const struct aiMesh *source,
+                        const uint32_t *new_indices, struct mesh_description *mesh)
+{
+    bool alpha = has_alpha(source);
+    for (unsigned i = 0; i < source->mNumVertices; i++) {
+        if (new_indices[i] == UINT32_MAX)
+            continue;
+        const struct aiColor4D color = source->mColors[0][i];
+        float *filled = mesh->colors[new_indices[i]];
+        const float parts[3] = {unit_or_less(color.r), unit_or_less(color.g),
+                                unit_or_less(color.b)};
+        for (int k = 0; k < 3; k++)
+            filled[k] = job->gltf.root ? parts[k] : (float)tonemap_linear((double)parts[k]);
+        filled[3] = alpha ? unit_or_less(color.a) : 1.0f;
+    }
+}
+
+bool mesh_has_colors(const struct aiMesh *source)
+{
+    for (unsigned i = 0; source->mColors[0] && i < source->mNumVertices; i++) {
+        const struct aiColor4D *color = &source->mColors[0][i];
+        if (color->r != 1.0f || color->g != 1.0f || color->b != 1.0f ||
+            (color->a != 1.0f && color->a != 0.0f))
+            return true;
+    }
+    return false;
 }
 
 static ps_vec3 face_normal(const struct mesh_description *mesh, const uint32_t triangle[3])
@@ -115,13 +160,22 @@ static void fill_normals(const struct aiMesh *source, const ps_vec3 *smooth,
     mend_normals(mesh);
 }
 
-static bool allocate_vertices(struct mesh_description *mesh, size_t count, bool normals, bool uv)
+/* What a mesh has besides positions. */
+struct parts {
+    bool normals, uv, second_uv, colors;
+};
+
+static bool allocate_vertices(struct mesh_description *mesh, size_t count,
+                              const struct parts *parts)
 {
     mesh->vertex_count = count;
     mesh->vertices = malloc(count * sizeof *mesh->vertices);
-    mesh->normals = normals ? malloc(count * sizeof *mesh->normals) : NULL;
-    mesh->uv = uv ? malloc(count * sizeof *mesh->uv) : NULL;
-    return mesh->vertices && (mesh->normals || !normals) && (mesh->uv || !uv);
+    mesh->normals = parts->normals ? malloc(count * sizeof *mesh->normals) : NULL;
+    mesh->uv = parts->uv ? malloc(count * sizeof *mesh->uv) : NULL;
+    mesh->second_uv = parts->second_uv ? malloc(count * sizeof *mesh->second_uv) : NULL;
+    mesh->colors = parts->colors ? malloc(count * sizeof *mesh->colors) : NULL;
+    return mesh->vertices && (mesh->normals || !parts->normals) && (mesh->uv || !parts->uv) &&
+           (mesh->second_uv || !parts->second_uv) && (mesh->colors || !parts->colors);
 }
 
 /* STL's normals are those of its triangles, or zero. */
@@ -140,17 +194,26 @@ ps_result mesh_fill(struct mesh_job *job, const struct mesh_geometry *geometry,
         return mesh_out_of_memory(job, source->mNumFaces * sizeof *mesh->triangles);
     mesh->triangle_count = collect_triangles(source, mesh->triangles, dropped);
     size_t count = compact(mesh, new_indices, source->mNumVertices);
-    bool normals = has_normals(job, geometry), uv = source->mTextureCoords[0] != NULL;
+    const struct parts parts = {
+        .normals = has_normals(job, geometry),
+        .uv = source->mTextureCoords[0] != NULL,
+        .second_uv = geometry->second_uv && source->mTextureCoords[1] != NULL,
+        .colors = geometry->colors,
+    };
     if (count == 0)
         return PS_OK;
-    if (!allocate_vertices(mesh, count, normals, uv))
+    if (!allocate_vertices(mesh, count, &parts))
         return mesh_out_of_memory(job, count * sizeof *mesh->vertices);
     for (unsigned i = 0; i < source->mNumVertices; i++)
         if (new_indices[i] != UINT32_MAX)
             mesh->vertices[new_indices[i]] = mesh_vector(source->mVertices[i]);
-    if (uv)
-        fill_uv(source, new_indices, mesh);
-    if (normals)
+    if (parts.uv)
+        fill_uv(source, 0, new_indices, mesh->uv);
+    if (parts.second_uv)
+        fill_uv(source, 1, new_indices, mesh->second_uv);
+    if (parts.colors)
+        fill_colors(job, source, new_indices, mesh);
+    if (parts.normals)
         fill_normals(source, geometry->smooth, new_indices, mesh);
     return PS_OK;
 }

@@ -6,9 +6,13 @@
 
 struct mesh_geometry {
     const struct aiMesh *mesh;
+    bool second_uv, colors;
     const ps_vec3 *smooth; /* normals in place of the mesh's, or NULL */
     uint32_t *scratch;     /* as many as the mesh has vertices */
 };
+
+/* Whether its vertices have colours other than white. */
+bool mesh_has_colors(const struct aiMesh *source);
 
 /* Fills a zeroed mesh with the triangles that have an area and whose corners are finite, and counts the
  * others. */

@@ -46,9 +46,11 @@ static ps_result complain(struct error *error, const char *what)
 /* --- the document ------------------------------------------------------------------------------ */
 
 static const char *const known_extensions[] = {
-    "KHR_lights_punctual",  "KHR_materials_emissive_strength",
-    "KHR_materials_ior",    "KHR_materials_transmission",
-    "KHR_materials_volume", "KHR_texture_transform",
+    "KHR_lights_punctual",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",      "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular", "KHR_materials_transmission",
+    "KHR_materials_unlit",    "KHR_materials_volume",
+    "KHR_texture_transform",
 };
 
 static bool is_known_extension(const struct json *name)
@@ -224,13 +226,21 @@ static void hide_all(const struct gltf *gltf, const struct json *object, const c
         hide(gltf, object, names[i]);
 }
 
+static bool is_used_attribute(const struct json_text *name)
+{
+    static const char *const used[] = {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
+    for (size_t i = 0; i < sizeof used / sizeof used[0]; i++)
+        if (json_is(name, used[i]))
+            return true;
+    return false;
+}
+
 static void hide_attributes(const struct gltf *gltf, const struct json *attributes)
 {
     if (!attributes || attributes->kind != JSON_OBJECT)
         return;
     for (struct json *item = attributes->items; item; item = item->next)
-        if (item->key.length > 0 && !json_is(&item->key, "POSITION") &&
-            !json_is(&item->key, "NORMAL") && !json_is(&item->key, "TEXCOORD_0"))
+        if (item->key.length > 0 && !is_used_attribute(&item->key))
             gltf->text[item->key.start - gltf->text] = '_';
 }
 

@@ -2,8 +2,8 @@
  *
  * Cameras and lights are read from it since assimp gives a light or camera that several nodes share to
  * one of them only, and a field of view that is wrong for wide pictures; emission strength since assimp
- * does not know it. What psplat does not use (skins, animations, morph targets, colours, further sets of
- * texture coordinates) or reads itself is hidden from assimp by changing the first letter of its key in
+ * does not know it. What psplat does not use (skins, animations, morph targets, further sets of colours
+ * and texture coordinates) or reads itself is hidden from assimp by changing the first letter of its key in
  * the text.
  */
 #ifndef IMPORT_GLTF_H

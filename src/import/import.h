@@ -33,10 +33,14 @@ struct mesh_request {
 #define MESH_PLAIN_REFLECTANCE 0.5
 struct material_description mesh_material_plain(struct origin origin);
 
+#define MESH_MISSING_NAMES 20
+
 /* What was mended, for warnings. */
 struct mesh_report {
-    size_t dropped_triangles, dropped_lights, missing_textures;
-    char notes[512];
+    size_t dropped_triangles, dropped_lights;
+    size_t missing_textures;  /* each once, as far as they are named */
+    char missing_names[1024]; /* of the first MESH_MISSING_NAMES, with commas */
+    char notes[4096];         /* lines */
 };
 
 /* Reads the file into a fragment: meshes, objects (OBJECT_MESH), materials (each with its name in

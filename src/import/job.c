@@ -15,7 +15,7 @@ void mesh_note(struct mesh_job *job, const char *format, ...)
     size_t size = sizeof job->report->notes, length = strlen(job->report->notes);
     va_list arguments;
     if (length > 0 && length + 2 < size)
-        length += (size_t)snprintf(job->report->notes + length, size - length, "; ");
+        job->report->notes[length++] = '\n';
     va_start(arguments, format);
     vsnprintf(job->report->notes + length, size - length, format, arguments);
     va_end(arguments);
@@ -95,6 +95,10 @@ static ps_result convert(struct mesh_job *job)
         result = mesh_read_materials(job);
     if (result == PS_OK && job->request->geometry)
         result = mesh_read_objects(job);
+    if (result == PS_OK)
+        mesh_settle_materials(job);
+    if (result == PS_OK)
+        mesh_note_omissions(job);
     if (result == PS_OK && job->request->camera)
         result = mesh_read_cameras(job);
     if (result == PS_OK && job->request->lights)
@@ -110,6 +114,8 @@ static void release(struct mesh_job *job)
     mesh_files_release(&job->files);
     free(job->nodes);
     free(job->materials);
+    for (size_t i = 0; i < MESH_MISSING_NAMES; i++)
+        free(job->missing[i]);
 }
 
 ps_result mesh_job_run(struct mesh_job *job)

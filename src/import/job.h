@@ -6,6 +6,15 @@
 #include "import/gltf.h"
 #include <assimp/scene.h>
 
+/* Kinds of things that materials have and psplat has not. */
+#define MESH_OMISSIONS 16
+
+struct mesh_omission {
+    const char *what; /* a literal; NULL: none */
+    char material[64];
+    size_t count;
+};
+
 #define MESH_TRIANGLES ((size_t)200 * 1000 * 1000) /* and vertices */
 
 /* A node of assimp's tree, with its way to the root of the file. */
@@ -30,11 +39,13 @@ struct mesh_job {
     struct affine to_scene; /* what the request says, from the file's space */
     double scale;           /* the factor of to_scene on lengths (the mean one) */
     size_t *materials;      /* in the fragment, for each of assimp's; or NO_INDEX */
+    struct mesh_omission omissions[MESH_OMISSIONS];
+    char *missing[MESH_MISSING_NAMES]; /* the first textures that are */
     /* While assimp asked for a file, which it takes for one that is not there. */
     bool out_of_memory;
 };
 
-/* Adds a sentence to the report's notes, as far as there is room. */
+/* Adds a line to the report's notes, as far as there is room. */
 void mesh_note(struct mesh_job *job, const char *format, ...) PRINTF_LIKE(2, 3);
 
 ps_result mesh_out_of_memory(struct mesh_job *job, size_t bytes);

@@ -3,6 +3,7 @@
 
 #include "import/steps.h"
 #include "import/text.h"
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,7 +46,8 @@ struct material_description mesh_material_white(struct origin origin)
         .emission = mesh_pigment(mesh_grey(0)),
         .opacity = mesh_pigment(mesh_grey(1)),
         .bump = mesh_pigment(mesh_grey(0)),
-        .normal_map = NO_INDEX,
+        .normal_map = mesh_pigment(mesh_grey(1)),
+        .share = mesh_pigment(mesh_grey(1)),
         .origin = origin,
     };
 }
@@ -95,7 +97,8 @@ static ps_result fill_mix(struct mesh_job *job, const struct mesh_share shares[2
 }
 
 ps_result mesh_material_add_mix(struct mesh_job *job, const struct mesh_share shares[2],
-                                const char *name, size_t *index)
+                                const struct pigment_description *varying, const char *name,
+                                size_t *index)
 {
     size_t parts[2] = {0, 0};
     ps_result result = PS_OK;
@@ -103,16 +106,48 @@ ps_result mesh_material_add_mix(struct mesh_job *job, const struct mesh_share sh
         struct material_description part = *shares[i].material;
         part.emission = mesh_pigment(mesh_grey(0));
         part.opacity = mesh_pigment(mesh_grey(1));
+        part.blended = false;
         result = mesh_material_add(job, &part, name, shares[i].part, &parts[i]);
     }
     struct material_description mix = *shares[0].material;
     mix.kind = MATERIAL_MIX;
     mix.color = mesh_pigment(mesh_grey(1));
+    mix.varying = varying != NULL;
+    if (varying)
+        mix.share = *varying;
     if (result == PS_OK)
         result = mesh_material_add(job, &mix, name, NULL, index);
     if (result == PS_OK)
         result = fill_mix(job, shares, parts, &job->fragment->materials[*index]);
     return result;
+}
+
+/* --- what is left out ----------------------------------------------------------------------------- */
+
+void mesh_material_omit(struct mesh_job *job, const char *what, const char *name)
+{
+    size_t i = 0;
+    while (i < MESH_OMISSIONS && job->omissions[i].what &&
+           strcmp(job->omissions[i].what, what) != 0)
+        i++;
+    assert(i < MESH_OMISSIONS);
+    struct mesh_omission *omission = &job->omissions[i];
+    if (omission->count++ == 0) {
+        omission->what = what;
+        snprintf(omission->material, sizeof omission->material, "%s", name);
+    }
+}
+
+void mesh_note_omissions(struct mesh_job *job)
+{
+    for (size_t i = 0; i < MESH_OMISSIONS && job->omissions[i].what; i++) {
+        const struct mesh_omission *omission = &job->omissions[i];
+        if (omission->count > 1)
+            mesh_note(job, "%s of material %s and %zu more is left out", omission->what,
+                      omission->material, omission->count - 1);
+        else
+            mesh_note(job, "%s of material %s is left out", omission->what, omission->material);
+    }
 }
 
 /* --- all of them --------------------------------------------------------------------------------- */
@@ -161,7 +196,8 @@ static bool is_physically_based(const struct mesh_job *job, const struct aiMater
 /* Its name alone, by which the scene may put another in its place. */
 static ps_result add_absent(struct mesh_job *job, const char *name, size_t *index)
 {
-    struct material_description absent = {.kind = MATERIAL_MIX, .normal_map = NO_INDEX};
+    struct material_description absent = mesh_material_white(job->request->origin);
+    absent.kind = MATERIAL_MIX;
     return mesh_material_add(job, &absent, name, NULL, index);
 }
 
@@ -187,7 +223,7 @@ ps_result mesh_read_materials(struct mesh_job *job)
     size_t count = job->scene->mNumMaterials;
     job->materials = malloc((count + 1) * sizeof *job->materials);
     job->fragment->materials =
-        calloc(MESH_MATERIAL_PARTS * count + 1, sizeof *job->fragment->materials);
+        calloc(MESH_MATERIAL_PARTS * count + 1, sizeof *job->fragment->materials); /* 1: painted */
     if (!job->materials || !job->fragment->materials)
         return mesh_out_of_memory(job, count * sizeof *job->fragment->materials);
     for (size_t i = 0; i < count; i++)

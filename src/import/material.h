@@ -20,15 +20,20 @@ struct material_description mesh_material_white(struct origin origin);
 ps_result mesh_material_add(struct mesh_job *job, const struct material_description *material,
                             const char *name, const char *part, size_t *index);
 
-/* Adds the two, and a mix of them that has the surface (emission, opacity, bump, normal map) of
- * `first`. */
+/* Adds the two, and a mix of them that has the surface (emission, opacity, bump, normal map) of the first. Where
+ * `varying` is not NULL it is the share of the first, and the weights do not count. */
 struct mesh_share {
     const struct material_description *material;
     double weight;
     const char *part;
 };
 ps_result mesh_material_add_mix(struct mesh_job *job, const struct mesh_share shares[2],
-                                const char *name, size_t *index);
+                                const struct pigment_description *varying, const char *name,
+                                size_t *index);
+
+/* Counts a material that has something psplat has not: each such thing is noted once (steps.h). `what` is a
+ * literal. */
+void mesh_material_omit(struct mesh_job *job, const char *what, const char *name);
 
 /* material_mtl.c, material_gltf.c: adds the material and its parts. `extras` is its JSON,
  * or NULL. */
@@ -36,6 +41,14 @@ ps_result mesh_material_read_mtl(struct mesh_job *job, const struct aiMaterial *
                                  const char *name, size_t *index);
 ps_result mesh_material_read_gltf(struct mesh_job *job, const struct aiMaterial *source,
                                   const struct json *extras, const char *name, size_t *index);
+
+/* --- material_mesh.c: what the meshes of a material bring ------------------------------ */
+
+/* The material takes the colours of its meshes' vertices; for NO_INDEX one that is white without them is made. */
+ps_result mesh_material_paint(struct mesh_job *job, size_t *index);
+
+/* Whether some texture of the material is laid by the second set of coordinates. */
+bool mesh_material_has_second_uv(const struct mesh_job *job, size_t index);
 
 /* --- texture.c -------------------------------------------------------------------------- */
 
@@ -52,15 +65,18 @@ struct mesh_texture_use {
     enum aiTextureType type;
     enum texture_channel channel;
     enum texture_encoding encoding;
+    const struct json *info; /* glTF's textureInfo, or NULL */
 };
 ps_result mesh_pigment_texture(struct mesh_job *job, const struct aiMaterial *source,
                                struct mesh_texture_use use, struct pigment_description *pigment);
 
-/* The texture's index, or NO_INDEX. */
-ps_result mesh_texture_find(struct mesh_job *job, const struct aiMaterial *source,
-                            struct mesh_texture_use use, size_t *texture);
-
 /* Whether the material names one, there or not. */
 bool mesh_texture_is_named(const struct aiMaterial *source, enum aiTextureType type);
+
+/* --- texture_map.c ---------------------------------------------------------------------- */
+
+/* Where on the surface the image lies: set of coordinates, and transform. */
+void mesh_map_texture(struct mesh_job *job, const struct aiMaterial *source,
+                      struct mesh_texture_use use, struct pigment_description *pigment);
 
 #endif

@@ -105,7 +105,8 @@ static ps_result read_opacity(struct mesh_job *job, const struct aiMaterial *sou
                               const struct mtl *mtl, struct material_description *material)
 {
     struct aiString color, opacity;
-    struct mesh_texture_use use = {aiTextureType_OPACITY, CHANNEL_RGB, ENCODING_LINEAR};
+    struct mesh_texture_use use = {aiTextureType_OPACITY, CHANNEL_RGB, ENCODING_LINEAR, NULL};
+    material->blended = true;
     material->opacity = mesh_pigment(mesh_grey(fmin(fmax(mtl->opacity, 0), 1)));
     if (aiGetMaterialString(source, AI_MATKEY_TEXTURE_DIFFUSE(0), &color) == aiReturn_SUCCESS &&
         aiGetMaterialString(source, AI_MATKEY_TEXTURE_OPACITY(0), &opacity) == aiReturn_SUCCESS &&
@@ -117,8 +118,8 @@ static ps_result read_opacity(struct mesh_job *job, const struct aiMaterial *sou
 static ps_result read_bump(struct mesh_job *job, const struct aiMaterial *source,
                            struct material_description *material)
 {
-    struct mesh_texture_use height = {aiTextureType_HEIGHT, CHANNEL_RGB, ENCODING_LINEAR};
-    struct mesh_texture_use normal = {aiTextureType_NORMALS, CHANNEL_RGB, ENCODING_LINEAR};
+    struct mesh_texture_use height = {aiTextureType_HEIGHT, CHANNEL_RGB, ENCODING_LINEAR, NULL};
+    struct mesh_texture_use normal = {aiTextureType_NORMALS, CHANNEL_RGB, ENCODING_LINEAR, NULL};
     float factor = 1;
     unsigned count = 1;
     if (aiGetMaterialFloatArray(source, "$tex.bumpmult", aiTextureType_HEIGHT, 0, &factor,
@@ -130,7 +131,7 @@ static ps_result read_bump(struct mesh_job *job, const struct aiMaterial *source
     if (result == PS_OK && bump.kind == PIGMENT_IMAGE)
         material->bump = bump;
     if (result == PS_OK)
-        result = mesh_texture_find(job, source, normal, &material->normal_map);
+        result = mesh_pigment_texture(job, source, normal, &material->normal_map);
     return result;
 }
 
@@ -138,8 +139,10 @@ static ps_result read_bump(struct mesh_job *job, const struct aiMaterial *source
 static ps_result read_surface(struct mesh_job *job, const struct aiMaterial *source,
                               const struct mtl *mtl, struct material_description *material)
 {
-    const struct mesh_texture_use diffuse = {aiTextureType_DIFFUSE, CHANNEL_RGB, ENCODING_AUTO};
-    const struct mesh_texture_use emission = {aiTextureType_EMISSIVE, CHANNEL_RGB, ENCODING_AUTO};
+    const struct mesh_texture_use diffuse = {aiTextureType_DIFFUSE, CHANNEL_RGB, ENCODING_AUTO,
+                                             NULL};
+    const struct mesh_texture_use emission = {aiTextureType_EMISSIVE, CHANNEL_RGB, ENCODING_AUTO,
+                                              NULL};
     material->color = mesh_pigment(at_most_one(mtl->diffuse));
     material->emission = mesh_pigment(mtl->emission);
     ps_result result = add_picture(job, source, diffuse, &material->color);
@@ -183,13 +186,13 @@ static ps_result add_mirror(struct mesh_job *job, const struct mtl *mtl,
     below.color.colors[0] = ps_rgb_scale(below.color.colors[0], 1 / scattered);
     const struct mesh_share shares[2] = {{&mirror, mirrored / sum, "mirror"},
                                          {&below, scattered / sum, "diffuse"}};
-    return mesh_material_add_mix(job, shares, name, index);
+    return mesh_material_add_mix(job, shares, NULL, name, index);
 }
 
 static ps_result make_glossy(struct mesh_job *job, const struct aiMaterial *source,
                              const struct mtl *mtl, struct material_description *material)
 {
-    const struct mesh_texture_use use = {aiTextureType_SPECULAR, CHANNEL_RGB, ENCODING_AUTO};
+    const struct mesh_texture_use use = {aiTextureType_SPECULAR, CHANNEL_RGB, ENCODING_AUTO, NULL};
     material->kind = MATERIAL_GLOSSY;
     material->specular = mesh_pigment(at_most_one(mtl->specular));
     material->roughness = mesh_pigment(mesh_grey(roughness_of(mtl->exponent)));

@@ -4,6 +4,7 @@
  * (3.7.4, "negative determinant").
  */
 #include "import/geometry.h"
+#include "import/material.h"
 #include "import/steps.h"
 #include <stdlib.h>
 #include <string.h>
@@ -29,6 +30,31 @@ static const ps_vec3 *smooth_of(const struct builder *builder, size_t index)
     return builder->smooth ? builder->smooth[index] : NULL;
 }
 
+/* The fragment's; NULL for a material that is not there. */
+static size_t *material_of(const struct builder *builder, const struct aiMesh *source)
+{
+    struct mesh_job *job = builder->job;
+    return source->mMaterialIndex < job->scene->mNumMaterials
+               ? &job->materials[source->mMaterialIndex]
+               : NULL;
+}
+
+/* With what its material looks up. */
+static struct mesh_geometry geometry_of(const struct builder *builder, size_t index)
+{
+    const struct mesh_job *job = builder->job;
+    const struct aiMesh *mesh = source_mesh(builder, index);
+    const size_t *material = material_of(builder, mesh);
+    return (struct mesh_geometry){
+        .mesh = mesh,
+        .second_uv =
+            material && *material != NO_INDEX && mesh_material_has_second_uv(job, *material),
+        .colors = material && job->request->materials && mesh_has_colors(mesh),
+        .smooth = smooth_of(builder, index),
+        .scratch = builder->scratch,
+    };
+}
+
 /* The mesh in the fragment, made when it is first wanted; or EMPTY. */
 static ps_result want_mesh(struct builder *builder, size_t index, size_t *mesh)
 {
@@ -37,9 +63,10 @@ static ps_result want_mesh(struct builder *builder, size_t index, size_t *mesh)
     if (*mesh != NO_INDEX)
         return PS_OK;
     struct mesh_description *made = &fragment->meshes[fragment->mesh_count++];
-    const struct mesh_geometry source = {source_mesh(builder, index), smooth_of(builder, index),
-                                         builder->scratch};
+    const struct mesh_geometry source = geometry_of(builder, index);
     ps_result result = mesh_fill(builder->job, &source, made, &builder->dropped[index]);
+    if (result == PS_OK && made->colors)
+        result = mesh_material_paint(builder->job, material_of(builder, source.mesh));
     if (result == PS_OK && made->triangle_count > 0) {
         *mesh = builder->meshes[index] = fragment->mesh_count - 1;
     } else if (result == PS_OK) {
@@ -55,12 +82,11 @@ static void add_object(const struct builder *builder, const struct aiMesh *sourc
                        const struct affine *placement)
 {
     struct mesh_job *job = builder->job;
+    const size_t *material = material_of(builder, source);
     struct object_description *object = &job->fragment->objects[job->fragment->object_count++];
     *object = (struct object_description){
         .kind = OBJECT_MESH,
-        .material = source->mMaterialIndex < job->scene->mNumMaterials
-                        ? job->materials[source->mMaterialIndex]
-                        : NO_INDEX,
+        .material = material ? *material : NO_INDEX,
         .placement = *placement,
         .texture = NO_INDEX,
         .mesh = mesh,

@@ -166,10 +166,22 @@ static ps_result copy_embedded(struct mesh_job *job, const struct aiTexture *emb
     return PS_OK;
 }
 
-static void count_missing(struct mesh_job *job, const char *name, const char *why)
+/* Beyond those that are named each use counts. */
+static void count_missing(struct mesh_job *job, const char *name)
 {
-    if (job->report->missing_textures++ == 0)
-        mesh_note(job, "texture %.200s %s", name, why);
+    size_t i = 0;
+    while (i < MESH_MISSING_NAMES && job->missing[i] && strcmp(job->missing[i], name) != 0)
+        i++;
+    if (i < MESH_MISSING_NAMES && job->missing[i])
+        return;
+    if (i < MESH_MISSING_NAMES) {
+        char *names = job->report->missing_names;
+        size_t length = strlen(names);
+        job->missing[i] = strdup(name);
+        snprintf(names + length, sizeof job->report->missing_names - length, "%s%.100s",
+                 length > 0 ? ", " : "", name);
+    }
+    job->report->missing_textures++;
 }
 
 static ps_result locate(struct mesh_job *job, char *name, struct texture_description *texture)
@@ -180,19 +192,20 @@ static ps_result locate(struct mesh_job *job, char *name, struct texture_descrip
     if (is_file)
         return copy_embedded(job, embedded, name, texture);
     if (embedded || name[0] == '*') {
-        count_missing(job, name, "inside of the mesh file is no picture file");
+        count_missing(job, name);
         return PS_OK;
     }
     if (!find_path(job, name, path)) {
-        count_missing(job, name, "is missing");
+        count_missing(job, name);
         return PS_OK;
     }
     texture->path = strdup(path);
     return texture->path ? PS_OK : mesh_out_of_memory(job, strlen(path));
 }
 
-ps_result mesh_texture_find(struct mesh_job *job, const struct aiMaterial *source,
-                            struct mesh_texture_use use, size_t *index)
+/* Its index, or NO_INDEX. */
+static ps_result find_texture(struct mesh_job *job, const struct aiMaterial *source,
+                              struct mesh_texture_use use, size_t *index)
 {
     struct aiString name;
     *index = NO_INDEX;
@@ -209,49 +222,21 @@ ps_result mesh_texture_find(struct mesh_job *job, const struct aiMaterial *sourc
         texture.encoding = ENCODING_SRGB; /* its path has no extension to go by */
     if (result != PS_OK || !texture.path)
         return result;
-    result = add_texture(job, &texture, index);
-    if (result == PS_OK && read_integer(source, _AI_MATKEY_UVWSRC_BASE, use.type, 0) > 0)
-        mesh_note(job, "texture %.200s is laid by the first set of coordinates, not its own",
-                  name.data);
-    return result;
+    return add_texture(job, &texture, index);
 }
 
 /* --- the pigment -------------------------------------------------------------------------------- */
-
-/* assimp's way: scale, rotate about the middle, translate, with v upwards. */
-static void read_transform(struct mesh_job *job, const struct aiMaterial *source,
-                           enum aiTextureType type, struct pigment_description *pigment)
-{
-    enum { TRANSLATE_U, TRANSLATE_V, SCALE_U, SCALE_V, ROTATION, COUNT };
-    float values[COUNT] = {0};
-    unsigned count = COUNT;
-    if (aiGetMaterialFloatArray(source, AI_MATKEY_UVTRANSFORM(type, 0), values, &count) !=
-            aiReturn_SUCCESS ||
-        count != COUNT)
-        return;
-    for (int i = 0; i < COUNT; i++)
-        if (!isfinite(values[i]))
-            return;
-    if (values[ROTATION] != 0) {
-        mesh_note(job, "a texture that is turned on its surface is laid unturned");
-        return;
-    }
-    pigment->scale_u = values[SCALE_U];
-    pigment->scale_v = values[SCALE_V];
-    pigment->offset_u = values[TRANSLATE_U];
-    pigment->offset_v = values[TRANSLATE_V];
-}
 
 ps_result mesh_pigment_texture(struct mesh_job *job, const struct aiMaterial *source,
                                struct mesh_texture_use use, struct pigment_description *pigment)
 {
     size_t texture;
-    ps_result result = mesh_texture_find(job, source, use, &texture);
+    ps_result result = find_texture(job, source, use, &texture);
     if (result != PS_OK || texture == NO_INDEX)
         return result;
     pigment->kind = PIGMENT_IMAGE;
     pigment->texture = texture;
     pigment->channel = use.channel;
-    read_transform(job, source, use.type, pigment);
+    mesh_map_texture(job, source, use, pigment);
     return PS_OK;
 }

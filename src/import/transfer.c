@@ -101,6 +101,8 @@ static void move_meshes(struct transfer *transfer, struct scene_description *fra
         move_array(transfer, &mesh->vertices, mesh->vertex_count, sizeof *mesh->vertices);
         move_array(transfer, &mesh->normals, mesh->vertex_count, sizeof *mesh->normals);
         move_array(transfer, &mesh->uv, mesh->vertex_count, sizeof *mesh->uv);
+        move_array(transfer, &mesh->second_uv, mesh->vertex_count, sizeof *mesh->second_uv);
+        move_array(transfer, &mesh->colors, mesh->vertex_count, sizeof *mesh->colors);
         move_array(transfer, &mesh->triangles, mesh->triangle_count, sizeof *mesh->triangles);
     }
 }

@@ -41,6 +41,8 @@ static void release_geometry(struct scene_description *description)
         free(description->meshes[i].vertices);
         free(description->meshes[i].normals);
         free(description->meshes[i].uv);
+        free(description->meshes[i].second_uv);
+        free(description->meshes[i].colors);
         free(description->meshes[i].triangles);
     }
     free(description->meshes);

@@ -77,8 +77,13 @@ struct pigment_description {
     ps_rgb colors[2];
     size_t texture;          /* of PIGMENT_IMAGE */
     int32_t channel;         /* enum texture_channel, of PIGMENT_IMAGE */
+    int32_t uv_set;          /* of PIGMENT_IMAGE: 0, or 1 for the mesh's second coordinates */
     double scale_u, scale_v; /* of PIGMENT_IMAGE: how often the texture repeats over 0..1 */
+    double cross_u, cross_v; /* its u is scale_u u + cross_u v + offset_u, its v likewise */
     double offset_u, offset_v;
+    bool complement;    /* of PIGMENT_IMAGE: 1 minus that */
+    bool vertex_colors; /* of PIGMENT_COLOR, PIGMENT_IMAGE: times the mesh's; opacity: times their
+                           alpha */
     struct affine placement; /* of the pattern in the object's space */
     ps_vec3 axis;            /* of PIGMENT_GRADIENT */
     int64_t octaves;         /* of PIGMENT_NOISE */
@@ -107,11 +112,14 @@ struct material_description {
     struct pigment_description emission;  /* radiance, W/(m^2 sr); black: none */
     bool emission_both;                   /* from both sides, not only the front */
     struct pigment_description opacity;   /* below 1/2 there is no surface */
-    struct pigment_description bump;      /* height in scene units; a colour: flat */
-    size_t normal_map;                    /* texture, or NO_INDEX */
-    size_t *components;                   /* mix: materials, never itself or a later mix */
-    double *weights;                      /* mix: shares, their sum at most 1 */
+    bool blended; /* rather is opacity the share of the surface's points that are there */
+    struct pigment_description bump;       /* height in scene units; a colour: flat */
+    struct pigment_description normal_map; /* a colour: none; its red is a factor on tilts */
+    size_t *components;                    /* mix: materials, never itself or a later mix */
+    double *weights;                       /* mix: shares, their sum at most 1 */
     size_t component_count;
+    bool varying; /* mix of two: their weights are share, which is 0..1, and 1 - share */
+    struct pigment_description share;
     struct origin origin;
 };
 
@@ -168,6 +176,8 @@ struct mesh_description {
     ps_vec3 *vertices;
     ps_vec3 *normals; /* of each vertex, any length; NULL: flat */
     float (*uv)[2];   /* of each vertex, v upwards; NULL: none */
+    float (*second_uv)[2];
+    float (*colors)[4]; /* of each vertex: linear, with alpha, all 0..1; NULL: none */
     size_t vertex_count;
     uint32_t (*triangles)[3];
     size_t triangle_count;

@@ -17,6 +17,7 @@
 #include "scene/description.h"
 #include "scene/distribution.h"
 #include "scene/light_cluster.h"
+#include "scene/shape.h"
 
 /* The sphere around the scene. Sun and sky, which are infinitely far, send light paths through a
  * disc of its radius. */
@@ -35,13 +36,13 @@ struct sky_picture {
 
 /* What the radiance of a mesh is multiplied with at a point of it: a texture. At least 0, a pure
  * function, called from any thread. */
-typedef ps_rgb (*light_pattern)(const void *user, ps_vec3 position, const float uv[2]);
+typedef ps_rgb (*light_pattern)(const void *user, ps_vec3 position,
+                                const struct shape_point *point);
 
 /* Triangles that shine, in world space, counter-clockwise seen from the front, which shines. */
 struct light_mesh {
     const ps_vec3 *vertices;
     const uint32_t (*triangles)[3];
-    const float (*uv)[2]; /* of each vertex, for the pattern; NULL: it gets (0, 0) */
     size_t triangle_count;
     light_pattern pattern; /* NULL: the same radiance all over */
     const void *pattern_user;

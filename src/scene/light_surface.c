@@ -69,12 +69,9 @@ static ps_rgb pattern_at(const struct light_mesh *mesh, size_t triangle, ps_vec3
 {
     if (!mesh->pattern)
         return (ps_rgb){1, 1, 1};
-    float uv[2] = {0, 0};
-    for (int i = 0; mesh->uv && i < 3; i++) {
-        uv[0] += shares->of[i] * mesh->uv[mesh->triangles[triangle][i]][0];
-        uv[1] += shares->of[i] * mesh->uv[mesh->triangles[triangle][i]][1];
-    }
-    return mesh->pattern(mesh->pattern_user, position, uv);
+    const struct shape_point point = {mesh->triangles[triangle],
+                                      {shares->of[0], shares->of[1], shares->of[2]}};
+    return mesh->pattern(mesh->pattern_user, position, &point);
 }
 
 static ps_rgb triangle_mean(const struct light_mesh *mesh, size_t triangle, size_t edge)

@@ -2,6 +2,7 @@
 
 #include "scene/fresnel.h"
 #include "scene/heuristic.h"
+#include <assert.h>
 
 /* Grazing directions, where cosines divide. */
 #define SMALLEST_COSINE 1e-4f
@@ -10,14 +11,30 @@
 
 /* --- construction ------------------------------------------------------------------------------ */
 
+/* What a component is of its material. */
+struct portion {
+    float share;
+    enum component_sharing sharing;
+};
+
+/* What light is multiplied by, or another number of 0..1. */
+static struct pigment reflectance_create(const struct pigment_description *description,
+                                         const struct texture *textures)
+{
+    struct pigment pigment = pigment_create(description, textures);
+    pigment.bounded = true;
+    return pigment;
+}
+
 static struct component component_create(const struct material_description *description,
-                                         float share, const struct texture *textures)
+                                         struct portion portion, const struct texture *textures)
 {
     struct component component = {
         .kind = COMPONENT_REFLECTOR,
-        .share = share,
-        .specular = pigment_create(&description->color, textures),
-        .roughness = pigment_create(&description->roughness, textures),
+        .share = portion.share,
+        .sharing = portion.sharing,
+        .specular = reflectance_create(&description->color, textures),
+        .roughness = reflectance_create(&description->roughness, textures),
     };
     switch (description->kind) {
     case MATERIAL_DIFFUSE:
@@ -30,7 +47,7 @@ static struct component component_create(const struct material_description *desc
     case MATERIAL_GLOSSY:
         component.kind = COMPONENT_GLOSSY;
         component.diffuse = component.specular;
-        component.specular = pigment_create(&description->specular, textures);
+        component.specular = reflectance_create(&description->specular, textures);
         break;
     case MATERIAL_DIELECTRIC:
         component.kind = COMPONENT_DIELECTRIC;
@@ -44,16 +61,25 @@ static struct component component_create(const struct material_description *desc
     return component;
 }
 
+/* Of the i-th part of a mix. */
+static struct portion portion_of(const struct material_description *mix, size_t i,
+                                 struct portion whole)
+{
+    if (!mix->varying)
+        return (struct portion){whole.share * (float)mix->weights[i], whole.sharing};
+    assert(mix->component_count == 2 && whole.sharing == SHARE_CONSTANT);
+    return (struct portion){whole.share, i == 0 ? SHARE_FIRST : SHARE_SECOND};
+}
+
 /* Adds the components of a material, which may be a mix of others. */
 static ps_result add_components(const struct scene_description *description, size_t index,
-                                float share, const struct texture *textures,
+                                struct portion portion, const struct texture *textures,
                                 struct material *material, struct error *error)
 {
     const struct material_description *from = &description->materials[index];
     for (size_t i = 0; from->kind == MATERIAL_MIX && i < from->component_count; i++) {
-        ps_result result =
-            add_components(description, from->components[i], share * (float)from->weights[i],
-                           textures, material, error);
+        ps_result result = add_components(description, from->components[i],
+                                          portion_of(from, i, portion), textures, material, error);
         if (result != PS_OK)
             return result;
     }
@@ -62,7 +88,7 @@ static ps_result add_components(const struct scene_description *description, siz
     if (material->component_count == MATERIAL_MOST_COMPONENTS)
         return error_set(error, PS_ERROR_INVALID, "a mix of more than %d materials",
                          MATERIAL_MOST_COMPONENTS);
-    struct component component = component_create(from, share, textures);
+    struct component component = component_create(from, portion, textures);
     material->specular = material->specular || component.kind != COMPONENT_DIFFUSE;
     material->components[material->component_count++] = component;
     return PS_OK;
@@ -75,6 +101,32 @@ static bool is_black(const struct pigment_description *pigment)
     return !(ps_rgb_maximum(colors[0]) > 0.0f) && !(two && ps_rgb_maximum(colors[1]) > 0.0f);
 }
 
+static bool has_opacity(const struct material_description *from)
+{
+    return from->opacity.kind != PIGMENT_COLOR || from->opacity.vertex_colors ||
+           from->opacity.colors[0].r < (from->blended ? 1.0f : 0.5f);
+}
+
+/* What the pigments of the material, and of those that it is mixed of, want to be looked up by. A mesh file's materials
+ * never want both, nor have they patterns. */
+static enum material_lookup lookup_of(const struct scene_description *description, size_t index)
+{
+    const struct material_description *from = &description->materials[index];
+    const struct pigment_description *pigments[] = {
+        &from->color,   &from->specular, &from->roughness,  &from->emission,
+        &from->opacity, &from->bump,     &from->normal_map, &from->share};
+    enum material_lookup lookup = LOOKUP_POINT;
+    for (size_t i = 0; i < sizeof pigments / sizeof pigments[0]; i++) {
+        if (pigments[i]->kind == PIGMENT_IMAGE && pigments[i]->uv_set == 1)
+            lookup = LOOKUP_SECOND_UV;
+        else if (pigments[i]->vertex_colors)
+            return LOOKUP_COLORS;
+    }
+    for (size_t i = 0; i < from->component_count && lookup == LOOKUP_POINT; i++)
+        lookup = lookup_of(description, from->components[i]);
+    return lookup;
+}
+
 ps_result material_create(const struct scene_description *description, size_t index,
                           const struct texture *textures, struct material *material,
                           struct error *error)
@@ -83,14 +135,19 @@ ps_result material_create(const struct scene_description *description, size_t in
     *material = (struct material){
         .emissive = !is_black(&from->emission),
         .emission_both = from->emission_both,
-        .has_opacity = from->opacity.kind != PIGMENT_COLOR || from->opacity.colors[0].r < 0.5f,
+        .has_opacity = has_opacity(from),
+        .blended = from->blended,
         .has_bump = from->bump.kind != PIGMENT_COLOR,
+        .has_normal_map = from->normal_map.kind == PIGMENT_IMAGE,
+        .lookup = lookup_of(description, index),
         .emission = pigment_create(&from->emission, textures),
         .opacity = pigment_create(&from->opacity, textures),
         .bump = pigment_create(&from->bump, textures),
-        .normal_map = from->normal_map == NO_INDEX ? NULL : &textures[from->normal_map],
+        .normal_map = pigment_create(&from->normal_map, textures),
+        .mixing = reflectance_create(&from->share, textures),
     };
-    return add_components(description, index, 1.0f, textures, material, error);
+    return add_components(description, index, (struct portion){1.0f, SHARE_CONSTANT}, textures,
+                          material, error);
 }
 
 void material_create_lamp(ps_rgb radiance, bool both_sides, struct material *material)
@@ -103,9 +160,46 @@ void material_create_lamp(ps_rgb radiance, bool both_sides, struct material *mat
     };
 }
 
-bool material_is_opaque(const struct material *material, ps_vec3 texture_point, const float uv[2])
+ps_vec3 material_texture_point(const struct material *material, const struct shape *shape,
+                               const struct shape_point *point, ps_vec3 patterns)
 {
-    return !material->has_opacity || pigment_number(&material->opacity, texture_point, uv) >= 0.5f;
+    float values[4] = {0};
+    switch (material->lookup) {
+    case LOOKUP_COLORS:
+        shape_mesh_color(shape, point, values);
+        break;
+    case LOOKUP_SECOND_UV:
+        shape_mesh_uv((const float(*)[2])shape->second_uv, point, values);
+        break;
+    case LOOKUP_POINT:
+        return patterns;
+    }
+    return (ps_vec3){values[0], values[1], values[2]};
+}
+
+struct opacity_place material_opacity_place(const struct material *material,
+                                            const struct shape *shape,
+                                            const struct shape_point *point, ps_vec3 patterns)
+{
+    struct opacity_place place;
+    float rgba[4];
+    shape_mesh_uv((const float(*)[2])shape->uv, point, place.uv);
+    place.texture_point = material_texture_point(material, shape, point, patterns);
+    if (material->lookup == LOOKUP_COLORS) {
+        shape_mesh_color(shape, point, rgba);
+        place.texture_point = (ps_vec3){rgba[3], rgba[3], rgba[3]};
+    }
+    return place;
+}
+
+float material_coverage(const struct material *material, const struct opacity_place *place)
+{
+    if (!material->has_opacity)
+        return 1.0f;
+    float opacity = pigment_number(&material->opacity, place->texture_point, place->uv);
+    if (!material->blended)
+        return opacity >= 0.5f ? 1.0f : 0.0f;
+    return fminf(fmaxf(opacity, 0.0f), 1.0f);
 }
 
 /* --- lobes --------------------------------------------------------------------------------------- */
@@ -137,6 +231,16 @@ static float roughness_at(const struct component *component, const ps_hit *hit)
     return pigment_number(&component->roughness, hit->texture_point, hit->uv);
 }
 
+/* The component's part of the material. */
+static float share_at(const struct component *component, const struct view *view)
+{
+    if (component->sharing == SHARE_CONSTANT)
+        return component->share;
+    const ps_hit *hit = view->hit;
+    float first = pigment_number(&view->material->mixing, hit->texture_point, hit->uv);
+    return component->share * (component->sharing == SHARE_FIRST ? first : 1.0f - first);
+}
+
 static bool is_smooth(float roughness)
 {
     return roughness < MICROFACET_SMOOTHEST;
@@ -166,7 +270,8 @@ static ps_rgb diffuse_albedo(const struct component *component, const struct vie
 {
     if (component->kind != COMPONENT_DIFFUSE && component->kind != COMPONENT_GLOSSY)
         return (ps_rgb){0, 0, 0};
-    ps_rgb albedo = ps_rgb_scale(color_at(&component->diffuse, view->hit), component->share);
+    ps_rgb albedo =
+        ps_rgb_scale(color_at(&component->diffuse, view->hit), share_at(component, view));
     if (component->kind == COMPONENT_DIFFUSE)
         return albedo;
     return ps_rgb_multiply(albedo, complement(reflector_albedo(component, view, cosine)));
@@ -198,7 +303,7 @@ static ps_rgb specular_albedo(const struct component *component, const struct vi
     ps_rgb albedo = component->kind == COMPONENT_DIELECTRIC
                         ? (ps_rgb){1, 1, 1}
                         : reflector_albedo(component, view, cosine);
-    return ps_rgb_scale(albedo, component->share);
+    return ps_rgb_scale(albedo, share_at(component, view));
 }
 
 ps_rgb material_reflectance(const struct material *material, const struct microfacet_table *table,
@@ -288,7 +393,7 @@ static ps_bsdf_sample mirror(const struct lobe *lobe, const struct view *view)
     return (ps_bsdf_sample){
         .direction =
             ps_normalize(ps_add_scaled(ps_scale(view->out, -1.0f), 2.0f * ps_dot(view->out, n), n)),
-        .weight = ps_rgb_scale(reflected, component->share),
+        .weight = ps_rgb_scale(reflected, share_at(component, view)),
         .lobe = PS_SPECULAR,
     };
 }
@@ -309,7 +414,7 @@ static ps_bsdf_sample reflect_roughly(const struct lobe *lobe, const struct view
                                     microfacet_compensation(view->table, f0, roughness, eye));
     return (ps_bsdf_sample){
         .direction = ps_normalize(from_frame(frame, in)),
-        .weight = ps_rgb_scale(weight, component->share),
+        .weight = ps_rgb_scale(weight, share_at(component, view)),
         .pdf = microfacet_pdf(roughness, out, in),
         .lobe = PS_GLOSSY,
     };
@@ -434,7 +539,7 @@ static ps_rgb evaluate_lobe(const struct lobe *lobe, const struct view *view, ps
     *pdf = lobe->probability * microfacet_pdf(roughness, out, in);
     return ps_rgb_scale(ps_rgb_multiply(microfacet_reflect(roughness, f0, out, in),
                                         microfacet_compensation(view->table, f0, roughness, eye)),
-                        component->share);
+                        share_at(component, view));
 }
 
 /* All lobes; the ray leaves them along view->out, or comes from there. */
@@ -512,7 +617,7 @@ ps_rgb material_gloss(const struct material *material, const struct microfacet_t
                                            microfacet_compensation(table, f0, roughness, to_eye.z));
         float own = lobes[i].probability * microfacet_pdf(roughness, to_eye, to_light);
         float share = power_heuristic(light_pdf, own);
-        sum = ps_rgb_add(sum, ps_rgb_scale(reflected, component->share * share));
+        sum = ps_rgb_add(sum, ps_rgb_scale(reflected, share_at(component, &view) * share));
     }
     return sum;
 }

@@ -13,6 +13,11 @@
  * rests on; this one never gives an eye more light than there is.)
  *
  * A path that meets a surface follows one lobe, chosen by albedo.
+ *
+ * Opacity: below 1/2 there is no surface. A blended material rather has holes finer than anything, whose share of the
+ * area is 1 - opacity: whether a point is there is decided by a random number that belongs to the point (stochastic
+ * transparency, Enderton et al. 2010, with the hash of Wyman and McGuire 2017, "Hashed alpha testing"). So all rays,
+ * maps and light paths meet the same surface, and means over rays and passes are those of the opacity.
  */
 #ifndef SCENE_MATERIAL_H
 #define SCENE_MATERIAL_H
@@ -20,6 +25,7 @@
 #include "base/error.h"
 #include "scene/microfacet.h"
 #include "scene/pigment.h"
+#include "scene/shape.h"
 
 enum component_kind {
     COMPONENT_DIFFUSE,
@@ -28,9 +34,19 @@ enum component_kind {
     COMPONENT_DIELECTRIC
 };
 
+/* What hits' texture_point holds: the point in the shape's space, or what the mesh has for each vertex. */
+enum material_lookup { LOOKUP_POINT, LOOKUP_COLORS, LOOKUP_SECOND_UV };
+
+enum component_sharing {
+    SHARE_CONSTANT,
+    SHARE_FIRST, /* times the material's mixing */
+    SHARE_SECOND /* times 1 - mixing */
+};
+
 struct component {
     enum component_kind kind;
     float share;
+    enum component_sharing sharing;
     struct pigment diffuse; /* diffuse, glossy: reflectance */
     struct pigment
         specular; /* reflector, glossy: reflectance at normal incidence; dielectric: tint of
@@ -50,11 +66,15 @@ struct material {
     bool emissive;
     bool emission_both; /* else from the front only */
     bool has_opacity;
+    bool blended;
     bool has_bump;
-    struct pigment emission;          /* radiance */
-    struct pigment opacity;           /* below 1/2 there is no surface */
-    struct pigment bump;              /* height, scene units */
-    const struct texture *normal_map; /* NULL: none */
+    bool has_normal_map;
+    enum material_lookup lookup;
+    struct pigment emission; /* radiance */
+    struct pigment opacity;
+    struct pigment bump;       /* height, scene units */
+    struct pigment normal_map; /* its red is a factor on tilts */
+    struct pigment mixing;
 };
 
 /* Builds material `index`; mixes are resolved. Textures are borrowed. PS_ERROR_INVALID where a mix has
@@ -66,8 +86,21 @@ ps_result material_create(const struct scene_description *description, size_t in
 /* The black surface of a light. */
 void material_create_lamp(ps_rgb radiance, bool both_sides, struct material *material);
 
-/* Whether there is a surface where textures are looked up by this point and these u and v. */
-bool material_is_opaque(const struct material *material, ps_vec3 texture_point, const float uv[2]);
+/* The texture_point of a point of a mesh; `patterns` is the point in the shape's space. */
+ps_vec3 material_texture_point(const struct material *material, const struct shape *shape,
+                               const struct shape_point *point, ps_vec3 patterns);
+
+/* Where opacity is looked up: of materials that look up colours, the point is three times their alpha. */
+struct opacity_place {
+    ps_vec3 texture_point;
+    float uv[2];
+};
+struct opacity_place material_opacity_place(const struct material *material,
+                                            const struct shape *shape,
+                                            const struct shape_point *point, ps_vec3 patterns);
+
+/* How much of the surface there is: 0 or 1, or any share where the material is blended. */
+float material_coverage(const struct material *material, const struct opacity_place *place);
 
 /* Diffuse reflectance of the surface towards the ray's origin. */
 ps_rgb material_albedo(const struct material *material, const struct microfacet_table *table,

@@ -39,7 +39,11 @@ struct pigment pigment_create(const struct pigment_description *description,
         .colors = {description->colors[0], description->colors[1]},
         .channel = description->channel,
         .scale = {(float)description->scale_u, (float)description->scale_v},
+        .cross = {(float)description->cross_u, (float)description->cross_v},
         .offset = {(float)description->offset_u, (float)description->offset_v},
+        .second_uv = description->uv_set == 1,
+        .complement = description->complement,
+        .vertex_colors = description->vertex_colors,
         .to_pattern = inverse_of(&description->placement),
         .axis = unit_or_zero(description->axis),
         .octaves = usable_octaves(description->octaves),
@@ -63,9 +67,39 @@ static ps_rgb select_channel(const float rgba[4], int32_t channel)
 static ps_rgb image_color(const struct pigment *pigment, float u, float v)
 {
     float rgba[4];
-    texture_sample(pigment->texture, pigment->scale[0] * u + pigment->offset[0],
-                   pigment->scale[1] * v + pigment->offset[1], rgba);
-    return ps_rgb_multiply(pigment->colors[0], select_channel(rgba, pigment->channel));
+    texture_sample(pigment->texture,
+                   pigment->scale[0] * u + pigment->cross[0] * v + pigment->offset[0],
+                   pigment->scale[1] * v + pigment->cross[1] * u + pigment->offset[1], rgba);
+    ps_rgb color = ps_rgb_multiply(pigment->colors[0], select_channel(rgba, pigment->channel));
+    if (pigment->complement)
+        return (ps_rgb){1.0f - color.r, 1.0f - color.g, 1.0f - color.b};
+    return color;
+}
+
+/* Of the surface, before the image's own transform. */
+static void choose_uv(const struct pigment *pigment, ps_vec3 point, const float uv[2],
+                      float chosen[2])
+{
+    chosen[0] = pigment->second_uv ? point.x : uv[0];
+    chosen[1] = pigment->second_uv ? point.y : uv[1];
+}
+
+void pigment_place(const struct pigment *pigment, ps_vec3 point, const float uv[2], float place[2])
+{
+    float at[2];
+    choose_uv(pigment, point, uv, at);
+    for (int i = 0; i < 2; i++)
+        place[i] = pigment->scale[i] * at[i] + pigment->cross[i] * at[1 - i] + pigment->offset[i];
+}
+
+void pigment_tangents(const struct pigment *pigment, ps_vec3 *by_u, ps_vec3 *by_v)
+{
+    const float *scale = pigment->scale, *cross = pigment->cross;
+    float determinant = scale[0] * scale[1] - cross[0] * cross[1];
+    float inverse = fabsf(determinant) > 0.0f ? 1.0f / determinant : 0.0f;
+    ps_vec3 u = *by_u, v = *by_v;
+    *by_u = ps_scale(ps_add_scaled(ps_scale(u, scale[1]), -cross[1], v), inverse);
+    *by_v = ps_scale(ps_add_scaled(ps_scale(v, scale[0]), -cross[0], u), inverse);
 }
 
 /* --- patterns -------------------------------------------------------------------------------- */
@@ -114,10 +148,28 @@ static float pattern_share(const struct pigment *pigment, ps_vec3 p)
     return 0.0f;
 }
 
+static ps_rgb within_unit(ps_rgb color)
+{
+    return (ps_rgb){fminf(fmaxf(color.r, 0.0f), 1.0f), fminf(fmaxf(color.g, 0.0f), 1.0f),
+                    fminf(fmaxf(color.b, 0.0f), 1.0f)};
+}
+
+/* What a mesh file's materials are made of. */
+static ps_rgb vary_by_mesh(const struct pigment *pigment, ps_vec3 point, const float uv[2])
+{
+    float at[2];
+    choose_uv(pigment, point, uv, at);
+    ps_rgb color =
+        pigment->kind == PIGMENT_IMAGE ? image_color(pigment, at[0], at[1]) : pigment->colors[0];
+    if (pigment->vertex_colors)
+        color = ps_rgb_multiply(color, (ps_rgb){point.x, point.y, point.z});
+    return pigment->bounded ? within_unit(color) : color;
+}
+
 ps_rgb pigment_vary(const struct pigment *pigment, ps_vec3 point, const float uv[2])
 {
-    if (pigment->kind == PIGMENT_IMAGE)
-        return image_color(pigment, uv[0], uv[1]);
+    if (pigment->kind == PIGMENT_IMAGE || pigment->kind == PIGMENT_COLOR)
+        return vary_by_mesh(pigment, point, uv);
     float share = pattern_share(pigment, affine_point(&pigment->to_pattern, point));
     return ps_rgb_add(ps_rgb_scale(pigment->colors[0], 1.0f - share),
                       ps_rgb_scale(pigment->colors[1], share));
@@ -164,10 +216,12 @@ ps_vec3 pigment_gradient(const struct pigment *pigment, ps_vec3 point)
 /* Along u (axis 0) or v; by what the coordinates differ after rounding. */
 static float image_slope(const struct pigment *pigment, const float uv[2], int axis)
 {
-    uint32_t size = axis == 0 ? pigment->texture->width : pigment->texture->height;
-    if (pigment->scale[axis] == 0.0f)
+    const float sizes[2] = {(float)pigment->texture->width, (float)pigment->texture->height};
+    float texels = fmaxf(sizes[axis] * fabsf(pigment->scale[axis]),
+                         sizes[1 - axis] * fabsf(pigment->cross[1 - axis]));
+    if (texels == 0.0f)
         return 0.0f;
-    float step = 0.5f / ((float)size * fabsf(pigment->scale[axis]));
+    float step = 0.5f / texels;
     float before[2] = {uv[0], uv[1]}, after[2] = {uv[0], uv[1]};
     before[axis] -= step;
     after[axis] += step;

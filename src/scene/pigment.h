@@ -23,6 +23,9 @@
 #include "scene/description.h"
 #include "scene/texture.h"
 
+/* Instead of the point where patterns are looked up, a surface may give what its mesh holds for each vertex
+ * (material.h): the colour, or the second texture coordinates in x and y. */
+
 #define PATTERN_OFFSET 0x1p-10f /* of a cube, or of the gradient's length */
 #define TURBULENCE_OCTAVES 6
 
@@ -30,12 +33,16 @@
 struct pigment {
     enum pigment_kind kind;
     ps_rgb colors[2];
-    const struct texture *texture; /* borrowed; image */
-    int32_t channel;               /* enum texture_channel; image */
-    float scale[2], offset[2];     /* u goes to scale * u + offset; image */
-    struct affine to_pattern;      /* from the space of the points */
-    ps_vec3 axis;                  /* unit, or 0: all is colors[0]; gradient */
-    int32_t octaves;               /* noise */
+    const struct texture *texture;       /* borrowed; image */
+    int32_t channel;                     /* enum texture_channel; image */
+    float scale[2], cross[2], offset[2]; /* u goes to scale * u + cross * v + offset; image */
+    bool second_uv;                      /* image: by the point's x and y rather than by u and v */
+    bool complement;                     /* image */
+    bool vertex_colors;                  /* times the point as a colour */
+    bool bounded;             /* kept within 0..1, as reflectances are; image, vertex_colors */
+    struct affine to_pattern; /* from the space of the points */
+    ps_vec3 axis;             /* unit, or 0: all is colors[0]; gradient */
+    int32_t octaves;          /* noise */
     float turbulence;
 };
 
@@ -47,7 +54,7 @@ struct pigment pigment_create(const struct pigment_description *description,
 
 static inline bool pigment_is_constant(const struct pigment *pigment)
 {
-    return pigment->kind == PIGMENT_COLOR;
+    return pigment->kind == PIGMENT_COLOR && !pigment->vertex_colors;
 }
 
 /* pigment_color for kinds that vary. */
@@ -75,6 +82,12 @@ static inline float pigment_number(const struct pigment *pigment, ps_vec3 point,
  * and images. By central differences over about 1/50 of the pattern's unit, and of the finest
  * octave; the steps of a checker so get slopes of that width. */
 ps_vec3 pigment_gradient(const struct pigment *pigment, ps_vec3 point);
+
+/* Where an image is looked up: by the surface's (u, v), or the point where the pigment has it so. */
+void pigment_place(const struct pigment *pigment, ps_vec3 point, const float uv[2], float place[2]);
+
+/* The derivatives of the position by an image's coordinates, from those by the surface's; 0 where these do not tell. */
+void pigment_tangents(const struct pigment *pigment, ps_vec3 *by_u, ps_vec3 *by_v);
 
 /* How pigment_number changes with u and v: of images; 0 for the other kinds. By central differences
  * of half a texel to both sides, which makes the slopes continuous where bilinear interpolation

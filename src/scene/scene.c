@@ -129,7 +129,9 @@ void scene_release(struct scene *scene)
 static size_t shape_bytes(const struct shape *shape)
 {
     size_t of_vertex = sizeof *shape->vertices + (shape->normals ? sizeof *shape->normals : 0) +
-                       (shape->uv ? sizeof *shape->uv : 0);
+                       (shape->uv ? sizeof *shape->uv : 0) +
+                       (shape->second_uv ? sizeof *shape->second_uv : 0) +
+                       (shape->colors ? sizeof *shape->colors : 0);
     return sizeof *shape + shape->vertex_count * of_vertex +
            shape->triangle_count * sizeof *shape->triangles;
 }

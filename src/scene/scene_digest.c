@@ -20,10 +20,15 @@ static void add_pigment(uint64_t *digest, const struct pigment_description *pigm
     ADD(pigment->colors);
     ADD(pigment->texture);
     ADD(pigment->channel);
+    ADD(pigment->uv_set);
     ADD(pigment->scale_u);
     ADD(pigment->scale_v);
+    ADD(pigment->cross_u);
+    ADD(pigment->cross_v);
     ADD(pigment->offset_u);
     ADD(pigment->offset_v);
+    ADD(pigment->complement);
+    ADD(pigment->vertex_colors);
     ADD(pigment->placement);
     ADD(pigment->axis);
     ADD(pigment->octaves);
@@ -41,8 +46,11 @@ void scene_digest_material(uint64_t *digest, const struct material_description *
     add_pigment(digest, &material->emission);
     ADD(material->emission_both);
     add_pigment(digest, &material->opacity);
+    ADD(material->blended);
     add_pigment(digest, &material->bump);
-    ADD(material->normal_map);
+    add_pigment(digest, &material->normal_map);
+    ADD(material->varying);
+    add_pigment(digest, &material->share);
     ADD_ARRAY(material->components, material->component_count);
     ADD_ARRAY(material->weights, material->component_count);
 }
@@ -119,6 +127,8 @@ static void add_geometry(uint64_t *digest, const struct scene_description *descr
         ADD_ARRAY(mesh->vertices, mesh->vertex_count);
         ADD_ARRAY(mesh->normals, mesh->vertex_count);
         ADD_ARRAY(mesh->uv, mesh->vertex_count);
+        ADD_ARRAY(mesh->second_uv, mesh->vertex_count);
+        ADD_ARRAY(mesh->colors, mesh->vertex_count);
         ADD_ARRAY(mesh->triangles, mesh->triangle_count);
     }
     add_objects(digest, description->objects, description->object_count);

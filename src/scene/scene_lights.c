@@ -102,26 +102,33 @@ static ps_result add_described(struct assembly *assembly, const struct light_des
 /* Emission that varies over a mesh, looked up where its surface is. */
 struct emission_pattern {
     const struct material *material;
+    const struct shape *shape;
     struct affine to_shape; /* from world space */
 };
 
-static ps_rgb emission_at(const void *user, ps_vec3 position, const float uv[2])
+static ps_rgb emission_at(const void *user, ps_vec3 position, const struct shape_point *point)
 {
     const struct emission_pattern *pattern = user;
-    ps_vec3 point = affine_point(&pattern->to_shape, position);
-    return material_is_opaque(pattern->material, point, uv)
-               ? pigment_color(&pattern->material->emission, point, uv)
-               : (ps_rgb){0, 0, 0};
+    const struct material *material = pattern->material;
+    ps_vec3 patterns = affine_point(&pattern->to_shape, position);
+    struct opacity_place place = material_opacity_place(material, pattern->shape, point, patterns);
+    float coverage = material_coverage(material, &place);
+    if (!(coverage > 0.0f))
+        return (ps_rgb){0, 0, 0};
+    ps_vec3 at = material_texture_point(material, pattern->shape, point, patterns);
+    ps_rgb emission = pigment_color(&material->emission, at, place.uv);
+    return coverage < 1.0f ? ps_rgb_scale(emission, coverage) : emission;
 }
 
 static bool make_pattern(struct assembly *assembly, const struct material *material,
-                         const struct instance *instance, struct light_mesh *mesh)
+                         const struct shape *shape, const struct instance *instance,
+                         struct light_mesh *mesh)
 {
     struct emission_pattern *pattern =
         keep(assembly, assembly_allocate(assembly, 1, sizeof *pattern));
     if (!pattern)
         return false;
-    *pattern = (struct emission_pattern){material, AFFINE_IDENTITY};
+    *pattern = (struct emission_pattern){material, shape, AFFINE_IDENTITY};
     if (instance)
         affine_invert(&instance->placement, &pattern->to_shape);
     mesh->pattern = emission_at;
@@ -160,11 +167,10 @@ static ps_result add_mesh(struct assembly *assembly, const struct shape *shape,
     struct light_mesh mesh = {
         .vertices = shape->vertices,
         .triangles = (const uint32_t(*)[3])shape->triangles,
-        .uv = (const float(*)[2])shape->uv,
         .triangle_count = shape->triangle_count,
     };
     bool patterned = !pigment_is_constant(&material->emission) || material->has_opacity;
-    if (patterned && !make_pattern(assembly, material, instance, &mesh))
+    if (patterned && !make_pattern(assembly, material, shape, instance, &mesh))
         return PS_ERROR_MEMORY;
     if (instance && !place_mesh(assembly, shape, instance, &mesh))
         return PS_ERROR_MEMORY;

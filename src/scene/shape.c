@@ -90,10 +90,15 @@ ps_result shape_allocate(struct shape *shape, size_t vertices, size_t triangles,
         shape->normals = allocate_array(vertices, sizeof *shape->normals);
     if (parts & MESH_UV)
         shape->uv = allocate_array(vertices, sizeof *shape->uv);
+    if (parts & MESH_SECOND_UV)
+        shape->second_uv = allocate_array(vertices, sizeof *shape->second_uv);
+    if (parts & MESH_COLORS)
+        shape->colors = allocate_array(vertices, sizeof *shape->colors);
     shape->vertex_count = vertices;
     shape->triangle_count = triangles;
     if (shape->vertices && shape->triangles && (shape->normals || !(parts & MESH_NORMALS)) &&
-        (shape->uv || !(parts & MESH_UV)))
+        (shape->uv || !(parts & MESH_UV)) && (shape->second_uv || !(parts & MESH_SECOND_UV)) &&
+        (shape->colors || !(parts & MESH_COLORS)))
         return PS_OK;
     return error_memory(
         error, vertices * sizeof *shape->vertices + triangles * sizeof *shape->triangles, "a mesh");
@@ -105,7 +110,27 @@ void shape_release(struct shape *shape)
     free(shape->triangles);
     free(shape->normals);
     free(shape->uv);
+    free(shape->second_uv);
+    free(shape->colors);
     *shape = (struct shape){.kind = SHAPE_MESH};
+}
+
+void shape_mesh_uv(const float (*uv)[2], const struct shape_point *point, float at[2])
+{
+    const float *shares = point->shares;
+    at[0] = at[1] = 0.0f;
+    for (int k = 0; k < 2 && uv; k++)
+        at[k] = shares[0] * uv[point->corners[0]][k] + shares[1] * uv[point->corners[1]][k] +
+                shares[2] * uv[point->corners[2]][k];
+}
+
+void shape_mesh_color(const struct shape *shape, const struct shape_point *point, float rgba[4])
+{
+    for (int k = 0; k < 4; k++) {
+        rgba[k] = shape->colors ? 0.0f : 1.0f;
+        for (int i = 0; i < 3 && shape->colors; i++)
+            rgba[k] += point->shares[i] * shape->colors[point->corners[i]][k];
+    }
 }
 
 static void extend(ps_vec3 p, ps_vec3 *low, ps_vec3 *high)

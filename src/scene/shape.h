@@ -48,10 +48,12 @@ enum shape_kind { SHAPE_MESH, SHAPE_SPHERE };
 struct shape {
     enum shape_kind kind;
     uint32_t material;
-    bool hidden;       /* from the camera */
-    ps_vec3 *vertices; /* mesh; counter-clockwise triangles seen from the front */
-    ps_vec3 *normals;  /* mesh: unit, of each vertex in use, on the front; NULL: flat */
-    float (*uv)[2];    /* mesh: of each vertex; NULL: none */
+    bool hidden;           /* from the camera */
+    ps_vec3 *vertices;     /* mesh; counter-clockwise triangles seen from the front */
+    ps_vec3 *normals;      /* mesh: unit, of each vertex in use, on the front; NULL: flat */
+    float (*uv)[2];        /* mesh: of each vertex; NULL: none */
+    float (*second_uv)[2]; /* mesh file: likewise */
+    float (*colors)[4];    /* mesh file: linear colour and alpha of each vertex; NULL: none */
     size_t vertex_count;
     uint32_t (*triangles)[3]; /* mesh: none without an area */
     size_t triangle_count;    /* may be 0 for triangles and meshes, else at least 1 */
@@ -89,6 +91,18 @@ void shape_release(struct shape *shape);
 
 /* Grows the box [low, high] to hold the shape. */
 void shape_extend_bounds(const struct shape *shape, ps_vec3 *low, ps_vec3 *high);
+
+/* A point of a mesh's triangle: its corners, and the point's shares of them, whose sum is 1. */
+struct shape_point {
+    const uint32_t *corners;
+    float shares[3];
+};
+
+/* (u, v) there by shape->uv, or shape->second_uv; 0 for NULL. */
+void shape_mesh_uv(const float (*uv)[2], const struct shape_point *point, float at[2]);
+
+/* Linear colour and alpha of the vertices; white where there are none. */
+void shape_mesh_color(const struct shape *shape, const struct shape_point *point, float rgba[4]);
 
 /* (u, v), both in 0..1, where a SHAPE_SPHERE has the unit outward normal `outward`. */
 void shape_sphere_uv(const struct shape *shape, ps_vec3 outward, float uv[2]);

@@ -27,7 +27,7 @@ shape_builder shape_height_field;                                  /* shape_heig
 ps_result shape_invalid(const struct object_description *object, struct error *error,
                         const char *message);
 
-enum mesh_parts { MESH_NORMALS = 1, MESH_UV = 2 };
+enum mesh_parts { MESH_NORMALS = 1, MESH_UV = 2, MESH_SECOND_UV = 4, MESH_COLORS = 8 };
 
 /* Zeroed arrays; `parts` is a sum of enum mesh_parts. */
 ps_result shape_allocate(struct shape *shape, size_t vertices, size_t triangles, unsigned parts,

@@ -81,7 +81,8 @@ ps_result shape_box(const struct object_description *object,
 static ps_result copy_mesh(const struct mesh_description *mesh, struct shape *shape,
                            struct error *error)
 {
-    unsigned parts = (mesh->normals ? MESH_NORMALS : 0u) | (mesh->uv ? MESH_UV : 0u);
+    unsigned parts = (mesh->normals ? MESH_NORMALS : 0u) | (mesh->uv ? MESH_UV : 0u) |
+                     (mesh->second_uv ? MESH_SECOND_UV : 0u) | (mesh->colors ? MESH_COLORS : 0u);
     ps_result result =
         shape_allocate(shape, mesh->vertex_count, mesh->triangle_count, parts, error);
     if (result != PS_OK)
@@ -94,6 +95,10 @@ static ps_result copy_mesh(const struct mesh_description *mesh, struct shape *sh
         memcpy(shape->normals, mesh->normals, mesh->vertex_count * sizeof *mesh->normals);
     if (mesh->uv && mesh->vertex_count)
         memcpy(shape->uv, mesh->uv, mesh->vertex_count * sizeof *mesh->uv);
+    if (mesh->second_uv && mesh->vertex_count)
+        memcpy(shape->second_uv, mesh->second_uv, mesh->vertex_count * sizeof *mesh->second_uv);
+    if (mesh->colors && mesh->vertex_count)
+        memcpy(shape->colors, mesh->colors, mesh->vertex_count * sizeof *mesh->colors);
     return PS_OK;
 }
 

@@ -1,7 +1,10 @@
 #include "trace/surface.h"
 
+#include "base/sample.h"
 #include "scene/bump.h"
 #include "scene/triangles.h"
+#include <assert.h>
+#include <string.h>
 
 /* The shape, and how it stands in the world. */
 struct placed {
@@ -42,26 +45,22 @@ static ps_vec3 interpolate(const ps_vec3 *values, const uint32_t corner[3], floa
     return ps_add_scaled(p, v, values[corner[2]]);
 }
 
-/* Texture coordinates; 0 where the mesh has none. */
-static void mesh_uv(const struct shape *shape, uint32_t triangle, float u, float v, float uv[2])
+/* The place in a mesh. */
+static struct shape_point point_of(const struct shape *shape, const struct intersection *at)
 {
-    uv[0] = uv[1] = 0.0f;
-    const uint32_t *corner = shape->triangles[triangle];
-    for (int k = 0; k < 2 && shape->uv; k++)
-        uv[k] = (1.0f - u - v) * shape->uv[corner[0]][k] + u * shape->uv[corner[1]][k] +
-                v * shape->uv[corner[2]][k];
+    return (struct shape_point){shape->triangles[at->triangle],
+                                {1.0f - at->u - at->v, at->u, at->v}};
 }
 
 /* How the position moves with the texture coordinates; zero where they say nothing. */
-static void mesh_tangents(const struct shape *shape, uint32_t triangle, ps_vec3 *by_u,
-                          ps_vec3 *by_v)
+static void mesh_tangents(const struct shape *shape, const float (*uv)[2], uint32_t triangle,
+                          ps_vec3 *by_u, ps_vec3 *by_v)
 {
     *by_u = *by_v = (ps_vec3){0, 0, 0};
-    if (!shape->uv)
+    if (!uv)
         return;
     const uint32_t *corner = shape->triangles[triangle];
-    const float *uv0 = shape->uv[corner[0]], *uv1 = shape->uv[corner[1]];
-    const float *uv2 = shape->uv[corner[2]];
+    const float *uv0 = uv[corner[0]], *uv1 = uv[corner[1]], *uv2 = uv[corner[2]];
     float u1 = uv1[0] - uv0[0], v1 = uv1[1] - uv0[1], u2 = uv2[0] - uv0[0], v2 = uv2[1] - uv0[1];
     float determinant = u1 * v2 - u2 * v1;
     if (!(fabsf(determinant) > 0.0f))
@@ -91,8 +90,9 @@ static void locate_texture(const struct shape *shape, ps_vec3 outward,
         shape_sphere_uv(shape, outward, hit->uv);
         return;
     }
+    struct shape_point point = point_of(shape, at);
     hit->texture_point = interpolate(shape->vertices, shape->triangles[at->triangle], at->u, at->v);
-    mesh_uv(shape, at->triangle, at->u, at->v, hit->uv);
+    shape_mesh_uv((const float(*)[2])shape->uv, &point, hit->uv);
 }
 
 /* Fills in position and texture coordinates. */
@@ -107,6 +107,15 @@ static void locate(const struct placed *placed, const ps_ray *ray, const struct 
                         : hit->texture_point;
 }
 
+/* Puts what the mesh has for each vertex in place of the point. */
+static void look_up(const struct shape *shape, const struct material *material,
+                    const struct intersection *at, ps_hit *hit)
+{
+    assert(shape->kind == SHAPE_MESH);
+    struct shape_point point = point_of(shape, at);
+    hit->texture_point = material_texture_point(material, shape, &point, hit->texture_point);
+}
+
 /* The front's smoothed normal in the shape's space. */
 static ps_vec3 smooth_normal(const struct shape *shape, const struct intersection *at)
 {
@@ -115,21 +124,45 @@ static ps_vec3 smooth_normal(const struct shape *shape, const struct intersectio
     return unit(at->normal);
 }
 
-/* By the material's normal map and bumps, in the shape's space. */
-static ps_vec3 bend(const struct placed *placed, const struct material *material,
-                    const struct intersection *at, const ps_hit *hit, ps_vec3 normal)
+/* The derivatives of the position by what the pigment's image is looked up by, before the image's own transform. */
+static void tangents(const struct shape *shape, const struct pigment *pigment,
+                     const struct intersection *at, ps_vec3 place, ps_vec3 *by_u, ps_vec3 *by_v)
+{
+    float(*uv)[2] = pigment->second_uv ? shape->second_uv : shape->uv;
+    if (shape->kind == SHAPE_SPHERE)
+        shape_sphere_tangents(shape, ps_normalize(ps_subtract(place, shape->center)), by_u, by_v);
+    else
+        mesh_tangents(shape, (const float(*)[2])uv, at->triangle, by_u, by_v);
+}
+
+/* By the material's normal map, in the shape's space; `place` is the point there. */
+static ps_vec3 bend_by_map(const struct shape *shape, const struct pigment *map,
+                           const struct intersection *at, ps_vec3 place, const ps_hit *hit,
+                           ps_vec3 normal)
 {
     ps_vec3 by_u, by_v;
-    const struct shape *shape = placed->shape;
-    if (shape->kind == SHAPE_SPHERE)
-        shape_sphere_tangents(shape, ps_normalize(ps_subtract(hit->texture_point, shape->center)),
-                              &by_u, &by_v);
-    else
-        mesh_tangents(shape, at->triangle, &by_u, &by_v);
-    if (material->normal_map)
-        normal = bump_normal_map(material->normal_map, hit->uv, normal, by_u, by_v);
-    if (material->has_bump)
+    float uv[2];
+    tangents(shape, map, at, place, &by_u, &by_v);
+    pigment_tangents(map, &by_u, &by_v);
+    pigment_place(map, hit->texture_point, hit->uv, uv);
+    ps_vec3 bent = bump_normal_map(map->texture, uv, normal, by_u, by_v);
+    float factor = map->colors[0].r;
+    if (factor == 1.0f)
+        return bent;
+    ps_vec3 along = ps_scale(normal, ps_dot(bent, normal));
+    return ps_normalize(ps_add_scaled(along, factor, ps_subtract(bent, along)));
+}
+
+static ps_vec3 bend(const struct shape *shape, const struct material *material,
+                    const struct intersection *at, ps_vec3 place, const ps_hit *hit, ps_vec3 normal)
+{
+    if (material->has_normal_map)
+        normal = bend_by_map(shape, &material->normal_map, at, place, hit, normal);
+    if (material->has_bump) {
+        ps_vec3 by_u, by_v;
+        tangents(shape, &material->bump, at, place, &by_u, &by_v);
         normal = bump_bump(&material->bump, hit->texture_point, hit->uv, normal, by_u, by_v);
+    }
     return normal;
 }
 
@@ -159,18 +192,35 @@ ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray, const struc
                  (material->emissive ? PS_HIT_EMISSIVE : 0u),
     };
     locate(&placed, ray, at, &hit);
+    ps_vec3 place = hit.texture_point;
+    if (material->lookup != LOOKUP_POINT)
+        look_up(placed.shape, material, at, &hit);
     hit.normal = hit.geometric_normal;
-    bool bent = material->normal_map || material->has_bump;
+    bool bent = material->has_normal_map || material->has_bump;
     if (bent || placed.shape->normals) {
         ps_vec3 normal = smooth_normal(placed.shape, at);
         if (bent)
-            normal = bend(&placed, material, at, &hit, normal);
+            normal = bend(placed.shape, material, at, place, &hit, normal);
         hit.normal = normal_to_world(&placed, normal);
     }
     face_ray(ray, &hit);
     hit.albedo = material_albedo(material, scene->microfacets, &hit, ray->direction);
     hit.roughness = material->specular ? material_roughness(material, &hit) : 1.0f;
     return hit;
+}
+
+/* In (0, 1], the same whenever that point is met. Surfaces in one place have numbers of their own. */
+static float number_of_point(const struct intersection *at, ps_vec3 place)
+{
+    uint32_t bits[3];
+    memcpy(&bits[0], &place.x, sizeof bits[0]);
+    memcpy(&bits[1], &place.y, sizeof bits[1]);
+    memcpy(&bits[2], &place.z, sizeof bits[2]);
+    uint64_t hash = sample_hash((uint64_t)at->instance << 32 | at->shape);
+    hash = sample_hash(hash << 32 | at->triangle);
+    for (int i = 0; i < 3; i++)
+        hash = sample_hash(hash << 32 | bits[i]);
+    return (float)((hash >> 8) + 1) * 0x1p-24f;
 }
 
 bool surface_is_opaque(const struct scene *scene, const struct intersection *at)
@@ -182,7 +232,14 @@ bool surface_is_opaque(const struct scene *scene, const struct intersection *at)
         return true;
     ps_hit hit;
     locate_texture(shape, shape->kind == SHAPE_SPHERE ? unit(at->normal) : at->normal, at, &hit);
-    return material_is_opaque(material, hit.texture_point, hit.uv);
+    struct opacity_place place = {hit.texture_point, {hit.uv[0], hit.uv[1]}};
+    if (material->lookup != LOOKUP_POINT) {
+        struct shape_point point = point_of(shape, at);
+        place = material_opacity_place(material, shape, &point, hit.texture_point);
+    }
+    float coverage = material_coverage(material, &place);
+    return coverage >= 1.0f ||
+           (coverage > 0.0f && number_of_point(at, hit.texture_point) <= coverage);
 }
 
 /* The position in the world of a point of a shape, and at->normal there. */

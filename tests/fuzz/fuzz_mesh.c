@@ -44,6 +44,10 @@ static void check_meshes(const struct scene_description *fragment)
             require(is_finite(mesh->vertices[j]));
             require(!mesh->normals || is_finite(mesh->normals[j]));
             require(!mesh->uv || (isfinite(mesh->uv[j][0]) && isfinite(mesh->uv[j][1])));
+            require(!mesh->second_uv ||
+                    (isfinite(mesh->second_uv[j][0]) && isfinite(mesh->second_uv[j][1])));
+            for (int k = 0; mesh->colors && k < 4; k++)
+                require(mesh->colors[j][k] >= 0 && mesh->colors[j][k] <= 1);
         }
     }
 }
@@ -54,6 +58,10 @@ static void check_pigment(const struct scene_description *fragment,
     require(pigment->kind != PIGMENT_IMAGE || pigment->texture < fragment->texture_count);
     require(isfinite(pigment->colors[0].r) && isfinite(pigment->colors[0].g) &&
             isfinite(pigment->colors[0].b));
+    require(isfinite(pigment->scale_u) && isfinite(pigment->scale_v) &&
+            isfinite(pigment->cross_u) && isfinite(pigment->cross_v) &&
+            isfinite(pigment->offset_u) && isfinite(pigment->offset_v));
+    require(!pigment->vertex_colors || pigment->uv_set == 0);
 }
 
 static void check_material(const struct scene_description *fragment, size_t index)
@@ -66,7 +74,8 @@ static void check_material(const struct scene_description *fragment, size_t inde
     check_pigment(fragment, &material->emission);
     check_pigment(fragment, &material->opacity);
     check_pigment(fragment, &material->bump);
-    require(material->normal_map == NO_INDEX || material->normal_map < fragment->texture_count);
+    check_pigment(fragment, &material->normal_map);
+    check_pigment(fragment, &material->share);
     for (size_t i = 0; i < material->component_count; i++)
         require(material->components[i] < index && isfinite(material->weights[i]));
 }

@@ -83,7 +83,6 @@ static struct scene_description file_content(void)
     }
     for (size_t i = 0; i < 3; i++) {
         c.materials[i].name = copy_of(names[i]);
-        c.materials[i].normal_map = NO_INDEX;
         c.textures[i].path = copy_of("0.png");
         c.textures[i].path[0] += (char)i;
     }
@@ -92,7 +91,7 @@ static struct scene_description file_content(void)
         c.materials[i].color.texture = 1 - i;
         c.cameras[i].name = copy_of("camera");
     }
-    c.materials[2].normal_map = 2;
+    c.materials[2].normal_map = (struct pigment_description){.kind = PIGMENT_IMAGE, .texture = 2};
     c.lights[0].texture = NO_INDEX;
     return c;
 }
@@ -127,7 +126,7 @@ static void test_own_materials(void **state)
     assert_int_equal(o[3].material, o[0].material);
     assert_int_equal(d->texture_count, 3);
     assert_string_equal(d->textures[d->materials[o[0].material].color.texture].path, "1.png");
-    assert_string_equal(d->textures[d->materials[o[2].material].normal_map].path, "2.png");
+    assert_string_equal(d->textures[d->materials[o[2].material].normal_map.texture].path, "2.png");
     assert_int_equal(d->mesh_count, 5);
     assert_int_equal(d->meshes[o[0].mesh].vertex_count, 10);
     assert_int_equal(d->meshes[o[3].mesh].vertex_count, 13);

@@ -279,10 +279,10 @@ static void test_triangles_of_a_mesh_are_drawn(void **state)
 }
 
 /* Shines where no grid of points looks. */
-static ps_rgb speck(const void *user, ps_vec3 position, const float uv[2])
+static ps_rgb speck(const void *user, ps_vec3 position, const struct shape_point *point)
 {
     (void)user;
-    (void)uv;
+    (void)point;
     float lit = fabsf(position.y - 0.41234f) < 1e-4f ? 1.0f : 0.0f;
     return (ps_rgb){lit, lit, lit};
 }

@@ -45,7 +45,7 @@ static struct material_description plain(enum material_kind kind, float color)
         .emission = grey(0),
         .opacity = grey(1),
         .bump = grey(0),
-        .normal_map = NO_INDEX,
+        .normal_map = grey(1),
     };
 }
 

@@ -161,7 +161,100 @@ static void textures_have_their_channels_and_encodings(void **state)
     assert_int_equal(m->roughness.kind, PIGMENT_IMAGE);
     assert_int_equal(m->roughness.channel, CHANNEL_G);
     assert_int_equal(textures[m->roughness.texture].encoding, ENCODING_LINEAR);
-    assert_int_equal(m->normal_map, m->roughness.texture);
+    assert_int_equal(m->normal_map.texture, m->roughness.texture);
+    release_imported(&imported);
+}
+
+static void metalness_by_a_texture_is_its_blue(void **state)
+{
+    (void)state;
+    struct imported imported = import_material(
+        PBR("\"metallicFactor\":0.5,\"metallicRoughnessTexture\":{\"index\":0}"), "");
+    const struct material_description *m = material_named(&imported, "m");
+    assert_int_equal(m->kind, MATERIAL_MIX);
+    assert_true(m->varying);
+    assert_int_equal(m->share.kind, PIGMENT_IMAGE);
+    assert_int_equal(m->share.channel, CHANNEL_B);
+    expect_color(m->share.colors[0], 0.5, 0.5, 0.5);
+    assert_int_equal(imported.fragment.materials[m->components[0]].kind, MATERIAL_METAL);
+    assert_int_equal(imported.fragment.textures[m->share.texture].encoding, ENCODING_LINEAR);
+    assert_string_equal(imported.report.notes, "");
+    release_imported(&imported);
+}
+
+static void glossiness_is_roughness_reversed(void **state)
+{
+    (void)state;
+    struct imported imported =
+        import_material(",\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{"
+                        "\"diffuseFactor\":[0.5,0.4,0.3,0.2],\"specularFactor\":[0.1,0.2,0.3],"
+                        "\"glossinessFactor\":0.75,\"specularGlossinessTexture\":{\"index\":0}}},"
+                        "\"alphaMode\":\"BLEND\"",
+                        ",\"extensionsUsed\":[\"KHR_materials_pbrSpecularGlossiness\"]");
+    const struct material_description *m = material_named(&imported, "m");
+    assert_int_equal(m->kind, MATERIAL_GLOSSY);
+    expect_color(m->color.colors[0], 0.5, 0.4, 0.3);
+    expect_color(m->specular.colors[0], 0.1, 0.2, 0.3);
+    expect_near(m->opacity.colors[0].r, 0.2, 1e-6);
+    assert_true(m->blended);
+    assert_int_equal(m->specular.kind, PIGMENT_IMAGE);
+    assert_int_equal(m->roughness.kind, PIGMENT_IMAGE);
+    assert_int_equal(m->roughness.channel, CHANNEL_A);
+    assert_true(m->roughness.complement);
+    expect_near(m->roughness.colors[0].r, 0.75, 1e-6);
+    release_imported(&imported);
+    imported = import_material(",\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{"
+                               "\"glossinessFactor\":0.75}}",
+                               "");
+    expect_near(material_named(&imported, "m")->roughness.colors[0].r, 0.25, 1e-6);
+    release_imported(&imported);
+}
+
+static void unlit_shines_in_its_colour(void **state)
+{
+    (void)state;
+    struct imported imported = import_material(
+        PBR("\"baseColorFactor\":[0.5,0.4,0.3,1]") ",\"extensions\":{\"KHR_materials_unlit\":{}}",
+        "");
+    const struct material_description *m = material_named(&imported, "m");
+    assert_int_equal(m->kind, MATERIAL_DIFFUSE);
+    expect_color(m->color.colors[0], 0, 0, 0);
+    expect_color(m->emission.colors[0], 0.5, 0.4, 0.3);
+    release_imported(&imported);
+}
+
+static void specular_scales_the_coat(void **state)
+{
+    (void)state;
+    struct imported imported = import_material(
+        PBR("\"metallicFactor\":0") ",\"extensions\":{\"KHR_materials_specular\":{"
+                                    "\"specularFactor\":0.5,\"specularColorFactor\":[1,2,0]}}",
+        "");
+    expect_color(material_named(&imported, "m")->specular.colors[0], 0.02, 0.04, 0);
+    release_imported(&imported);
+}
+
+static void normal_scale_is_kept(void **state)
+{
+    (void)state;
+    struct imported imported =
+        import_material(",\"normalTexture\":{\"index\":0,\"scale\":0.5}", "");
+    expect_near(material_named(&imported, "m")->normal_map.colors[0].r, 0.5, 1e-6);
+    release_imported(&imported);
+}
+
+/* Each thing once, with the first material's name. */
+static void what_is_left_out_is_told(void **state)
+{
+    (void)state;
+    struct imported imported = import_parts((struct parts){
+        .material = ",\"extensions\":{\"KHR_materials_clearcoat\":{},\"KHR_materials_sheen\":{}}},"
+                    "{\"name\":\"n\",\"extensions\":{\"KHR_materials_sheen\":{}}",
+        .primitive = "{\"attributes\":{\"POSITION\":0},\"material\":0},"
+                     "{\"attributes\":{\"POSITION\":0},\"material\":1}"});
+    expect_success(&imported);
+    assert_string_equal(imported.report.notes, "the clearcoat of material m is left out\n"
+                                               "the sheen of material m and 1 more is left out");
     release_imported(&imported);
 }
 
@@ -190,10 +283,12 @@ static void alpha_mode_decides_on_opacity(void **state)
     imported =
         import_material(PBR("\"baseColorFactor\":[1,1,1,0.3]") ",\"alphaMode\":\"BLEND\"", "");
     expect_near(material_named(&imported, "m")->opacity.colors[0].r, 0.3, 1e-6);
+    assert_true(material_named(&imported, "m")->blended);
     release_imported(&imported);
     imported = import_material(
         PBR("\"baseColorFactor\":[1,1,1,0.3]") ",\"alphaMode\":\"MASK\",\"alphaCutoff\":0.25", "");
     assert_true(material_named(&imported, "m")->opacity.colors[0].r >= 0.5f);
+    assert_false(material_named(&imported, "m")->blended);
     release_imported(&imported);
 }
 
@@ -263,8 +358,8 @@ static void skins_and_colours_are_no_hindrance(void **state)
     struct imported imported = import_parts((struct parts){
         .node = "{\"mesh\":0,\"skin\":0}",
         .extra = ",\"skins\":[{\"joints\":[0]}],\"animations\":[{\"channels\":7}]",
-        .primitive = "{\"attributes\":{\"POSITION\":0,\"COLOR_0\":99,\"JOINTS_0\":98,"
-                     "\"WEIGHTS_0\":97,\"TEXCOORD_1\":96},\"targets\":[{\"POSITION\":95}]}"});
+        .primitive = "{\"attributes\":{\"POSITION\":0,\"COLOR_1\":99,\"JOINTS_0\":98,"
+                     "\"WEIGHTS_0\":97,\"TEXCOORD_2\":96},\"targets\":[{\"POSITION\":95}]}"});
     expect_success(&imported);
     assert_int_equal(imported.fragment.object_count, 1);
     release_imported(&imported);
@@ -380,6 +475,12 @@ int main(void)
         cmocka_unit_test(metalness_chooses_or_mixes),
         cmocka_unit_test(diffuse_only_leaves_the_colour),
         cmocka_unit_test(textures_have_their_channels_and_encodings),
+        cmocka_unit_test(metalness_by_a_texture_is_its_blue),
+        cmocka_unit_test(glossiness_is_roughness_reversed),
+        cmocka_unit_test(unlit_shines_in_its_colour),
+        cmocka_unit_test(specular_scales_the_coat),
+        cmocka_unit_test(normal_scale_is_kept),
+        cmocka_unit_test(what_is_left_out_is_told),
         cmocka_unit_test(texture_transform_is_kept),
         cmocka_unit_test(alpha_mode_decides_on_opacity),
         cmocka_unit_test(known_extensions_may_be_required),

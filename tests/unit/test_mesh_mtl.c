@@ -34,7 +34,7 @@ static void kd_is_diffuse(void **state)
     expect_color(m->opacity.colors[0], 1, 1, 1);
     expect_color(m->emission.colors[0], 0, 0, 0);
     assert_int_equal(imported.fragment.objects[0].material, 0);
-    assert_true(m->normal_map == NO_INDEX);
+    assert_true(m->normal_map.texture == NO_INDEX);
     release_imported(&imported);
 }
 
@@ -126,6 +126,7 @@ static void d_and_tr_are_opacity(void **state)
     (void)state;
     struct imported imported = import_mtl("Kd 0.5 0.5 0.5\nd 0.3\nillum 1");
     expect_near(material_named(&imported, "m")->opacity.colors[0].r, 0.3, 1e-6);
+    assert_true(material_named(&imported, "m")->blended);
     release_imported(&imported);
     imported = import_mtl("Kd 0.5 0.5 0.5\nTr 0.3\nillum 1");
     expect_near(material_named(&imported, "m")->opacity.colors[0].r, 0.7, 1e-6);
@@ -151,7 +152,8 @@ static void maps_are_textures(void **state)
     assert_int_equal(m->opacity.channel, CHANNEL_RGB);
     assert_int_equal(textures[m->opacity.texture].encoding, ENCODING_LINEAR);
     expect_near(m->bump.colors[0].r, 0.2, 1e-6);
-    assert_int_equal(m->normal_map, m->opacity.texture); /* one file, read one way: one texture */
+    assert_int_equal(m->normal_map.texture,
+                     m->opacity.texture); /* one file, read one way: one texture */
     assert_int_equal(imported.fragment.texture_count, 4);
     assert_int_equal(imported.report.missing_textures, 0);
     release_imported(&imported);
@@ -183,7 +185,7 @@ static void missing_texture_is_reported(void **state)
     assert_int_equal(m->color.kind, PIGMENT_COLOR);
     expect_color(m->color.colors[0], 0.5, 0.6, 0.7);
     assert_int_equal(imported.report.missing_textures, 1);
-    assert_non_null(strstr(imported.report.notes, "nowhere.png is missing"));
+    assert_non_null(strstr(imported.report.missing_names, "nowhere.png"));
     release_imported(&imported);
     /* A path of another machine: the picture lies beside the mesh. */
     imported = import_mtl("Kd 0.5 0.6 0.7\nmap_Kd C:\\models\\old\\a.png\nillum 1");
@@ -192,6 +194,25 @@ static void missing_texture_is_reported(void **state)
     release_imported(&imported);
     imported = import_mtl("Kd 0.5 0.6 0.7\nmap_Kd ../../../etc/passwd\nillum 1");
     assert_int_equal(imported.report.missing_textures, 1);
+    release_imported(&imported);
+}
+
+/* Each once, the first twenty by name. */
+static void all_missing_textures_are_named(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl("map_Kd one.png\nmap_d two.png\nbump one.png");
+    assert_int_equal(imported.report.missing_textures, 2);
+    assert_string_equal(imported.report.missing_names, "one.png, two.png");
+    release_imported(&imported);
+    char text[2000] = "";
+    for (int i = 1; i <= 22; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "map_Kd %d.png\nnewmtl m%d\n", i,
+                 i);
+    imported = import_mtl(text);
+    assert_int_equal(imported.report.missing_textures, 22);
+    assert_non_null(strstr(imported.report.missing_names, "19.png, 20.png"));
+    assert_null(strstr(imported.report.missing_names, "21.png"));
     release_imported(&imported);
 }
 
@@ -248,6 +269,7 @@ int main(void)
         cmocka_unit_test(picture_of_colour_and_opacity_gives_its_alpha),
         cmocka_unit_test(bump_grows_with_the_unit),
         cmocka_unit_test(missing_texture_is_reported),
+        cmocka_unit_test(all_missing_textures_are_named),
         cmocka_unit_test(absent_material_has_but_a_name),
         cmocka_unit_test(statements_before_the_first_material_are_harmless),
     };

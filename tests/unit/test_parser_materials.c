@@ -56,7 +56,7 @@ static void test_kinds(void **state)
     assert_true(m[5].emission.colors[0].b == 0 && !m[5].emission_both);
     for (size_t i = 0; i < d.material_count; i++) {
         assert_true(m[i].opacity.colors[0].r == 1 && m[i].bump.colors[0].r == 0);
-        assert_true(m[i].normal_map == NO_INDEX && m[i].opacity.texture == NO_INDEX);
+        assert_true(m[i].normal_map.texture == NO_INDEX && m[i].opacity.texture == NO_INDEX);
         assert_int_equal(m[i].origin.line, 5 + (int)i);
     }
     scene_description_release(&d);
@@ -111,8 +111,8 @@ static void test_pictures(void **state)
     assert_int_equal(m[2].opacity.channel, CHANNEL_A);
     assert_int_equal(d.textures[m[2].opacity.texture].encoding, ENCODING_LINEAR);
     assert_string_equal(d.textures[m[2].opacity.texture].path, "/b/leaf.png");
-    assert_int_equal(d.textures[m[2].normal_map].encoding, ENCODING_LINEAR);
-    assert_int_equal(d.textures[m[2].normal_map].wrap, WRAP_CLAMP);
+    assert_int_equal(d.textures[m[2].normal_map.texture].encoding, ENCODING_LINEAR);
+    assert_int_equal(d.textures[m[2].normal_map.texture].wrap, WRAP_CLAMP);
     scene_description_release(&d);
 }
 

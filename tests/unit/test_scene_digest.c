@@ -79,13 +79,10 @@ static void expect_all_bytes_count(digester digest, void *thing, size_t size,
     {offsetof(struct material_description, of) + offsetof(struct pigment_description, colors) +    \
          sizeof(((struct pigment_description *)0)->colors),                                        \
      4},                                                                                           \
-        {offsetof(struct material_description, of) +                                               \
-             offsetof(struct pigment_description, channel) + 4,                                    \
-         4},                                                                                       \
     {                                                                                              \
-        offsetof(struct material_description, of) + offsetof(struct pigment_description, axis) +   \
-            sizeof(ps_vec3),                                                                       \
-            4                                                                                      \
+        offsetof(struct material_description, of) +                                                \
+            offsetof(struct pigment_description, vertex_colors) + sizeof(bool),                    \
+            sizeof(float) - 2 * sizeof(bool)                                                       \
     }
 
 static void test_materials(void **state)
@@ -99,12 +96,16 @@ static void test_materials(void **state)
                                         GAP(material_description, kind, color),
                                         GAP(material_description, absorption, emission),
                                         GAP(material_description, emission_both, opacity),
+                                        GAP(material_description, blended, bump),
+                                        GAP(material_description, varying, share),
                                         PIGMENT_GAPS(color),
                                         PIGMENT_GAPS(specular),
                                         PIGMENT_GAPS(roughness),
                                         PIGMENT_GAPS(emission),
                                         PIGMENT_GAPS(opacity),
                                         PIGMENT_GAPS(bump),
+                                        PIGMENT_GAPS(normal_map),
+                                        PIGMENT_GAPS(share),
                                         {SIZE_MAX, 0}};
     struct material_description material;
     memset(&material, 0, sizeof material);
