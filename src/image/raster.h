@@ -28,6 +28,7 @@ struct raster {
     uint32_t channels; /* 1: grey; 2: grey, alpha; 3: red, green, blue; 4: with alpha */
     enum raster_sample sample;
     bool srgb; /* colours carry the sRGB transfer function, by their type of file; alpha never */
+    size_t mended; /* samples that were NaN or infinite */
     void *samples; /* row-major, top row first, native byte order */
 };
 

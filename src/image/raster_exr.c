@@ -50,6 +50,15 @@ static float finite_sample(float sample)
     return isinf(sample) ? copysignf(HALF_LARGEST, sample) : sample;
 }
 
+static size_t count_mended(const struct planes *planes, size_t pixels)
+{
+    size_t count = 0;
+    for (uint32_t channel = 0; channel < planes->count; channel++)
+        for (size_t i = 0; i < pixels; i++)
+            count += !isfinite(planes->samples[channel][i]);
+    return count;
+}
+
 static bool fits_halves(const struct planes *planes, size_t pixels)
 {
     for (uint32_t channel = 0; channel < planes->count; channel++) {
@@ -92,6 +101,7 @@ static ps_result interleave(const char *path, const struct image *image, struct 
     raster->width = (uint32_t)image->width;
     raster->height = (uint32_t)image->height;
     raster->channels = planes.count;
+    raster->mended = count_mended(&planes, pixels);
     raster->sample = fits_halves(&planes, pixels) ? RASTER_HALF : RASTER_FLOAT;
     ps_result result = raster_allocate(path, raster, error);
     if (result != PS_OK)

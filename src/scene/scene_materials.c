@@ -1,6 +1,7 @@
 /* scene_materials.c: textures and materials of a scene. */
 #include "scene/scene_parts.h"
 
+#include <psplat/math.h>
 #include <stdlib.h>
 
 static ps_result load_textures(struct assembly *assembly)
@@ -20,6 +21,20 @@ static ps_result load_textures(struct assembly *assembly)
         scene->texture_count++;
     }
     return PS_OK;
+}
+
+/* Lookups keep reflectances within 0..1 (pigment.h); here is noted which pictures that changes. */
+static void note_clipped(struct scene *scene, const struct material_description *material)
+{
+    const struct pigment_description *reflectances[] = {&material->color, &material->specular};
+    for (size_t i = 0; i < sizeof reflectances / sizeof reflectances[0]; i++) {
+        const struct pigment_description *pigment = reflectances[i];
+        if (pigment->kind != PIGMENT_IMAGE)
+            continue;
+        struct texture *texture = &scene->textures[pigment->texture];
+        texture->clipped = texture->clipped || texture->least < 0.0f ||
+                           texture->largest * ps_rgb_maximum(pigment->colors[0]) > 1.0f;
+    }
 }
 
 /* Lights shine by materials of their own, whose radiance is known when they have a shape. */
@@ -50,6 +65,7 @@ ps_result assembly_add_materials(struct assembly *assembly)
         if (result != PS_OK)
             return result;
         specular = specular || scene->materials[i].specular;
+        note_clipped(scene, &description->materials[i]);
     }
     scene->material_count = count;
     if (specular)

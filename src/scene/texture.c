@@ -85,6 +85,24 @@ static ps_result prepare_values(struct texture *texture, const char *path, bool 
     return PS_OK;
 }
 
+/* Only floating point leaves 0..1. */
+static void find_range(struct texture *texture)
+{
+    const struct raster *raster = &texture->raster;
+    bool whole = raster->sample == RASTER_BYTE || raster->sample == RASTER_SHORT;
+    texture->least = 0.0f;
+    texture->largest = 1.0f;
+    for (uint32_t row = 0; !whole && row < texture->height; row++)
+        for (uint32_t column = 0; column < texture->width; column++) {
+            float rgba[4];
+            texture_texel(texture, column, row, rgba);
+            for (int k = 0; k < 3; k++) {
+                texture->least = fminf(texture->least, rgba[k]);
+                texture->largest = fmaxf(texture->largest, rgba[k]);
+            }
+        }
+}
+
 ps_result texture_load(const struct texture_description *description, const char *folder,
                        struct texture *texture, struct error *error)
 {
@@ -104,6 +122,7 @@ ps_result texture_load(const struct texture_description *description, const char
         texture_release(&loaded);
         return result;
     }
+    find_range(&loaded);
     *texture = loaded;
     return PS_OK;
 }

@@ -21,6 +21,8 @@ struct texture {
     bool nearest;               /* rather than bilinear */
     struct raster raster;       /* the texels, top row first */
     float *color_of, *alpha_of; /* values of codes; NULL for floats; may be the same table */
+    float least, largest;       /* of the colours */
+    bool clipped;               /* some material's reflectances are taken from it, and leave 0..1 */
 };
 
 /* Loads what raster_read can read. The encoding "auto" takes the colours of PNG and JPEG for sRGB

@@ -107,16 +107,35 @@ static void warn_of_dropped(struct diagnostics *sink, const struct origin *first
                            count);
 }
 
+static void warn_of_textures(const struct scene_input *input, const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->texture_count; i++) {
+        const struct texture *texture = &scene->textures[i];
+        const struct texture_description *from = &input->description.textures[i];
+        size_t mended = texture->raster.mended;
+        if (mended > 0)
+            diagnostics_report(input->sink, SEVERITY_WARNING, &from->origin, 0,
+                               "%s: %zu number%s NaN or infinite: NaN counts as 0, infinity as "
+                               "65504",
+                               from->path, mended, mended > 1 ? "s are" : " is");
+        if (texture->clipped)
+            diagnostics_report(input->sink, SEVERITY_WARNING, &from->origin, 0,
+                               "%s: reflectances above 1 count as 1, and below 0 as 0", from->path);
+    }
+}
+
 ps_result scene_input_build(struct scene_input *input, struct scene *scene)
 {
     struct origin where = {0};
     struct error error;
     ps_result result = scene_create(&input->description, scene, &where, &error);
-    if (result == PS_OK)
-        warn_of_dropped(input->sink, &where, scene->dropped_triangles);
-    else
+    if (result != PS_OK) {
         report(input->sink, &where, error.text);
-    return result;
+        return result;
+    }
+    warn_of_dropped(input->sink, &where, scene->dropped_triangles);
+    warn_of_textures(input, scene);
+    return PS_OK;
 }
 
 void scene_input_release(struct scene_input *input)
