@@ -118,6 +118,24 @@ static size_t count_triangles(const struct gltf *gltf, const struct json *primit
     return mode == 4 ? corners / 3 : corners > 2 ? corners - 2 : 0;
 }
 
+#define COMPONENT_FLOAT 5126
+
+static bool is_float(const struct gltf *gltf, const struct json *attributes, const char *name)
+{
+    size_t accessor, type;
+    return json_size(attributes, name, SIZE_MAX, &accessor) &&
+           json_size(json_element(json_member(gltf->root, "accessors"), accessor), "componentType",
+                     COMPONENT_FLOAT, &type) &&
+           type == COMPONENT_FLOAT;
+}
+
+static bool has_float_vertices(const struct gltf *gltf, const struct json *primitive)
+{
+    const struct json *attributes = json_member(primitive, "attributes");
+    return (!json_member(attributes, "POSITION") || is_float(gltf, attributes, "POSITION")) &&
+           (!json_member(attributes, "NORMAL") || is_float(gltf, attributes, "NORMAL"));
+}
+
 static ps_result meet_materials(struct walk *walk, const struct json *mesh)
 {
     struct gltf *gltf = walk->gltf;
@@ -125,6 +143,8 @@ static ps_result meet_materials(struct walk *walk, const struct json *mesh)
     for (size_t i = 0; primitives && i < primitives->count; i++) {
         const struct json *primitive = json_element(primitives, i);
         size_t index;
+        if (!has_float_vertices(gltf, primitive))
+            return complain(walk->error, "vertices are integers (KHR_mesh_quantization)");
         gltf->triangle_count += count_triangles(gltf, primitive);
         if (!json_member(primitive, "material"))
             continue;
@@ -235,16 +255,28 @@ static bool is_used_attribute(const struct json_text *name)
     return false;
 }
 
-static void hide_attributes(const struct gltf *gltf, const struct json *attributes)
+/* assimp copies integers into floats bit by bit. */
+static void hide_integers(struct gltf *gltf, const struct json *attributes)
+{
+    static const char *const names[] = {"TEXCOORD_0", "TEXCOORD_1"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (json_member(attributes, names[i]) && !is_float(gltf, attributes, names[i])) {
+            hide(gltf, attributes, names[i]);
+            gltf->integer_uv = true;
+        }
+}
+
+static void hide_attributes(struct gltf *gltf, const struct json *attributes)
 {
     if (!attributes || attributes->kind != JSON_OBJECT)
         return;
     for (struct json *item = attributes->items; item; item = item->next)
         if (item->key.length > 0 && !is_used_attribute(&item->key))
             gltf->text[item->key.start - gltf->text] = '_';
+    hide_integers(gltf, attributes);
 }
 
-static void hide_in_mesh(const struct gltf *gltf, const struct json *mesh)
+static void hide_in_mesh(struct gltf *gltf, const struct json *mesh)
 {
     static const char *const names[] = {"targets", "extensions", "extras", NULL};
     const struct json *primitives = json_member(mesh, "primitives");

@@ -24,6 +24,7 @@ struct gltf {
     size_t material_count;
     bool single_root;      /* else assimp puts a node above all */
     size_t triangle_count; /* of all meshes, each once */
+    bool integer_uv;       /* some texture coordinates were integers, and are hidden */
 };
 
 /* Reads the file's JSON and changes its text. PS_ERROR_INVALID or _MEMORY with a message; released in any

@@ -11,6 +11,9 @@
 
 #include <string.h>
 
+/* Of a factor on tilts of normals: more would bend them no further. */
+#define LARGEST_TILT 1000.0
+
 struct pbr {
     ps_rgb base, coat; /* reflectances; the coat's at normal incidence */
     double alpha, metalness, roughness, ior, transmission;
@@ -137,7 +140,8 @@ ps_result mesh_gltf_surface(struct mesh_job *job, const struct aiMaterial *sourc
     const struct mesh_texture_use normal = {aiTextureType_NORMALS, CHANNEL_RGB, ENCODING_LINEAR,
                                             info};
     ps_result result = read_emission(job, source, extras, material);
-    material->normal_map = mesh_pigment(mesh_grey(json_number(info, "scale", 1)));
+    double scale = fmin(fmax(json_number(info, "scale", 1), -LARGEST_TILT), LARGEST_TILT);
+    material->normal_map = mesh_pigment(mesh_grey(scale));
     return result == PS_OK ? mesh_pigment_texture(job, source, normal, &material->normal_map)
                            : result;
 }

@@ -148,6 +148,23 @@ static void test_where_the_texture_lies(void **state)
     expect_albedo(state, BASE(TRANSFORM("\"rotation\":1.5707963")) NO_COAT, false, 'r', turned);
 }
 
+/* Of a map whose upper left texel leans by -0.8 along the picture, its lower left one by -0.4. */
+static void test_normal_maps_turn_with_the_picture(void **state)
+{
+    ps_hit hits[4];
+    meet(scene_with(state, ALONE, "\"normalTexture\":{\"index\":0}", false), hits);
+    assert_true(fabsf(hits[0].normal.x / hits[0].normal.z + 0.8f) < 2e-3f);
+    meet(scene_with(state, ALONE, "\"normalTexture\":{\"index\":0,\"scale\":0.5}", false), hits);
+    assert_true(fabsf(hits[0].normal.x / hits[0].normal.z + 0.4f) < 2e-3f);
+    assert_true(fabsf(hits[0].normal.y) < 2e-3f);
+    meet(scene_with(state, ALONE,
+                    "\"normalTexture\":{\"index\":0" TRANSFORM("\"rotation\":1.5707963") "}",
+                    false),
+         hits);
+    assert_true(fabsf(hits[0].normal.y / hits[0].normal.z - 0.4f) < 2e-3f); /* its u is down */
+    assert_true(fabsf(hits[0].normal.x) < 2e-3f);
+}
+
 /* Red grows from left to right, alpha from the top down; blue is 0.2. */
 static void test_vertex_colors_multiply(void **state)
 {
@@ -287,10 +304,15 @@ static void test_lamp_that_is_there_in_part(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        SCRATCH_TEST(test_where_the_texture_lies),  SCRATCH_TEST(test_vertex_colors_multiply),
-        SCRATCH_TEST(test_metal_in_places),         SCRATCH_TEST(test_metal_in_places_is_metal),
-        SCRATCH_TEST(test_specular_and_glossiness), SCRATCH_TEST(test_unlit),
-        SCRATCH_TEST(test_shares_of_light),         SCRATCH_TEST(test_lamp_that_is_there_in_part),
+        SCRATCH_TEST(test_where_the_texture_lies),
+        SCRATCH_TEST(test_normal_maps_turn_with_the_picture),
+        SCRATCH_TEST(test_vertex_colors_multiply),
+        SCRATCH_TEST(test_metal_in_places),
+        SCRATCH_TEST(test_metal_in_places_is_metal),
+        SCRATCH_TEST(test_specular_and_glossiness),
+        SCRATCH_TEST(test_unlit),
+        SCRATCH_TEST(test_shares_of_light),
+        SCRATCH_TEST(test_lamp_that_is_there_in_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

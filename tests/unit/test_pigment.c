@@ -306,6 +306,14 @@ static void test_slope_of_image(void **state)
     pigment = pigment_create(&description, &texture);
     pigment_uv_gradient(&pigment, uv, gradient);
     assert_float_equal(gradient[0], 0, 0);
+    description.scale_v = 0; /* turned: u' = v / 2, v' = 1 - 2 u */
+    description.cross_u = 0.5;
+    description.cross_v = -2;
+    pigment = pigment_create(&description, &texture);
+    const float turned[2] = {0.27f, 1.1f};
+    pigment_uv_gradient(&pigment, turned, gradient);
+    assert_float_equal(gradient[0], 2 * -7 * 4 * -2, 1e-3);
+    assert_float_equal(gradient[1], 2 * 3 * 5 * 0.5, 1e-3);
 }
 
 static void test_any_number(void **state)
