@@ -27,6 +27,9 @@ ps_result mesh_material_paint(struct mesh_job *job, size_t *index)
         painted.name = material->name;
         *material = painted;
     } else {
+        if (!material->color.vertex_colors && mesh_material_has_second_uv(job, *index))
+            mesh_material_omit(job, "beside vertex colours, the second set of texture coordinates",
+                               material->name);
         paint(job, material);
     }
     return PS_OK;
@@ -48,12 +51,8 @@ bool mesh_material_has_second_uv(const struct mesh_job *job, size_t index)
 }
 
 /* Surfaces look up either colours or the second set (scene/material.h). */
-static void forget_second_uv(struct mesh_job *job, size_t index)
+static void forget_second_uv(struct material_description *material)
 {
-    struct material_description *material = &job->fragment->materials[index];
-    if (mesh_material_has_second_uv(job, index))
-        mesh_material_omit(job, "beside vertex colours, the second set of texture coordinates",
-                           material->name);
     material->color.uv_set = material->specular.uv_set = material->roughness.uv_set = 0;
     material->emission.uv_set = material->opacity.uv_set = material->bump.uv_set = 0;
     material->normal_map.uv_set = material->share.uv_set = 0;
@@ -67,6 +66,6 @@ void mesh_settle_materials(struct mesh_job *job)
         material->opacity.vertex_colors &= painted;
         material->emission.vertex_colors &= painted;
         if (painted)
-            forget_second_uv(job, i);
+            forget_second_uv(material);
     }
 }

@@ -173,6 +173,42 @@ static void test_mix_is_the_sum_of_shares(void **state)
                 1e-6f);
 }
 
+/* Shares that vary over the surface are at each point what constant ones are: same lobes, values and densities. */
+static void test_varying_mix_is_a_mix(void **state)
+{
+    (void)state;
+    size_t components[2] = {0, 1};
+    double weights[2] = {0.25, 0.75};
+    struct material_description materials[4] = {plain(MATERIAL_METAL, 0.8f),
+                                                plain(MATERIAL_GLOSSY, 0.6f),
+                                                plain(MATERIAL_MIX, 0), plain(MATERIAL_MIX, 0)};
+    for (size_t i = 2; i < 4; i++) {
+        materials[i].components = components;
+        materials[i].weights = weights;
+        materials[i].component_count = 2;
+    }
+    materials[3].varying = true;
+    materials[3].share = grey(1);
+    materials[3].share.vertex_colors = true; /* 1/4 at the point below */
+    struct material constant = made(materials, 4, 2), varying = made(materials, 4, 3);
+    struct meeting meeting = meet(0.5f, 0);
+    struct random random = {19};
+    meeting.hit.texture_point = (ps_vec3){0.25f, 0.25f, 0.25f};
+    for (int i = 0; i < 100; i++) {
+        struct random same = random;
+        ps_bsdf_sample a = scatter(&constant, &meeting, PS_FROM_CAMERA, &random);
+        ps_bsdf_sample b = scatter(&varying, &meeting, PS_FROM_CAMERA, &same);
+        assert_int_equal(a.lobe, b.lobe);
+        assert_true(fabsf(a.weight.g - b.weight.g) < 1e-5f && fabsf(a.pdf - b.pdf) < 1e-4f * a.pdf);
+        ps_bsdf_value c = material_evaluate(&constant, table, PS_FROM_CAMERA, &meeting.ray,
+                                            &meeting.hit, a.direction);
+        ps_bsdf_value d = material_evaluate(&varying, table, PS_FROM_CAMERA, &meeting.ray,
+                                            &meeting.hit, a.direction);
+        assert_true(fabsf(c.value.g - d.value.g) <= 1e-4f * c.value.g);
+        assert_true(fabsf(c.pdf - d.pdf) <= 1e-4f * c.pdf);
+    }
+}
+
 /* Paths of the camera end at a diffuse lobe and count all diffuse light of the surface there, divided by
  * the lobe's probability: on average once, whatever the components. */
 static void test_diffuse_parts_count_once(void **state)
@@ -428,6 +464,7 @@ int main(void)
         cmocka_unit_test(test_white_surfaces_keep_all_light),
         cmocka_unit_test(test_coat_takes_from_its_base),
         cmocka_unit_test(test_mix_is_the_sum_of_shares),
+        cmocka_unit_test(test_varying_mix_is_a_mix),
         cmocka_unit_test(test_diffuse_parts_count_once),
         cmocka_unit_test(test_glass_refracts),
         cmocka_unit_test(test_glass_reflects_totally_inside),

@@ -215,6 +215,12 @@ static void beside_colours_the_second_set_is_left_out(void **state)
                         "beside vertex colours, the second set of texture coordinates of material "
                         "m is left out");
     release_imported(&imported);
+    imported = import_gltf(",\"pbrMetallicRoughness\":{\"metallicFactor\":0.5,"
+                           "\"baseColorTexture\":{\"index\":0,\"texCoord\":1}}",
+                           ",\"TEXCOORD_1\":2" COLORED);
+    assert_int_equal(material_named(&imported, "m:metal")->color.uv_set, 0);
+    assert_null(strstr(imported.report.notes, "more"));
+    release_imported(&imported);
 }
 
 int main(void)
