@@ -2,7 +2,7 @@
 #ifndef CLI_COMMAND_H
 #define CLI_COMMAND_H
 
-#include "image/rectangle.h"
+#include "base/rectangle.h"
 #include <psplat/types.h>
 #include <stdbool.h>
 #include <stddef.h>

@@ -28,7 +28,12 @@ static ps_result print_error_estimate(const char *path, const struct image *imag
 
 static void print_info(const char *path, const struct image *image)
 {
-    printf("%s: %zux%zu\n", path, image->width, image->height);
+    const struct picture_window *window = &image->window;
+    printf("%s: %zux%zu", path, image->width, image->height);
+    if (window->picture_width > image->width || window->picture_height > image->height)
+        printf(" at %zu,%zu of %zux%zu", window->left, window->top, window->picture_width,
+               window->picture_height);
+    printf("\n");
     printf("channels:");
     for (size_t i = 0; i < image->channel_count; i++)
         printf(" %s", image->channels[i].name);

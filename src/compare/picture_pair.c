@@ -5,6 +5,32 @@
 #include <stdlib.h>
 #include <string.h>
 
+static void crop_plane(float *plane, size_t width, struct rectangle crop)
+{
+    for (size_t y = 0; y < crop.height; y++)
+        memmove(plane + y * crop.width, plane + (crop.y + y) * width + crop.x,
+                crop.width * sizeof *plane);
+}
+
+/* Crops a window of a picture to another one of it that lies in this one; `layer`'s planes alone. */
+static void crop_to(struct image *image, const struct layer *layer, const struct image *part)
+{
+    const struct picture_window *window = &image->window;
+    struct rectangle crop = {part->window.left - window->left, part->window.top - window->top,
+                             part->width, part->height};
+    bool one_picture = part->window.picture_width > 0 &&
+                       part->window.picture_width == window->picture_width &&
+                       part->window.picture_height == window->picture_height;
+    /* What begins before this one wraps around, and fits nowhere. */
+    if (!one_picture || !rectangle_fits(crop, image->width, image->height))
+        return;
+    for (size_t c = 0; c < layer->channel_count; c++)
+        crop_plane(layer->planes[c], image->width, crop);
+    image->width = crop.width;
+    image->height = crop.height;
+    image->window = part->window;
+}
+
 static ps_result check_alike(const struct picture_pair *pair, const char *const paths[2],
                              const struct layer layers[2], struct error *error)
 {
@@ -32,6 +58,8 @@ ps_result picture_pair_read(struct picture_pair *pair, const char *reference_pat
         if (result != PS_OK)
             return result;
     }
+    crop_to(&pair->images[0], &layers[0], &pair->images[1]);
+    crop_to(&pair->images[1], &layers[1], &pair->images[0]);
     pair->width = pair->images[0].width;
     pair->height = pair->images[0].height;
     pair->channel_count = layers[0].channel_count;
@@ -51,13 +79,6 @@ void picture_pair_release(struct picture_pair *pair)
     image_release(&pair->images[0]);
     image_release(&pair->images[1]);
     *pair = (struct picture_pair){0};
-}
-
-static void crop_plane(float *plane, size_t width, struct rectangle crop)
-{
-    for (size_t y = 0; y < crop.height; y++)
-        memmove(plane + y * crop.width, plane + (crop.y + y) * width + crop.x,
-                crop.width * sizeof *plane);
 }
 
 ps_result picture_pair_crop(struct picture_pair *pair, struct rectangle crop, struct error *error)

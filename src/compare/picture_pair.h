@@ -3,8 +3,8 @@
 #define COMPARE_PICTURE_PAIR_H
 
 #include "base/parallel.h"
+#include "base/rectangle.h"
 #include "compare/layer.h"
-#include "image/rectangle.h"
 
 /* Zero-initialise before reading; release whatever came of it. */
 struct picture_pair {
@@ -18,7 +18,8 @@ struct picture_pair {
     struct workers *workers;       /* for metrics; owned, NULL: the caller alone */
 };
 
-/* Fails where a file can't be read, lacks the layer (NULL: R, G, B), or the sizes differ. Starts a worker for each
+/* Fails where a file can't be read, lacks the layer (NULL: R, G, B), or the sizes differ; but of two windows of one
+ * picture that lie in each other, the larger is cropped to the smaller. Starts a worker for each
  * processor. */
 ps_result picture_pair_read(struct picture_pair *pair, const char *reference_path,
                             const char *test_path, const char *layer, struct error *error);

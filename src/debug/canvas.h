@@ -3,7 +3,7 @@
 #define DEBUG_CANVAS_H
 
 #include "base/error.h"
-#include "image/rectangle.h"
+#include "base/rectangle.h"
 
 /* Zero-initialise before the first use. */
 struct canvas {

@@ -1,6 +1,6 @@
 /* exr_read.c: a flat, single-part OpenEXR file to a picture, through the library's C interface.
  *
- * The picture is the data window, wherever that lies. Chunks (groups of lines, or tiles) are
+ * The picture is the data window, wherever that lies; the image says where. Chunks (groups of lines, or tiles) are
  * decoded straight into the planes, which the library converts to float on the way. It could also
  * search a damaged file for chunks that its table does not list; that is switched off, because half
  * a picture that looks whole is worse than an error. The first of the library's messages is the one
@@ -140,6 +140,19 @@ static ps_result check_form(const struct exr_source *source, exr_storage_t *stor
     return check_compression(source);
 }
 
+/* Where the picture lies in the display window, if it does and that begins at (0, 0). */
+static exr_result_t read_place(struct exr_source *source)
+{
+    exr_attr_box2i_t display, data = source->window;
+    exr_result_t code = exr_get_display_window(source->context, PART, &display);
+    if (code == EXR_ERR_SUCCESS && display.min.x == 0 && display.min.y == 0 && data.min.x >= 0 &&
+        data.min.y >= 0 && display.max.x >= data.max.x && display.max.y >= data.max.y)
+        source->image.window =
+            (struct picture_window){(size_t)data.min.x, (size_t)data.min.y,
+                                    (size_t)display.max.x + 1, (size_t)display.max.y + 1};
+    return code;
+}
+
 static ps_result read_size(struct exr_source *source)
 {
     exr_result_t code = exr_get_data_window(source->context, PART, &source->window);
@@ -162,7 +175,7 @@ static ps_result read_size(struct exr_source *source)
     }
     source->image.width = (size_t)width;
     source->image.height = (size_t)height;
-    return PS_OK;
+    return explain(source, read_place(source));
 }
 
 static bool is_wanted(const struct exr_source *source, const char *name)

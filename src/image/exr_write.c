@@ -122,6 +122,29 @@ static bool needs_long_names(const struct image *image)
     return needed;
 }
 
+static exr_attr_box2i_t box(size_t left, size_t top, size_t width, size_t height)
+{
+    exr_attr_box2i_t box;
+    box.min.x = (int32_t)left;
+    box.min.y = (int32_t)top;
+    box.max.x = (int32_t)(left + width - 1);
+    box.max.y = (int32_t)(top + height - 1);
+    return box;
+}
+
+static exr_result_t set_windows(exr_context_t context, const struct image *image,
+                                exr_compression_t compression)
+{
+    const struct picture_window *window = &image->window;
+    exr_attr_box2i_t data = box(window->left, window->top, image->width, image->height);
+    exr_attr_box2i_t display =
+        window->picture_width > 0 ? box(0, 0, window->picture_width, window->picture_height) : data;
+    exr_attr_v2f_t center;
+    center.x = center.y = 0.0f;
+    return exr_initialize_required_attr(context, PART, &display, &data, 1.0f, &center, 1.0f,
+                                        EXR_LINEORDER_INCREASING_Y, compression);
+}
+
 static ps_result write_header(exr_context_t context, const struct image *image,
                               enum image_compression compression, const struct exr_sink *sink)
 {
@@ -129,9 +152,7 @@ static ps_result write_header(exr_context_t context, const struct image *image,
     if (code == EXR_ERR_SUCCESS)
         code = exr_add_part(context, NULL, EXR_STORAGE_SCANLINE, NULL);
     if (code == EXR_ERR_SUCCESS) {
-        code = exr_initialize_required_attr_simple(context, PART, (int32_t)image->width,
-                                                   (int32_t)image->height,
-                                                   compressions[compression].code);
+        code = set_windows(context, image, compressions[compression].code);
     }
     if (code == EXR_ERR_SUCCESS)
         code = exr_set_zip_compression_level(context, PART, ZIP_LEVEL);
@@ -204,7 +225,8 @@ static exr_result_t await_turn(exr_encode_pipeline_t *encoder)
 {
     struct chunk_queue *queue = encoder->encoding_user_data;
     pthread_mutex_lock(&queue->lock);
-    while (queue->code == EXR_ERR_SUCCESS && queue->written != (size_t)encoder->chunk.start_y)
+    while (queue->code == EXR_ERR_SUCCESS &&
+           queue->written + queue->image->window.top != (size_t)encoder->chunk.start_y)
         pthread_cond_wait(&queue->moved, &queue->lock);
     exr_result_t code = queue->code;
     pthread_mutex_unlock(&queue->lock);
@@ -242,7 +264,8 @@ static exr_result_t write_chunk(struct chunk_queue *queue, exr_encode_pipeline_t
     exr_context_t context = queue->context;
     exr_chunk_info_t chunk;
     bool first = !encoder->context;
-    exr_result_t code = exr_write_scanline_chunk_info(context, PART, (int)line, &chunk);
+    exr_result_t code = exr_write_scanline_chunk_info(
+        context, PART, (int)(queue->image->window.top + line), &chunk);
     if (code == EXR_ERR_SUCCESS) {
         code = first ? exr_encoding_initialize(context, PART, &chunk, encoder)
                      : exr_encoding_update(context, PART, &chunk, encoder);

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/rectangle.h"
 #include <stdbool.h>
 
 struct image_channel {
@@ -24,6 +25,7 @@ struct image_attribute {
 /* Owns everything it points to. Zero-initialise before the first use. */
 struct image {
     size_t width, height;
+    struct picture_window window; /* zeros: a whole picture */
     struct image_channel *channels;
     size_t channel_count;
     struct image_attribute *attributes;
@@ -62,14 +64,16 @@ enum image_compression { IMAGE_ZIP, IMAGE_ZIPS, IMAGE_RLE, IMAGE_UNCOMPRESSED };
 bool image_compression_named(const char *name, enum image_compression *compression);
 
 /* Writes a scan-line OpenEXR, 32-bit float, channels in the alphabetical order
- * that the format demands, string attributes as they stand. The same image gives the same bytes,
- * whatever the number of workers. Channels' names must differ. */
+ * that the format demands, string attributes as they stand; the data window is the image, the display window the
+ * picture that it lies in. The same image gives the same bytes, whatever the number of workers. Channels' names must
+ * differ. */
 ps_result image_write_exr(const struct image *image, const char *path,
                           enum image_compression compression, struct workers *workers,
                           struct error *error);
 
 /* Reads a single-part scan-line or tiled (one level) OpenEXR, half, float or uint channels, into
- * floats; the picture is the data window. Refuses B44, deep, multi-part, mip-mapped and subsampled
+ * floats; the picture is the data window, and `window` says where it lies in a display window that begins at (0, 0) and
+ * holds it. Refuses B44, deep, multi-part, mip-mapped and subsampled
  * files, and sizes that can't be, each with a clear message. `image` is written only on success,
  * and what it held is not released: pass an empty one. */
 ps_result image_read_exr(const char *path, struct image *image, struct error *error);

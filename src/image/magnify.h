@@ -2,7 +2,7 @@
 #ifndef IMAGE_MAGNIFY_H
 #define IMAGE_MAGNIFY_H
 
-#include "image/rectangle.h"
+#include "base/rectangle.h"
 #include <stdint.h>
 
 /* Copies a part of a picture of 3 bytes a pixel, `width` pixels a row; each pixel becomes a square of

@@ -286,6 +286,27 @@ static void test_exr_refusals(void **state)
     assert_int_equal(scratch_file_count(state), 0);
 }
 
+/* The file says where in the picture an image lies, and readers hear of it. */
+static void test_windows(void **state)
+{
+    static const struct picture_window windows[] = {
+        {0}, {5, 17, 99, 123}, {76, 0, 99, 40}, {0, 0, WIDTH, HEIGHT}};
+    const char *path = scratch_path(state, "window.exr");
+    for (size_t i = 0; i < sizeof windows / sizeof windows[0]; i++) {
+        struct image image = {.width = WIDTH, .height = HEIGHT, .window = windows[i]}, read = {0};
+        struct error error;
+        float *samples = image_add_channel(&image, "R");
+        for (size_t k = 0; k < (size_t)WIDTH * HEIGHT; k++)
+            samples[k] = (float)k;
+        assert_int_equal(image_write_exr(&image, path, IMAGE_ZIP, NULL, &error), PS_OK);
+        assert_int_equal(image_read_exr(path, &read, &error), PS_OK);
+        assert_true(picture_window_same(read.window, windows[i > 0 ? i : 3]));
+        assert_memory_equal(image_channel(&read, "R"), samples, sizeof(float) * WIDTH * HEIGHT);
+        image_release(&image);
+        image_release(&read);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -300,6 +321,7 @@ int main(void)
         SCRATCH_TEST(test_png),
         SCRATCH_TEST(test_png_refusals),
         SCRATCH_TEST(test_exr_refusals),
+        SCRATCH_TEST(test_windows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
