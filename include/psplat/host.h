@@ -38,7 +38,7 @@ typedef struct ps_pass {
     uint32_t number;        /* from 0 */
     uint64_t seed;          /* of the render */
     uint32_t passes;        /* of the render, at most: a budget may end it sooner */
-    uint32_t tile_count;    /* tiles of the G-buffer */
+    uint32_t tile_count;    /* tiles of the picture (PS_ESTIMATOR_CROPS) */
     uint32_t width, height; /* of the picture */
     uint32_t thread_count;
     float surface_offset;   /* how far to move a ray's origin off the surface it leaves, along the
@@ -201,19 +201,20 @@ struct ps_host {
      * tiles] */
     int32_t (*pixel)(const ps_host *host, uint32_t tile, uint32_t lane, uint32_t *x, uint32_t *y);
 
-    /* The other way: tile and lane of a pixel; 0 if it lies outside. [any thread, tiles] */
+    /* The other way: tile and lane of a pixel; 0 if it lies outside, or its tile is not there. [any thread, tiles] */
     int32_t (*tile_of)(const ps_host *host, uint32_t x, uint32_t y, uint32_t *tile, uint32_t *lane);
 
-    /* Tile `index` of the pass; one worker at a time may write to it. Borrowed until the pass ends.
-     * [any thread, tiles] */
+    /* Tile `index` of the picture; one worker at a time may write to it. Borrowed until the pass ends. Where a part of
+     * the picture is rendered, the others see nothing, and what is written to them is lost. [any thread, tiles] */
     ps_tile *(*tile)(const ps_host *host, uint32_t index);
 
     /* The surfaces that the pixels of a tile show, as intersect tells them, PS_TILE_PIXELS each, and the
      * rays that met them, behind mirrors and glass: view directions are those of the rays, backwards. Lanes that see nothing
-     * have a hit without an object. The paths from the camera are traced again. [any thread, estimator] */
+     * have a hit without an object. The paths from the camera are traced again, also those of tiles that are not there.
+     * [any thread, estimator] */
     void (*tile_hits)(const ps_host *host, uint32_t index, ps_ray *rays, ps_hit *hits);
 
-    /* Calls body for every tile (index < pass's tile_count), like parallel_for, telling the
+    /* Calls body for every tile that is there (index < pass's tile_count), like parallel_for, telling the
      * progress. PS_CANCELLED, with tiles left out, when the user wants to stop. [main thread, estimator] */
     ps_result (*for_each_tile)(const ps_host *host, ps_body body, void *user);
 
@@ -291,6 +292,15 @@ struct ps_host {
      * INFINITY, where the surface has a hole, or there is no such triangle. [any thread] */
     void (*surface_points)(const ps_host *host, const ps_surface_point *points, size_t n,
                            ps_ray *rays, ps_hit *hits);
+
+    /* --- the whole picture, where a part of it is rendered (PS_ESTIMATOR_CROPS) --- */
+
+    /* Since 1.7: like for_each_tile, for every tile of the picture, be it there or not. [main thread, estimator] */
+    ps_result (*for_each_picture_tile)(const ps_host *host, ps_body body, void *user);
+
+    /* Since 1.7: `tile` becomes what the pixels of tile `index` of the picture see, be it there or not, without light;
+     * its radiance is NULL. The paths from the camera are traced where it is not there. [any thread, estimator] */
+    void (*tile_surfaces)(const ps_host *host, uint32_t index, ps_tile *tile);
 };
 
 #define PS_SPHERE_TRIANGLES 512u

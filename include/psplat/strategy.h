@@ -126,6 +126,10 @@ typedef struct ps_filter_vtable {
 
 #define PS_ESTIMATOR_SHARES_PLACES 1u /* see ps_pass.shares_places */
 #define PS_ESTIMATOR_RADIANCE 2u      /* ps_tile.radiance_r, radiance_g and radiance_b are there */
+/* Since 1.7: what a tile gets is the same where the others are not there; so that a part of the picture may be rendered
+ * alone. Without, --crop is refused. What depends on all of the picture is had by for_each_picture_tile and
+ * tile_surfaces. */
+#define PS_ESTIMATOR_CROPS 4u
 
 typedef struct ps_estimator_vtable {
     uint32_t size;
@@ -155,9 +159,12 @@ typedef struct ps_film_view {
     const float *coverage; /* passes in which the pixel saw a surface */
 } ps_film_view;
 
+#define PS_NORMALIZATION_CROPS                                                                     \
+    1u /* since 1.7: what a pixel gets depends on nothing but its own sums */
+
 typedef struct ps_normalization_vtable {
     uint32_t size;
-    uint32_t reserved;
+    uint32_t flags; /* PS_NORMALIZATION_... */
     /* Indirect radiance of every pixel; anything where the weight is 0. [main thread] */
     ps_result (*resolve)(const void *state, const ps_host *host, const ps_film_view *film,
                          float *out_r, float *out_g, float *out_b);

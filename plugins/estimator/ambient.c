@@ -33,7 +33,11 @@ static const ps_param params[] = {
              "indirect irradiance of every surface"),
 };
 
-static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};
+static const ps_estimator_vtable vtable = {
+    .size = sizeof vtable,
+    .flags = PS_ESTIMATOR_CROPS,
+    .accumulate = accumulate,
+};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

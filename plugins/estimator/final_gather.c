@@ -210,7 +210,11 @@ static const ps_param params[] = {
            "give more samples to tiles that seem to need them"),
 };
 
-static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};
+static const ps_estimator_vtable vtable = {
+    .size = sizeof vtable,
+    .flags = PS_ESTIMATOR_CROPS,
+    .accumulate = accumulate,
+};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

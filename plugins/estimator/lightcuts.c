@@ -10,6 +10,8 @@
 #include "lightcuts/cut.h"
 #include "shared/compensation.h"
 
+#include <string.h>
+
 struct state {
     int64_t lights;
     double error;
@@ -24,7 +26,7 @@ struct work {
     struct virtual_lights lights; /* owned, as what follows */
     struct light_tree tree;
     struct cut_entry *room; /* for each worker */
-    uint64_t *clusters;     /* in the cuts of each tile */
+    uint64_t *clusters;     /* in the cuts of each tile of the picture */
 };
 
 static void light_tile(void *user, uint64_t index, uint32_t worker)
@@ -35,7 +37,6 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
     ps_points points;
     ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}};
     ps_collect_points(tile, &points);
-    work->clusters[index] = 0;
     if (work->lights.count > 0)
         work->clusters[index] = cut_light_points(
             &work->cut, &points, work->room + (size_t)worker * PS_TILE_PIXELS * work->cut.most,
@@ -55,6 +56,7 @@ static ps_result light_tiles(struct work *work)
     work->clusters = host->allocate(host, pass->tile_count * sizeof *work->clusters, "light cuts");
     if (!work->room || !work->clusters)
         return PS_ERROR_MEMORY;
+    memset(work->clusters, 0, pass->tile_count * sizeof *work->clusters);
     ps_result result = host->for_each_tile(host, light_tile, work);
     for (uint32_t i = 0; result == PS_OK && i < pass->tile_count; i++)
         total += work->clusters[i];
@@ -99,7 +101,11 @@ static const ps_param params[] = {
     COMPENSATION_RAYS(struct state),
 };
 
-static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};
+static const ps_estimator_vtable vtable = {
+    .size = sizeof vtable,
+    .flags = PS_ESTIMATOR_CROPS,
+    .accumulate = accumulate,
+};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

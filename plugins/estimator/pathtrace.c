@@ -61,7 +61,11 @@ static const ps_param params[] = {
            "bounce from which on Russian roulette may end a path"),
 };
 
-static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};
+static const ps_estimator_vtable vtable = {
+    .size = sizeof vtable,
+    .flags = PS_ESTIMATOR_CROPS,
+    .accumulate = accumulate,
+};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

@@ -110,6 +110,7 @@ static const ps_param params[] = {
 
 static const ps_estimator_vtable vtable = {
     .size = sizeof vtable,
+    .flags = PS_ESTIMATOR_CROPS,
     .accumulate = accumulate,
     .begin = begin,
     .end = end,

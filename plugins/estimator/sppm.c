@@ -57,7 +57,11 @@ static const ps_param params[] = {
            "radial weight of the photons"),
 };
 
-static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};
+static const ps_estimator_vtable vtable = {
+    .size = sizeof vtable,
+    .flags = PS_ESTIMATOR_CROPS,
+    .accumulate = accumulate,
+};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

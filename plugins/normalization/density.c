@@ -19,7 +19,11 @@ static ps_result resolve(const void *state, const ps_host *host, const ps_film_v
     return PS_OK;
 }
 
-static const ps_normalization_vtable vtable = {.size = sizeof vtable, .resolve = resolve};
+static const ps_normalization_vtable vtable = {
+    .size = sizeof vtable,
+    .flags = PS_NORMALIZATION_CROPS,
+    .resolve = resolve,
+};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

@@ -122,24 +122,8 @@ bool parse_whole_number(const char *option, const char *text, double minimum, do
 
 bool parse_rectangle(const char *option, const char *text, struct rectangle *rectangle)
 {
-    size_t *const fields[4] = {&rectangle->x, &rectangle->y, &rectangle->width, &rectangle->height};
-    char word[32];
-    size_t i = 0;
-    for (const char *next = text; i < 4; i++) {
-        size_t length = strcspn(next, ",");
-        double number;
-        snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word),
-                 next);
-        if (next[length] != (i < 3 ? ',' : '\0') || !text_to_number(word, &number) ||
-            number != floor(number) || number < 0.0 || number > 1e9)
-            break;
-        *fields[i] = (size_t)number;
-        next += length + 1;
-    }
-    if (i < 4)
-        fprintf(stderr, "psplat: error: --%s: expected X,Y,W,H in whole pixels, got '%s'\n", option,
-                text);
-    return i == 4;
+    struct error error;
+    return print_unless_good(option_rectangle(option, text, rectangle, &error), &error);
 }
 
 bool parse_exposure(const char *text, double *stops)

@@ -1,8 +1,8 @@
 /* command_new.c: psplat new: a scene to begin with. */
 #include "base/output_file.h"
 #include "cli/command.h"
-#include "model/model_scene.h"
 #include "model/model.h"
+#include "model/model_scene.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -18,6 +18,7 @@
 static const struct option options[] = {
     OUTPUT_OPTIONS,
     RENDER_OPTIONS,
+    {0, "crop", "X,Y,W,H", "render this part of the picture alone, in pixels"},
     {0, "preview", NULL, "a quick look: small, few light paths, coarse shadows"},
     LONG_JOB_OPTIONS,
     PROGRESS_OPTION,
@@ -249,11 +250,11 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
     return written;
 }
 
-static ps_result check_memory(const struct job *job, const struct scene_input *input,
-                              struct error *error)
+static ps_result check_size(const struct job *job, const struct scene_input *input,
+                            struct error *error)
 {
-    return render_options_check_memory(&job->taken.options, &input->description.image,
-                                       job->settings, long_job_keeps_film(&job->passes), error);
+    return render_options_check_size(&job->taken.options, &input->description.image, job->settings,
+                                     long_job_keeps_film(&job->passes), error);
 }
 
 static int render_job(struct job *job, struct scene_input *input)
@@ -264,7 +265,7 @@ static int render_job(struct job *job, struct scene_input *input)
     statistics_init(&statistics);
     double start = clock_seconds();
     statistics_add_seconds(&statistics, "load", start - job->progress.start);
-    ps_result result = check_memory(job, input, &error);
+    ps_result result = check_size(job, input, &error);
     if (result == PS_OK)
         result = scene_input_build(input, &scene);
     print_problems(input);

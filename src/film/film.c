@@ -42,7 +42,7 @@ static ps_result add_planes(struct film *film, bool (*wanted)(int plane), struct
 ps_result film_create(size_t width, size_t height, bool surfaces, struct film *film,
                       struct error *error)
 {
-    *film = (struct film){.width = width, .height = height};
+    *film = (struct film){.width = width, .height = height, .window = {0, 0, width, height}};
     ps_result result = add_planes(film, is_of_light, error);
     if (result == PS_OK && surfaces)
         result = add_planes(film, is_of_surfaces, error);
@@ -74,7 +74,8 @@ static ps_result add_part(struct film *film, bool is_half, struct error *error)
     *part = malloc(sizeof **part);
     if (!*part)
         return error_memory(error, sizeof **part, "half the film");
-    **part = (struct film){.width = film->width, .height = film->height, .is_half = is_half};
+    **part = (struct film){
+        .width = film->width, .height = film->height, .window = film->window, .is_half = is_half};
     return PS_OK;
 }
 
@@ -369,28 +370,55 @@ static bool is_odd_pass(const struct film *film)
     return film->odd && film->number % 2 == 1;
 }
 
-/* The part of a tile's row `y` that is in the picture. */
-static struct tile_row row_in_picture(const struct film *film, const struct gbuffer *gbuffer,
-                                      uint32_t tile, size_t y)
+/* Which pixels of a tile are in the film: columns and rows from x and y on, counted in the tile. */
+static struct rectangle part_in_film(const struct film *film, const struct gbuffer *gbuffer,
+                                     uint32_t tile)
 {
-    size_t left = (size_t)(tile % gbuffer->tiles_across) * PS_TILE_SIZE;
-    size_t top = (size_t)(tile / gbuffer->tiles_across) * PS_TILE_SIZE;
-    return row_of(film, gbuffer, tile, y * PS_TILE_SIZE, (top + y) * film->width + left,
-                  at_most_a_tile(film->width - left));
+    const struct picture_window *window = &film->window;
+    uint32_t x, y;
+    gbuffer_pixel(gbuffer, tile, 0, &x, &y);
+    struct rectangle part = {window->left > x ? window->left - x : 0,
+                             window->top > y ? window->top - y : 0, 0, 0};
+    size_t right = window->left + film->width, bottom = window->top + film->height;
+    size_t end_x = right > x ? at_most_a_tile(right - x) : 0;
+    size_t end_y = bottom > y ? at_most_a_tile(bottom - y) : 0;
+    if (part.x < end_x && part.y < end_y) {
+        part.width = end_x - part.x;
+        part.height = end_y - part.y;
+    }
+    return part;
 }
 
-static size_t rows_in_picture(const struct film *film, const struct gbuffer *gbuffer, uint32_t tile)
+/* The pixels of that part in row `i` of it. */
+static struct tile_row row_of_part(const struct film *film, const struct gbuffer *gbuffer,
+                                   uint32_t tile, const struct rectangle *part, size_t i)
 {
-    return at_most_a_tile(film->height - (size_t)(tile / gbuffer->tiles_across) * PS_TILE_SIZE);
+    uint32_t x, y;
+    gbuffer_pixel(gbuffer, tile, 0, &x, &y);
+    size_t column = x + part->x - film->window.left, row = y + part->y + i - film->window.top;
+    return row_of(film, gbuffer, tile, (part->y + i) * PS_TILE_SIZE + part->x,
+                  row * film->width + column, part->width);
+}
+
+bool film_has_pixel(const struct film *film, size_t x, size_t y)
+{
+    const struct picture_window *window = &film->window;
+    return x >= window->left && y >= window->top && x - window->left < film->width &&
+           y - window->top < film->height;
+}
+
+bool film_has_tile(const struct film *film, const struct gbuffer *gbuffer, uint32_t tile)
+{
+    return part_in_film(film, gbuffer, tile).width > 0;
 }
 
 void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t index,
                    const bool left_out[PS_TILE_PIXELS])
 {
     assert(index < gbuffer->tile_count);
-    size_t rows = rows_in_picture(film, gbuffer, index);
-    for (size_t y = 0; y < rows; y++) {
-        struct tile_row row = row_in_picture(film, gbuffer, index, y);
+    const struct rectangle part = part_in_film(film, gbuffer, index);
+    for (size_t y = 0; y < part.height; y++) {
+        struct tile_row row = row_of_part(film, gbuffer, index, &part, y);
         for (size_t k = 0; k < row.count; k++)
             row.shares[k] = left_out && left_out[row.lane + k] ? 0.0f : 1.0f;
         add_light(film, &row);
@@ -404,9 +432,9 @@ void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t in
 
 void film_keep_ids(struct film *film, const struct gbuffer *gbuffer, uint32_t index)
 {
-    size_t rows = film->object ? rows_in_picture(film, gbuffer, index) : 0;
-    for (size_t y = 0; y < rows; y++) {
-        struct tile_row row = row_in_picture(film, gbuffer, index, y);
+    const struct rectangle part = part_in_film(film, gbuffer, index);
+    for (size_t y = 0; film->object && y < part.height; y++) {
+        struct tile_row row = row_of_part(film, gbuffer, index, &part, y);
         keep_ids(film, &row);
     }
 }
@@ -437,6 +465,8 @@ void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t
                       uint32_t count, float share, size_t x, size_t y)
 {
     float sums[FILM_PLANES][PS_TILE_SIZE] = {{0.0f}};
+    size_t pixel = (y - film->window.top) * film->width + x - film->window.left;
+    assert(film_has_pixel(film, x, y));
     struct film row_of_sums = {.width = PS_TILE_SIZE, .height = 1};
     for (int plane = 0; plane < FILM_PLANES; plane++)
         row_of_sums.planes[plane] = film->planes[plane] ? sums[plane] : NULL;
@@ -450,7 +480,7 @@ void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t
     }
     for (int plane = 0; plane < FILM_PLANES; plane++)
         for (size_t i = 0; i < PS_TILE_SIZE && film->planes[plane]; i++)
-            film->planes[plane][y * film->width + x] += sums[plane][i];
+            film->planes[plane][pixel] += sums[plane][i];
     if (is_odd_pass(film))
         film_add_samples(film->odd, gbuffer, first, count, share, x, y);
     if (film->half)

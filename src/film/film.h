@@ -38,19 +38,20 @@ enum film_plane {
 
 struct film {
     size_t width, height;
-    uint32_t passes;             /* that it holds */
-    uint32_t number;             /* of the pass that is being added, or was last */
-    float *planes[FILM_PLANES];  /* each width * height, owned */
-    bool has[FILM_PLANES];       /* which of them it has, or had before they were taken */
-    uint32_t *object, *material; /* what pixels see in pass 0; owned, NULL where nobody asks */
+    struct picture_window window; /* where in the picture it lies */
+    uint32_t passes;              /* that it holds */
+    uint32_t number;              /* of the pass that is being added, or was last */
+    float *planes[FILM_PLANES];   /* each width * height, owned */
+    bool has[FILM_PLANES];        /* which of them it has, or had before they were taken */
+    uint32_t *object, *material;  /* what pixels see in pass 0; owned, NULL where nobody asks */
     /* Parts of it, owned; NULL where nobody asks: the light of the odd passes alone; and the direct light by the second
      * half of each pass's shadow rays, or, where they met gloss, of its samples of a pixel. */
     struct film *odd, *half;
     bool is_half; /* this is such a half */
 };
 
-/* A film of no pass. Without `surfaces` it keeps the light alone: planes from FILM_ALBEDO_R to FILM_DEPTH
- * stay NULL. */
+/* A film of no pass, of a whole picture; who sets another window does so before any part is added. Without `surfaces` it
+ * keeps the light alone: planes from FILM_ALBEDO_R to FILM_DEPTH stay NULL. */
 ps_result film_create(size_t width, size_t height, bool surfaces, struct film *film,
                       struct error *error);
 /* Makes room for objects and materials. */
@@ -69,19 +70,23 @@ ps_result film_add_gloss(struct film *film, struct error *error);
 /* Empties the film for a pass, and makes the planes anew that were taken out of it. */
 ps_result film_begin_pass(struct film *film, uint32_t number, struct error *error);
 
+/* Whether a pixel of the picture, or any of a tile, lies in the film. */
+bool film_has_pixel(const struct film *film, size_t x, size_t y);
+bool film_has_tile(const struct film *film, const struct gbuffer *gbuffer, uint32_t tile);
+
 void film_release(struct film *film);
 size_t film_bytes(const struct film *film);
 /* With all planes but those on request. */
 size_t film_most_bytes(size_t width, size_t height);
 
-/* Adds what one tile of the pass gathered, but for the lanes that are `left_out` (NULL: none);
- * call for every tile, then end the pass. Tiles may be added by different threads at once: they touch
+/* Adds what the pixels of one tile of the pass that lie in the film gathered, but for the lanes that are `left_out`
+ * (NULL: none); call for every tile, then end the pass. Tiles may be added by different threads at once: they touch
  * different pixels. */
 void film_add_tile(struct film *film, const struct gbuffer *gbuffer, uint32_t tile,
                    const bool left_out[PS_TILE_PIXELS]);
 
 /* Adds `share` of what each of `count` lanes of a G-buffer's only tile gathered, from lane `first` on, to pixel
- * (x, y) of the film, whose own lane was left out. They are all of that pixel's. */
+ * (x, y) of the picture, whose own lane was left out. They are all of that pixel's, which lies in the film. */
 void film_add_samples(struct film *film, const struct gbuffer *gbuffer, uint32_t first,
                       uint32_t count, float share, size_t x, size_t y);
 void film_end_pass(struct film *film);

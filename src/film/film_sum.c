@@ -28,7 +28,7 @@ static ps_result copy_ids(const uint32_t *from, size_t count, uint32_t **ids, st
 ps_result film_sum_create(const struct film *film, struct film_sum *sum, struct error *error)
 {
     size_t pixels = film->width * film->height;
-    *sum = (struct film_sum){.width = film->width, .height = film->height};
+    *sum = (struct film_sum){.width = film->width, .height = film->height, .window = film->window};
     for (int plane = 0; plane < FILM_SUM_PLANES; plane++) {
         bool wanted = plane == FILM_SUM_OF_SQUARES || plane_of(film, plane);
         if (wanted && !exact_plane_create(pixels, &sum->planes[plane]))
@@ -43,8 +43,10 @@ static ps_result create_part(const struct film_sum *sum, int first, struct film 
                              struct error *error)
 {
     bool any = false;
-    struct film planes = {
-        .width = sum->width, .height = sum->height, .is_half = first == FILM_SUM_OF_HALF};
+    struct film planes = {.width = sum->width,
+                          .height = sum->height,
+                          .window = sum->window,
+                          .is_half = first == FILM_SUM_OF_HALF};
     for (int plane = 0; plane < FILM_PLANES; plane++)
         any |= planes.has[plane] = sum->planes[first + plane].high != NULL;
     if (!any)
@@ -59,7 +61,7 @@ static ps_result create_part(const struct film_sum *sum, int first, struct film 
 ps_result film_sum_create_film(const struct film_sum *sum, struct film *film, struct error *error)
 {
     size_t pixels = sum->width * sum->height;
-    *film = (struct film){.width = sum->width, .height = sum->height};
+    *film = (struct film){.width = sum->width, .height = sum->height, .window = sum->window};
     for (int plane = 0; plane < FILM_PLANES; plane++)
         film->has[plane] = sum->planes[plane].high != NULL;
     ps_result result = create_part(sum, FILM_SUM_OF_ODD, &film->odd, error);
@@ -168,7 +170,8 @@ static ps_result over_planes(struct plane_work *work, parallel_body body, struct
 
 bool film_sum_fits(const struct film_sum *sum, const struct film *film)
 {
-    bool fits = sum->width == film->width && sum->height == film->height;
+    bool fits = sum->width == film->width && sum->height == film->height &&
+                picture_window_same(sum->window, film->window);
     for (int plane = 0; plane < FILM_SUM_OF_SQUARES; plane++)
         fits &= !sum->planes[plane].high == !plane_of(film, plane);
     return fits && sum->planes[FILM_SUM_OF_SQUARES].high;
@@ -185,7 +188,8 @@ ps_result film_sum_add(struct film_sum *sum, const struct film *film, struct wor
 
 bool film_sum_is_alike(const struct film_sum *a, const struct film_sum *b)
 {
-    bool alike = a->width == b->width && a->height == b->height && !a->object == !b->object;
+    bool alike = a->width == b->width && a->height == b->height &&
+                 picture_window_same(a->window, b->window) && !a->object == !b->object;
     for (int plane = 0; plane < FILM_SUM_PLANES; plane++)
         alike &= !a->planes[plane].high == !b->planes[plane].high;
     return alike;

@@ -23,6 +23,7 @@ enum {
 
 struct film_sum {
     size_t width, height;
+    struct picture_window window; /* where in the picture it lies */
     struct pass_set passes;
     struct exact_plane planes[FILM_SUM_PLANES]; /* high is NULL where the film has no such plane */
     uint32_t *object, *material;                /* of pass 0, owned; NULL where the film has none */
@@ -39,7 +40,7 @@ void film_sum_release(struct film_sum *sum);
 void film_sum_clear(struct film_sum *sum);
 size_t film_sum_bytes(const struct film_sum *sum);
 
-/* Whether a film has the size and the planes of the sum. */
+/* Whether a film has the place and the planes of the sum. */
 bool film_sum_fits(const struct film_sum *sum, const struct film *film);
 
 /* Adds a film that fits and holds pass `film->number` alone, which is not in the sum yet. When out of memory,
@@ -47,7 +48,7 @@ bool film_sum_fits(const struct film_sum *sum, const struct film *film);
 ps_result film_sum_add(struct film_sum *sum, const struct film *film, struct workers *workers,
                        struct error *error);
 
-/* Whether both have the same size and planes. */
+/* Whether both have the same place and planes. */
 bool film_sum_is_alike(const struct film_sum *a, const struct film_sum *b);
 
 /* Adds another sum, of other passes and the same planes; likewise. */

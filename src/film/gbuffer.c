@@ -5,6 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* How far means over neighbours reach, in pixels: samples at edges look for the indirect light around them
+ * (view/edges.h). That is a mean over interleaved subsets and of short-range light; whose rays are shared out by how
+ * many pixels are averaged, which is a matter of surfaces as far again. Each stage goes tile by tile. */
+#define EDGE_REACH 2
+#define MEAN_REACH (PS_MOST_INTERLEAVE / 2)
+
 struct gbuffer gbuffer_layout(size_t width, size_t height)
 {
     uint32_t across = (uint32_t)((width + PS_TILE_SIZE - 1) / PS_TILE_SIZE);
@@ -12,15 +18,67 @@ struct gbuffer gbuffer_layout(size_t width, size_t height)
     return (struct gbuffer){
         .width = width,
         .height = height,
+        .picture_across = across,
         .tiles_across = across,
         .tiles_down = down,
         .tile_count = across * down,
     };
 }
 
-ps_result gbuffer_create(size_t width, size_t height, struct gbuffer *gbuffer, struct error *error)
+/* Tiles from `first` to before `end`, along one axis. */
+struct tile_range {
+    uint32_t first, end;
+};
+
+static struct tile_range grow(struct tile_range range, uint32_t pixels, uint32_t tiles)
 {
-    *gbuffer = gbuffer_layout(width, height);
+    uint32_t more = (pixels + PS_TILE_SIZE - 1) / PS_TILE_SIZE;
+    return (struct tile_range){range.first > more ? range.first - more : 0,
+                               tiles - range.end > more ? range.end + more : tiles};
+}
+
+/* The tiles that `length` pixels from `first` on need, of a picture of so many pixels. */
+static struct tile_range tiles_around(size_t first, size_t length, size_t pixels)
+{
+    size_t end = first + length + EDGE_REACH;
+    uint32_t tiles = (uint32_t)((pixels + PS_TILE_SIZE - 1) / PS_TILE_SIZE);
+    struct tile_range range = {
+        (uint32_t)((first > EDGE_REACH ? first - EDGE_REACH : 0) / PS_TILE_SIZE),
+        (uint32_t)(((end < pixels ? end : pixels) + PS_TILE_SIZE - 1) / PS_TILE_SIZE)};
+    return grow(grow(range, MEAN_REACH, tiles), MEAN_REACH, tiles);
+}
+
+struct gbuffer gbuffer_layout_around(struct rectangle part, size_t width, size_t height)
+{
+    struct gbuffer gbuffer = gbuffer_layout(width, height);
+    struct tile_range columns = tiles_around(part.x, part.width, width);
+    struct tile_range rows = tiles_around(part.y, part.height, height);
+    assert(rectangle_fits(part, width, height));
+    gbuffer.first_column = columns.first;
+    gbuffer.first_row = rows.first;
+    gbuffer.tiles_across = columns.end - columns.first;
+    gbuffer.tiles_down = rows.end - rows.first;
+    gbuffer.tile_count = gbuffer.tiles_across * gbuffer.tiles_down;
+    return gbuffer;
+}
+
+struct rectangle gbuffer_window(const struct gbuffer *gbuffer)
+{
+    size_t left = (size_t)gbuffer->first_column * PS_TILE_SIZE;
+    size_t top = (size_t)gbuffer->first_row * PS_TILE_SIZE;
+    size_t right = left + (size_t)gbuffer->tiles_across * PS_TILE_SIZE;
+    size_t bottom = top + (size_t)gbuffer->tiles_down * PS_TILE_SIZE;
+    return (struct rectangle){
+        left,
+        top,
+        (right < gbuffer->width ? right : gbuffer->width) - left,
+        (bottom < gbuffer->height ? bottom : gbuffer->height) - top,
+    };
+}
+
+ps_result gbuffer_create(struct gbuffer layout, struct gbuffer *gbuffer, struct error *error)
+{
+    *gbuffer = layout;
     gbuffer->tiles = aligned_alloc(64, gbuffer->tile_count * sizeof(ps_tile));
     gbuffer->direct = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(ps_rgb));
     gbuffer->emitted = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(ps_rgb));
@@ -95,24 +153,48 @@ size_t gbuffer_bytes(const struct gbuffer *gbuffer)
             PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool) + join + radiance + half));
 }
 
+bool gbuffer_tile_numbered(const struct gbuffer *gbuffer, uint32_t number, uint32_t *tile)
+{
+    uint32_t column = number % gbuffer->picture_across - gbuffer->first_column;
+    uint32_t row = number / gbuffer->picture_across - gbuffer->first_row;
+    if (column >= gbuffer->tiles_across || row >= gbuffer->tiles_down)
+        return false; /* what lies before the window wraps around */
+    *tile = row * gbuffer->tiles_across + column;
+    return true;
+}
+
 bool gbuffer_pixel(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane, uint32_t *x,
                    uint32_t *y)
 {
-    *x = tile % gbuffer->tiles_across * PS_TILE_SIZE + lane % PS_TILE_SIZE;
-    *y = tile / gbuffer->tiles_across * PS_TILE_SIZE + lane / PS_TILE_SIZE;
+    *x =
+        (gbuffer->first_column + tile % gbuffer->tiles_across) * PS_TILE_SIZE + lane % PS_TILE_SIZE;
+    *y = (gbuffer->first_row + tile / gbuffer->tiles_across) * PS_TILE_SIZE + lane / PS_TILE_SIZE;
+    return *x < gbuffer->width && *y < gbuffer->height;
+}
+
+bool gbuffer_picture_pixel(const struct gbuffer *gbuffer, uint32_t number, uint32_t lane,
+                           uint32_t *x, uint32_t *y)
+{
+    *x = number % gbuffer->picture_across * PS_TILE_SIZE + lane % PS_TILE_SIZE;
+    *y = number / gbuffer->picture_across * PS_TILE_SIZE + lane / PS_TILE_SIZE;
     return *x < gbuffer->width && *y < gbuffer->height;
 }
 
 uint32_t gbuffer_tile_of(const struct gbuffer *gbuffer, uint32_t x, uint32_t y, uint32_t *lane)
 {
     *lane = y % PS_TILE_SIZE * PS_TILE_SIZE + x % PS_TILE_SIZE;
-    return y / PS_TILE_SIZE * gbuffer->tiles_across + x / PS_TILE_SIZE;
+    return (y / PS_TILE_SIZE - gbuffer->first_row) * gbuffer->tiles_across + x / PS_TILE_SIZE -
+           gbuffer->first_column;
 }
 
 bool gbuffer_find(const struct gbuffer *gbuffer, int64_t x, int64_t y, uint32_t *tile,
                   uint32_t *lane)
 {
-    if (x < 0 || y < 0 || x >= (int64_t)gbuffer->width || y >= (int64_t)gbuffer->height)
+    int64_t left = (int64_t)gbuffer->first_column * PS_TILE_SIZE;
+    int64_t top = (int64_t)gbuffer->first_row * PS_TILE_SIZE;
+    if (x < left || y < top || x >= (int64_t)gbuffer->width || y >= (int64_t)gbuffer->height ||
+        x >= left + (int64_t)gbuffer->tiles_across * PS_TILE_SIZE ||
+        y >= top + (int64_t)gbuffer->tiles_down * PS_TILE_SIZE)
         return false;
     *tile = gbuffer_tile_of(gbuffer, (uint32_t)x, (uint32_t)y, lane);
     return true;

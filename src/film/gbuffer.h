@@ -2,11 +2,15 @@
  *
  * Tiles of 16x16 pixels, each a structure of arrays (ps_tile), stored one after the other. A tile
  * is the unit of work: one thread owns it at a time, so nothing needs a lock.
+ *
+ * The tiles may be those of a window of the picture alone. They are stored by their index in the window; their number in
+ * the picture, which random numbers go by, is another. Columns and rows are always those of the picture.
  */
 #ifndef FILM_GBUFFER_H
 #define FILM_GBUFFER_H
 
 #include "base/error.h"
+#include "base/rectangle.h"
 #include "trace/trace.h"
 #include <stdbool.h>
 
@@ -25,9 +29,11 @@ struct glossy_tile {
 };
 
 struct gbuffer {
-    size_t width, height;
-    uint32_t tiles_across, tiles_down, tile_count;
-    ps_tile *tiles; /* 64-byte aligned, owned */
+    size_t width, height;                          /* of the picture */
+    uint32_t picture_across;                       /* tiles in a row of it */
+    uint32_t first_column, first_row;              /* where the window begins, in tiles */
+    uint32_t tiles_across, tiles_down, tile_count; /* of the window */
+    ps_tile *tiles;                                /* 64-byte aligned, owned */
     ps_rgb *direct; /* direct irradiance, tile_count * PS_TILE_PIXELS, owned */
     /* The same by the second half of the shadow rays, likewise; NULL where nobody asks. */
     ps_rgb *direct_half;
@@ -45,7 +51,15 @@ struct gbuffer {
 /* Tiles of a picture of that size, and no memory for them. */
 struct gbuffer gbuffer_layout(size_t width, size_t height);
 
-ps_result gbuffer_create(size_t width, size_t height, struct gbuffer *gbuffer, struct error *error);
+/* The tiles of which a part of the picture needs any, so that its film is that of the whole picture: its own and those
+ * that its means over neighbours look at. */
+struct gbuffer gbuffer_layout_around(struct rectangle part, size_t width, size_t height);
+
+/* The picture's pixels in the window. */
+struct rectangle gbuffer_window(const struct gbuffer *gbuffer);
+
+/* Memory for the tiles of a layout. */
+ps_result gbuffer_create(struct gbuffer layout, struct gbuffer *gbuffer, struct error *error);
 void gbuffer_release(struct gbuffer *gbuffer);
 
 /* Makes room for what discontinuity_buffer.h needs. */
@@ -63,14 +77,35 @@ ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error)
 /* Bytes that the buffer takes. */
 size_t gbuffer_bytes(const struct gbuffer *gbuffer);
 
+/* The number of a tile in the picture. */
+static inline uint32_t gbuffer_number(const struct gbuffer *gbuffer, uint32_t tile)
+{
+    return (gbuffer->first_row + tile / gbuffer->tiles_across) * gbuffer->picture_across +
+           gbuffer->first_column + tile % gbuffer->tiles_across;
+}
+
+/* How many tiles the picture has. */
+static inline uint32_t gbuffer_picture_tiles(const struct gbuffer *gbuffer)
+{
+    return gbuffer->picture_across *
+           (uint32_t)((gbuffer->height + PS_TILE_SIZE - 1) / PS_TILE_SIZE);
+}
+
+/* The tile of a number; false if it lies outside of the window. */
+bool gbuffer_tile_numbered(const struct gbuffer *gbuffer, uint32_t number, uint32_t *tile);
+
 /* Column and row of a lane; false if it lies outside of the picture. */
 bool gbuffer_pixel(const struct gbuffer *gbuffer, uint32_t tile, uint32_t lane, uint32_t *x,
                    uint32_t *y);
 
-/* The other way: tile and lane of a pixel of the picture. */
+/* The same for a tile of the picture, by its number. */
+bool gbuffer_picture_pixel(const struct gbuffer *gbuffer, uint32_t number, uint32_t lane,
+                           uint32_t *x, uint32_t *y);
+
+/* The other way: tile and lane of a pixel of the window. */
 uint32_t gbuffer_tile_of(const struct gbuffer *gbuffer, uint32_t x, uint32_t y, uint32_t *lane);
 
-/* The same for a neighbour, which may lie outside of the picture: false, and nothing told, then. */
+/* The same for a neighbour, which may lie outside of the window: false, and nothing told, then. */
 bool gbuffer_find(const struct gbuffer *gbuffer, int64_t x, int64_t y, uint32_t *tile,
                   uint32_t *lane);
 

@@ -43,7 +43,7 @@ static void load_run(const struct geometry_filter *mean, uint32_t tile, uint32_t
     }
 }
 
-/* What lies outside of the picture stays as it is. */
+/* What lies outside of the window stays as it is. */
 static void load_row(const struct geometry_filter *mean, int64_t left, int64_t y, int row,
                      struct apron *apron)
 {
@@ -62,8 +62,9 @@ static void load_row(const struct geometry_filter *mean, int64_t left, int64_t y
 
 static void load_apron(const struct geometry_filter *mean, uint32_t tile, struct apron *apron)
 {
-    int64_t left = (int64_t)(tile % mean->gbuffer->tiles_across) * SIDE - APRON_MARGIN;
-    int64_t top = (int64_t)(tile / mean->gbuffer->tiles_across) * SIDE - APRON_MARGIN;
+    uint32_t x, y;
+    gbuffer_pixel(mean->gbuffer, tile, 0, &x, &y);
+    int64_t left = (int64_t)x - APRON_MARGIN, top = (int64_t)y - APRON_MARGIN;
     int first = APRON_MARGIN - mean->radius, end = APRON_MARGIN + SIDE + mean->radius;
     for (int row = first; row < end; row++)
         load_row(mean, left, top + row, row, apron);

@@ -39,7 +39,8 @@ static uint64_t rays_of(const struct gathering *work, uint64_t tile, uint32_t la
 {
     const struct gathered_light *near = work->rays.near;
     double averaged = near->averaged[tile * PS_TILE_PIXELS + lane];
-    double rays = gather_pilot_share(near, tile) * work->window_rays;
+    double rays =
+        gather_pilot_share(near, gbuffer_number(near->gbuffer, (uint32_t)tile)) * work->window_rays;
     return power_of_two(rays / sqrt(geometry_filter_window(near->radius) * averaged));
 }
 
@@ -66,7 +67,8 @@ static void share_samples(const struct gathering *work, uint64_t tile, const ps_
     for (size_t i = 0; i < points->count; i++) {
         uint32_t lane = points->lanes[i], block = block_of(lane);
         uint64_t place = lane / PS_TILE_SIZE % BLOCK * BLOCK + lane % BLOCK;
-        uint64_t run = ps_sample_block(tile, BLOCK * BLOCK * block);
+        uint64_t number = gbuffer_number(work->rays.near->gbuffer, (uint32_t)tile);
+        uint64_t run = ps_sample_block(number, BLOCK * BLOCK * block);
         samples->first[lane] = run + before + place * most[block];
     }
 }
@@ -114,8 +116,10 @@ static void keep_looking(const struct sample_runs *samples, uint64_t sample, con
 static void expect_variances(const struct gathering *work, uint64_t tile, const ps_points *points,
                              const struct sample_runs *samples)
 {
-    double noise = (double)PS_PI * (double)work->rays.near->noises[tile];
-    float *variances = &work->rays.near->variances[tile * PS_TILE_PIXELS];
+    const struct gathered_light *near = work->rays.near;
+    double noise =
+        (double)PS_PI * (double)near->noises[gbuffer_number(near->gbuffer, (uint32_t)tile)];
+    float *variances = &near->variances[tile * PS_TILE_PIXELS];
     for (size_t i = 0; i < points->count; i++) {
         uint32_t lane = points->lanes[i];
         variances[lane] = (float)(noise * noise / (double)samples->rays[lane]);
@@ -126,12 +130,11 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct gathering *work = user;
-    const ps_host *host = work->rays.host;
     uint64_t tile = work->rays.first_tile + index;
     ps_points points;
     struct sample_runs samples;
     uint8_t near[BLOCKS] = {0};
-    ps_collect_points(host->tile(host, (uint32_t)tile), &points);
+    ps_collect_points(&work->rays.near->gbuffer->tiles[tile], &points);
     share_samples(work, tile, &points, &samples);
     expect_variances(work, tile, &points, &samples);
     for (uint64_t sample = 0; sample < samples.most && points.count > 0; sample++) {
@@ -147,5 +150,5 @@ ps_result short_range_gather(const ps_host *host, const ps_pass *pass, struct ga
     ps_result result = gather_pilot(&work.rays, rays);
     if (result != PS_OK)
         return result;
-    return gather_rays_over_tiles(&work.rays, gather_tile, &work);
+    return gather_rays_over_tiles(&work.rays, near->gbuffer->tile_count, gather_tile, &work);
 }

@@ -51,11 +51,12 @@ static void shoot_from_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct pilot *pilot = user;
-    const ps_host *host = pilot->rays->host;
     uint64_t tile = pilot->rays->first_tile + index;
     struct findings findings = {0, 0};
+    ps_tile seen;
     ps_points points;
-    ps_collect_points(host->tile(host, (uint32_t)tile), &points);
+    pilot->rays->host->tile_surfaces(pilot->rays->host, (uint32_t)tile, &seen);
+    ps_collect_points(&seen, &points);
     keep_every(pilot->step, &points);
     for (uint64_t ray = 0; ray < pilot->count; ray++)
         shoot(pilot, tile, &points, ray, &findings);
@@ -67,7 +68,7 @@ static void shoot_from_tile(void *user, uint64_t index, uint32_t worker)
 /* Standard deviation, by a tile and those around it, of which each saw few rays. */
 static double noise_around(const struct gathered_light *near, uint32_t tiles, uint32_t tile)
 {
-    uint32_t across = near->tiles_across, down = tiles / across;
+    uint32_t across = near->gbuffer->picture_across, down = tiles / across;
     uint32_t x = tile % across, y = tile / across;
     double sum = 0, count = 0;
     for (uint32_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < down; v++)
@@ -102,8 +103,9 @@ ps_result gather_pilot(struct gather_rays *rays, double window_rays)
         .count = (uint64_t)fmax(count, 1),
         .step = (uint32_t)fmin(fmax(1 / count, 1), PS_TILE_PIXELS - 1) | 1, /* crosses rows */
     };
-    ps_result result = gather_rays_over_tiles(rays, shoot_from_tile, &pilot);
+    uint32_t tiles = gbuffer_picture_tiles(rays->near->gbuffer);
+    ps_result result = gather_rays_over_tiles(rays, tiles, shoot_from_tile, &pilot);
     if (result == PS_OK)
-        find_noise(rays->near, rays->pass->tile_count);
+        find_noise(rays->near, tiles);
     return result;
 }

@@ -4,6 +4,9 @@
  * A part of the rays goes ahead as a pilot, which tells the noise: where the sun shines on what is near it is hundreds
  * of times that of a dark corner. The light that the pilot finds does not count: where it happens to find more than
  * there is, more rays follow, so that the mean of all of them would be too small.
+ *
+ * Shares are of the whole picture, and so is the pilot, where a window of it is rendered: tiles are known by their
+ * numbers in the picture here.
  */
 #ifndef GATHER_GATHER_PILOT_H
 #define GATHER_GATHER_PILOT_H

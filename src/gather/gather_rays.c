@@ -62,9 +62,8 @@ void gather_rays_move(ps_points *points, size_t from, size_t to)
     points->lanes[to] = points->lanes[from];
 }
 
-ps_result gather_rays_over_tiles(struct gather_rays *rays, ps_body body, void *user)
+ps_result gather_rays_over_tiles(struct gather_rays *rays, uint32_t tiles, ps_body body, void *user)
 {
-    uint64_t tiles = rays->pass->tile_count;
     for (rays->first_tile = 0; rays->first_tile < tiles; rays->first_tile += TILES_AT_A_TIME) {
         uint64_t left = tiles - rays->first_tile;
         if (rays->host->cancelled(rays->host))

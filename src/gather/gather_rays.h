@@ -31,8 +31,9 @@ size_t gather_rays_shoot(const struct gather_rays *rays, const ps_points *points
 /* Moves a point to another's place among them. */
 void gather_rays_move(ps_points *points, size_t from, size_t to);
 
-/* Calls body(user, i, worker) on all threads for each tile rays->first_tile + i; PS_CANCELLED when the user stops
- * it. */
-ps_result gather_rays_over_tiles(struct gather_rays *rays, ps_body body, void *user);
+/* Calls body(user, i, worker) on all threads for each of `tiles` tiles, rays->first_tile + i; PS_CANCELLED when the user
+ * stops it. */
+ps_result gather_rays_over_tiles(struct gather_rays *rays, uint32_t tiles, ps_body body,
+                                 void *user);
 
 #endif

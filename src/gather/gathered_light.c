@@ -26,7 +26,7 @@ static size_t lanes_of(const struct gbuffer *gbuffer)
 size_t gathered_light_bytes(const struct gbuffer *gbuffer)
 {
     size_t of_lane = 2 * sizeof(ps_rgb) + sizeof(float) + sizeof(uint8_t);
-    return lanes_of(gbuffer) * of_lane + gbuffer->tile_count * 2 * sizeof(float);
+    return lanes_of(gbuffer) * of_lane + (size_t)gbuffer_picture_tiles(gbuffer) * 2 * sizeof(float);
 }
 
 ps_result gathered_light_begin(struct gathered_light *near, const struct gbuffer *gbuffer,
@@ -34,9 +34,9 @@ ps_result gathered_light_begin(struct gathered_light *near, const struct gbuffer
                                struct error *error)
 {
     assert(distance > 0.0f);
-    size_t lanes = lanes_of(gbuffer);
+    size_t lanes = lanes_of(gbuffer), tiles = gbuffer_picture_tiles(gbuffer);
     near->distance = distance;
-    near->tiles_across = gbuffer->tiles_across;
+    near->gbuffer = gbuffer;
     near->radius = (int)interleave / 2;
     if (!near->averaged)
         near->averaged = malloc(lanes);
@@ -47,9 +47,9 @@ ps_result gathered_light_begin(struct gathered_light *near, const struct gbuffer
     if (!near->variances)
         near->variances = malloc(lanes * sizeof *near->variances);
     if (!near->ray_variances)
-        near->ray_variances = malloc(gbuffer->tile_count * sizeof *near->ray_variances);
+        near->ray_variances = malloc(tiles * sizeof *near->ray_variances);
     if (!near->noises)
-        near->noises = malloc(gbuffer->tile_count * sizeof *near->noises);
+        near->noises = malloc(tiles * sizeof *near->noises);
     if (!near->found || !near->joined || !near->variances || !near->averaged ||
         !near->ray_variances || !near->noises)
         return error_memory(error, gathered_light_bytes(gbuffer), "short-range light");

@@ -22,12 +22,12 @@ struct gathered_light {
     float *variances;  /* of that, of its channels' sum; likewise */
     ps_rgb *joined;    /* room for its means, likewise */
     uint8_t *averaged; /* how many pixels they are taken over, likewise */
-    /* For gather_pilot.h, a value for each tile; likewise. */
+    /* For gather_pilot.h, a value for each tile of the picture; likewise. */
     float *ray_variances; /* of what single rays find there */
     float *noises;        /* its root, there and around */
     double mean_noise;
-    int radius;            /* pixels to each side of those means' windows */
-    uint32_t tiles_across; /* as in the G-buffer */
+    int radius;                    /* pixels to each side of those means' windows */
+    const struct gbuffer *gbuffer; /* borrowed, in the pass */
 };
 
 /* So many rays a pixel, and those that it is averaged with, have less noise than the splats of so many paths:

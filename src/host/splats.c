@@ -79,7 +79,7 @@ static ps_result create_splatter(struct render *render, struct interleaved layou
 
 static uint32_t automatic_interleave(const struct render *render, uint32_t most)
 {
-    double side = PS_TILE_SIZE * sqrt((double)render->gbuffer.tile_count);
+    double side = PS_TILE_SIZE * sqrt((double)gbuffer_picture_tiles(&render->gbuffer));
     uint32_t n = 1;
     while (2 * n <= most && 2 * n * SIDE_PER_STEP <= side)
         n *= 2;

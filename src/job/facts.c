@@ -21,6 +21,7 @@ struct fact {
 static const struct fact binding[] = {
     {"psplat.version", "the version of psplat"},
     {"psplat.size", "the size"},
+    {"psplat.crop", "the crop"},
 #define ROW(part_, name_) {"psplat.digest." name_, "the scene's " name_},
     SCENE_PARTS(ROW)
 #undef ROW
@@ -97,7 +98,10 @@ static void format_colour(ps_rgb colour, char *text, size_t size)
 ps_result facts_of_settings(struct image *image, const char *scene_path,
                             const struct render_settings *settings, struct error *error)
 {
-    char direct[64] = "rays", indirect[32], ambient[128];
+    const struct rectangle *part = &settings->crop;
+    char direct[64] = "rays", indirect[32], ambient[128], crop[96] = "none";
+    if (part->width > 0)
+        snprintf(crop, sizeof crop, "%zu,%zu,%zu,%zu", part->x, part->y, part->width, part->height);
     if (settings->direct == DIRECT_SHADOWMAP)
         snprintf(direct, sizeof direct, "shadowmap:resolution=%" PRIu32,
                  settings->direct_resolution);
@@ -105,6 +109,7 @@ ps_result facts_of_settings(struct image *image, const char *scene_path,
     format_colour(settings->ambient, ambient, sizeof ambient);
     const char *const facts[][2] = {{"psplat.version", PSPLAT_VERSION},
                                     {"psplat.scene", scene_path},
+                                    {"psplat.crop", crop},
                                     {"psplat.direct", direct},
                                     {"psplat.indirect_exposure", indirect},
                                     {"psplat.ambient", ambient}};

@@ -139,7 +139,7 @@ static ps_result add_facts(struct image *image, const struct image *facts,
 static ps_result make_image(const struct film_sum *sum, const struct image *facts,
                             struct image *image, struct error *error)
 {
-    *image = (struct image){.width = sum->width, .height = sum->height};
+    *image = (struct image){.width = sum->width, .height = sum->height, .window = sum->window};
     ps_result result = add_facts(image, facts, &sum->passes, error);
     if (result == PS_OK)
         result = add_picture(image, sum, error);
@@ -274,6 +274,7 @@ static ps_result take_sums(const char *path, const struct image *image, struct f
 {
     sum->width = image->width;
     sum->height = image->height;
+    sum->window = image->window;
     ps_result result = read_passes(path, image, &sum->passes, error);
     for (int plane = 0; plane < FILM_SUM_PLANES && result == PS_OK; plane++)
         result = read_plane(image, plane, &sum->planes[plane], error);

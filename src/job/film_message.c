@@ -4,7 +4,8 @@
 
 struct header {
     uint64_t width, height;
-    uint64_t runs; /* of passes; 0: nothing follows */
+    uint64_t left, top, picture_width, picture_height; /* its window */
+    uint64_t runs;                                     /* of passes; 0: nothing follows */
     uint8_t has_ids;
     uint8_t doubles[FILM_SUM_PLANES]; /* of each plane: 0, 1 (high) or 2 */
 };
@@ -14,6 +15,10 @@ static struct header header_of(const struct film_sum *film)
     struct header header = {
         .width = film->width,
         .height = film->height,
+        .left = film->window.left,
+        .top = film->window.top,
+        .picture_width = film->window.picture_width,
+        .picture_height = film->window.picture_height,
         .runs = film->passes.count,
         .has_ids = film->object != NULL,
     };
@@ -127,6 +132,9 @@ ps_result film_message_merge(const struct transport *transport, int from, int ta
     };
     film->width = (size_t)header.width;
     film->height = (size_t)header.height;
+    film->window =
+        (struct picture_window){(size_t)header.left, (size_t)header.top,
+                                (size_t)header.picture_width, (size_t)header.picture_height};
     ps_result result = take_passes(&reception, header.runs, &film->passes, error);
     for (int plane = 0; plane < FILM_SUM_PLANES; plane++)
         merge_plane(&reception, header.doubles[plane], &film->planes[plane]);

@@ -52,12 +52,13 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct tile_work *work = user;
     struct view_points points;
-    view_pixels(&work->render->gbuffer, (uint32_t)index, work->render->pass.number,
+    const struct gbuffer *gbuffer = &work->render->gbuffer;
+    view_pixels(gbuffer, gbuffer_number(gbuffer, (uint32_t)index), work->render->pass.number,
                 work->render->jitter[0], work->render->jitter[1], &points);
     view_trace(&work->view, &points, (uint32_t)index);
 }
 
-/* A run for each pixel. */
+/* A run for each pixel; the tile by its number in the picture. */
 static void runs_of_tile(uint32_t tile, uint32_t pass, uint32_t samples, struct light_runs *runs)
 {
     runs->count = PS_TILE_PIXELS;
@@ -79,7 +80,7 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
     if (render->gbuffer.occlusion)
         discontinuity_buffer_runs(&render->gbuffer, tile, pass, samples, &runs);
     else
-        runs_of_tile(tile, pass, samples, &runs);
+        runs_of_tile(gbuffer_number(&render->gbuffer, tile), pass, samples, &runs);
     direct_light_tile(&lighting, &render->gbuffer, tile, render->settings->seed, &runs, samples);
 }
 
@@ -212,7 +213,7 @@ void pass_describe(struct render *render, uint32_t number)
         .number = number,
         .seed = render->settings->seed,
         .passes = render->settings->passes,
-        .tile_count = render->gbuffer.tile_count,
+        .tile_count = gbuffer_picture_tiles(&render->gbuffer),
         .width = (uint32_t)render->gbuffer.width,
         .height = (uint32_t)render->gbuffer.height,
         .thread_count = workers_count(render->settings->workers),

@@ -149,14 +149,23 @@ static ps_result start_resolving(struct render *render, struct error *error)
     ps_result result = trace_create(render->scene, render->settings->isa, &render->trace, error);
     if (result == PS_OK)
         result = film_sum_create_film(render->sum, &render->film, error);
-    return result == PS_OK ? render_start_strategies(render, PS_NORMALIZATION, error) : result;
+    if (result == PS_OK)
+        result = render_start_strategies(render, PS_NORMALIZATION, error);
+    if (result == PS_OK)
+        crop_warn(render);
+    return result;
 }
 
 ps_result render_resolve(struct film_sum *film, const struct camera *camera,
                          struct render_settings *settings, const struct render_callbacks *callbacks,
                          struct statistics *statistics, struct image *image, struct error *error)
 {
-    const struct scene scene = {.camera = *camera, .width = film->width, .height = film->height};
+    bool whole = film->window.picture_width == 0;
+    const struct scene scene = {
+        .camera = *camera,
+        .width = whole ? film->width : film->window.picture_width,
+        .height = whole ? film->height : film->window.picture_height,
+    };
     struct render render = {
         .scene = &scene,
         .settings = settings,

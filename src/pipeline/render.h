@@ -19,6 +19,7 @@
 /* What of a render its memory grows with. */
 struct render_size {
     size_t width, height;
+    struct rectangle crop;           /* see render_settings */
     bool several_passes, keeps_film; /* whose file is made of it */
     bool display;                    /* the layer of that name is made */
 };
@@ -29,6 +30,11 @@ double render_bytes(const struct render_size *size);
 /* PS_ERROR_MEMORY where that is more than this machine lends, or than `limit` bytes (INFINITY: none). Allocates
  * nothing. */
 ps_result render_check_memory(const struct render_size *size, double limit, struct error *error);
+
+/* PS_ERROR_INVALID where the part of a picture of this size that the settings ask for does not lie in it, or their
+ * estimator can't render a part. Before render_check_memory. */
+ps_result render_check_crop(const struct render_settings *settings, size_t width, size_t height,
+                            struct error *error);
 
 /* The layers of a picture, beside R, G and B. */
 #define RENDER_LAYERS "albedo, direct, display, error, indirect, N, P, weight, Z"

@@ -1,6 +1,7 @@
 /* render_create.c: what a render needs before its first pass, and how it ends. */
 #include "base/clock.h"
 #include "host/splats.h"
+#include "pipeline/render.h"
 #include "pipeline/stages.h"
 #include <stdlib.h>
 
@@ -45,6 +46,23 @@ static bool wants_surfaces(const struct render *render)
     const struct render_settings *settings = render->settings;
     return keeps_film(render) || !settings->picture_alone ||
            settings->strategies[PS_DENOISER].type->table.denoiser.filter != NULL;
+}
+
+/* Of the picture, or of the part that is rendered. */
+static ps_result create_gbuffer_and_film(struct render *render, struct error *error)
+{
+    size_t width = render->scene->width, height = render->scene->height;
+    struct rectangle crop = render->settings->crop;
+    bool all = crop.width == 0;
+    struct gbuffer layout =
+        all ? gbuffer_layout(width, height) : gbuffer_layout_around(crop, width, height);
+    ps_result result = gbuffer_create(layout, &render->gbuffer, error);
+    if (result == PS_OK)
+        result = film_create(all ? width : crop.width, all ? height : crop.height,
+                             wants_surfaces(render), &render->film, error);
+    if (result == PS_OK)
+        render->film.window = (struct picture_window){crop.x, crop.y, width, height};
+    return result;
 }
 
 static ps_result create_gloss(struct render *render, struct error *error)
@@ -123,17 +141,16 @@ ps_result render_create(struct render *render, struct error *error)
 {
     const struct scene *scene = render->scene;
     double start = clock_seconds();
-    ps_result result = settings_choose_kernel(render->settings, &render->kernel, error);
+    ps_result result = render_check_crop(render->settings, scene->width, scene->height, error);
+    if (result == PS_OK)
+        result = settings_choose_kernel(render->settings, &render->kernel, error);
     if (result == PS_OK)
         result = trace_create(scene, render->settings->isa, &render->trace, error);
     statistics_add_seconds(render->statistics, "build", clock_seconds() - start);
     if (result == PS_OK)
         result = create_shadow_maps(render, error);
     if (result == PS_OK)
-        result = gbuffer_create(scene->width, scene->height, &render->gbuffer, error);
-    if (result == PS_OK)
-        result =
-            film_create(scene->width, scene->height, wants_surfaces(render), &render->film, error);
+        result = create_gbuffer_and_film(render, error);
     if (result == PS_OK && scene->microfacets && wants_surfaces(render))
         result = create_gloss(render, error);
     if (result == PS_OK && render->settings->discontinuity_buffer)
@@ -148,6 +165,7 @@ ps_result render_create(struct render *render, struct error *error)
         result = photon_stream_create(render, &render->photons, error);
     if (result != PS_OK)
         return result;
+    crop_warn(render);
     statistics_set_bytes(render->statistics, "ray tracer", (double)trace_bytes(render->trace));
     statistics_set_bytes(render->statistics, "G-buffer", (double)gbuffer_bytes(&render->gbuffer));
     statistics_set_bytes(render->statistics, "film", (double)film_bytes(&render->film));

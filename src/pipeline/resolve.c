@@ -416,7 +416,8 @@ ps_result resolve_image(struct render *render, bool shows, struct image *image, 
 {
     static const char *const picture_names[3] = {"R", "G", "B"};
     static const char *const indirect_names[3] = {"indirect.R", "indirect.G", "indirect.B"};
-    *image = (struct image){.width = render->film.width, .height = render->film.height};
+    *image = (struct image){
+        .width = render->film.width, .height = render->film.height, .window = render->film.window};
     struct rgb_planes picture, indirect;
     float *estimate;
     double start = clock_seconds();

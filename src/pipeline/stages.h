@@ -14,6 +14,9 @@ void render_destroy(struct render *render);
  * stops them. */
 ps_result render_start_strategies(struct render *render, ps_kind first, struct error *error);
 
+/* Says which of the strategies that make a picture of the film may make another one of a part of it. */
+void crop_warn(const struct render *render);
+
 /* Tells plugins of a pass. */
 void pass_describe(struct render *render, uint32_t number);
 

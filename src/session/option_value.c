@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 #define MOST_PIXELS 65536
@@ -56,4 +57,26 @@ ps_result option_size(const char *text, int64_t *width, int64_t *height, struct 
     *width = (int64_t)w;
     *height = (int64_t)h;
     return PS_OK;
+}
+
+ps_result option_rectangle(const char *option, const char *text, struct rectangle *rectangle,
+                           struct error *error)
+{
+    size_t *const fields[4] = {&rectangle->x, &rectangle->y, &rectangle->width, &rectangle->height};
+    char word[32];
+    size_t i = 0;
+    for (const char *next = text; i < 4; i++) {
+        size_t length = strcspn(next, ",");
+        double number;
+        snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word),
+                 next);
+        if (next[length] != (i < 3 ? ',' : '\0') || !text_to_number(word, &number) ||
+            number != floor(number) || number < 0.0 || number > 1e9)
+            break;
+        *fields[i] = (size_t)number;
+        next += length + 1;
+    }
+    return i == 4 ? PS_OK
+                  : error_set(error, PS_ERROR_INVALID,
+                              "--%s: expected X,Y,W,H in whole pixels, got '%.500s'", option, text);
 }

@@ -4,6 +4,7 @@
 #define SESSION_OPTION_VALUE_H
 
 #include "base/error.h"
+#include "base/rectangle.h"
 
 /* A whole decimal number in [minimum, maximum]. */
 ps_result option_whole_number(const char *option, const char *text, double minimum, double maximum,
@@ -14,6 +15,10 @@ ps_result option_bytes(const char *option, const char *text, double *bytes, stru
 
 /* Stops of exposure. */
 ps_result option_exposure(const char *text, double *stops, struct error *error);
+
+/* "X,Y,W,H" in whole pixels. */
+ps_result option_rectangle(const char *option, const char *text, struct rectangle *rectangle,
+                           struct error *error);
 
 /* "WxH": pixels, each 1..65536. */
 ps_result option_size(const char *text, int64_t *width, int64_t *height, struct error *error);

@@ -162,7 +162,10 @@ static void print_command(FILE *stream, const struct image *image, const char *s
     fprintf(stream, "psplat render");
     print_next(stream, strcmp(scene_path, "<stdin>") == 0 ? "-" : scene_path);
     scene_options_each_word(options, print_next, stream);
-    fprintf(stream, " --size %zux%zu --passes ", image->width, image->height);
+    fprintf(stream, " --size %zux%zu", image->window.picture_width, image->window.picture_height);
+    if (settings->crop.width > 0)
+        fprintf(stream, " --crop %s", image_attribute(image, "psplat.crop"));
+    fprintf(stream, " --passes ");
     if (settings->first_pass > 0)
         fprintf(stream, "%" PRIu32 ":", settings->first_pass);
     fprintf(stream, "%" PRIu32 " --seed %" PRIu64, settings->first_pass + passes, settings->seed);

@@ -74,6 +74,19 @@ static ps_result set_size(struct render_options *options, const char *value, str
     return option_size(value, &options->width, &options->height, error);
 }
 
+static ps_result set_crop(struct render_options *options, const char *value, struct error *error)
+{
+    struct rectangle crop;
+    ps_result result = option_rectangle("crop", value, &crop, error);
+    if (result != PS_OK)
+        return result;
+    if (crop.width == 0 || crop.height == 0)
+        return error_set(error, PS_ERROR_INVALID,
+                         "--crop: a part has at least one pixel, '%.500s' has none", value);
+    options->crop = crop;
+    return PS_OK;
+}
+
 /* As the render section of a file reads it, which is tried on a description that nobody uses. */
 static ps_result set_word(const char *key, const char *value, char **word, struct error *error)
 {
@@ -178,6 +191,7 @@ static const struct row {
     {"allow-scene-plugins", true, set_allow_plugins},
     {"plugin", false, set_plugin},
     {"size", false, set_size},
+    {"crop", false, set_crop},
     {"quality", false, set_quality},
     {"bounces", false, set_bounces},
     {"passes", false, set_passes},

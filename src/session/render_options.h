@@ -15,6 +15,7 @@ struct render_options {
     struct word_list plugins; /* KIND=NAME[:KEY=VALUE,...]; the later goes before the earlier */
     struct pass_range passes;
     int64_t width, height; /* 0: the scene's, which a preview makes smaller */
+    struct rectangle crop; /* see render_settings */
     char *isa;             /* as the following, NULL: not given */
     char *bounces, *quality;
     double seed, threads, batch, direct_resolution; /* negative: not given */
@@ -46,10 +47,11 @@ ps_result render_options_resolve(const struct render_options *options,
                                  const struct render_description *description,
                                  struct diagnostics *sink, struct render_settings *settings);
 
-/* PS_ERROR_MEMORY where a picture takes more than the options allow, or this machine lends. */
-ps_result render_options_check_memory(const struct render_options *options,
-                                      const struct image_description *image,
-                                      const struct render_settings *settings, bool keeps_film,
-                                      struct error *error);
+/* PS_ERROR_INVALID where a part is asked for that can't be rendered alone (render_check_crop); PS_ERROR_MEMORY where a
+ * picture takes more than the options allow, or this machine lends. */
+ps_result render_options_check_size(const struct render_options *options,
+                                    const struct image_description *image,
+                                    const struct render_settings *settings, bool keeps_film,
+                                    struct error *error);
 
 #endif

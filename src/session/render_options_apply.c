@@ -56,6 +56,7 @@ ps_result render_options_resolve(const struct render_options *options,
     if (result != PS_OK)
         return result;
     settings->isa = options->isa;
+    settings->crop = options->crop;
     if (options->passes.is_given) {
         settings->first_pass = options->passes.first;
         settings->passes = options->passes.end;
@@ -63,17 +64,19 @@ ps_result render_options_resolve(const struct render_options *options,
     return PS_OK;
 }
 
-ps_result render_options_check_memory(const struct render_options *options,
-                                      const struct image_description *image,
-                                      const struct render_settings *settings, bool keeps_film,
-                                      struct error *error)
+ps_result render_options_check_size(const struct render_options *options,
+                                    const struct image_description *image,
+                                    const struct render_settings *settings, bool keeps_film,
+                                    struct error *error)
 {
     const struct render_size size = {
         .width = (size_t)image->width,
         .height = (size_t)image->height,
+        .crop = settings->crop,
         .several_passes = keeps_film || settings_pass_count(settings) > 1,
         .keeps_film = keeps_film,
         .display = settings->display,
     };
-    return render_check_memory(&size, options->memory_limit, error);
+    ps_result result = render_check_crop(settings, size.width, size.height, error);
+    return result == PS_OK ? render_check_memory(&size, options->memory_limit, error) : result;
 }

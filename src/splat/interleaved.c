@@ -13,13 +13,16 @@
 struct interleaved interleaved_layout(const struct gbuffer *gbuffer, uint32_t interleave)
 {
     uint32_t side = interleave * PS_TILE_SIZE;
+    struct rectangle window = gbuffer_window(gbuffer);
     struct interleaved interleaved = {
         .interleave = interleave,
         .subsets = interleave * interleave,
-        .tiles_across = (uint32_t)((gbuffer->width + side - 1) / side),
-        .tiles_down = (uint32_t)((gbuffer->height + side - 1) / side),
-        .width = gbuffer->width,
-        .height = gbuffer->height,
+        .tiles_across = (uint32_t)((window.x % interleave + window.width + side - 1) / side),
+        .tiles_down = (uint32_t)((window.y % interleave + window.height + side - 1) / side),
+        .left = (uint32_t)window.x,
+        .top = (uint32_t)window.y,
+        .width = window.x + window.width,
+        .height = window.y + window.height,
     };
     interleaved.tile_count =
         interleaved.subsets * interleaved.tiles_across * interleaved.tiles_down;
@@ -62,6 +65,13 @@ static void lane_place(uint32_t lane, uint32_t *x, uint32_t *y)
     *y = by_rows / PS_TILE_SIZE;
 }
 
+/* The last column or row before `line` at which the pattern of subsets begins: a pixel's subset is that of the whole
+ * picture. */
+static uint32_t pattern_start(uint32_t line, uint32_t interleave)
+{
+    return line - line % interleave;
+}
+
 /* Column and row of a tile's first pixel; the next ones lie `interleave` further. */
 struct corner {
     uint32_t x, y;
@@ -72,9 +82,10 @@ static struct corner corner_of(const struct interleaved *interleaved, uint32_t t
     uint32_t each = interleaved->tiles_across * interleaved->tiles_down;
     uint32_t subset = tile / each, place = tile % each,
              side = PS_TILE_SIZE * interleaved->interleave;
+    uint32_t n = interleaved->interleave;
     return (struct corner){
-        place % interleaved->tiles_across * side + subset % interleaved->interleave,
-        place / interleaved->tiles_across * side + subset / interleaved->interleave,
+        pattern_start(interleaved->left, n) + place % interleaved->tiles_across * side + subset % n,
+        pattern_start(interleaved->top, n) + place / interleaved->tiles_across * side + subset / n,
     };
 }
 
@@ -85,7 +96,8 @@ static bool pixel_from(const struct interleaved *interleaved, struct corner corn
     lane_place(lane, &column, &row);
     *x = corner.x + column * interleaved->interleave;
     *y = corner.y + row * interleaved->interleave;
-    return *x < interleaved->width && *y < interleaved->height;
+    return *x >= interleaved->left && *y >= interleaved->top && *x < interleaved->width &&
+           *y < interleaved->height;
 }
 
 bool interleaved_pixel(const struct interleaved *interleaved, uint32_t tile, uint32_t lane,
@@ -179,14 +191,14 @@ struct apron {
 /* Where the subsets keep a column or a row of the picture. */
 struct line_place {
     uint32_t subset, tile, lane; /* lane: 0..PS_TILE_SIZE - 1 */
-    bool there;                  /* within the picture */
+    bool there;                  /* within the window */
 };
 
-static struct line_place place_line(int64_t line, size_t end, uint32_t n)
+static struct line_place place_line(int64_t line, uint32_t first, size_t end, uint32_t n)
 {
-    if (line < 0 || line >= (int64_t)end)
+    if (line < (int64_t)first || line >= (int64_t)end)
         return (struct line_place){.there = false};
-    uint32_t own = (uint32_t)line / n;
+    uint32_t own = ((uint32_t)line - pattern_start(first, n)) / n;
     return (struct line_place){(uint32_t)line % n, own / PS_TILE_SIZE, own % PS_TILE_SIZE, true};
 }
 
@@ -223,9 +235,10 @@ static void load_apron(const struct interleaved *interleaved, int64_t left, int6
     struct line_place columns[APRON_SIDE], rows[APRON_SIDE];
     int first = APRON_MARGIN - reach, end = APRON_MARGIN + PS_TILE_SIZE + reach;
     for (int i = first; i < end; i++) {
-        columns[i] =
-            place_line(left + i - APRON_MARGIN, interleaved->width, interleaved->interleave);
-        rows[i] = place_line(top + i - APRON_MARGIN, interleaved->height, interleaved->interleave);
+        columns[i] = place_line(left + i - APRON_MARGIN, interleaved->left, interleaved->width,
+                                interleaved->interleave);
+        rows[i] = place_line(top + i - APRON_MARGIN, interleaved->top, interleaved->height,
+                             interleaved->interleave);
     }
     for (int row = first; row < end; row++)
         for (int column = first; column < end; column++)
@@ -302,8 +315,8 @@ static void join_tile(void *user, uint64_t index, uint32_t worker)
     const struct work *work = user;
     const struct interleaved *interleaved = work->interleaved;
     const struct gbuffer *gbuffer = work->gbuffer;
-    int64_t left = (int64_t)(index % gbuffer->tiles_across) * PS_TILE_SIZE;
-    int64_t top = (int64_t)(index / gbuffer->tiles_across) * PS_TILE_SIZE;
+    uint32_t left, top;
+    gbuffer_pixel(gbuffer, (uint32_t)index, 0, &left, &top);
     int reach = (int)interleaved->interleave / 2;
     if (gbuffer_sees_nothing(&gbuffer->tiles[index]))
         return;

@@ -32,11 +32,12 @@ struct interleaved {
     uint32_t subsets;                  /* n^2 */
     uint32_t tiles_across, tiles_down; /* of each subset */
     uint32_t tile_count;               /* of all subsets, one subset after the other */
-    size_t width, height;              /* of the picture */
+    uint32_t left, top;                /* the window's first column and row */
+    size_t width, height;              /* where its columns and rows end, counted in the picture */
     struct interleaved_tile *tiles;    /* owned */
 };
 
-/* Interleaved pixels of a G-buffer of this size, and no memory for it; `interleave` 1..PS_MOST_INTERLEAVE. */
+/* Interleaved pixels of a G-buffer's window, and no memory for it; `interleave` 1..PS_MOST_INTERLEAVE. */
 struct interleaved interleaved_layout(const struct gbuffer *gbuffer, uint32_t interleave);
 
 /* Memory for the tiles of a layout, which have to be filled. PS_ERROR_MEMORY: nothing is left to release. */
@@ -45,7 +46,7 @@ ps_result interleaved_create(struct interleaved layout, struct interleaved *inte
 void interleaved_release(struct interleaved *interleaved);
 size_t interleaved_bytes(const struct interleaved *interleaved);
 
-/* Column and row of a lane; false if it lies outside of the picture. */
+/* Column and row of a lane; false if it lies outside of the window. */
 bool interleaved_pixel(const struct interleaved *interleaved, uint32_t tile, uint32_t lane,
                        uint32_t *x, uint32_t *y);
 

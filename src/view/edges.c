@@ -50,7 +50,7 @@ static void add_look(const struct edge_pass *pass, uint32_t tile, uint32_t lane,
                      struct looks *looks)
 {
     uint32_t to = (uint32_t)looks->points.count++;
-    uint64_t block = ps_sample_block(tile, lane);
+    uint64_t block = ps_sample_block(gbuffer_number(pass->gbuffer, tile), lane);
     uint64_t number = (uint64_t)pass->number * pass->samples + sample;
     gbuffer_pixel(pass->gbuffer, tile, lane, &looks->x[to], &looks->y[to]);
     looks->points.lanes[to] = to;
@@ -180,8 +180,9 @@ static void add_looks(const struct edge_pass *pass, const struct gbuffer *sample
         find_neighbours(pass->gbuffer, looks->x[first], looks->y[first], &neighbours);
         for (end = first; end < count && same_pixel(looks, first, end); end++)
             borrow_indirect(&neighbours, &looks->tile, end);
-        film_add_samples(film, samples, first, end - first, 1.0f / (float)pass->samples,
-                         looks->x[first], looks->y[first]);
+        if (film_has_pixel(film, looks->x[first], looks->y[first]))
+            film_add_samples(film, samples, first, end - first, 1.0f / (float)pass->samples,
+                             looks->x[first], looks->y[first]);
     }
 }
 
@@ -192,6 +193,7 @@ static void finish_looks(const struct edge_pass *pass, struct looks *looks, stru
     struct gbuffer gbuffer = {
         .width = PS_TILE_SIZE,
         .height = PS_TILE_SIZE,
+        .picture_across = 1,
         .tiles_across = 1,
         .tiles_down = 1,
         .tile_count = 1,
@@ -250,6 +252,8 @@ void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *fi
 {
     assert(tile < pass->gbuffer->tile_count);
     const bool *edges = &pass->edges[(size_t)tile * PS_TILE_PIXELS];
+    if (!film_has_tile(film, pass->gbuffer, tile))
+        return;
     film_add_tile(film, pass->gbuffer, tile, edges);
     if (has_edges(edges))
         look_again(pass, tile, edges, film);

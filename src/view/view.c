@@ -179,18 +179,18 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
 }
 
 /* Lanes in 4x4 blocks, so that each packet of 16 rays is compact. */
-void view_pixels(const struct gbuffer *gbuffer, uint32_t tile, uint32_t number, float jitter_x,
-                 float jitter_y, struct view_points *points)
+void view_pixels(const struct gbuffer *gbuffer, uint32_t tile_number, uint32_t number,
+                 float jitter_x, float jitter_y, struct view_points *points)
 {
     points->count = 0;
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
         uint32_t x, y, lane = gbuffer_block_lane(i);
-        if (!gbuffer_pixel(gbuffer, tile, lane, &x, &y))
+        if (!gbuffer_picture_pixel(gbuffer, tile_number, lane, &x, &y))
             continue;
         points->lanes[points->count++] = lane;
         points->x[lane] = (float)x + jitter_x;
         points->y[lane] = (float)y + jitter_y;
-        points->indices[lane] = ps_sample_block(tile, lane) + number;
+        points->indices[lane] = ps_sample_block(tile_number, lane) + number;
     }
 }
 
@@ -198,17 +198,18 @@ void view_trace(const struct view_pass *pass, const struct view_points *points, 
 {
     struct camera_paths paths;
     ps_hit hits[PS_TILE_PIXELS];
+    bool collects = !pass->hits && !pass->surfaces_alone;
     if (!pass->hits)
         gbuffer_clear_tile(pass->gbuffer, index);
     start(pass, points, index, &paths);
     for (uint32_t depth = 0; paths.count > 0 && depth <= PS_LONGEST_CHAIN; depth++) {
         trace_intersect(pass->trace, depth == 0 ? RAYS_CAMERA : RAYS_INCOHERENT, paths.rays,
                         paths.count, hits);
-        if (!pass->hits)
+        if (collects)
             collect_emission(pass, index, depth, &paths, hits);
         end_at_diffuse(pass, index, &paths, hits);
         if (paths.count > 0) {
-            if (!pass->hits)
+            if (collects)
                 collect_gloss(pass, index, depth, &paths, hits);
             scatter(pass, index, depth, &paths, hits);
         }

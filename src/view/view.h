@@ -20,6 +20,7 @@ struct view_pass {
      * paths end nowhere are left as they are. NULL: the G-buffer is filled. */
     ps_ray *rays;
     ps_hit *hits;
+    bool surfaces_alone; /* the G-buffer is filled without the light that is collected on the way */
 };
 
 /* Where lanes of a tile look. */
@@ -30,10 +31,10 @@ struct view_points {
     uint64_t indices[PS_TILE_PIXELS];           /* of each lane's random numbers */
 };
 
-/* The pixels of a tile of the picture, all at the same place (jitter_x, jitter_y) from their upper left
- * corners, in pass `number`. */
-void view_pixels(const struct gbuffer *gbuffer, uint32_t tile, uint32_t number, float jitter_x,
-                 float jitter_y, struct view_points *points);
+/* The pixels of a tile of the picture, by its number there, all at the same place (jitter_x, jitter_y) from their upper
+ * left corners, in pass `number`. */
+void view_pixels(const struct gbuffer *gbuffer, uint32_t tile_number, uint32_t number,
+                 float jitter_x, float jitter_y, struct view_points *points);
 
 /* Fills tile `index`, and zeroes its accumulators; or fills `rays` and `hits`. */
 void view_trace(const struct view_pass *pass, const struct view_points *points, uint32_t index);

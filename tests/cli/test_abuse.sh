@@ -39,7 +39,7 @@ expect_no_text err warning
 # --- calls out of place ---
 
 for service in tile pixel tile_of tile_hits next_photons path_count begin_splats splat gather_short_range for_each_tile \
-    begin_points splat_points end_points; do
+    for_each_picture_tile tile_surfaces begin_points splat_points end_points; do
     abuse "init:$service" estimator
     refused "estimator abusive: it called $service where that is not there"
     run 2 check -p estimator=./abusive.so "$cornell"
@@ -59,6 +59,8 @@ abuse nested estimator
 refused "estimator abusive: it called parallel_for where that is not there"
 abuse tile estimator
 refused "estimator abusive: it called tile with index 6 of 6"
+abuse tile_surfaces estimator
+refused "estimator abusive: it called tile_surfaces with index 6 of 6"
 abuse light estimator
 refused "estimator abusive: it called light with index 99 of 1"
 abuse emit_from estimator

@@ -63,6 +63,13 @@ static ps_result init(void *state, const ps_host *host)
     if (does("init:end_points"))
         host->end_points(host, &power);
 #endif
+#if PS_ABI_MINOR >= 7
+    ps_tile seen;
+    if (does("init:for_each_picture_tile"))
+        host->for_each_picture_tile(host, NULL, NULL);
+    if (does("init:tile_surfaces"))
+        host->tile_surfaces(host, 0, &seen);
+#endif
     if (does("init:for_each_tile"))
         host->for_each_tile(host, NULL, NULL);
     if (does("init:fail"))
@@ -129,6 +136,11 @@ static ps_result accumulate(void *state, const ps_host *host, const ps_pass *pas
         host->light_of_object(host, 9999);
     if (does("is_shown"))
         host->is_shown(host, 9999);
+#endif
+#if PS_ABI_MINOR >= 7
+    ps_tile seen;
+    if (does("tile_surfaces"))
+        host->tile_surfaces(host, pass->tile_count, &seen);
 #endif
 #if PS_ABI_MINOR >= 6
     static const ps_surface_point no_object = {.object = 9999}, no_triangle = {.triangle = 9999};

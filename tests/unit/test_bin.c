@@ -83,7 +83,7 @@ static int open_bench(void **state)
     struct random random = {9};
     struct error error;
     assert_non_null(bench);
-    assert_int_equal(gbuffer_create(WIDTH, HEIGHT, &bench->gbuffer, &error), PS_OK);
+    assert_int_equal(gbuffer_create(gbuffer_layout(WIDTH, HEIGHT), &bench->gbuffer, &error), PS_OK);
     assert_int_equal(bench->gbuffer.tile_count, 19 * 13);
     for (uint32_t tile = 0; tile < bench->gbuffer.tile_count; tile++)
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
@@ -338,7 +338,7 @@ static void test_smallest_picture(void **state)
     struct pyramid pyramid;
     struct bins bins;
     struct error error;
-    assert_int_equal(gbuffer_create(1, 1, &gbuffer, &error), PS_OK);
+    assert_int_equal(gbuffer_create(gbuffer_layout(1, 1), &gbuffer, &error), PS_OK);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         fill_lane(&gbuffer.tiles[0], lane, lane ? WIDTH : 1, 0);
     struct interleaved interleaved;

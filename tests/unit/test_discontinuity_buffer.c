@@ -18,7 +18,7 @@ static int open_gbuffer(void **state)
 {
     (void)state;
     struct error error;
-    return gbuffer_create(WIDTH, HEIGHT, &gbuffer, &error) != PS_OK ||
+    return gbuffer_create(gbuffer_layout(WIDTH, HEIGHT), &gbuffer, &error) != PS_OK ||
            gbuffer_prepare_join(&gbuffer, &error) != PS_OK;
 }
 

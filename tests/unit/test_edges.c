@@ -17,7 +17,7 @@ static int open_gbuffer(void **state)
 {
     (void)state;
     struct error error;
-    return gbuffer_create(WIDTH, HEIGHT, &gbuffer, &error);
+    return gbuffer_create(gbuffer_layout(WIDTH, HEIGHT), &gbuffer, &error);
 }
 
 static int close_gbuffer(void **state)

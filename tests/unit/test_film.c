@@ -25,7 +25,7 @@ static int open_bench(void **state)
 {
     (void)state;
     struct error error;
-    assert_int_equal(gbuffer_create(WIDTH, HEIGHT, &bench.gbuffer, &error), PS_OK);
+    assert_int_equal(gbuffer_create(gbuffer_layout(WIDTH, HEIGHT), &bench.gbuffer, &error), PS_OK);
     assert_int_equal(film_create(WIDTH, HEIGHT, true, &bench.film, &error), PS_OK);
     return 0;
 }
@@ -415,9 +415,81 @@ static void test_clear_indirect(void **state)
 
 #define FILM_TEST(function) cmocka_unit_test_setup_teardown(function, open_bench, close_bench)
 
+/* A picture of 20 x 12 tiles, the last ones cut, and a part of it that no border of tiles bounds. */
+static const struct rectangle part = {101, 70, 30, 21};
+
+static void test_window_of_a_part(void **state)
+{
+    (void)state;
+    struct gbuffer whole = gbuffer_layout(311, 190);
+    struct gbuffer window = gbuffer_layout_around(part, 311, 190);
+    struct rectangle pixels = gbuffer_window(&window);
+    assert_true(window.tile_count < gbuffer_picture_tiles(&window) / 2);
+    assert_int_equal(gbuffer_picture_tiles(&window), whole.tile_count);
+    /* samples at edges, means, and what those are made of: 2, 4 and 4 pixels */
+    assert_true(pixels.x <= part.x - 10 && pixels.x + pixels.width >= part.x + part.width + 10);
+    assert_true(pixels.y <= part.y - 10 && pixels.y + pixels.height >= part.y + part.height + 10);
+    for (uint32_t number = 0, there = 0; number < whole.tile_count; number++) {
+        uint32_t tile, lane, x, y, at_x, at_y, found;
+        gbuffer_pixel(&whole, number, 17, &x, &y);
+        bool has = gbuffer_tile_numbered(&window, number, &tile);
+        assert_int_equal(gbuffer_find(&window, x, y, &found, &lane),
+                         has && x < window.width && y < window.height);
+        gbuffer_picture_pixel(&window, number, 17, &at_x, &at_y);
+        assert_true(at_x == x && at_y == y);
+        if (!has)
+            continue;
+        assert_int_equal(tile, there++);
+        assert_int_equal(gbuffer_number(&window, tile), number);
+        gbuffer_pixel(&window, tile, 17, &at_x, &at_y);
+        assert_true(at_x == x && at_y == y);
+        if (x < window.width && y < window.height)
+            assert_true(found == tile && lane == 17);
+    }
+    window = gbuffer_layout_around((struct rectangle){0, 0, 311, 190}, 311, 190);
+    assert_int_equal(window.tile_count, whole.tile_count);
+}
+
+/* Each pixel sees at a depth of its own. */
+static void test_film_of_a_part(void **state)
+{
+    (void)state;
+    struct gbuffer gbuffer;
+    struct film film;
+    struct error error;
+    assert_int_equal(gbuffer_create(gbuffer_layout_around(part, 311, 190), &gbuffer, &error),
+                     PS_OK);
+    assert_int_equal(film_create(part.width, part.height, true, &film, &error), PS_OK);
+    film.window = (struct picture_window){part.x, part.y, 311, 190};
+    assert_int_equal(film_begin_pass(&film, 0, &error), PS_OK);
+    for (uint32_t tile = 0, tiles = 0; tile < gbuffer.tile_count; tile++) {
+        uint32_t x, y;
+        gbuffer_clear_tile(&gbuffer, tile);
+        for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+            gbuffer_pixel(&gbuffer, tile, lane, &x, &y);
+            see(&gbuffer.tiles[tile], &gbuffer.direct[(size_t)tile * PS_TILE_PIXELS], lane,
+                (float)(y * 311 + x));
+        }
+        film_add_tile(&film, &gbuffer, tile, NULL);
+        tiles += film_has_tile(&film, &gbuffer, tile);
+        assert_true(tile + 1 < gbuffer.tile_count || tiles == 6); /* 3 x 2 */
+    }
+    for (size_t y = 0; y < part.height; y++)
+        for (size_t x = 0; x < part.width; x++)
+            assert_true(film.planes[FILM_DEPTH][y * part.width + x] ==
+                        4 * (float)((part.y + y) * 311 + part.x + x));
+    assert_true(film_has_pixel(&film, 101, 70) && film_has_pixel(&film, 130, 90));
+    assert_false(film_has_pixel(&film, 100, 70) || film_has_pixel(&film, 131, 90) ||
+                 film_has_pixel(&film, 101, 69) || film_has_pixel(&film, 130, 91));
+    film_release(&film);
+    gbuffer_release(&gbuffer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_window_of_a_part),
+        cmocka_unit_test(test_film_of_a_part),
         FILM_TEST(test_lanes_are_pixels),
         FILM_TEST(test_new_film_is_empty),
         FILM_TEST(test_passes_add_up),

@@ -40,7 +40,7 @@ static struct bench open_bench(uint32_t interleave)
 {
     struct bench bench;
     struct error error;
-    assert_int_equal(gbuffer_create(WIDTH, HEIGHT, &bench.gbuffer, &error), PS_OK);
+    assert_int_equal(gbuffer_create(gbuffer_layout(WIDTH, HEIGHT), &bench.gbuffer, &error), PS_OK);
     for (uint32_t tile = 0; tile < bench.gbuffer.tile_count; tile++) {
         gbuffer_clear_tile(&bench.gbuffer, tile);
         for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {

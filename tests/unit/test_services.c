@@ -488,6 +488,29 @@ static void test_triangles_have_the_scenes_area(void **state)
 
 /* --- the camera and its picture --------------------------------------------------------------- */
 
+static void count_tile(void *user, uint64_t index, uint32_t worker)
+{
+    uint32_t *visits = user;
+    (void)worker;
+    visits[index]++;
+}
+
+/* A tile that is there shows the same. */
+static void look_at_tile_surfaces(const ps_host *host)
+{
+    const ps_tile *there = host->tile(host, 0);
+    ps_tile seen;
+    uint32_t visits[1] = {0};
+    host->tile_surfaces(host, 0, &seen);
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        assert_true(seen.object[lane] == there->object[lane] && seen.weight[lane] == 0.0f);
+        assert_true(ps_same(ps_tile_position(&seen, lane), ps_tile_position(there, lane)));
+        assert_true(seen.throughput_g[lane] == there->throughput_g[lane]);
+    }
+    assert_int_equal(host->for_each_picture_tile(host, count_tile, visits), PS_OK);
+    assert_int_equal(visits[0], 1);
+}
+
 static ps_result look_at_picture(void *user, struct render *render, struct error *error)
 {
     (void)user;
@@ -523,6 +546,7 @@ static ps_result look_at_picture(void *user, struct render *render, struct error
         seen++;
     }
     assert_true(seen > 50);
+    look_at_tile_surfaces(host);
     assert_false(host->tile_of(host, 16, 0, &tile, &lane));
     const ps_vec3 behind = ps_add_scaled(camera.position, -1.0f, camera.forward);
     float nowhere[1][2];

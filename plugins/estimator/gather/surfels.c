@@ -32,13 +32,15 @@ static void find_in_tile(void *user, uint64_t index, uint32_t worker)
     struct surfels *surfels = work->surfels;
     const ps_host *host = surfels->host;
     size_t first = index * work->rays;
+    ps_tile tile;
     ps_points points;
     ps_ray rays[PS_TILE_PIXELS];
     ps_hit hits[PS_TILE_PIXELS];
     uint64_t indices[PS_TILE_PIXELS];
     float numbers[PS_TILE_PIXELS][4];
     memset(surfels->lengths + first, 0, work->rays * sizeof *surfels->lengths);
-    ps_collect_points(host->tile(host, (uint32_t)index), &points);
+    host->tile_surfaces(host, (uint32_t)index, &tile);
+    ps_collect_points(&tile, &points);
     if (points.count == 0)
         return;
     for (uint32_t i = 0; i < work->rays; i++)
@@ -126,7 +128,7 @@ ps_result surfels_find(const ps_host *host, const ps_pass *pass, uint32_t rays,
     if (!surfels->positions || !surfels->normals || !surfels->lengths || !surfels->irradiance)
         return PS_ERROR_MEMORY;
     struct finding work = {surfels, pass, rays};
-    ps_result result = host->for_each_tile(host, find_in_tile, &work);
+    ps_result result = host->for_each_picture_tile(host, find_in_tile, &work);
     return result == PS_OK ? sort(surfels, n) : result;
 }
 

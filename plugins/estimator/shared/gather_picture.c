@@ -12,17 +12,20 @@ struct first_round {
 struct work {
     const struct gather_setting *setting;
     uint64_t samples; /* of each point, on average */
-    /* When tiles take samples by their need: what the first round found in each, and how many it takes. */
+    /* When tiles take samples by their need: what the first round found in each, and how many it takes. The need is that
+     * of all of the picture; what was found is kept for the tiles that are there, `places` being their places. */
     struct first_round *first_rounds;
     struct tile_pilot *pilots;
-    uint32_t *allocated;
+    uint32_t *allocated, *places;
 };
 
-static bool begin_tile(const struct work *work, uint64_t index, struct gather *gather)
+#define NO_PLACE UINT32_MAX
+
+static bool begin_tile(const struct work *work, uint64_t index, const ps_tile *tile,
+                       struct gather *gather)
 {
-    const ps_host *host = work->setting->paths.host;
     *gather = (struct gather){.setting = work->setting, .index = index};
-    ps_collect_points(host->tile(host, (uint32_t)index), &gather->points);
+    ps_collect_points(tile, &gather->points);
     if (gather->points.count > 0)
         gather_begin(gather);
     return gather->points.count > 0;
@@ -46,17 +49,21 @@ static void take_first_round(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct work *work = user;
     const ps_host *host = work->setting->paths.host;
-    struct first_round *first = &work->first_rounds[index];
+    ps_tile tile;
     struct gather gather;
     work->pilots[index] = (struct tile_pilot){0};
-    if (!begin_tile(work, index, &gather))
+    host->tile_surfaces(host, (uint32_t)index, &tile);
+    if (!begin_tile(work, index, &tile, &gather))
         return;
     gather.goes_on = true;
     gather_samples(&gather, GATHER_FIRST);
+    work->pilots[index] = pilot_of(&gather, &tile);
+    if (work->places[index] == NO_PLACE)
+        return;
+    struct first_round *first = &work->first_rounds[work->places[index]];
     memcpy(first->irradiance, gather.irradiance, sizeof first->irradiance);
     for (uint32_t i = 0; i < gather.guide_count; i++)
         memcpy(first->found[i], gather.guides[i].found, sizeof first->found[i]);
-    work->pilots[index] = pilot_of(&gather, host->tile(host, (uint32_t)index));
 }
 
 static void resume(const struct first_round *first, struct gather *gather)
@@ -76,14 +83,40 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     ps_tile *tile = host->tile(host, (uint32_t)index);
     uint64_t samples = work->allocated ? work->allocated[index] : work->samples;
     struct gather gather;
-    if (!begin_tile(work, index, &gather))
+    if (!begin_tile(work, index, tile, &gather))
         return;
     if (work->allocated)
-        resume(&work->first_rounds[index], &gather);
+        resume(&work->first_rounds[work->places[index]], &gather);
     gather_samples(&gather, samples);
     for (size_t i = 0; i < gather.points.count; i++)
         ps_add_irradiance(tile, gather.points.lanes[i],
                           ps_rgb_scale(gather.irradiance[i], 1.0f / (float)samples));
+}
+
+static void mark_tile(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    work->places[index] = 0;
+}
+
+/* Finds the tiles that are there, and makes room for what the first round finds in them. */
+static ps_result make_places(struct work *work)
+{
+    const ps_host *host = work->setting->paths.host;
+    size_t tiles = work->setting->paths.pass->tile_count;
+    uint32_t count = 0;
+    work->places = host->allocate(host, tiles * sizeof *work->places, "first round");
+    if (!work->places)
+        return PS_ERROR_MEMORY;
+    for (size_t i = 0; i < tiles; i++)
+        work->places[i] = NO_PLACE;
+    ps_result result = host->for_each_tile(host, mark_tile, work);
+    for (size_t i = 0; i < tiles; i++)
+        if (work->places[i] != NO_PLACE)
+            work->places[i] = count++;
+    work->first_rounds = host->allocate(host, count * sizeof *work->first_rounds, "first round");
+    return work->first_rounds || result != PS_OK ? result : PS_ERROR_MEMORY;
 }
 
 /* The first round may have missed all that there is to be found in a tile: half of the samples are taken everywhere. */
@@ -91,12 +124,13 @@ static ps_result share_out_samples(struct work *work)
 {
     const ps_host *host = work->setting->paths.host;
     size_t tiles = work->setting->paths.pass->tile_count;
-    work->first_rounds = host->allocate(host, tiles * sizeof *work->first_rounds, "first round");
     work->pilots = host->allocate(host, tiles * sizeof *work->pilots, "first round");
     work->allocated = host->allocate(host, tiles * sizeof *work->allocated, "first round");
-    if (!work->first_rounds || !work->pilots || !work->allocated)
+    if (!work->pilots || !work->allocated)
         return PS_ERROR_MEMORY;
-    ps_result result = host->for_each_tile(host, take_first_round, work);
+    ps_result result = make_places(work);
+    if (result == PS_OK)
+        result = host->for_each_picture_tile(host, take_first_round, work);
     uint64_t half = work->samples / 2, least = half > GATHER_FIRST ? half : GATHER_FIRST;
     if (result == PS_OK)
         allocate_samples(work->pilots, tiles, least, work->samples, work->setting->most,
@@ -112,6 +146,7 @@ ps_result gather_picture(const struct gather_setting *setting, uint64_t samples,
     if (result == PS_OK)
         result = host->for_each_tile(host, gather_tile, &work);
     host->release(host, work.first_rounds);
+    host->release(host, work.places);
     host->release(host, work.pilots);
     host->release(host, work.allocated);
     return result;
