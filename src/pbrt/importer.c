@@ -1,0 +1,132 @@
+/* importer.c: see importer.h. */
+#include "pbrt/importer.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_WARNINGS 1000      /* kinds that are told apart */
+#define LARGEST_COORDINATE 1e30 /* floats hold it, and its products with what scenes have */
+#define SMALLEST_DETERMINANT 1e-30
+
+void importer_error(struct importer *importer, const struct origin *origin, int width,
+                    const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    diagnostics_report_list(importer->sink, SEVERITY_ERROR, origin, width, format, arguments);
+    va_end(arguments);
+}
+
+void importer_report_memory(struct importer *importer)
+{
+    if (!importer->no_memory)
+        importer_error(importer, NULL, 0, "out of memory");
+    importer->no_memory = importer->stopped = true;
+}
+
+bool importer_grow(struct importer *importer, void **items, size_t *capacity, size_t wanted,
+                   size_t size)
+{
+    if (wanted <= *capacity)
+        return true;
+    size_t larger = wanted + wanted / 2 + 4;
+    void *grown = larger <= SIZE_MAX / size ? realloc(*items, larger * size) : NULL;
+    if (!grown)
+        return importer_no_memory(importer);
+    *items = grown;
+    *capacity = larger;
+    return true;
+}
+
+/* Whether the warning is new, which it then no longer is. */
+static bool is_new(struct importer *importer, const char *text)
+{
+    for (size_t i = 0; i < importer->said_count; i++)
+        if (strcmp(importer->said[i], text) == 0)
+            return false;
+    if (importer->said_count == MOST_WARNINGS)
+        return false;
+    char *copy = strdup(text);
+    if (!copy || !importer_grow(importer, (void **)&importer->said, &importer->said_capacity,
+                                importer->said_count + 1, sizeof *importer->said)) {
+        free(copy);
+        return importer_no_memory(importer);
+    }
+    importer->said[importer->said_count++] = copy;
+    return true;
+}
+
+void importer_warn(struct importer *importer, const struct origin *origin, int width,
+                   const char *format, ...)
+{
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (is_new(importer, text))
+        diagnostics_report(importer->sink, SEVERITY_WARNING, origin, width, "%s", text);
+}
+
+const struct statement *importer_keep(struct importer *importer, struct statement *statement)
+{
+    struct statement *kept = malloc(sizeof *kept);
+    if (!kept || !importer_grow(importer, (void **)&importer->kept, &importer->kept_capacity,
+                                importer->kept_count + 1, sizeof *importer->kept)) {
+        free(kept);
+        importer_no_memory(importer);
+        return NULL;
+    }
+    *kept = *statement;
+    *statement = (struct statement){0};
+    importer->kept[importer->kept_count++] = kept;
+    return kept;
+}
+
+bool importer_placement(struct importer *importer, const struct transform *ctm,
+                        const struct origin *origin, int width, struct transform *placement)
+{
+    struct transform mirror = transform_scale(1, 1, importer->mirror), inverse;
+    *placement = transform_compose(&mirror, ctm);
+    double largest = 0.0;
+    for (int i = 0; i < 12; i++) {
+        double value = fabs(placement->m[i / 4][i % 4]);
+        largest = value <= LARGEST_COORDINATE ? fmax(largest, value) : INFINITY;
+    }
+    if (largest <= LARGEST_COORDINATE &&
+        fabs(transform_determinant(placement)) >= SMALLEST_DETERMINANT &&
+        transform_invert(placement, &inverse))
+        return true;
+    importer_error(importer, origin, width,
+                   "the transform of this place has no inverse, or too large numbers");
+    return false;
+}
+
+FILE *importer_objects(struct importer *importer)
+{
+    return importer->current_object ? importer->scene.group.stream : importer->scene.objects.stream;
+}
+
+static char *join(struct importer *importer, const char *folder, const char *name)
+{
+    bool absolute = name[0] == '/';
+    size_t size = strlen(folder) + strlen(name) + 3;
+    char *path = malloc(size);
+    if (!path) {
+        importer_no_memory(importer);
+        return NULL;
+    }
+    snprintf(path, size, "%s%s", absolute ? "" : folder, name);
+    return path;
+}
+
+char *importer_file_name(struct importer *importer, const char *name)
+{
+    return join(importer, importer->options->from_output, name);
+}
+
+char *importer_file_path(struct importer *importer, const char *name)
+{
+    return join(importer, importer->options->scene_folder, name);
+}

@@ -1,0 +1,109 @@
+/* material_mix.c: materials by name, and mixes of them; see material.h.
+ *
+ * pbrt-v4's `amount` is the share of the second material, pbrt-v3's that of the first.
+ */
+#include "pbrt/material.h"
+#include "pbrt/texture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DEEPEST_MIX 16 /* psd(5) */
+
+const struct statement *material_find(struct importer *importer, const char *name,
+                                      const struct place *place)
+{
+    for (size_t i = importer->material_count; i-- > 0;)
+        if (strcmp(importer->materials[i].name, name) == 0)
+            return importer->materials[i].statement;
+    importer_error(importer, place->origin, place->width, "there is no material '%.100s'", name);
+    return NULL;
+}
+
+/* The scene's name of a named material; NULL: it has none, or that was reported. */
+static const char *component(struct importer *importer, const char *name, const struct place *place,
+                             int depth)
+{
+    const struct statement *statement = material_find(importer, name, place);
+    struct text_buffer buffer;
+    if (!statement)
+        return NULL;
+    if (depth >= DEEPEST_MIX) {
+        importer_error(importer, place->origin, place->width,
+                       "mixes are in mixes more than %d deep", DEEPEST_MIX);
+        return NULL;
+    }
+    if (!text_buffer_open(&buffer)) {
+        importer_no_memory(importer);
+        return NULL;
+    }
+    bool is_surface = material_put(importer, buffer.stream, statement, depth + 1);
+    char *text = text_buffer_close(&buffer);
+    const char *found =
+        text && is_surface ? scene_text_material(&importer->scene, name, text) : NULL;
+    if (!text || (is_surface && !found))
+        importer_no_memory(importer);
+    free(text);
+    return found;
+}
+
+static const struct parameter *find_names(const struct statement *statement, const char *name)
+{
+    const struct parameter *parameter = statement_find(statement, name);
+    return parameter && parameter->strings ? parameter : NULL;
+}
+
+static void put_components(FILE *out, const char *const names[2], const double weights[2])
+{
+    fputs("mix: [", out);
+    for (int i = 0; i < 2; i++) {
+        if (!names[i])
+            continue;
+        fputs(i == 1 && names[0] ? ", {material: " : "{material: ", out);
+        put_text(out, names[i]);
+        fputs(", weight: ", out);
+        put_number(out, weights[i]);
+        fputc('}', out);
+    }
+    fputc(']', out);
+}
+
+void material_put_mix(struct importer *importer, FILE *out, const struct statement *statement,
+                      int depth)
+{
+    const struct parameter *list = find_names(statement, "materials");
+    const struct parameter *first = find_names(statement, "namedmaterial1");
+    const struct parameter *second = find_names(statement, "namedmaterial2");
+    const char *names[2] = {NULL, NULL};
+    struct pattern amount;
+    double share[3];
+    struct place place = statement_place(statement, list);
+    if (list && list->count == 2) {
+        names[0] = list->strings[0];
+        names[1] = list->strings[1];
+    } else if (first && second && first->count == 1 && second->count == 1) {
+        names[0] = first->strings[0];
+        names[1] = second->strings[0];
+    } else {
+        importer_error(importer, place.origin, place.width,
+                       "Material mix: expected two names, \"string materials\" [ \"A\" \"B\" ]");
+        return;
+    }
+    texture_parameter(importer, statement, "amount", (const double[3]){0.5, 0.5, 0.5}, &amount);
+    pattern_mean(&amount, share);
+    if (!pattern_is_constant(&amount) || share[0] != share[1] || share[1] != share[2])
+        importer_warn(importer, place.origin, place.width,
+                      "Material mix: an amount that varies is taken for its mean");
+    double weight = fmin(fmax((share[0] + share[1] + share[2]) / 3.0, 0.0), 1.0);
+    const double weights[2] = {list ? 1.0 - weight : weight, list ? weight : 1.0 - weight};
+    const char *found[2] = {NULL, NULL};
+    for (int i = 0; i < 2; i++)
+        if (weights[i] > 0.0)
+            found[i] = component(importer, names[i], &place, depth);
+    if (!found[0] && !found[1])
+        fputs("diffuse: 0", out);
+    else
+        put_components(out, found, weights);
+    statement_report_unused(importer, statement);
+}

@@ -1,0 +1,307 @@
+/* scene_text.c: see scene_text.h. */
+#include "pbrt/scene_text.h"
+
+#include "base/text.h"
+#include "image/image.h"
+#include "parser/yaml/encoding.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* --- buffers -------------------------------------------------------------------------------------- */
+
+bool text_buffer_open(struct text_buffer *buffer)
+{
+    *buffer = (struct text_buffer){0};
+    buffer->stream = open_memstream(&buffer->bytes, &buffer->length);
+    return buffer->stream != NULL;
+}
+
+char *text_buffer_close(struct text_buffer *buffer)
+{
+    bool good = buffer->stream && !ferror(buffer->stream);
+    if (buffer->stream && fclose(buffer->stream) != 0)
+        good = false;
+    char *bytes = buffer->bytes;
+    *buffer = (struct text_buffer){0};
+    if (good)
+        return bytes;
+    free(bytes);
+    return NULL;
+}
+
+bool scene_text_open(struct scene_text *scene)
+{
+    *scene = (struct scene_text){0};
+    struct text_buffer *const buffers[] = {&scene->camera, &scene->image,  &scene->materials,
+                                           &scene->lights, &scene->groups, &scene->objects};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
+        if (!text_buffer_open(buffers[i])) {
+            scene_text_release(scene);
+            return false;
+        }
+    return true;
+}
+
+static void release_file(struct pbrt_side_file *file)
+{
+    free(file->name);
+    free(file->bytes);
+    if (file->picture)
+        image_release(file->picture);
+    free(file->picture);
+}
+
+void pbrt_scene_release(struct pbrt_scene *scene)
+{
+    for (size_t i = 0; i < scene->file_count; i++)
+        release_file(&scene->files[i]);
+    free(scene->files);
+    free(scene->text);
+    *scene = (struct pbrt_scene){0};
+}
+
+void scene_text_release(struct scene_text *scene)
+{
+    struct text_buffer *const buffers[] = {&scene->camera, &scene->image,  &scene->materials,
+                                           &scene->lights, &scene->groups, &scene->group,
+                                           &scene->objects};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
+        free(text_buffer_close(buffers[i]));
+    for (size_t i = 0; i < scene->material_count; i++)
+        free(scene->interned[i].text);
+    free(scene->interned);
+    for (size_t i = 0; i < scene->name_count; i++)
+        free(scene->names[i].name);
+    free(scene->names);
+    for (size_t i = 0; i < scene->file_count; i++)
+        release_file(&scene->files[i]);
+    free(scene->files);
+    *scene = (struct scene_text){0};
+}
+
+/* Writes "HEADING\n" and the section, unless it is empty. False: out of memory. */
+static bool put_section(FILE *out, const char *heading, struct text_buffer *buffer)
+{
+    char *bytes = text_buffer_close(buffer);
+    if (bytes && bytes[0])
+        fprintf(out, "%s%s", heading, bytes);
+    free(bytes);
+    return bytes != NULL;
+}
+
+bool scene_text_finish(struct scene_text *scene, const char *comment, struct pbrt_scene *result)
+{
+    struct text_buffer whole;
+    bool good = !scene->failed && text_buffer_open(&whole);
+    if (!good)
+        return false;
+    fprintf(whole.stream, "%spsd: 1\n", comment);
+    good = put_section(whole.stream, "camera: ", &scene->camera);
+    good = put_section(whole.stream, "image: ", &scene->image) && good;
+    good = put_section(whole.stream, "materials:\n", &scene->materials) && good;
+    good = put_section(whole.stream, "lights:\n", &scene->lights) && good;
+    good = put_section(whole.stream, "groups:\n", &scene->groups) && good;
+    good = put_section(whole.stream, "objects:\n", &scene->objects) && good;
+    fflush(whole.stream);
+    size_t length = whole.length;
+    char *text = text_buffer_close(&whole);
+    if (!good || !text) {
+        free(text);
+        return false;
+    }
+    *result = (struct pbrt_scene){text, length, scene->files, scene->file_count};
+    scene->files = NULL;
+    scene->file_count = 0;
+    return true;
+}
+
+/* --- names ---------------------------------------------------------------------------------------- */
+
+static bool grow(void **items, size_t *capacity, size_t wanted, size_t size)
+{
+    if (wanted <= *capacity)
+        return true;
+    size_t larger = 2 * wanted + 8;
+    void *grown = realloc(*items, larger * size);
+    if (!grown)
+        return false;
+    *items = grown;
+    *capacity = larger;
+    return true;
+}
+
+static struct scene_name *find_name(const struct scene_text *scene, const char *name)
+{
+    for (size_t i = 0; i < scene->name_count; i++)
+        if (strcmp(scene->names[i].name, name) == 0)
+            return &scene->names[i];
+    return NULL;
+}
+
+/* Names are keys and formulas' words in psd(5): what they can't be made of becomes a line. */
+static void make_plain(char *name)
+{
+    for (char *c = name; *c; c++) {
+        bool plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') ||
+                     (*c >= '0' && *c <= '9') || strchr("_-. ", *c);
+        if (!plain)
+            *c = '_';
+    }
+}
+
+const char *scene_text_name(struct scene_text *scene, const char *wanted)
+{
+    size_t size = strlen(wanted) + 32;
+    char *name = malloc(size);
+    if (!name || !grow((void **)&scene->names, &scene->name_capacity, scene->name_count + 1,
+                       sizeof *scene->names)) {
+        free(name);
+        scene->failed = true;
+        return NULL;
+    }
+    snprintf(name, size, "%s", *wanted ? wanted : "_");
+    make_plain(name);
+    size_t length = strlen(name);
+    struct scene_name *same = find_name(scene, name);
+    for (struct scene_name *taken = same; taken; taken = find_name(scene, name))
+        snprintf(name + length, size - length, "-%zu", same->next++);
+    scene->names[scene->name_count++] = (struct scene_name){name, 2};
+    return name;
+}
+
+/* FNV-1a. */
+static uint64_t hash_of(const char *text)
+{
+    uint64_t hash = UINT64_C(14695981039346656037);
+    for (; *text; text++)
+        hash = (hash ^ (unsigned char)*text) * UINT64_C(1099511628211);
+    return hash;
+}
+
+const char *scene_text_material(struct scene_text *scene, const char *wanted, const char *text)
+{
+    uint64_t hash = hash_of(text);
+    for (size_t i = scene->material_count; i-- > 0;)
+        if (scene->interned[i].hash == hash && strcmp(scene->interned[i].text, text) == 0)
+            return scene->interned[i].name;
+    const char *name = scene_text_name(scene, wanted);
+    char *copy = strdup(text);
+    if (!name || !copy ||
+        !grow((void **)&scene->interned, &scene->material_capacity, scene->material_count + 1,
+              sizeof *scene->interned)) {
+        free(copy);
+        scene->failed = true;
+        return NULL;
+    }
+    scene->interned[scene->material_count++] = (struct scene_material){(char *)name, copy, hash};
+    fputs("  ", scene->materials.stream);
+    put_text(scene->materials.stream, name);
+    fprintf(scene->materials.stream, ": {%s}\n", text);
+    return name;
+}
+
+struct pbrt_side_file *scene_text_file(struct scene_text *scene, const char *base, const char *what,
+                                       const char *suffix)
+{
+    size_t size = strlen(base) + strlen(what) + strlen(suffix) + 32;
+    char *name = malloc(size);
+    if (!name || !grow((void **)&scene->files, &scene->file_capacity, scene->file_count + 1,
+                       sizeof *scene->files)) {
+        free(name);
+        scene->failed = true;
+        return NULL;
+    }
+    snprintf(name, size, "%s-%s-%zu.%s", base, what, scene->file_count, suffix);
+    struct pbrt_side_file *file = &scene->files[scene->file_count++];
+    *file = (struct pbrt_side_file){.name = name};
+    return file;
+}
+
+/* --- values --------------------------------------------------------------------------------------- */
+
+void put_number(FILE *out, double value)
+{
+    char text[64];
+    float rounded = (float)value;
+    text_from_float(rounded == 0.0f ? 0.0f : rounded, text, sizeof text); /* no negative zero */
+    fputs(text, out);
+}
+
+static void put_list(FILE *out, const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        fputs(i == 0 ? "[" : ", ", out);
+        put_number(out, values[i]);
+    }
+    fputc(']', out);
+}
+
+void put_vector(FILE *out, struct vector value)
+{
+    put_list(out, (const double[3]){value.x, value.y, value.z}, 3);
+}
+
+void put_color(FILE *out, const double rgb[3])
+{
+    if (rgb[0] == rgb[1] && rgb[1] == rgb[2])
+        put_number(out, rgb[0]);
+    else
+        put_list(out, rgb, 3);
+}
+
+/* What YAML wants to be escaped: controls, and marks of byte order. */
+static bool is_special(uint32_t code)
+{
+    return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x2028 || code == 0x2029 ||
+           (code >= 0xfef0 && code <= 0xffff);
+}
+
+void put_text(FILE *out, const char *text)
+{
+    fputc('"', out);
+    for (size_t left = strlen(text); left > 0;) {
+        uint32_t code = 0;
+        size_t length = utf8_decode(text, left, &code);
+        if (length == 0) { /* lexer.h: does not happen */
+            length = 1;
+            code = 0xfffd;
+        }
+        if (code == '"' || code == '\\')
+            fprintf(out, "\\%c", (int)code);
+        else if (is_special(code))
+            fprintf(out, "\\u%04x", code);
+        else
+            fwrite(text, 1, length, out);
+        text += length;
+        left -= length;
+    }
+    fputc('"', out);
+}
+
+/* psd(5): a text can't begin with an equals sign. */
+void put_path(FILE *out, const char *path)
+{
+    if (*path == '=') {
+        fputs("\"./", out);
+        fputs(path, out);
+        fputc('"', out);
+    } else {
+        put_text(out, path);
+    }
+}
+
+static bool is_identity(const struct transform *map)
+{
+    bool same = true;
+    for (int i = 0; i < 12; i++)
+        same = same && map->m[i / 4][i % 4] == transform_identity.m[i / 4][i % 4];
+    return same;
+}
+
+void put_placement(FILE *out, const struct transform *placement)
+{
+    if (is_identity(placement))
+        return;
+    fputs(", matrix: ", out);
+    put_list(out, &placement->m[0][0], 12);
+}

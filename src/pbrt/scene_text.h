@@ -1,0 +1,74 @@
+/* scene_text.h: the .psd text that is made, section by section (psd(5)).
+ *
+ * Sections are streams in memory, put together at the end, since a pbrt scene states them in any order. The first
+ * failure, of memory, shows in scene_text_finish. Owned by the importer; one thread.
+ */
+#ifndef PBRT_SCENE_TEXT_H
+#define PBRT_SCENE_TEXT_H
+
+#include "pbrt/pbrt.h"
+#include "pbrt/transform.h"
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+struct text_buffer {
+    FILE *stream; /* NULL: not open */
+    char *bytes;
+    size_t length;
+};
+
+/* False: out of memory. */
+bool text_buffer_open(struct text_buffer *buffer);
+/* The text, to be freed; NULL: out of memory. The buffer is closed either way. */
+char *text_buffer_close(struct text_buffer *buffer);
+
+struct scene_material {
+    char *name, *text;
+    uint64_t hash;
+};
+
+/* Of a material or a group. */
+struct scene_name {
+    char *name;
+    size_t next; /* the number behind the next one that is wanted to be called that */
+};
+
+struct scene_text {
+    struct text_buffer camera, image, materials, lights, groups, group, objects;
+    struct scene_material *interned;
+    size_t material_count, material_capacity;
+    struct scene_name *names; /* unique in the scene */
+    size_t name_count, name_capacity;
+    struct pbrt_side_file *files;
+    size_t file_count, file_capacity;
+    bool failed;
+};
+
+bool scene_text_open(struct scene_text *scene);
+void scene_text_release(struct scene_text *scene);
+
+/* Puts the sections together. False: out of memory. */
+bool scene_text_finish(struct scene_text *scene, const char *comment, struct pbrt_scene *result);
+
+/* A name that was not given before, near to the wanted one; owned by the scene. NULL: out of memory. */
+const char *scene_text_name(struct scene_text *scene, const char *wanted);
+
+/* The name of the material of that text, which is added where it is new. NULL: out of memory. */
+const char *scene_text_material(struct scene_text *scene, const char *wanted, const char *text);
+
+/* A new file beside the scene, named BASE-WHAT-NUMBER.SUFFIX; its contents are for the caller to put in. NULL: out of
+ * memory. */
+struct pbrt_side_file *scene_text_file(struct scene_text *scene, const char *base, const char *what,
+                                       const char *suffix);
+
+/* Values, as YAML, in the precision of floats, as psplat has them. */
+void put_number(FILE *out, double value);
+void put_vector(FILE *out, struct vector value);
+void put_color(FILE *out, const double rgb[3]); /* a number where all are the same */
+void put_text(FILE *out, const char *text);     /* quoted */
+void put_path(FILE *out, const char *path);     /* the same of a file's */
+/* ", matrix: [...]"; nothing for the identity. */
+void put_placement(FILE *out, const struct transform *placement);
+
+#endif

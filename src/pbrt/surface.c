@@ -1,0 +1,101 @@
+/* surface.c: the material of a shape: that of the graphics state, with its light and its holes; see material.h. */
+#include "pbrt/material.h"
+
+#include "pbrt/light.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* The keys that the shape adds to its material. False: the shape is left out. */
+static bool put_light(struct importer *importer, FILE *out, const struct statement *shape,
+                      double area, struct surface *surface)
+{
+    const struct statement *light = importer->state.area_light;
+    struct pattern alpha;
+    struct place place = statement_place(shape, NULL);
+    bool has_alpha =
+        texture_parameter(importer, shape, "alpha", (const double[3]){1, 1, 1}, &alpha);
+    bool is_gone = has_alpha && pattern_is_constant(&alpha) && pattern_is_black(&alpha);
+    if (light) {
+        struct pattern emission = light_emission(importer, light, area);
+        bool both = statement_bool(importer, light, "twosided", false);
+        fputs(", emission: ", out);
+        put_pattern(out, &emission, false);
+        if (both)
+            fputs(", emission_both: yes", out);
+        surface->one_sided = surface->one_sided || !both;
+        surface->unseen = is_gone;
+    }
+    if (has_alpha && !is_gone && !(pattern_is_constant(&alpha) && alpha.colors[0][0] >= 1.0)) {
+        pattern_clamp(importer, &place, "alpha", 1.0, &alpha);
+        importer_warn(importer, place.origin, place.width, "alpha is a hole where it is below 1/2");
+        fputs(", opacity: ", out);
+        put_pattern(out, &alpha, true);
+    }
+    return light || !is_gone;
+}
+
+/* The keys of the material that the graphics state has. */
+static bool put_material(struct importer *importer, FILE *out, const struct statement *shape)
+{
+    const struct statement *material = importer->state.material;
+    struct place place = statement_place(shape, NULL);
+    if (!material && importer->state.material_name)
+        return true; /* was reported */
+    if (!material) {
+        fputs("diffuse: 0.5", out);
+        return true;
+    }
+    if (material_put(importer, out, material, 0))
+        return true;
+    if (importer->state.area_light) {
+        fputs("diffuse: 0", out);
+        return true;
+    }
+    importer_warn(importer, place.origin, place.width,
+                  "shapes that are borders of media alone are left out");
+    return false;
+}
+
+struct surface material_surface(struct importer *importer, const struct statement *shape,
+                                double area)
+{
+    struct surface surface = {0};
+    struct text_buffer buffer;
+    const struct statement *material = importer->state.material;
+    const char *name = importer->state.material_name;
+    if (!text_buffer_open(&buffer)) {
+        importer_no_memory(importer);
+        return surface;
+    }
+    surface.one_sided = material && (strcmp(material->kind, "glass") == 0 ||
+                                     strcmp(material->kind, "dielectric") == 0);
+    bool is_seen = put_material(importer, buffer.stream, shape) &&
+                   put_light(importer, buffer.stream, shape, area, &surface);
+    char *text = text_buffer_close(&buffer);
+    if (text && is_seen && *text) {
+        const char *wanted = name                         ? name
+                             : importer->state.area_light ? "light"
+                             : material                   ? material->kind
+                                                          : "grey";
+        surface.material = scene_text_material(&importer->scene, wanted, text);
+        if (!surface.material)
+            importer_no_memory(importer);
+    }
+    if (!text)
+        importer_no_memory(importer);
+    free(text);
+    return surface;
+}
+
+void surface_finish(struct importer *importer, FILE *out, const struct surface *surface,
+                    const struct transform *placement)
+{
+    fputs(", material: ", out);
+    put_text(out, surface->material);
+    if (surface->unseen)
+        fputs(", camera: no", out);
+    put_placement(out, placement);
+    fputs("}\n", out);
+    if (importer->current_object)
+        importer->current_object->shapes++;
+}
