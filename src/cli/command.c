@@ -7,10 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-const struct command *const commands[] = {&command_render, &command_check,   &command_plugins,
-                                          &command_info,   &command_compare, &command_diff,
-                                          &command_view,   &command_schema,  &command_debug,
-                                          &command_merge,  &command_resolve, &command_new};
+const struct command *const commands[] = {
+    &command_render,  &command_check, &command_plugins, &command_info,  &command_compare,
+    &command_diff,    &command_view,  &command_schema,  &command_debug, &command_merge,
+    &command_resolve, &command_new,   &command_import};
 const size_t command_count = sizeof commands / sizeof commands[0];
 
 void print_error(const char *message)

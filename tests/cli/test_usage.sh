@@ -71,10 +71,10 @@ done
 run 0 --help
 expect_empty err
 expect_text out "usage: psplat [render] [options] SCENE.psd"
-for command in render check plugins info compare diff view; do
+for command in render check plugins info compare diff view import; do
     expect_match out "^  $command +[a-z]"
 done
-for command in render check plugins info compare diff view; do
+for command in render check plugins info compare diff view import; do
     run 0 $command --help
     expect_empty err
     expect_text out "usage: psplat $command [options]"
