@@ -70,7 +70,7 @@ static void include(const struct call *call)
         importer_no_memory(call->importer);
         return;
     }
-    parser_include(call->parser, name, &origin, width);
+    parser_include(call->parser, name, strcmp(call->word, "Import") == 0, &origin, width);
     free(name);
     if (!call->importer->stopped)
         parser_advance(call->parser);

@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/suggestion.h"
+#include "pbrt/state.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,6 +11,7 @@ static void close_file(struct parser *parser)
 {
     struct parser_file *file = &parser->files[--parser->depth];
     lexer_release(&file->lexer);
+    parser->imports_ended += file->is_import;
     if (file->text)
         file_release(file->text);
     free(file->text);
@@ -60,7 +62,8 @@ static struct file_text *read_file(struct parser *parser, const char *path,
     return NULL;
 }
 
-void parser_include(struct parser *parser, const char *name, const struct origin *origin, int width)
+void parser_include(struct parser *parser, const char *name, bool is_import,
+                    const struct origin *origin, int width)
 {
     struct importer *importer = parser->importer;
     size_t length = strlen(name);
@@ -89,10 +92,10 @@ void parser_include(struct parser *parser, const char *name, const struct origin
         free(text);
         return;
     }
-    importer->stopped = false;
+    importer->stopped = is_import && !state_push(importer, MARK_IMPORT, origin, width);
     parser->includes++;
     parser->files[parser->depth++] =
-        (struct parser_file){lexer_start(shown, text->bytes, text->length), text, *origin};
+        (struct parser_file){lexer_start(shown, text->bytes, text->length), text, is_import};
 }
 
 /* False: nothing can be read after this. */
@@ -117,6 +120,14 @@ static bool read_directive(struct parser *parser)
     return false;
 }
 
+/* After the last directive of an imported file, whose end was seen before that was carried out. */
+static void restore_state(struct parser *parser)
+{
+    const struct token *token = &parser->token;
+    for (; parser->imports_ended > 0 && !parser->importer->stopped; parser->imports_ended--)
+        state_pop(parser->importer, MARK_IMPORT, &token->origin, token->width);
+}
+
 void parser_read(struct importer *importer, const char *name, const char *text, size_t length)
 {
     struct parser *parser = calloc(1, sizeof *parser);
@@ -129,7 +140,7 @@ void parser_read(struct importer *importer, const char *name, const char *text, 
     parser->depth = 1;
     parser_advance(parser);
     while (parser->token.kind != TOKEN_END && read_directive(parser))
-        ;
+        restore_state(parser);
     while (parser->depth > 0)
         close_file(parser);
     free(parser);

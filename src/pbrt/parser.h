@@ -11,8 +11,8 @@
 /* Where the parser stands: files that include each other, the innermost last. */
 struct parser_file {
     struct lexer lexer;
-    struct file_text *text;    /* owned; NULL of the main file */
-    struct origin included_at; /* and where */
+    struct file_text *text; /* owned; NULL of the main file */
+    bool is_import;         /* its changes of the graphics state end with it */
 };
 
 struct parser {
@@ -20,7 +20,8 @@ struct parser {
     struct parser_file files[PARSER_DEEPEST_INCLUDE + 1];
     size_t depth; /* files that are open */
     size_t includes;
-    struct token token; /* the next one */
+    size_t imports_ended; /* of which the state is still to be restored */
+    struct token token;   /* the next one */
 };
 
 /* Reads the whole text; `name` stands in messages, and outlives the importer's sink. Errors are in the sink. */
@@ -28,9 +29,9 @@ void parser_read(struct importer *importer, const char *name, const char *text, 
 
 /* Tokens of the open files, as one stream. */
 void parser_advance(struct parser *parser);
-/* Opens a file that goes before what follows. */
-void parser_include(struct parser *parser, const char *name, const struct origin *origin,
-                    int width);
+/* Opens a file that goes before what follows. What an imported one does to the graphics state ends with it. */
+void parser_include(struct parser *parser, const char *name, bool is_import,
+                    const struct origin *origin, int width);
 
 /* Carries out a directive, whose word was read. False: there is no such directive. */
 bool directive_run(struct parser *parser, const char *word, const struct origin *origin, int width);

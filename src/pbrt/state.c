@@ -29,7 +29,11 @@ bool state_pop(struct importer *importer, enum state_mark mark, const struct ori
                int width)
 {
     if (importer->depth == 0 || importer->stack_marks[importer->depth - 1] != (char)mark) {
-        importer_error(importer, origin, width, "no Begin of this is open here");
+        importer_error(importer, origin, width,
+                       mark == MARK_IMPORT
+                           ? "the file that was imported before this closes not all "
+                             "that it opens"
+                           : "no Begin of this is open here");
         importer->stopped = true;
         return false;
     }

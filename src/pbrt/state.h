@@ -5,7 +5,12 @@
 #include "pbrt/importer.h"
 
 /* What opened a level of the stack; its end must be of the same sort. */
-enum state_mark { MARK_ATTRIBUTES = 'a', MARK_TRANSFORM = 't', MARK_OBJECT = 'o' };
+enum state_mark {
+    MARK_ATTRIBUTES = 'a',
+    MARK_TRANSFORM = 't',
+    MARK_OBJECT = 'o',
+    MARK_IMPORT = 'i'
+};
 
 /* False: reported. */
 bool state_push(struct importer *importer, enum state_mark mark, const struct origin *origin,

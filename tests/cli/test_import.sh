@@ -115,6 +115,15 @@ sed '1d; s/"matte"/"diffuse"/; s/"floor"/"diffuse-2"/' sphere3.psd >a
 sed 1d sphere.psd >b
 expect_same a b
 
+# What an imported file does to the state ends with it; what an included one does stays.
+echo 'Material "diffuse" "rgb reflectance" [.1 .2 .3] Translate 9 9 9 Shape "sphere"' >parts/blue.pbrt
+for word in Import Include; do
+    printf '%s\n%s\nWorldBegin LightSource "point" %s "parts/blue.pbrt" Shape "sphere" "float radius" 2\n' "$view" "$film" $word >$word.pbrt
+    import $word
+done
+expect_match Import.psd 'radius: 2, material: "grey", matrix: [^9]*$'
+expect_match Include.psd 'radius: 2, material: "diffuse", matrix: .*9'
+
 # --- fov is of the shorter side ---
 
 sed 's/"integer xresolution" 48 "integer yresolution" 32/"integer xresolution" 24 "integer yresolution" 36/' \
@@ -599,6 +608,10 @@ run 2 import --pbrt 4 wrong.pbrt
 expect_text err 'wrong.pbrt:2:14: error: Translate: expected 3 numbers, got 2'
 wrong 'Translate 1 2 0x3' '15: error: Translate: expected 3 numbers'
 wrong 'AttributeEnd' '1: error: no Begin of this is open here'
+echo AttributeBegin >parts/open.pbrt
+printf 'WorldBegin Import "parts/open.pbrt" Shape "sphere"' >wrong.pbrt
+run 2 import wrong.pbrt
+expect_text err 'the file that was imported before this closes not all that it opens'
 wrong 'AttributeBegin TransformEnd' '16: error: no Begin of this is open here'
 wrong 'NamedMaterial "x"' "1: error: there is no material 'x'"
 wrong 'ObjectInstance "x"' "1: error: there is no object 'x'"
