@@ -3,7 +3,6 @@
 #include "base/suggestion.h"
 #include "base/text.h"
 #include "session/option_value.h"
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
