@@ -168,14 +168,15 @@ true_of "preview.json" "$(number results/preview.json "d['scenes'][0]['picture']
 # --- bench/scaling ---
 
 measure 0 scaling --quick
-[ "$(wc -l <results/scaling.csv)" -eq 21 ] || fail "scaling.csv has not 20 points"
+[ "$(wc -l <results/scaling.csv)" -eq 25 ] || fail "scaling.csv has not 24 points"
 expect_match results/scaling.csv '^series,x,threads,photons,'
 expect_match results/scaling.csv '^pixels,32400,2,'
 # 64 times the lights; asked one by one they would cost more than ten times.
 processor_seconds() {
-    awk -F, -v lights="$1" '$1 == "lights" && $2 == lights && $3 == 1 { print $7 }' results/scaling.csv
+    awk -F, -v series="$1" -v x="$2" '$1 == series && $2 == x && $3 == 1 { print $7 }' results/scaling.csv
 }
-true_of "lights" "$(processor_seconds 1024) < 4 * $(processor_seconds 16)"
+true_of "lights" "$(processor_seconds lights 1024) < 4 * $(processor_seconds lights 16)"
+true_of "rooms" "$(processor_seconds rooms 9) < 5 * $(processor_seconds rooms 1)"
 expect_text results/scaling.md "| indirect seconds with paths | 3162 to 10000 |"
 expect_drawing results/scaling.svg
 
