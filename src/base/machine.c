@@ -69,13 +69,25 @@ double machine_memory(void)
     return fmin(physical, machine_memory_of_groups(""));
 }
 
-double machine_memory_of_process(void)
+/* Of proc(5)'s statm, which counts pages: size, resident, shared, text, lib, data. */
+static double bytes_of_process(int field)
 {
-    double all, resident = 0.0;
+    double pages = 0.0;
     FILE *file = fopen("/proc/self/statm", "r");
-    if (file && fscanf(file, "%lf %lf", &all, &resident) != 2)
-        resident = 0.0;
+    for (int i = 0; file && i <= field; i++)
+        if (fscanf(file, "%lf", &pages) != 1)
+            pages = 0.0;
     if (file)
         fclose(file);
-    return resident * (double)sysconf(_SC_PAGESIZE);
+    return pages * (double)sysconf(_SC_PAGESIZE);
+}
+
+double machine_memory_of_process(void)
+{
+    return bytes_of_process(1);
+}
+
+double machine_data_of_process(void)
+{
+    return bytes_of_process(5);
 }

@@ -12,4 +12,8 @@ double machine_memory_of_groups(const char *root);
 /* Bytes that this process has in memory now; 0 where the system does not tell. */
 double machine_memory_of_process(void);
 
+/* Bytes that this process may write to and has mapped, in memory or not, as RLIMIT_DATA (getrlimit(2)) counts them, and
+ * its stacks; 0 where the system does not tell. */
+double machine_data_of_process(void);
+
 #endif

@@ -1,6 +1,7 @@
 /* child.c: fork, limits and how a child ended. */
 #include "import/child.h"
 
+#include "base/machine.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -56,7 +57,7 @@ static void prepare(const struct child_limits *limits)
     for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++)
         signal(signals[i], SIG_DFL);
     if (isfinite(limits->bytes))
-        set_limit(RLIMIT_DATA, (rlim_t)limits->bytes);
+        set_limit(RLIMIT_DATA, (rlim_t)(machine_data_of_process() + limits->bytes));
     int silent = open("/dev/null", O_WRONLY);
     if (silent >= 0)
         dup2(silent, STDERR_FILENO);

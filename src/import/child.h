@@ -12,7 +12,7 @@
 
 struct child_limits {
     double
-        bytes; /* of memory; infinite: no limit. Not under sanitizers, which need more than any */
+        bytes; /* of memory, beside what the caller has; infinite, or under sanitizers: no limit */
     unsigned seconds; /* of processor time; child_extend_time adds to it */
 };
 

@@ -102,6 +102,34 @@ static void memory_is_limited(void **state)
         skip();
 }
 
+static void take_a_little(void *context)
+{
+    void *volatile taken = malloc((size_t)1 << 28);
+    *(bool *)context = taken != NULL;
+    free(taken);
+}
+
+/* What the caller has mapped, more than the limit here, is not counted. */
+static void memory_is_the_child_s_own(void **state)
+{
+    (void)state;
+    struct error error;
+    size_t size = (size_t)1 << 31;
+    int flags = MAP_ANONYMOUS | MAP_NORESERVE;
+    void *of_caller = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | flags, -1, 0);
+    bool *got = mmap(NULL, sizeof *got, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    assert_true(of_caller != MAP_FAILED && got != MAP_FAILED);
+    assert_int_equal(child_run(take_a_little, got, &usual, &error), PS_OK);
+    assert_true(*got);
+    *got = false;
+    if (child_has_memory_limit()) {
+        assert_int_equal(child_run(fill_memory, got, &usual, &error), PS_OK);
+        assert_true(*got);
+    }
+    munmap(got, sizeof *got);
+    munmap(of_caller, size);
+}
+
 /* --- the transfer ------------------------------------------------------------------------------- */
 
 static struct mesh_outcome *outcome_of_a_mesh(void)
@@ -173,6 +201,7 @@ int main(void)
         cmocka_unit_test(what_ends_the_child_is_told),
         cmocka_unit_test(the_parent_keeps_its_memory),
         cmocka_unit_test(memory_is_limited),
+        cmocka_unit_test(memory_is_the_child_s_own),
         cmocka_unit_test(what_is_sent_is_received),
         cmocka_unit_test(what_is_cut_is_nothing),
     };

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 
 #include <cmocka.h>
@@ -79,6 +80,13 @@ static void test_what_there_is(void **state)
     assert_true(machine_memory() > 1e6);
     assert_true(machine_memory_of_process() > 1e5);
     assert_true(machine_memory_of_process() < machine_memory());
+    double before = machine_data_of_process();
+    size_t size = (size_t)1 << 30;
+    int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+    void *mapped = mmap(NULL, size, PROT_READ | PROT_WRITE, flags, -1, 0);
+    assert_true(mapped != MAP_FAILED);
+    assert_true(machine_data_of_process() > before + 0.99 * (double)size);
+    munmap(mapped, size);
 }
 
 int main(void)
