@@ -308,6 +308,8 @@ static int load_and_render(struct job *job)
         if (output_list_suits(&job->outputs, &settings) &&
             long_job_set_passes(&job->passes, &settings))
             status = render_job(job, &input);
+        else
+            print_problems(&input); /* warnings of what was loaded */
         job->settings = NULL;
         settings_release(&settings);
     }

@@ -54,6 +54,10 @@ cp back/filter/cosine.so front/filter/cosine.so
 # shellcheck disable=SC2086
 run 0 $small -p filter=cosine -o a.exr "$cornell"
 expect_text err "psplat: warning: plugin $PWD/front/filter/cosine.so hides $PWD/back/filter/cosine.so"
+# shellcheck disable=SC2086
+run 2 $small -p filter=cosine --layers error -o b.exr "$cornell"
+expect_text err "psplat: warning: plugin $PWD/front/filter/cosine.so hides $PWD/back/filter/cosine.so"
+expect_text err "psplat: error: --layers: denoiser 'none' does not estimate its error"
 run 0 plugins filter
 expect_text out "plugin $PWD/front/filter/cosine.so hides $PWD/back/filter/cosine.so"
 rm front/filter/cosine.so
