@@ -27,6 +27,19 @@ static const char *file_in_line(char *line, uintptr_t address)
     return line + path;
 }
 
+/* The system writes a line's end in a name as "\012"; which may stand in a name by itself. */
+static void restore_line_ends(char *path)
+{
+    static const char escape[] = "\\012";
+    size_t length = sizeof escape - 1;
+    if (access(path, F_OK) == 0)
+        return;
+    for (char *at = path; (at = strstr(at, escape)) != NULL; at++) {
+        *at = '\n';
+        memmove(at + 1, at + length, strlen(at + length) + 1);
+    }
+}
+
 static bool own_file(char path[LONGEST_PATH])
 {
     FILE *maps = fopen("/proc/self/maps", "re");
@@ -40,6 +53,8 @@ static bool own_file(char path[LONGEST_PATH])
     free(line);
     if (maps)
         fclose(maps);
+    if (found)
+        restore_line_ends(path);
     return found;
 }
 

@@ -133,4 +133,12 @@ mv "$scratch/installed" "$scratch/another place/moved"
 check_contents "$scratch/another place/moved"
 check_rendering "$scratch/another place/moved"
 check_building_against "$scratch/another place/moved"
+
+# The system's list of what is mapped escapes a line's end; and a folder may have such an escape for a name.
+for name in 'two
+lines' 'two\012lines'; do
+    mv "$scratch/another place" "$scratch/$name"
+    check_rendering "$scratch/$name/moved"
+    mv "$scratch/$name" "$scratch/another place"
+done
 echo "installed, rendered, moved, rendered again"
