@@ -193,6 +193,16 @@ size_t diagnostics_warning_count(const struct diagnostics *sink)
     return sink->counts[SEVERITY_WARNING];
 }
 
+bool diagnostics_count_text(const struct diagnostics *sink, char text[DIAGNOSTICS_COUNT_TEXT])
+{
+    size_t errors = sink->counts[SEVERITY_ERROR];
+    if (errors > DIAGNOSTICS_KEPT)
+        snprintf(text, DIAGNOSTICS_COUNT_TEXT, "%zu errors (%d shown)", errors, DIAGNOSTICS_KEPT);
+    else
+        snprintf(text, DIAGNOSTICS_COUNT_TEXT, "%zu errors", errors);
+    return errors > 1;
+}
+
 bool diagnostics_is_full(const struct diagnostics *sink)
 {
     return sink->counts[SEVERITY_ERROR] >= DIAGNOSTICS_KEPT;
@@ -345,9 +355,7 @@ void diagnostics_print(const struct diagnostics *sink, FILE *stream)
             print_includers(sink, sorted[i]->source, stream);
         print_entry(sink, sorted[i], stream);
     }
-    size_t errors = sink->counts[SEVERITY_ERROR];
-    if (errors > DIAGNOSTICS_KEPT)
-        fprintf(stream, "%zu errors (%d shown)\n", errors, DIAGNOSTICS_KEPT);
-    else if (errors > 1)
-        fprintf(stream, "%zu errors\n", errors);
+    char count[DIAGNOSTICS_COUNT_TEXT];
+    if (diagnostics_count_text(sink, count))
+        fprintf(stream, "%s\n", count);
 }

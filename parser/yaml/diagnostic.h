@@ -60,8 +60,12 @@ typedef void (*diagnostics_visit)(void *user, enum severity severity, const stru
                                   const char *text);
 void diagnostics_each(const struct diagnostics *sink, diagnostics_visit visit, void *user);
 
+/* "N errors", and how many of them were kept where that is not all; false where there is no more than one. */
+#define DIAGNOSTICS_COUNT_TEXT 64
+bool diagnostics_count_text(const struct diagnostics *sink, char text[DIAGNOSTICS_COUNT_TEXT]);
+
 /* Prints all in the order of file and position, with carets, and last those that have no file, as "psplat: error:
- * ...". Then "N errors" when there is more than one. */
+ * ...". Then their count. */
 void diagnostics_print(const struct diagnostics *sink, FILE *stream);
 
 #endif

@@ -184,9 +184,11 @@ static ps_result take_callbacks(const psplat_callbacks *given, psplat_callbacks 
     *taken = (psplat_callbacks){.size = sizeof *taken};
     if (!given)
         return PS_OK;
-    if (given->size < sizeof given->size || given->size > sizeof *taken)
+    if (given->size < sizeof given->size || given->size > sizeof *taken ||
+        given->size % sizeof(void *) != 0)
         return error_set(error, PS_ERROR_INVALID,
-                         "psplat_callbacks.size is %zu, of which this version knows %zu bytes",
+                         "psplat_callbacks.size is %zu, which no version up to this one has: it "
+                         "has %zu",
                          given->size, sizeof *taken);
     memcpy(taken, given, given->size);
     return PS_OK;

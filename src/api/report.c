@@ -12,27 +12,42 @@ ps_result report_error(psplat_error *told, ps_result result, const struct error 
     return result;
 }
 
+static void add_line(psplat_error *told, const char *text)
+{
+    size_t used = strlen(told->message);
+    snprintf(told->message + used, sizeof told->message - used, "%s%s", used > 0 ? "\n" : "", text);
+}
+
+/* What options assign has a place among them, which is none in a file. */
+static bool is_in_a_file(const struct origin *origin)
+{
+    return origin->file && origin->line > 0 && strcmp(origin->file, "--param") != 0 &&
+           strcmp(origin->file, "--set") != 0;
+}
+
 static void add_problem(void *user, enum severity severity, const struct origin *origin,
                         const char *text)
 {
     psplat_error *told = user;
-    size_t used = strlen(told->message);
     if (severity != SEVERITY_ERROR)
         return;
-    if (used == 0 && origin->file && origin->line > 0) {
+    if (told->message[0] == '\0' && is_in_a_file(origin)) {
         snprintf(told->file, sizeof told->file, "%s", origin->file);
         told->line = origin->line;
         told->column = origin->column;
     }
-    snprintf(told->message + used, sizeof told->message - used, "%s%s", used > 0 ? "\n" : "", text);
+    add_line(told, text);
 }
 
 ps_result report_problems(psplat_error *told, ps_result result, const struct diagnostics *sink)
 {
+    char count[DIAGNOSTICS_COUNT_TEXT];
     if (!told)
         return result;
     *told = (psplat_error){.result = result};
     diagnostics_each(sink, add_problem, told);
+    if (diagnostics_count_text(sink, count))
+        add_line(told, count);
     return result;
 }
 

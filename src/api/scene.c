@@ -42,7 +42,10 @@ ps_result psplat_scene_set(psplat_scene *scene, const char *option, const char *
                            psplat_error *error)
 {
     struct error reason;
+    fenv_t caller;
+    environment_enter(&caller);
     ps_result result = render_options_set(&scene->options, option, value, &reason);
+    environment_leave(&caller);
     if (result != PS_OK)
         return report_error(error, result, &reason);
     unload(scene);
@@ -124,5 +127,5 @@ ps_result psplat_scene_load(psplat_scene *scene, const char *path, psplat_error 
 ps_result psplat_scene_load_text(psplat_scene *scene, const char *text, size_t length,
                                  const char *name, psplat_error *error)
 {
-    return load(scene, name ? name : "<text>", text, length, error);
+    return load(scene, name ? name : "<text>", text ? text : "", length, error);
 }

@@ -30,6 +30,11 @@ is_on PSPLAT_SANITIZE ||
     nm --defined-only "$folder/libpsplat.so.0" |
     awk '$2 ~ /^[bB]$/ && $3 !~ /^_/ && $3 !~ /^completed/ { print $3 }' >variables
 [ ! -f variables ] || expect_empty variables
+# Nor any that begin as something; constants with addresses in them lie elsewhere.
+is_on PSPLAT_SANITIZE ||
+    objdump -t "$folder/libpsplat.so.0" |
+    awk -F '\t' '$1 ~ / \.data$/ { print $2 }' | awk '$2 != ".data" && $2 !~ /^__/ { print $2 }' >variables
+[ ! -f variables ] || expect_empty variables
 readelf -d "$folder/libpsplat.so.0" | grep -q 'SONAME.*\[libpsplat\.so\.0\]' || fail "another SONAME"
 
 # The manual has the header's functions, too.
@@ -73,7 +78,7 @@ expect_same command.png library.png
 # Words of errors are the command's.
 printf 'psd: 1\ncamera: {locaton: [0, 0, 0]}\nlights: []\n' >wrong.psd
 run 2 wrong.psd
-sed '/^[0-9]* errors$/d' err >command
+cp err command
 example 1 wrong.psd wrong
 expect_same command err
 run 2 missing.psd

@@ -179,6 +179,53 @@ static void test_a_preview_yields_to_what_is_said(void **state)
     psplat_scene_destroy(scene);
 }
 
+/* A part of the picture alone. */
+static void test_a_crop(void **state)
+{
+    (void)state;
+    psplat_error error;
+    psplat_scene *scene = psplat_scene_create();
+    set(scene, "plugin", "denoiser=none");
+    load(scene, SCENE);
+    psplat_picture *whole = render(scene, NULL);
+    set(scene, "crop", "5,3,20,9");
+    load(scene, SCENE);
+    psplat_picture *part = render(scene, NULL);
+    assert_int_equal(psplat_picture_width(part), 20);
+    assert_int_equal(psplat_picture_height(part), 9);
+    assert_string_equal(psplat_picture_attribute(part, "psplat.crop"), "5,3,20,9");
+    for (size_t y = 0; y < 9; y++)
+        assert_memory_equal(psplat_picture_channel(part, "R") + 20 * y,
+                            psplat_picture_channel(whole, "R") + 32 * (y + 3) + 5,
+                            20 * sizeof(float));
+    set(scene, "crop", "20,0,20,9");
+    assert_int_equal(psplat_scene_load_text(scene, SCENE, strlen(SCENE), NULL, &error),
+                     PS_ERROR_INVALID);
+    assert_non_null(strstr(error.message, "--crop: "));
+    psplat_picture_destroy(part);
+    psplat_picture_destroy(whole);
+    psplat_scene_destroy(scene);
+}
+
+/* A mesh file, which is a scene by itself. */
+static void test_a_model(void **state)
+{
+    psplat_error error;
+    const char *path = scratch_path(state, "wedge.obj");
+    write_text(path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    psplat_scene *scene = psplat_scene_create();
+    set(scene, "size", "32x18");
+    set(scene, "plugin", "injection=photon:count=500");
+    if (psplat_scene_load(scene, path, &error) != PS_OK)
+        fail_msg("%s", error.message);
+    psplat_picture *picture = render(scene, NULL);
+    const float *red = psplat_picture_channel(picture, "R");
+    assert_true(red[9 * 32 + 16] > 0.0f);
+    assert_string_equal(psplat_picture_attribute(picture, "psplat.scene"), path);
+    psplat_picture_destroy(picture);
+    psplat_scene_destroy(scene);
+}
+
 /* --- callbacks --------------------------------------------------------------------------------------- */
 
 struct watch {
@@ -300,6 +347,8 @@ static void test_callbacks_of_other_versions(void **state)
     callbacks.size = 0;
     assert_int_equal(psplat_render(scene, &callbacks, &picture, &error), PS_ERROR_INVALID);
     assert_non_null(strstr(error.message, "psplat_callbacks.size is 0"));
+    callbacks.size = offsetof(psplat_callbacks, progress) + 1;
+    assert_int_equal(psplat_render(scene, &callbacks, &picture, &error), PS_ERROR_INVALID);
     callbacks.size = offsetof(psplat_callbacks, progress);
     psplat_picture_destroy(render(scene, &callbacks));
     psplat_scene_destroy(scene);
@@ -355,6 +404,43 @@ static void test_wrong_options(void **state)
     psplat_scene_destroy(scene);
 }
 
+/* Options that assign have lines in the message, but no file. */
+static void test_wrong_assignments(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *option, *value, *message;
+    } wrong[] = {
+        {"param", "legs=3", "--param:1:1: error: unknown parameter 'legs'"},
+        {"set", "image.width=wide", "--set:1:13: error: width in image: expected"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        psplat_error error;
+        psplat_scene *scene = psplat_scene_create();
+        set(scene, wrong[i].option, wrong[i].value);
+        assert_int_equal(psplat_scene_load_text(scene, SCENE, strlen(SCENE), "a.psd", &error),
+                         PS_ERROR_INVALID);
+        expect_error(&error, "", 0, 0, wrong[i].message);
+        psplat_scene_destroy(scene);
+    }
+}
+
+static void test_many_problems(void **state)
+{
+    (void)state;
+    char text[2048] = "psd: 1\n";
+    psplat_error error;
+    for (int i = 0; i < 40; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "k%d: 0\n", i);
+    psplat_scene *scene = psplat_scene_create();
+    assert_int_equal(psplat_scene_load_text(scene, text, strlen(text), "a.psd", &error),
+                     PS_ERROR_INVALID);
+    const char *last = strrchr(error.message, '\n');
+    assert_non_null(last);
+    assert_non_null(strstr(last, " errors (20 shown)"));
+    psplat_scene_destroy(scene);
+}
+
 static void test_wrong_scenes(void **state)
 {
     static const char text[] = "psd: 1\ncamera: {locaton: [0, 0, -1]}\n";
@@ -372,6 +458,8 @@ static void test_wrong_scenes(void **state)
                  "/here/a.psd:2:10: error: unknown key 'locaton' in camera; did you mean "
                  "'location'?\n    2 | camera: {locaton: [0, 0, -1]}\n");
     assert_int_equal(psplat_scene_load_text(scene, "", 0, NULL, NULL), PS_ERROR_INVALID);
+    write_text(path, SCENE);
+    assert_int_equal(psplat_scene_load_text(scene, NULL, 0, path, NULL), PS_ERROR_INVALID);
     assert_int_equal(psplat_render(scene, NULL, &picture, &error), PS_ERROR_INVALID);
     assert_null(picture);
     psplat_scene_destroy(scene);
@@ -565,22 +653,29 @@ static void test_loading_at_once(void **state)
 /* Nor does a picture depend on how the program rounds, or on whether it flushes denormal numbers; which stays so. */
 static void test_rounding(void **state)
 {
-    (void)state;
     fenv_t usual;
+    const char *path = scratch_path(state, "scene.psd");
     psplat_scene *scene = psplat_scene_create();
-    load(scene, SCENE);
+    write_text(path, SCENE);
+    set(scene, "exposure", "0.3");
+    assert_int_equal(psplat_scene_load(scene, path, NULL), PS_OK);
     psplat_picture *expected = render(scene, NULL);
     fegetenv(&usual);
 #if defined(__SSE2__)
     _mm_setcsr(_mm_getcsr() | 0x8040u);
 #endif
     fesetround(FE_UPWARD);
-    load(scene, SCENE);
-    psplat_picture *picture = render(scene, NULL);
+    set(scene, "exposure", "0.3");
+    ps_result loaded = psplat_scene_load(scene, path, NULL);
+    psplat_picture *picture = loaded == PS_OK ? render(scene, NULL) : NULL;
     int rounding = fegetround();
     fesetenv(&usual);
+    assert_int_equal(loaded, PS_OK);
     assert_int_equal(rounding, FE_UPWARD);
     expect_same_picture(picture, expected);
+    const char *command = psplat_picture_attribute(expected, "psplat.command");
+    assert_non_null(strstr(command, "--exposure 0.3 "));
+    assert_string_equal(psplat_picture_attribute(picture, "psplat.command"), command);
     psplat_picture_destroy(picture);
     psplat_picture_destroy(expected);
     psplat_scene_destroy(scene);
@@ -600,18 +695,22 @@ int main(void)
         SCRATCH_TEST(test_the_command_s_picture),
         cmocka_unit_test(test_channels),
         cmocka_unit_test(test_a_preview_yields_to_what_is_said),
+        cmocka_unit_test(test_a_crop),
+        SCRATCH_TEST(test_a_model),
         cmocka_unit_test(test_passes_as_they_come),
         cmocka_unit_test(test_cancelled_between_passes),
         cmocka_unit_test(test_cancelled_from_the_start),
         cmocka_unit_test(test_callbacks_of_other_versions),
         cmocka_unit_test(test_wrong_options),
+        cmocka_unit_test(test_wrong_assignments),
+        cmocka_unit_test(test_many_problems),
         SCRATCH_TEST(test_wrong_scenes),
         cmocka_unit_test(test_wrong_strategies),
         SCRATCH_TEST(test_wrong_in_the_end),
         SCRATCH_TEST(test_nothing_is_printed),
         cmocka_unit_test(test_at_once),
         SCRATCH_TEST(test_loading_at_once),
-        cmocka_unit_test(test_rounding),
+        SCRATCH_TEST(test_rounding),
         cmocka_unit_test(test_version),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
