@@ -13,12 +13,14 @@ struct resolution {
     settings_report report;
     void *user;
     double effort;
-    bool failed;
+    ps_result result; /* the first failure's */
 };
 
-static void fail(struct resolution *resolution, const struct origin *origin, const char *message)
+static void fail(struct resolution *resolution, ps_result result, const struct origin *origin,
+                 const char *message)
 {
-    resolution->failed = true;
+    if (resolution->result == PS_OK)
+        resolution->result = result;
     resolution->report(resolution->user, origin, message);
 }
 
@@ -33,7 +35,7 @@ static void report_unknown(struct resolution *resolution, const struct strategy 
     suggestion_text(&suggestion, hint);
     snprintf(message, sizeof message, "unknown parameter '%.80s' of %s %s%s", parameter->key,
              kinds[type->kind].name, type->name, hint);
-    fail(resolution, &parameter->key_origin, message);
+    fail(resolution, PS_ERROR_INVALID, &parameter->key_origin, message);
 }
 
 static void set_parameter(struct resolution *resolution, struct strategy *strategy,
@@ -44,11 +46,14 @@ static void set_parameter(struct resolution *resolution, struct strategy *strate
     struct error error;
     if (!row) {
         report_unknown(resolution, strategy, parameter);
-    } else if (param_set(row, strategy->state, parameter->value, &error) != PS_OK) {
+        return;
+    }
+    ps_result result = param_set(row, strategy->state, parameter->value, &error);
+    if (result != PS_OK) {
         char message[sizeof error.text + 128];
         snprintf(message, sizeof message, "%s %s: %s: %s", kinds[strategy->type->kind].name,
                  strategy->type->name, row->name, error.text);
-        fail(resolution, &parameter->value_origin, message);
+        fail(resolution, result, &parameter->value_origin, message);
     }
 }
 
@@ -71,7 +76,7 @@ static void check_required(struct resolution *resolution, const struct strategy 
         char message[256];
         snprintf(message, sizeof message, "%s %s needs its parameter '%s'",
                  kinds[strategy->type->kind].name, strategy->type->name, row->name);
-        fail(resolution, &choice->origin, message);
+        fail(resolution, PS_ERROR_INVALID, &choice->origin, message);
     }
 }
 
@@ -80,9 +85,10 @@ static void resolve_choice(struct resolution *resolution, ps_kind kind,
 {
     struct error error;
     const char *name = choice->name ? choice->name : kinds[kind].default_strategy;
-    if (strategy_create(resolution->loader, kind, name, resolution->effort, strategy, &error) !=
-        PS_OK) {
-        fail(resolution, choice->name ? &choice->origin : &nowhere, error.text);
+    ps_result result =
+        strategy_create(resolution->loader, kind, name, resolution->effort, strategy, &error);
+    if (result != PS_OK) {
+        fail(resolution, result, choice->name ? &choice->origin : &nowhere, error.text);
         return;
     }
     for (size_t i = 0; i < choice->parameter_count; i++)
@@ -97,6 +103,13 @@ ps_result settings_choose_kernel(const struct render_settings *settings,
                ? PS_OK
                : error_set(error, PS_ERROR_INVALID, "this processor has no instruction set '%s'",
                            settings->isa);
+}
+
+ps_result settings_check_isa(const char *isa, struct error *error)
+{
+    const struct render_settings settings = {.isa = isa};
+    struct kernel_variant unused;
+    return settings_choose_kernel(&settings, &unused, error);
 }
 
 ps_result settings_resolve(struct loader *loader, const struct render_description *description,
@@ -118,17 +131,17 @@ ps_result settings_resolve(struct loader *loader, const struct render_descriptio
         .indirect_exposure = description->indirect_exposure,
         .ambient = description->ambient,
     };
-    struct resolution resolution = {loader, report, user, quality_effort(quality), false};
+    struct resolution resolution = {loader, report, user, quality_effort(quality), PS_OK};
     for (int kind = 0; kind < PS_KINDS; kind++)
         resolve_choice(&resolution, (ps_kind)kind, &description->strategies[kind],
                        &settings->strategies[kind]);
     struct error error;
-    if (workers_create(threads, &settings->workers, &error) != PS_OK)
-        fail(&resolution, &nowhere, error.text);
-    if (!resolution.failed)
-        return PS_OK;
-    settings_release(settings);
-    return PS_ERROR_INVALID;
+    ps_result result = workers_create(threads, &settings->workers, &error);
+    if (result != PS_OK)
+        fail(&resolution, result, &nowhere, error.text);
+    if (resolution.result != PS_OK)
+        settings_release(settings);
+    return resolution.result;
 }
 
 void settings_release(struct render_settings *settings)

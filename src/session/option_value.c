@@ -1,6 +1,7 @@
 #include "session/option_value.h"
 
 #include "base/text.h"
+#include "plugin/kind.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -79,4 +80,30 @@ ps_result option_rectangle(const char *option, const char *text, struct rectangl
     return i == 4 ? PS_OK
                   : error_set(error, PS_ERROR_INVALID,
                               "--%s: expected X,Y,W,H in whole pixels, got '%.500s'", option, text);
+}
+
+ps_result option_plugin(const char *text, ps_kind *kind, struct strategy_choice *choice,
+                        struct error *error)
+{
+    struct error reason;
+    const char *wanted;
+    *kind = kind_parse(text, &wanted);
+    if (*kind == PS_KINDS || !wanted)
+        return error_set(error, PS_ERROR_INVALID,
+                         "--plugin: expected KIND=NAME[:KEY=VALUE,...], got '%.200s'; 'psplat "
+                         "plugins' lists the kinds",
+                         text);
+    ps_result result = settings_parse_choice(wanted, choice, &reason);
+    return result == PS_OK
+               ? PS_OK
+               : error_set(error, result, "--plugin %s: %.4000s", kinds[*kind].name, reason.text);
+}
+
+ps_result option_assignment(const char *option, const char *text, struct error *error)
+{
+    const char *equals = strchr(text, '=');
+    if (equals && equals > text)
+        return PS_OK;
+    return error_set(error, PS_ERROR_INVALID, "--%s: expected NAME=VALUE, got '%.500s'", option,
+                     text);
 }

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/rectangle.h"
+#include "render/settings.h"
 
 /* A whole decimal number in [minimum, maximum]. */
 ps_result option_whole_number(const char *option, const char *text, double minimum, double maximum,
@@ -22,5 +23,12 @@ ps_result option_rectangle(const char *option, const char *text, struct rectangl
 
 /* "WxH": pixels, each 1..65536. */
 ps_result option_size(const char *text, int64_t *width, int64_t *height, struct error *error);
+
+/* "KIND=NAME[:KEY=VALUE,...]": the kind, and a choice that the caller releases. */
+ps_result option_plugin(const char *text, ps_kind *kind, struct strategy_choice *choice,
+                        struct error *error);
+
+/* Whether it is "NAME=VALUE", of which the name is not empty. */
+ps_result option_assignment(const char *option, const char *text, struct error *error);
 
 #endif

@@ -48,6 +48,8 @@ static ps_result set_set(struct render_options *options, const char *value, stru
 
 static ps_result set_camera(struct render_options *options, const char *value, struct error *error)
 {
+    if (!value[0])
+        return error_set(error, PS_ERROR_INVALID, "--camera: a name is missing");
     return word_replace(&options->scene.camera, value, error);
 }
 
@@ -66,6 +68,12 @@ static ps_result set_allow_plugins(struct render_options *options, const char *v
 
 static ps_result set_plugin(struct render_options *options, const char *value, struct error *error)
 {
+    ps_kind kind;
+    struct strategy_choice choice;
+    ps_result result = option_plugin(value, &kind, &choice, error);
+    if (result != PS_OK)
+        return result;
+    strategy_choice_release(&choice);
     return word_list_insert(&options->plugins, options->plugins.count, value, error);
 }
 
@@ -125,6 +133,9 @@ static ps_result set_threads(struct render_options *options, const char *value, 
 
 static ps_result set_isa(struct render_options *options, const char *value, struct error *error)
 {
+    struct error reason;
+    if (settings_check_isa(value, &reason) != PS_OK)
+        return error_set(error, PS_ERROR_INVALID, "--isa: %.1000s", reason.text);
     return word_replace(&options->isa, value, error);
 }
 

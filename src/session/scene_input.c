@@ -2,7 +2,7 @@
 
 #include "model/model.h"
 #include "model/model_scene.h"
-#include "plugin/kind.h"
+#include "session/option_value.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,21 +52,12 @@ ps_result scene_input_override(struct scene_input *input, const char *text)
 {
     struct strategy_choice choice;
     struct error error;
-    const char *wanted;
-    ps_kind kind = kind_parse(text, &wanted);
-    if (kind == PS_KINDS || !wanted) {
-        diagnostics_report(input->sink, SEVERITY_ERROR, NULL, 0,
-                           "--plugin: expected KIND=NAME[:KEY=VALUE,...], got '%.200s'; 'psplat "
-                           "plugins' lists the kinds",
-                           text);
-        return PS_ERROR_INVALID;
-    }
-    ps_result result = settings_parse_choice(wanted, &choice, &error);
+    ps_kind kind;
+    ps_result result = option_plugin(text, &kind, &choice, &error);
     if (result == PS_OK)
         result = settings_override(&input->description.render.strategies[kind], &choice, &error);
     if (result != PS_OK)
-        diagnostics_report(input->sink, SEVERITY_ERROR, NULL, 0, "--plugin %s: %s",
-                           kinds[kind].name, error.text);
+        diagnostics_report(input->sink, SEVERITY_ERROR, NULL, 0, "%s", error.text);
     return result;
 }
 

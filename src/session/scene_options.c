@@ -2,6 +2,7 @@
 
 #include "base/input_file.h"
 #include "base/suggestion.h"
+#include "session/option_value.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,8 +19,9 @@ static void refer_to_words(struct scene_options *options)
 ps_result scene_options_add_parameter(struct scene_options *options, const char *word,
                                       struct error *error)
 {
-    ps_result result =
-        word_list_insert(&options->parameters, options->parameters.count, word, error);
+    ps_result result = option_assignment("param", word, error);
+    if (result == PS_OK)
+        result = word_list_insert(&options->parameters, options->parameters.count, word, error);
     refer_to_words(options);
     return result;
 }
@@ -27,7 +29,9 @@ ps_result scene_options_add_parameter(struct scene_options *options, const char 
 ps_result scene_options_add_set(struct scene_options *options, size_t index, const char *word,
                                 struct error *error)
 {
-    ps_result result = word_list_insert(&options->sets, index, word, error);
+    ps_result result = option_assignment("set", word, error);
+    if (result == PS_OK)
+        result = word_list_insert(&options->sets, index, word, error);
     refer_to_words(options);
     return result;
 }

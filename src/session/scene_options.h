@@ -14,7 +14,7 @@ struct scene_options {
     char *camera; /* owned; NULL: the first */
 };
 
-/* "NAME=VALUE", "KEY.KEY=VALUE"; those given later count. */
+/* "NAME=VALUE", "KEY.KEY=VALUE"; those given later count. PS_ERROR_INVALID: it is nothing such. */
 ps_result scene_options_add_parameter(struct scene_options *options, const char *word,
                                       struct error *error);
 ps_result scene_options_add_set(struct scene_options *options, size_t index, const char *word,

@@ -54,8 +54,10 @@ expect_text err "    1 | image.width=wide"
 expect_text err "      |             ^~~~"
 run 2 check scenes/table.psd --param legs=2 --set render.injection.photon.cuont=3
 expect_text err "--set:1:25: error: unknown parameter 'cuont' of injection photon; did you mean 'count'?"
-run 2 check --param legs
+run 2 check --param legs=2
 expect_text err "which scene?"
+run 2 check --param legs scenes/table.psd
+expect_text err "psplat: error: --param: expected NAME=VALUE, got 'legs'"
 run 2 check scenes/table.psd --prarm legs=2
 expect_text err "unknown option '--prarm'; did you mean '--param'?"
 

@@ -1,6 +1,7 @@
 /* test_library.c: psplat.h, by the shared library: pictures are the command's, errors come as values, nothing is
  * printed, and renders don't know of each other. */
 #include "scratch.h"
+#include "support/memory_limit.h"
 
 #include <fcntl.h>
 #include <fenv.h>
@@ -387,6 +388,15 @@ static void test_wrong_options(void **state)
         {"layers", "depth", "--layers: expected none, or all and names among"},
         {"compression", "jpeg", "--compression: expected one of"},
         {"restrict", "/no/such/folder", "--restrict: "},
+        {"isa", "bogus", "--isa: this processor has no instruction set 'bogus'"},
+        {"camera", "", "--camera: a name is missing"},
+        {"param", "legs", "--param: expected NAME=VALUE, got 'legs'"},
+        {"param", "=3", "--param: expected NAME=VALUE, got '=3'"},
+        {"set", "image", "--set: expected NAME=VALUE, got 'image'"},
+        {"plugin", "filter", "--plugin: expected KIND=NAME[:KEY=VALUE,...], got 'filter'"},
+        {"plugin", "filtre=box", "--plugin: expected KIND=NAME[:KEY=VALUE,...], got 'filtre=box'"},
+        {"plugin", "filter=", "--plugin filter: expected NAME"},
+        {"plugin", "injection=photon:count", "--plugin injection: expected KEY=VALUE, got 'count'"},
     };
     psplat_error error;
     psplat_scene *scene = psplat_scene_create();
@@ -423,6 +433,23 @@ static void test_wrong_assignments(void **state)
         expect_error(&error, "", 0, 0, wrong[i].message);
         psplat_scene_destroy(scene);
     }
+}
+
+/* No more threads than the system gives: it is memory that they lack. */
+static void test_no_threads(void **state)
+{
+    (void)state;
+    psplat_error error;
+    if (ADDRESS_SPACE_IS_SHADOWED)
+        skip();
+    psplat_scene *scene = psplat_scene_create();
+    set(scene, "threads", "1024");
+    struct rlimit before = limit_memory(1e8);
+    ps_result result = psplat_scene_load_text(scene, SCENE, strlen(SCENE), NULL, &error);
+    setrlimit(RLIMIT_AS, &before);
+    assert_int_equal(result, PS_ERROR_MEMORY);
+    expect_error(&error, "", 0, 0, "cannot start 1024 threads");
+    psplat_scene_destroy(scene);
 }
 
 static void test_many_problems(void **state)
@@ -471,11 +498,9 @@ static void test_wrong_strategies(void **state)
     static const struct {
         const char *plugin, *message;
     } wrong[] = {
-        {"filtre=box", "--plugin: expected KIND=NAME[:KEY=VALUE,...], got 'filtre=box'"},
         {"estimator=sun", "no estimator 'sun' (there are: "},
         {"estimator=splat:sun=1", "unknown parameter 'sun' of estimator splat"},
         {"injection=photon:count=-5", "injection photon: count: expected"},
-        {"injection=photon:count", "--plugin injection: "},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         psplat_error error;
@@ -703,6 +728,7 @@ int main(void)
         cmocka_unit_test(test_callbacks_of_other_versions),
         cmocka_unit_test(test_wrong_options),
         cmocka_unit_test(test_wrong_assignments),
+        cmocka_unit_test(test_no_threads),
         cmocka_unit_test(test_many_problems),
         SCRATCH_TEST(test_wrong_scenes),
         cmocka_unit_test(test_wrong_strategies),
