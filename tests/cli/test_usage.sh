@@ -48,6 +48,7 @@ done
 for value in 10 10x 10x0 0x10 65537x1 1x65537 1.5x2 -1x5 axb 10x10x10 10X10 "" x; do
     usage "--size: expected WxH, each 1..65536, got '$value'" --size "$value" "$cornell"
 done
+usage "--size: expected WxH, each 1..65536, got 'z'" --size z --size 8x8 "$cornell"
 for value in 21 -21 x "" nan 1e99; do
     usage "--exposure: expected a number -20..20, got '$value'" --exposure "$value" "$cornell"
 done
