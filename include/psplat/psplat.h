@@ -14,9 +14,10 @@
  * Results: PS_OK is 0; after any other a psplat_error says why. No function exits, prints, or changes the working
  * folder, the locale or signal handlers. Mesh files are read in a child process, made by fork().
  *
- * Threads: there is no state but in the handles. A handle may be passed between threads. Functions that take it const
- * may run in several threads at once, all others need it alone. So several threads render at once, different scenes
- * or the same; each render starts threads of its own.
+ * Threads: the library has no state but in the handles. A handle may be passed between threads. Functions that take it
+ * const may run in several threads at once, all others need it alone. So several threads render at once, different
+ * scenes or the same; each render starts threads of its own. While one runs, Embree, which needs none, holds oneTBB to
+ * one thread in the whole process, so that a program's own work with oneTBB takes longer.
  *
  * Texts are UTF-8, end in NUL, and are copied where they are kept. Texts and samples that are returned stay valid until
  * the handle that they come from is destroyed.
@@ -37,8 +38,8 @@ extern "C" {
 typedef struct psplat_error {
     ps_result result;
     int32_t line, column; /* the first problem's place in `file`, from 1; 0 where it has none */
-    char file[1024];      /* "": no place in a file is to blame */
-    char message[8192];   /* what the command would print: all problems of a scene, in lines */
+    char file[1024];      /* "": no place in a file is to blame, but an option, say */
+    char message[8192];   /* what the command would print, as far as there is room: all problems */
 } psplat_error;
 
 /* The version of the library: "1.2.3". */
@@ -61,7 +62,8 @@ void psplat_scene_destroy(psplat_scene *scene); /* NULL is nothing */
  *
  * Values are those of the command line; NULL for preview and allow-scene-plugins, which take none. What was loaded is
  * released: options come before loading. PS_ERROR_INVALID: there is no such option, or no such value; PS_ERROR_IO: no
- * such folder; what is loaded stays then. */
+ * such folder; what is loaded stays then. Names that the scene or a strategy must know, such as those of cameras and
+ * parameters, are looked for when it is loaded. */
 ps_result psplat_scene_set(psplat_scene *scene, const char *option, const char *value,
                            psplat_error *error);
 
@@ -71,13 +73,14 @@ ps_result psplat_scene_set(psplat_scene *scene, const char *option, const char *
 typedef void (*psplat_listener)(void *user, int is_warning, const char *message);
 void psplat_scene_listen(psplat_scene *scene, psplat_listener listener, void *user);
 
-/* Reads a scene (psd(5)) and checks all that can be told before a render: its text, files, strategies, their
- * parameters, and memory. It takes the place of what was loaded before; where it fails, nothing is loaded. "-" is
- * standard input. */
+/* Reads a scene (psd(5)), or a mesh file, which is a scene by itself as it is for the command: "lamp.glb". Checks its
+ * text, files, strategies, their parameters, and memory. What strategies object to as they start, such as a parameter
+ * that does not suit the scene, psplat_render tells before its first pass. The scene takes the place of what was loaded
+ * before; where that fails, nothing is loaded. "-" is standard input. */
 ps_result psplat_scene_load(psplat_scene *scene, const char *path, psplat_error *error);
 
-/* The same for a text of `length` bytes, which may have none of its own on disk: `name` stands for its file in
- * messages, and files that it names are looked for beside that: "/home/ann/models/lamp.psd". NULL: "<text>". */
+/* The same for a scene's text of `length` bytes. `name` stands for its file, which need not be there, in messages, and
+ * files that the text names are looked for beside that: "/home/ann/models/lamp.psd". NULL: "<text>". */
 ps_result psplat_scene_load_text(psplat_scene *scene, const char *text, size_t length,
                                  const char *name, psplat_error *error);
 
@@ -87,7 +90,8 @@ typedef struct psplat_picture psplat_picture;
 typedef struct psplat_rendering psplat_rendering; /* under way; the library's */
 
 /* What a render calls, each NULL or a function; zero all that you don't use. They may use other handles as they like,
- * but must not change the scene that is being rendered. */
+ * but must not change the scene that is being rendered. They run in the floating-point environment that processes start
+ * with, whatever the caller's is, and leave it as it was. */
 typedef struct psplat_callbacks {
     size_t size; /* sizeof(psplat_callbacks) */
     void *user;
