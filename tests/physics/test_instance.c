@@ -2,7 +2,8 @@
  *
  * A group of objects of every kind of surface, one of which shines in a pattern, placed by an instance,
  * against the same objects in a group of their own, whose patterns are placed by hand. Random numbers
- * are the same, so that the pictures are too, but for paths that rounding sends another way.
+ * are the same, so that the pictures are too, but for paths that rounding sends another way. There is one light: among
+ * several, paths choose by what a pilot finds (importance.h), which such a path changes for all others.
  */
 #include "support/render_scene.h"
 #include <math.h>
@@ -28,7 +29,6 @@
     "0.21]%s}}}"                                                                                   \
     "\n"                                                                                           \
     "  bumpy: {diffuse: 0.7, bump: {noise: {colors: [0, 0.1], scale: [=%g*0.3, 0.3, 0.3]%s}}}\n"   \
-    "lights: [{point: {location: [1, 4, 2], intensity: 4}}]\n"                                     \
     "groups: {things: %s}\n"                                                                       \
     "objects:\n"                                                                                   \
     "  - quad: {corners: [[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-4, 0, -4]], material: floor}\n"     \
@@ -52,7 +52,6 @@ static const char *const methods[][5] = {
     {"estimator=photonmap:neighbours=50", "injection=photon:count=20000", "bounces=all", NULL},
     {"estimator=photonmap:neighbours=50,gather=8", "injection=photon:count=20000", "bounces=all",
      NULL},
-    {"estimator=vpl:lights=100", "injection=photon:count=1000", "bounces=all", NULL},
 };
 
 /* `side`: -1 where it mirrors; `placed`: ", rotate: ..., translate: ...". */
