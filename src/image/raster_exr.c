@@ -50,15 +50,6 @@ static float finite_sample(float sample)
     return isinf(sample) ? copysignf(HALF_LARGEST, sample) : sample;
 }
 
-static size_t count_mended(const struct planes *planes, size_t pixels)
-{
-    size_t count = 0;
-    for (uint32_t channel = 0; channel < planes->count; channel++)
-        for (size_t i = 0; i < pixels; i++)
-            count += !isfinite(planes->samples[channel][i]);
-    return count;
-}
-
 static bool fits_halves(const struct planes *planes, size_t pixels)
 {
     for (uint32_t channel = 0; channel < planes->count; channel++) {
@@ -71,22 +62,31 @@ static bool fits_halves(const struct planes *planes, size_t pixels)
     return true;
 }
 
-static void store_halves(const struct planes *planes, size_t pixels, uint16_t *halves)
+/* These return how many samples were not finite. */
+static size_t store_halves(const struct planes *planes, size_t pixels, uint16_t *halves)
 {
+    size_t mended = 0;
     for (uint32_t channel = 0; channel < planes->count; channel++) {
         for (size_t i = 0; i < pixels; i++) {
-            half_from_exact(finite_sample(planes->samples[channel][i]),
-                            &halves[i * planes->count + channel]);
+            float sample = planes->samples[channel][i];
+            half_from_exact(finite_sample(sample), &halves[i * planes->count + channel]);
+            mended += !isfinite(sample);
         }
     }
+    return mended;
 }
 
-static void store_floats(const struct planes *planes, size_t pixels, float *floats)
+static size_t store_floats(const struct planes *planes, size_t pixels, float *floats)
 {
+    size_t mended = 0;
     for (uint32_t channel = 0; channel < planes->count; channel++) {
-        for (size_t i = 0; i < pixels; i++)
-            floats[i * planes->count + channel] = finite_sample(planes->samples[channel][i]);
+        for (size_t i = 0; i < pixels; i++) {
+            float sample = planes->samples[channel][i];
+            floats[i * planes->count + channel] = finite_sample(sample);
+            mended += !isfinite(sample);
+        }
     }
+    return mended;
 }
 
 static ps_result interleave(const char *path, const struct image *image, struct raster *raster,
@@ -101,16 +101,12 @@ static ps_result interleave(const char *path, const struct image *image, struct 
     raster->width = (uint32_t)image->width;
     raster->height = (uint32_t)image->height;
     raster->channels = planes.count;
-    raster->mended = count_mended(&planes, pixels);
     raster->sample = fits_halves(&planes, pixels) ? RASTER_HALF : RASTER_FLOAT;
     ps_result result = raster_allocate(path, raster, error);
     if (result != PS_OK)
         return result;
-    if (raster->sample == RASTER_HALF) {
-        store_halves(&planes, pixels, raster->samples);
-    } else {
-        store_floats(&planes, pixels, raster->samples);
-    }
+    raster->mended = raster->sample == RASTER_HALF ? store_halves(&planes, pixels, raster->samples)
+                                                   : store_floats(&planes, pixels, raster->samples);
     return PS_OK;
 }
 

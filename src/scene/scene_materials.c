@@ -32,8 +32,8 @@ static void note_clipped(struct scene *scene, const struct material_description 
         if (pigment->kind != PIGMENT_IMAGE)
             continue;
         struct texture *texture = &scene->textures[pigment->texture];
-        texture->clipped = texture->clipped || texture->least < 0.0f ||
-                           texture->largest * ps_rgb_maximum(pigment->colors[0]) > 1.0f;
+        texture->clipped =
+            texture->clipped || texture_leaves_range(texture, ps_rgb_maximum(pigment->colors[0]));
     }
 }
 

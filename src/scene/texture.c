@@ -85,24 +85,6 @@ static ps_result prepare_values(struct texture *texture, const char *path, bool 
     return PS_OK;
 }
 
-/* Only floating point leaves 0..1. */
-static void find_range(struct texture *texture)
-{
-    const struct raster *raster = &texture->raster;
-    bool whole = raster->sample == RASTER_BYTE || raster->sample == RASTER_SHORT;
-    texture->least = 0.0f;
-    texture->largest = 1.0f;
-    for (uint32_t row = 0; !whole && row < texture->height; row++)
-        for (uint32_t column = 0; column < texture->width; column++) {
-            float rgba[4];
-            texture_texel(texture, column, row, rgba);
-            for (int k = 0; k < 3; k++) {
-                texture->least = fminf(texture->least, rgba[k]);
-                texture->largest = fmaxf(texture->largest, rgba[k]);
-            }
-        }
-}
-
 ps_result texture_load(const struct texture_description *description, const char *folder,
                        struct texture *texture, struct error *error)
 {
@@ -122,7 +104,6 @@ ps_result texture_load(const struct texture_description *description, const char
         texture_release(&loaded);
         return result;
     }
-    find_range(&loaded);
     *texture = loaded;
     return PS_OK;
 }
@@ -256,4 +237,32 @@ void texture_sample(const struct texture *texture, float u, float v, float rgba[
     }
     interpolate(texture, find_neighbors(u, texture->width, wrap),
                 find_neighbors(v, texture->height, wrap), rgba);
+}
+
+/* --- range ----------------------------------------------------------------------------------- */
+
+static bool is_within(const float rgba[4], float factor)
+{
+    for (int k = 0; k < 3; k++)
+        if (rgba[k] < 0.0f || rgba[k] * factor > 1.0f)
+            return false;
+    return true;
+}
+
+bool texture_leaves_range(struct texture *texture, float factor)
+{
+    const struct raster *raster = &texture->raster;
+    if (raster->sample == RASTER_BYTE || raster->sample == RASTER_SHORT)
+        return factor > 1.0f;
+    if (factor <= texture->checked)
+        return false;
+    for (uint32_t row = 0; row < texture->height; row++)
+        for (uint32_t column = 0; column < texture->width; column++) {
+            float rgba[4];
+            texture_texel(texture, column, row, rgba);
+            if (!is_within(rgba, factor))
+                return true;
+        }
+    texture->checked = factor;
+    return false;
 }

@@ -21,7 +21,7 @@ struct texture {
     bool nearest;               /* rather than bilinear */
     struct raster raster;       /* the texels, top row first */
     float *color_of, *alpha_of; /* values of codes; NULL for floats; may be the same table */
-    float least, largest;       /* of the colours */
+    float checked;              /* the largest factor for which texture_leaves_range was false */
     bool clipped;               /* some material's reflectances are taken from it, and leave 0..1 */
 };
 
@@ -41,6 +41,10 @@ void texture_sample(const struct texture *texture, float u, float v, float rgba[
 
 /* The colour of one texel: column from the left, row from the bottom; both must exist. */
 void texture_texel(const struct texture *texture, uint32_t column, uint32_t row, float rgba[4]);
+
+/* Whether the colours, times a factor of 0 or more, may leave 0..1: integers by their type, floats looked at one by one,
+ * once. Not to be called while others sample. */
+bool texture_leaves_range(struct texture *texture, float factor);
 
 /* Of memory, tables included. */
 size_t texture_bytes(const struct texture *texture);
