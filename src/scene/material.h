@@ -15,9 +15,11 @@
  * A path that meets a surface follows one lobe, chosen by albedo.
  *
  * Opacity: below 1/2 there is no surface. A blended material rather has holes finer than anything, whose share of the
- * area is 1 - opacity: whether a point is there is decided by a random number that belongs to the point (stochastic
- * transparency, Enderton et al. 2010, with the hash of Wyman and McGuire 2017, "Hashed alpha testing"). So all rays,
- * maps and light paths meet the same surface, and means over rays and passes are those of the opacity.
+ * area is 1 - opacity: each ray decides whether it meets the surface by a number of its own, a hash of where it hits
+ * (stochastic transparency, Enderton et al. 2010, with the hash of Wyman and McGuire 2017, "Hashed alpha testing").
+ * Hence the same ray always finds the same, and means over rays and passes are those of the opacity; but two rays to one
+ * point, whose hits differ in the last bits, need not agree. Where light is stored with the surface, as photons are, and
+ * looked up by a ray that met it as well, the opacity counts twice (psd(5), MESH FILES, names the estimators).
  */
 #ifndef SCENE_MATERIAL_H
 #define SCENE_MATERIAL_H

@@ -209,7 +209,8 @@ ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray, const struc
     return hit;
 }
 
-/* In (0, 1], the same whenever that point is met. Surfaces in one place have numbers of their own. */
+/* In (0, 1], a hash of the bits of the hit: the same for the same ray, and another for a ray that hits a rounding error
+ * apart. Surfaces in one place have numbers of their own. */
 static float number_of_point(const struct intersection *at, ps_vec3 place)
 {
     uint32_t bits[3];
