@@ -34,13 +34,14 @@ struct mesh_request {
 struct material_description mesh_material_plain(struct origin origin);
 
 #define MESH_MISSING_NAMES 20
+#define MESH_MISSING_LENGTH 100 /* bytes, beyond which a name is cut */
 
 /* What was mended, for warnings. */
 struct mesh_report {
     size_t dropped_triangles, dropped_lights;
-    size_t missing_textures;  /* each once, as far as they are named */
-    char missing_names[1024]; /* of the first MESH_MISSING_NAMES, with commas */
-    char notes[4096];         /* lines */
+    size_t missing_textures; /* each once; of the first the names, with ", " between them: */
+    char missing_names[MESH_MISSING_NAMES * (MESH_MISSING_LENGTH + 2)];
+    char notes[4096]; /* lines */
 };
 
 /* Reads the file into a fragment: meshes, objects (OBJECT_MESH), materials (each with its name in

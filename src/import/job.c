@@ -12,13 +12,22 @@
 
 void mesh_note(struct mesh_job *job, const char *format, ...)
 {
-    size_t size = sizeof job->report->notes, length = strlen(job->report->notes);
+    char *notes = job->report->notes;
+    size_t size = sizeof job->report->notes, before = strlen(notes);
+    size_t start = before > 0 && before + 1 < size ? before + 1 : before;
     va_list arguments;
-    if (length > 0 && length + 2 < size)
-        job->report->notes[length++] = '\n';
     va_start(arguments, format);
-    vsnprintf(job->report->notes + length, size - length, format, arguments);
+    int length = vsnprintf(notes + start, size - start, format, arguments);
     va_end(arguments);
+    if (length < 0 || (size_t)length >= size - start) {
+        notes[before] = '\0';
+        return;
+    }
+    for (char *c = notes + start; *c; c++)
+        if (*c == '\n')
+            *c = '?'; /* in a name: it would make two lines */
+    if (start > before)
+        notes[before] = '\n';
 }
 
 ps_result mesh_out_of_memory(struct mesh_job *job, size_t bytes)
@@ -114,8 +123,9 @@ static void release(struct mesh_job *job)
     mesh_files_release(&job->files);
     free(job->nodes);
     free(job->materials);
-    for (size_t i = 0; i < MESH_MISSING_NAMES; i++)
+    for (size_t i = 0; i < job->missing_count; i++)
         free(job->missing[i]);
+    free(job->missing);
 }
 
 ps_result mesh_job_run(struct mesh_job *job)

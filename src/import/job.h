@@ -10,9 +10,15 @@
 #define MESH_OMISSIONS 16
 
 struct mesh_omission {
-    const char *what; /* a literal; NULL: none */
-    char material[64];
+    const char *what;            /* a literal; NULL: none */
+    char material[64], last[64]; /* the first of count, and the last */
     size_t count;
+};
+
+/* What is wrong with colours of vertices, each noted once (vertex_colors.c). */
+struct mesh_color_faults {
+    bool partial; /* OBJ: not all vertices have one; then none counts */
+    bool rejected, clamped, alpha_lost;
 };
 
 #define MESH_TRIANGLES ((size_t)200 * 1000 * 1000) /* and vertices */
@@ -40,12 +46,15 @@ struct mesh_job {
     double scale;           /* the factor of to_scene on lengths (the mean one) */
     size_t *materials;      /* in the fragment, for each of assimp's; or NO_INDEX */
     struct mesh_omission omissions[MESH_OMISSIONS];
-    char *missing[MESH_MISSING_NAMES]; /* the first textures that are */
+    struct mesh_color_faults colors;
+    char **missing; /* each texture that is, once */
+    size_t missing_count;
+    bool third_uv; /* some texture is laid by a further set of coordinates than the second */
     /* While assimp asked for a file, which it takes for one that is not there. */
     bool out_of_memory;
 };
 
-/* Adds a line to the report's notes, as far as there is room. */
+/* Adds a line to the report's notes, where there is room for the whole of it. */
 void mesh_note(struct mesh_job *job, const char *format, ...) PRINTF_LIKE(2, 3);
 
 ps_result mesh_out_of_memory(struct mesh_job *job, size_t bytes);

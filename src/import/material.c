@@ -132,10 +132,22 @@ void mesh_material_omit(struct mesh_job *job, const char *what, const char *name
         i++;
     assert(i < MESH_OMISSIONS);
     struct mesh_omission *omission = &job->omissions[i];
+    char cut[sizeof omission->last];
+    snprintf(cut, sizeof cut, "%s", name);
+    if (omission->count > 0 && strcmp(omission->last, cut) == 0)
+        return; /* of the same material */
     if (omission->count++ == 0) {
         omission->what = what;
-        snprintf(omission->material, sizeof omission->material, "%s", name);
+        memcpy(omission->material, cut, sizeof cut);
     }
+    memcpy(omission->last, cut, sizeof cut);
+}
+
+ps_rgb mesh_reflectance(struct mesh_job *job, ps_rgb color, const char *name)
+{
+    if (ps_rgb_maximum(color) > 1)
+        mesh_material_omit(job, "what is above 1 in the reflectance", name);
+    return (ps_rgb){fminf(color.r, 1), fminf(color.g, 1), fminf(color.b, 1)};
 }
 
 void mesh_note_omissions(struct mesh_job *job)

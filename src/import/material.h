@@ -35,6 +35,9 @@ ps_result mesh_material_add_mix(struct mesh_job *job, const struct mesh_share sh
  * literal. */
 void mesh_material_omit(struct mesh_job *job, const char *what, const char *name);
 
+/* At most 1; the rest counts as left out. */
+ps_rgb mesh_reflectance(struct mesh_job *job, ps_rgb color, const char *name);
+
 /* material_mtl.c, material_gltf.c: adds the material and its parts. `extras` is its JSON,
  * or NULL. */
 ps_result mesh_material_read_mtl(struct mesh_job *job, const struct aiMaterial *source,

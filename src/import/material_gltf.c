@@ -24,13 +24,6 @@ static double clamp_unit(double value)
     return fmin(fmax(value, 0), 1);
 }
 
-ps_rgb mesh_reflectance(struct mesh_job *job, ps_rgb color, const char *name)
-{
-    if (ps_rgb_maximum(color) > 1)
-        mesh_material_omit(job, "what is above 1 in the reflectance", name);
-    return (ps_rgb){fminf(color.r, 1), fminf(color.g, 1), fminf(color.b, 1)};
-}
-
 static double read_alpha(const struct aiMaterial *source)
 {
     struct aiColor4D color;
@@ -260,27 +253,39 @@ static ps_result add_kind(struct mesh_job *job, const struct aiMaterial *source,
 
 /* --- what is left out ----------------------------------------------------------------------------- */
 
+/* By the factors by which they count: without them, or with 0, there is nothing to leave out. */
 static const struct {
-    const char *extension, *member; /* NULL: the extension as a whole */
+    const char *extension, *member;
     const char *what;
 } left_out[] = {
-    {"KHR_materials_clearcoat", NULL, "the clearcoat"},
-    {"KHR_materials_sheen", NULL, "the sheen"},
-    {"KHR_materials_anisotropy", NULL, "the anisotropy"},
-    {"KHR_materials_iridescence", NULL, "the iridescence"},
-    {"KHR_materials_dispersion", NULL, "the dispersion"},
-    {"KHR_materials_diffuse_transmission", NULL, "the diffuse transmission"},
+    {"KHR_materials_clearcoat", "clearcoatFactor", "the clearcoat"},
+    {"KHR_materials_sheen", "sheenColorFactor", "the sheen"},
+    {"KHR_materials_anisotropy", "anisotropyStrength", "the anisotropy"},
+    {"KHR_materials_iridescence", "iridescenceFactor", "the iridescence"},
+    {"KHR_materials_dispersion", "dispersion", "the dispersion"},
+    {"KHR_materials_diffuse_transmission", "diffuseTransmissionFactor", "the diffuse transmission"},
     {"KHR_materials_specular", "specularTexture", "the texture of the specular factor"},
     {"KHR_materials_specular", "specularColorTexture", "the texture of the specular colour"},
     {"KHR_materials_transmission", "transmissionTexture", "the texture of the transmission"},
 };
+
+/* A number, or one of an array, that is not 0; or a texture. */
+static bool counts(const struct json *value)
+{
+    if (!value || value->kind == JSON_NUMBER)
+        return value && value->number != 0;
+    for (size_t i = 0; value->kind == JSON_ARRAY && i < value->count; i++)
+        if (counts(json_element(value, i)))
+            return true;
+    return value->kind == JSON_OBJECT;
+}
 
 static void omit_rest(struct mesh_job *job, const struct aiMaterial *source,
                       const struct json *extras, const struct pbr *pbr, const char *name)
 {
     for (size_t i = 0; i < sizeof left_out / sizeof left_out[0]; i++) {
         const struct json *extension = mesh_gltf_extension(extras, left_out[i].extension);
-        if (extension && (!left_out[i].member || json_member(extension, left_out[i].member)))
+        if (counts(json_member(extension, left_out[i].member)))
             mesh_material_omit(job, left_out[i].what, name);
     }
     if (pbr->transmission > 0 && pbr->transmission < 0.5)

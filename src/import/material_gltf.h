@@ -5,9 +5,6 @@
 #include "import/material.h"
 #include <float.h>
 
-/* At most 1; the rest counts as left out. */
-ps_rgb mesh_reflectance(struct mesh_job *job, ps_rgb color, const char *name);
-
 /* Three numbers, none below 0; `fallback` where there are no such. */
 ps_rgb mesh_json_color(const struct json *object, const char *name, ps_rgb fallback);
 

@@ -75,11 +75,6 @@ static bool is_mirror(const struct mtl *mtl)
     return (i == 3 || i == 5 || i == 8) && !is_black(mtl->specular);
 }
 
-static ps_rgb at_most_one(ps_rgb color)
-{
-    return (ps_rgb){fminf(color.r, 1), fminf(color.g, 1), fminf(color.b, 1)};
-}
-
 static double roughness_of(double exponent)
 {
     return sqrt(sqrt(2 / (exponent + 2)));
@@ -137,13 +132,14 @@ static ps_result read_bump(struct mesh_job *job, const struct aiMaterial *source
 
 /* What every kind has but its reflection. */
 static ps_result read_surface(struct mesh_job *job, const struct aiMaterial *source,
-                              const struct mtl *mtl, struct material_description *material)
+                              const struct mtl *mtl, struct material_description *material,
+                              const char *name)
 {
     const struct mesh_texture_use diffuse = {aiTextureType_DIFFUSE, CHANNEL_RGB, ENCODING_AUTO,
                                              NULL};
     const struct mesh_texture_use emission = {aiTextureType_EMISSIVE, CHANNEL_RGB, ENCODING_AUTO,
                                               NULL};
-    material->color = mesh_pigment(at_most_one(mtl->diffuse));
+    material->color = mesh_pigment(mesh_reflectance(job, mtl->diffuse, name));
     material->emission = mesh_pigment(mtl->emission);
     ps_result result = add_picture(job, source, diffuse, &material->color);
     if (result == PS_OK)
@@ -161,7 +157,7 @@ static ps_result read_surface(struct mesh_job *job, const struct aiMaterial *sou
 static ps_result add_glass(struct mesh_job *job, const struct mtl *mtl,
                            struct material_description *material, const char *name, size_t *index)
 {
-    ps_rgb filter = at_most_one(mtl->filter);
+    ps_rgb filter = mesh_reflectance(job, mtl->filter, name);
     material->kind = MATERIAL_DIELECTRIC;
     material->color = mesh_pigment((ps_rgb){sqrtf(filter.r), sqrtf(filter.g), sqrtf(filter.b)});
     material->ior = mtl->ior > 1 ? mtl->ior : 1.5;
@@ -175,7 +171,7 @@ static ps_result add_mirror(struct mesh_job *job, const struct mtl *mtl,
                             size_t *index)
 {
     struct material_description mirror = *diffuse, below = *diffuse;
-    ps_rgb specular = at_most_one(mtl->specular);
+    ps_rgb specular = mesh_reflectance(job, mtl->specular, name);
     float mirrored = ps_rgb_maximum(specular), scattered = ps_rgb_maximum(diffuse->color.colors[0]);
     mirror.kind = MATERIAL_MIRROR;
     mirror.color = mesh_pigment(specular);
@@ -190,11 +186,12 @@ static ps_result add_mirror(struct mesh_job *job, const struct mtl *mtl,
 }
 
 static ps_result make_glossy(struct mesh_job *job, const struct aiMaterial *source,
-                             const struct mtl *mtl, struct material_description *material)
+                             const struct mtl *mtl, struct material_description *material,
+                             const char *name)
 {
     const struct mesh_texture_use use = {aiTextureType_SPECULAR, CHANNEL_RGB, ENCODING_AUTO, NULL};
     material->kind = MATERIAL_GLOSSY;
-    material->specular = mesh_pigment(at_most_one(mtl->specular));
+    material->specular = mesh_pigment(mesh_reflectance(job, mtl->specular, name));
     material->roughness = mesh_pigment(mesh_grey(roughness_of(mtl->exponent)));
     return mesh_pigment_texture(job, source, use, &material->specular);
 }
@@ -204,7 +201,7 @@ ps_result mesh_material_read_mtl(struct mesh_job *job, const struct aiMaterial *
 {
     struct mtl mtl = read_mtl(job, source);
     struct material_description material = mesh_material_white(job->request->origin);
-    ps_result result = read_surface(job, source, &mtl, &material);
+    ps_result result = read_surface(job, source, &mtl, &material, name);
     if (result != PS_OK)
         return result;
     if (is_glass(job, &mtl))
@@ -212,6 +209,6 @@ ps_result mesh_material_read_mtl(struct mesh_job *job, const struct aiMaterial *
     if (is_mirror(&mtl))
         return add_mirror(job, &mtl, &material, name, index);
     if (mtl.illumination >= 2 && !is_black(mtl.specular) && !job->request->diffuse_only)
-        result = make_glossy(job, source, &mtl, &material);
+        result = make_glossy(job, source, &mtl, &material, name);
     return result == PS_OK ? mesh_material_add(job, &material, name, NULL, index) : result;
 }

@@ -166,22 +166,39 @@ static ps_result copy_embedded(struct mesh_job *job, const struct aiTexture *emb
     return PS_OK;
 }
 
-/* Beyond those that are named each use counts. */
-static void count_missing(struct mesh_job *job, const char *name)
+static bool is_missing(const struct mesh_job *job, const char *name)
 {
-    size_t i = 0;
-    while (i < MESH_MISSING_NAMES && job->missing[i] && strcmp(job->missing[i], name) != 0)
-        i++;
-    if (i < MESH_MISSING_NAMES && job->missing[i])
-        return;
-    if (i < MESH_MISSING_NAMES) {
-        char *names = job->report->missing_names;
-        size_t length = strlen(names);
-        job->missing[i] = strdup(name);
-        snprintf(names + length, sizeof job->report->missing_names - length, "%s%.100s",
-                 length > 0 ? ", " : "", name);
-    }
+    for (size_t i = 0; i < job->missing_count; i++)
+        if (strcmp(job->missing[i], name) == 0)
+            return true;
+    return false;
+}
+
+static void name_missing(struct mesh_report *report, const char *name)
+{
+    char *end = report->missing_names + strlen(report->missing_names);
+    size_t room = sizeof report->missing_names - (size_t)(end - report->missing_names);
+    snprintf(end, room, "%s%.*s", report->missing_textures > 0 ? ", " : "", MESH_MISSING_LENGTH,
+             name);
+}
+
+static ps_result count_missing(struct mesh_job *job, const char *name)
+{
+    size_t bytes = (job->missing_count + 1) * sizeof *job->missing;
+    if (is_missing(job, name))
+        return PS_OK;
+    char **missing = realloc(job->missing, bytes);
+    if (!missing)
+        return mesh_out_of_memory(job, bytes);
+    job->missing = missing;
+    missing[job->missing_count] = strdup(name);
+    if (!missing[job->missing_count])
+        return mesh_out_of_memory(job, strlen(name));
+    job->missing_count++;
+    if (job->report->missing_textures < MESH_MISSING_NAMES)
+        name_missing(job->report, name);
     job->report->missing_textures++;
+    return PS_OK;
 }
 
 static ps_result locate(struct mesh_job *job, char *name, struct texture_description *texture)
@@ -191,14 +208,8 @@ static ps_result locate(struct mesh_job *job, char *name, struct texture_descrip
     bool is_file = embedded && embedded->mHeight == 0 && embedded->mWidth > 0 && embedded->pcData;
     if (is_file)
         return copy_embedded(job, embedded, name, texture);
-    if (embedded || name[0] == '*') {
-        count_missing(job, name);
-        return PS_OK;
-    }
-    if (!find_path(job, name, path)) {
-        count_missing(job, name);
-        return PS_OK;
-    }
+    if (embedded || name[0] == '*' || !find_path(job, name, path))
+        return count_missing(job, name);
     texture->path = strdup(path);
     return texture->path ? PS_OK : mesh_out_of_memory(job, strlen(path));
 }

@@ -16,9 +16,10 @@
 static void choose_set(struct mesh_job *job, size_t set, struct pigment_description *pigment)
 {
     pigment->uv_set = set == 1;
-    if (set >= SETS)
+    if (set >= SETS && !job->third_uv)
         mesh_note(job,
                   "a texture by a third set of coordinates, or one beyond, is laid by the first");
+    job->third_uv |= set >= SETS;
 }
 
 /* --- glTF ------------------------------------------------------------------------------------------ */

@@ -248,13 +248,56 @@ static void what_is_left_out_is_told(void **state)
 {
     (void)state;
     struct imported imported = import_parts((struct parts){
-        .material = ",\"extensions\":{\"KHR_materials_clearcoat\":{},\"KHR_materials_sheen\":{}}},"
-                    "{\"name\":\"n\",\"extensions\":{\"KHR_materials_sheen\":{}}",
+        .material = ",\"extensions\":{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":0.5},"
+                    "\"KHR_materials_sheen\":{\"sheenColorFactor\":[0,0.1,0]},"
+                    "\"KHR_materials_anisotropy\":{},"
+                    "\"KHR_materials_dispersion\":{\"dispersion\":0}}},"
+                    "{\"name\":\"n\",\"extensions\":{\"KHR_materials_clearcoat\":{},"
+                    "\"KHR_materials_sheen\":{\"sheenColorFactor\":[1,0,0]}}",
         .primitive = "{\"attributes\":{\"POSITION\":0},\"material\":0},"
                      "{\"attributes\":{\"POSITION\":0},\"material\":1}"});
     expect_success(&imported);
     assert_string_equal(imported.report.notes, "the clearcoat of material m is left out\n"
                                                "the sheen of material m and 1 more is left out");
+    release_imported(&imported);
+}
+
+static void a_material_counts_once(void **state)
+{
+    (void)state;
+    struct imported imported =
+        import_material(",\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{"
+                        "\"diffuseFactor\":[2,1,1,1],\"specularFactor\":[2,1,1]}}",
+                        "");
+    assert_string_equal(imported.report.notes,
+                        "what is above 1 in the reflectance of material m is left out");
+    release_imported(&imported);
+}
+
+static void line_ends_in_names_make_no_lines(void **state)
+{
+    (void)state;
+    struct imported imported = import_parts(
+        (struct parts){.material = "},{\"name\":\"a\\nb\","
+                                   "\"pbrMetallicRoughness\":{\"baseColorFactor\":[2,1,1,1]}",
+                       .primitive = "{\"attributes\":{\"POSITION\":0},\"material\":1}"});
+    expect_success(&imported);
+    assert_string_equal(imported.report.notes,
+                        "what is above 1 in the reflectance of material a?b is left out");
+    release_imported(&imported);
+}
+
+/* Once, so that there is room for what else is to be told. */
+static void third_set_is_told_once(void **state)
+{
+    (void)state;
+    struct imported imported = import_material(
+        PBR("\"baseColorTexture\":{\"index\":0,\"texCoord\":2}") ",\"normalTexture\":{\"index\":0,"
+                                                                 "\"texCoord\":3}",
+        "");
+    assert_string_equal(
+        imported.report.notes,
+        "a texture by a third set of coordinates, or one beyond, is laid by the first");
     release_imported(&imported);
 }
 
@@ -516,6 +559,9 @@ int main(void)
         cmocka_unit_test(specular_scales_the_coat),
         cmocka_unit_test(normal_scale_is_kept),
         cmocka_unit_test(what_is_left_out_is_told),
+        cmocka_unit_test(a_material_counts_once),
+        cmocka_unit_test(line_ends_in_names_make_no_lines),
+        cmocka_unit_test(third_set_is_told_once),
         cmocka_unit_test(texture_transform_is_kept),
         cmocka_unit_test(alpha_mode_decides_on_opacity),
         cmocka_unit_test(known_extensions_may_be_required),

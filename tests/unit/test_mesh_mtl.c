@@ -8,7 +8,7 @@ static const char triangle[] = "mtllib m.mtl\n"
 
 static struct imported import_mtl_of(const struct mesh_request *request, const char *mtl)
 {
-    char text[2048];
+    char text[8192];
     snprintf(text, sizeof text, "newmtl m\n%s\n", mtl);
     const struct mesh_memory_file files[] = {text_file("d/m.obj", triangle),
                                              text_file("d/m.mtl", text), text_file("d/a.png", "a"),
@@ -35,6 +35,18 @@ static void kd_is_diffuse(void **state)
     expect_color(m->emission.colors[0], 0, 0, 0);
     assert_int_equal(imported.fragment.objects[0].material, 0);
     assert_true(m->normal_map.texture == NO_INDEX);
+    release_imported(&imported);
+}
+
+/* Once for each material, whatever of it is above 1; and only where it counts. */
+static void reflectances_above_1_are_told(void **state)
+{
+    (void)state;
+    struct imported imported =
+        import_mtl("Kd 2 0.4 1\nKs 3 1 1\nillum 2\nnewmtl n\nKd 2 0 0\nKs 3 1 1\nillum 1");
+    expect_color(material_named(&imported, "m")->color.colors[0], 1, 0.4, 1);
+    assert_string_equal(imported.report.notes,
+                        "what is above 1 in the reflectance of material m and 1 more is left out");
     release_imported(&imported);
 }
 
@@ -205,14 +217,15 @@ static void all_missing_textures_are_named(void **state)
     assert_int_equal(imported.report.missing_textures, 2);
     assert_string_equal(imported.report.missing_names, "one.png, two.png");
     release_imported(&imported);
-    char text[2000] = "";
-    for (int i = 1; i <= 22; i++)
-        snprintf(text + strlen(text), sizeof text - strlen(text), "map_Kd %d.png\nnewmtl m%d\n", i,
-                 i);
+    /* Long names, and each twice. */
+    char text[8000] = "";
+    for (int i = 0; i < 44; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "map_Kd %090d.png\nnewmtl m%d\n",
+                 i % 22, i);
     imported = import_mtl(text);
     assert_int_equal(imported.report.missing_textures, 22);
-    assert_non_null(strstr(imported.report.missing_names, "19.png, 20.png"));
-    assert_null(strstr(imported.report.missing_names, "21.png"));
+    assert_non_null(strstr(imported.report.missing_names, "018.png, 000"));
+    assert_string_equal(strrchr(imported.report.missing_names, ' ') + 89, "19.png");
     release_imported(&imported);
 }
 
@@ -259,6 +272,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kd_is_diffuse),
+        cmocka_unit_test(reflectances_above_1_are_told),
         cmocka_unit_test(ke_is_radiance),
         cmocka_unit_test(ks_with_illum_2_is_a_coat),
         cmocka_unit_test(almost_black_kd_under_a_mirror_is_black),
