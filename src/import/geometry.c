@@ -1,7 +1,6 @@
 /* geometry.c: the triangles of one of assimp's meshes that are any good. */
 #include "import/geometry.h"
 
-#include "image/tonemap.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -81,50 +80,6 @@ static void fill_uv(const struct aiMesh *source, unsigned set, const uint32_t *n
         filled[new_indices[i]][0] = isfinite(uv.x) ? uv.x : 0.0f;
         filled[new_indices[i]][1] = isfinite(uv.y) ? uv.y : 0.0f;
     }
-}
-
-static float unit_or_less(float value)
-{
-    return value > 0.0f ? fminf(value, 1.0f) : 0.0f; /* NaN: 0 */
-}
-
-/* assimp leaves the alpha of glTF's colours that have none at 0. */
-static bool has_alpha(const struct aiMesh *source)
-{
-    for (unsigned i = 0; i < source->mNumVertices; i++)
-        if (source->mColors[0][i].a != 0.0f)
-            return true;
-    return false;
-}
-
-/* glTF's colours are linear. Those of OBJ, PLY and the rest are what paint and scanning programs show, sRGB, as Blender
- * reads them. */
-static void fill_colors(const struct mesh_job *job, const struct aiMesh *source,
-                        const uint32_t *new_indices, struct mesh_description *mesh)
-{
-    bool alpha = has_alpha(source);
-    for (unsigned i = 0; i < source->mNumVertices; i++) {
-        if (new_indices[i] == UINT32_MAX)
-            continue;
-        const struct aiColor4D color = source->mColors[0][i];
-        float *filled = mesh->colors[new_indices[i]];
-        const float parts[3] = {unit_or_less(color.r), unit_or_less(color.g),
-                                unit_or_less(color.b)};
-        for (int k = 0; k < 3; k++)
-            filled[k] = job->gltf.root ? parts[k] : (float)tonemap_linear((double)parts[k]);
-        filled[3] = alpha ? unit_or_less(color.a) : 1.0f;
-    }
-}
-
-bool mesh_has_colors(const struct aiMesh *source)
-{
-    for (unsigned i = 0; source->mColors[0] && i < source->mNumVertices; i++) {
-        const struct aiColor4D *color = &source->mColors[0][i];
-        if (color->r != 1.0f || color->g != 1.0f || color->b != 1.0f ||
-            (color->a != 1.0f && color->a != 0.0f))
-            return true;
-    }
-    return false;
 }
 
 static ps_vec3 face_normal(const struct mesh_description *mesh, const uint32_t triangle[3])
@@ -212,7 +167,7 @@ ps_result mesh_fill(struct mesh_job *job, const struct mesh_geometry *geometry,
     if (parts.second_uv)
         fill_uv(source, 1, new_indices, mesh->second_uv);
     if (parts.colors)
-        fill_colors(job, source, new_indices, mesh);
+        mesh_fill_colors(job, geometry, new_indices, mesh->colors);
     if (parts.normals)
         fill_normals(source, geometry->smooth, new_indices, mesh);
     return PS_OK;

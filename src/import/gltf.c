@@ -143,6 +143,7 @@ static ps_result meet_materials(struct walk *walk, const struct json *mesh)
     for (size_t i = 0; primitives && i < primitives->count; i++) {
         const struct json *primitive = json_element(primitives, i);
         size_t index;
+        gltf->primitives[gltf->primitive_count++] = primitive;
         if (!has_float_vertices(gltf, primitive))
             return complain(walk->error, "vertices are integers (KHR_mesh_quantization)");
         gltf->triangle_count += count_triangles(gltf, primitive);
@@ -203,6 +204,17 @@ static ps_result visit_nodes(struct walk *walk, const struct json *indices, int 
     return result;
 }
 
+static size_t count_primitives(const struct gltf *gltf)
+{
+    const struct json *meshes = json_member(gltf->root, "meshes");
+    size_t count = 0;
+    for (size_t i = 0; i < count_of(gltf, "meshes"); i++) {
+        const struct json *primitives = json_member(json_element(meshes, i), "primitives");
+        count += primitives ? primitives->count : 0;
+    }
+    return count;
+}
+
 static ps_result walk_scene(struct gltf *gltf, struct error *error)
 {
     size_t nodes = count_of(gltf, "nodes"), materials = count_of(gltf, "materials"), scene;
@@ -215,8 +227,9 @@ static ps_result walk_scene(struct gltf *gltf, struct error *error)
     };
     gltf->nodes = arena_allocate(&gltf->arena, nodes * sizeof(struct json *));
     gltf->materials = arena_allocate(&gltf->arena, materials * sizeof(struct json *));
+    gltf->primitives = arena_allocate(&gltf->arena, count_primitives(gltf) * sizeof(struct json *));
     if (!walk.seen_nodes || !walk.seen_meshes || !walk.seen_materials || !gltf->nodes ||
-        !gltf->materials)
+        !gltf->materials || !gltf->primitives)
         return error_memory(error, nodes, "the nodes of a mesh file");
     if (!json_size(gltf->root, "scene", 0, &scene) || scene >= count_of(gltf, "scenes"))
         return complain(error, "there is no scene");
@@ -329,4 +342,21 @@ void gltf_release(struct gltf *gltf)
 {
     arena_release(&gltf->arena);
     *gltf = (struct gltf){0};
+}
+
+/* --- what meshes are made of --------------------------------------------------------------------- */
+
+const struct json *gltf_primitive(const struct gltf *gltf, size_t index, size_t mesh_count)
+{
+    return gltf->primitive_count == mesh_count ? gltf->primitives[index] : NULL;
+}
+
+bool gltf_has_alpha(const struct gltf *gltf, const struct json *primitive)
+{
+    size_t accessor;
+    if (!json_size(json_member(primitive, "attributes"), "COLOR_0", SIZE_MAX, &accessor))
+        return false;
+    const struct json *type =
+        json_member(json_element(json_member(gltf->root, "accessors"), accessor), "type");
+    return type && type->kind == JSON_STRING && json_is(&type->text, "VEC4");
 }

@@ -22,6 +22,8 @@ struct gltf {
     size_t node_count;
     const struct json **materials; /* in the order in which assimp meets them */
     size_t material_count;
+    const struct json **primitives; /* of meshes, in the order in which assimp meets them */
+    size_t primitive_count;
     bool single_root;      /* else assimp puts a node above all */
     size_t triangle_count; /* of all meshes, each once */
     bool integer_uv;       /* some texture coordinates were integers, and are hidden */
@@ -31,5 +33,11 @@ struct gltf {
  * case. */
 ps_result gltf_open(struct gltf *gltf, struct mesh_file *file, bool binary, struct error *error);
 void gltf_release(struct gltf *gltf);
+
+/* The primitive of which assimp made its mesh of that index, of `mesh_count`; NULL where they are not as many. */
+const struct json *gltf_primitive(const struct gltf *gltf, size_t index, size_t mesh_count);
+
+/* Whether the colours of a primitive have an alpha. */
+bool gltf_has_alpha(const struct gltf *gltf, const struct json *primitive);
 
 #endif

@@ -42,17 +42,19 @@ static size_t *material_of(const struct builder *builder, const struct aiMesh *s
 /* With what its material looks up. */
 static struct mesh_geometry geometry_of(const struct builder *builder, size_t index)
 {
-    const struct mesh_job *job = builder->job;
+    struct mesh_job *job = builder->job;
     const struct aiMesh *mesh = source_mesh(builder, index);
     const size_t *material = material_of(builder, mesh);
-    return (struct mesh_geometry){
+    struct mesh_geometry geometry = {
         .mesh = mesh,
+        .primitive = gltf_primitive(&job->gltf, index, job->scene->mNumMeshes),
         .second_uv =
             material && *material != NO_INDEX && mesh_material_has_second_uv(job, *material),
-        .colors = material && job->request->materials && mesh_has_colors(mesh),
         .smooth = smooth_of(builder, index),
         .scratch = builder->scratch,
     };
+    geometry.colors = material && job->request->materials && mesh_has_colors(job, &geometry);
+    return geometry;
 }
 
 /* The mesh in the fragment, made when it is first wanted; or EMPTY. */
@@ -172,8 +174,10 @@ ps_result mesh_read_objects(struct mesh_job *job)
 {
     struct builder builder = {.job = job};
     ps_result result = prepare(&builder);
+    mesh_check_colors(job);
     if (result == PS_OK)
         result = place_all(&builder);
+    mesh_note_colors(job);
     if (result == PS_OK && job->fragment->object_count == 0)
         result = error_set(job->error, PS_ERROR_INVALID, "%s: the file has no triangles",
                            job->request->path);

@@ -122,11 +122,59 @@ static void white_is_no_colour(void **state)
     release_imported(&imported);
 }
 
+/* assimp keeps the colours apart from the vertices: which belongs to which is lost. */
+static void colours_of_some_vertices_are_left_out(void **state)
+{
+    (void)state;
+    const char *const texts[] = {"v 0 0 1\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 2 3 4\n",
+                                 "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0\nf 1 2 3\n"};
+    for (size_t i = 0; i < 2; i++) {
+        struct imported imported = import_text("m.obj", texts[i]);
+        expect_success(&imported);
+        assert_null(mesh_of(&imported, 0)->colors);
+        assert_string_equal(imported.report.notes,
+                            "some vertices have colours and others none: the colours are left out");
+        release_imported(&imported);
+    }
+}
+
+static void colours_out_of_range_are_told_once(void **state)
+{
+    (void)state;
+    const char *const texts[] = {"v 0 0 0 255 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 255 0\nf 1 2 3\n",
+                                 "v 0 0 0 nan 0 0\nv 1 0 0 0 0 0\nv 0 1 0 -1 0 0\nf 1 2 3\n"};
+    for (size_t i = 0; i < 2; i++) {
+        struct imported imported = import_text("m.obj", texts[i]);
+        expect_success(&imported);
+        const struct mesh_description *mesh = mesh_of(&imported, 0);
+        expect_rgba(mesh->colors[mesh->triangles[0][0]], i == 0, 0, 0, 1);
+        assert_string_equal(imported.report.notes,
+                            "what is below 0 or above 1 in vertex colours is left out");
+        release_imported(&imported);
+    }
+}
+
+static void alpha_of_ply_is_told(void **state)
+{
+    (void)state;
+    struct imported imported =
+        import_ply(PLY_COLORS "property uchar alpha\n",
+                   "0 0 0 255 0 188 255\n1 0 0 0 0 0 255\n0 1 0 0 255 0 255\n");
+    assert_string_equal(imported.report.notes, "");
+    release_imported(&imported);
+    imported = import_ply(PLY_COLORS "property uchar alpha\n",
+                          "0 0 0 255 0 188 255\n1 0 0 0 0 0 9\n0 1 0 0 255 0 255\n");
+    expect_near(mesh_of(&imported, 0)->colors[1][3], 1, 0);
+    assert_string_equal(imported.report.notes, "the alpha of vertex colours is left out");
+    release_imported(&imported);
+}
+
 /* --- glTF ------------------------------------------------------------------------------------------ */
 
 /* A triangle, colours with alpha as floats, and two sets of coordinates; the same triangle without colours. */
-static const float content[] = {0,    0,    0, 1,    0, 0, 0,     1, 0, 0.5f, 2, -1, 0.25f, 0.5f,
-                                0.5f, 0.5f, 1, 0.5f, 0, 1, 0.75f, 0, 0, 1,    0, 0,  0.25f};
+static const float content[] = {0,     0,    0,    1, 0,    0, 0, 1,     0, 0.5f, 2, -1, 0.25f,
+                                0.5f,  0.5f, 0.5f, 1, 0.5f, 0, 1, 0.75f, 0, 0,    1, 0,  0,
+                                0.25f, 1,    1,    1, 0,    1, 1, 1,     0, 1,    1, 1,  0};
 
 static struct imported import_gltf(const char *material, const char *attributes)
 {
@@ -138,14 +186,17 @@ static struct imported import_gltf(const char *material, const char *attributes)
         "{\"POSITION\":0,\"TEXCOORD_0\":2%s},\"material\":0}]},{\"primitives\":[{"
         "\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":2},\"material\":1}]}],"
         "\"materials\":[{\"name\":\"m\"%s},{\"name\":\"plain\"%s}],"
-        "\"buffers\":[{\"byteLength\":108,\"uri\":\"m.bin\"}],"
+        "\"buffers\":[{\"byteLength\":156,\"uri\":\"m.bin\"}],"
         "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,"
-        "\"byteLength\":48},{\"buffer\":0,\"byteOffset\":84,\"byteLength\":24}],"
+        "\"byteLength\":48},{\"buffer\":0,\"byteOffset\":84,\"byteLength\":24},"
+        "{\"buffer\":0,\"byteOffset\":108,\"byteLength\":48}],"
         "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"a.png\"}],"
         "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
         "{\"bufferView\":1,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"},"
         "{\"bufferView\":2,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"},"
-        "{\"bufferView\":1,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}]}",
+        "{\"bufferView\":1,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+        "{\"bufferView\":3,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"},"
+        "{\"bufferView\":1,\"componentType\":5126,\"count\":2,\"type\":\"VEC4\"}]}",
         attributes, material, material);
     struct mesh_request request = request_all("d/m.gltf");
     const struct mesh_memory_file files[] = {text_file("d/m.gltf", text),
@@ -166,6 +217,8 @@ static void gltf_colours_are_linear_and_within_range(void **state)
     expect_rgba(mesh->colors[mesh->triangles[0][0]], 0.5, 1, 0, 0.25);
     expect_rgba(mesh->colors[mesh->triangles[0][2]], 0.5, 0, 1, 0.75);
     assert_null(mesh_of(&imported, 1)->colors);
+    assert_string_equal(imported.report.notes,
+                        "what is below 0 or above 1 in vertex colours is left out");
     release_imported(&imported);
     imported = import_gltf("", ",\"COLOR_0\":3"); /* three numbers each: no alpha */
     mesh = mesh_of(&imported, 0);
@@ -185,6 +238,26 @@ static void alpha_of_colours_counts_where_that_of_the_material_does(void **state
     release_imported(&imported);
     imported = import_gltf("", COLORED);
     assert_false(material_named(&imported, "m")->opacity.vertex_colors);
+    release_imported(&imported);
+}
+
+static void alpha_of_0_is_one(void **state)
+{
+    (void)state;
+    struct imported imported =
+        import_gltf(",\"alphaMode\":\"BLEND\"", ",\"COLOR_0\":4"); /* white */
+    expect_rgba(mesh_of(&imported, 0)->colors[0], 1, 1, 1, 0);
+    assert_true(material_named(&imported, "m")->opacity.vertex_colors);
+    release_imported(&imported);
+}
+
+static void colours_of_another_count_are_told(void **state)
+{
+    (void)state;
+    struct imported imported = import_gltf("", ",\"COLOR_0\":5");
+    assert_null(mesh_of(&imported, 0)->colors);
+    assert_string_equal(imported.report.notes,
+                        "vertex colours that are not as many as the vertices are left out");
     release_imported(&imported);
 }
 
@@ -211,9 +284,9 @@ static void beside_colours_the_second_set_is_left_out(void **state)
     struct imported imported = import_gltf(SECOND_SET, ",\"TEXCOORD_1\":2" COLORED);
     assert_int_equal(material_named(&imported, "m")->color.uv_set, 0);
     assert_int_equal(material_named(&imported, "plain")->color.uv_set, 1);
-    assert_string_equal(imported.report.notes,
-                        "beside vertex colours, the second set of texture coordinates of material "
-                        "m is left out");
+    assert_non_null(strstr(imported.report.notes,
+                           "beside vertex colours, the second set of texture coordinates of "
+                           "material m is left out"));
     release_imported(&imported);
     imported = import_gltf(",\"pbrMetallicRoughness\":{\"metallicFactor\":0.5,"
                            "\"baseColorTexture\":{\"index\":0,\"texCoord\":1}}",
@@ -232,8 +305,13 @@ int main(void)
         cmocka_unit_test(colours_go_with_the_materials),
         cmocka_unit_test(ply_colours_are_srgb),
         cmocka_unit_test(white_is_no_colour),
+        cmocka_unit_test(colours_of_some_vertices_are_left_out),
+        cmocka_unit_test(colours_out_of_range_are_told_once),
+        cmocka_unit_test(alpha_of_ply_is_told),
         cmocka_unit_test(gltf_colours_are_linear_and_within_range),
         cmocka_unit_test(alpha_of_colours_counts_where_that_of_the_material_does),
+        cmocka_unit_test(alpha_of_0_is_one),
+        cmocka_unit_test(colours_of_another_count_are_told),
         cmocka_unit_test(second_set_is_kept_where_it_is_used),
         cmocka_unit_test(beside_colours_the_second_set_is_left_out),
     };
