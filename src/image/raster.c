@@ -90,18 +90,27 @@ ps_result raster_allocate(const char *path, struct raster *raster, struct error 
     return PS_OK;
 }
 
+static const struct format *find_format(const unsigned char *bytes, size_t size)
+{
+    for (size_t i = 0; i < FORMAT_COUNT; i++)
+        if (size >= formats[i].length && memcmp(bytes, formats[i].magic, formats[i].length) == 0)
+            return &formats[i];
+    return NULL;
+}
+
+bool raster_is_known(const unsigned char *bytes, size_t size)
+{
+    return find_format(bytes, size) != NULL;
+}
+
 static ps_result decode(const struct raster_source *source, struct raster *raster,
                         struct error *error)
 {
     if (source->size == 0)
         return error_set(error, PS_ERROR_INVALID, "%s: it is empty", source->path);
-    for (size_t i = 0; i < FORMAT_COUNT; i++) {
-        const struct format *format = &formats[i];
-        if (source->size >= format->length &&
-            memcmp(source->bytes, format->magic, format->length) == 0) {
-            return format->read(source, raster, error);
-        }
-    }
+    const struct format *format = find_format(source->bytes, source->size);
+    if (format)
+        return format->read(source, raster, error);
     return error_set(error, PS_ERROR_INVALID,
                      "%s: its content is none of a picture that can be read (PNG, JPEG, OpenEXR)",
                      source->path);

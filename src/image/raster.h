@@ -52,6 +52,10 @@ ps_result raster_read(const char *path, const char *folder, struct raster *raste
 ps_result raster_decode(const char *path, const unsigned char *bytes, size_t size,
                         struct raster *raster, struct error *error);
 
+/* Whether a file that starts with these bytes, RASTER_MAGIC of them or the whole file, is of a kind that is read. */
+#define RASTER_MAGIC 16
+bool raster_is_known(const unsigned char *bytes, size_t size);
+
 void raster_release(struct raster *raster);
 
 /* Of the samples. */

@@ -121,6 +121,31 @@ bool mesh_files_exist(const struct mesh_files *files, const char *path)
                          : input_file_exists(path, files->folder);
 }
 
+static size_t peek_on_disk(const char *path, const char *folder, unsigned char *bytes, size_t size)
+{
+    struct input_file input;
+    struct error ignored;
+    if (input_file_open(path, folder, &input, &ignored) != PS_OK)
+        return 0;
+    if (input_file_read(&input, bytes, &size, &ignored) != PS_OK)
+        size = 0;
+    close(input.descriptor);
+    return size;
+}
+
+size_t mesh_files_peek(const struct mesh_files *files, const char *path, unsigned char *bytes,
+                       size_t size)
+{
+    if (!files->memory)
+        return peek_on_disk(path, files->folder, bytes, size);
+    const struct mesh_memory_file *source = find_in_memory(files, path);
+    if (!source || source->length < size)
+        size = source ? source->length : 0;
+    if (size > 0)
+        memcpy(bytes, source->bytes, size);
+    return size;
+}
+
 void mesh_files_release(struct mesh_files *files)
 {
     while (files->read) {

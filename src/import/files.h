@@ -29,6 +29,10 @@ ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mes
 /* Whether there is a regular file of that path. */
 bool mesh_files_exist(const struct mesh_files *files, const char *path);
 
+/* The first bytes of such a file, at most `size`: how many. */
+size_t mesh_files_peek(const struct mesh_files *files, const char *path, unsigned char *bytes,
+                       size_t size);
+
 void mesh_files_release(struct mesh_files *files);
 
 #endif

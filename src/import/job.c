@@ -108,6 +108,8 @@ static ps_result convert(struct mesh_job *job)
         mesh_settle_materials(job);
     if (result == PS_OK)
         mesh_note_omissions(job);
+    if (result == PS_OK)
+        mesh_note_textures(job);
     if (result == PS_OK && job->request->camera)
         result = mesh_read_cameras(job);
     if (result == PS_OK && job->request->lights)
@@ -123,9 +125,9 @@ static void release(struct mesh_job *job)
     mesh_files_release(&job->files);
     free(job->nodes);
     free(job->materials);
-    for (size_t i = 0; i < job->missing_count; i++)
-        free(job->missing[i]);
-    free(job->missing);
+    for (size_t i = 0; i < job->lost_count; i++)
+        free(job->lost[i]);
+    free(job->lost);
 }
 
 ps_result mesh_job_run(struct mesh_job *job)

@@ -16,6 +16,9 @@ void mesh_settle_materials(struct mesh_job *job);
 /* What materials have and psplat has not. Last. */
 void mesh_note_omissions(struct mesh_job *job);
 
+/* Textures of a kind that psplat does not read. */
+void mesh_note_textures(struct mesh_job *job);
+
 ps_result mesh_read_cameras(struct mesh_job *job);
 ps_result mesh_read_lights(struct mesh_job *job);
 

@@ -5,6 +5,8 @@
  */
 #include "import/material.h"
 
+#include "image/raster.h"
+#include "import/steps.h"
 #include "import/text.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -166,50 +168,81 @@ static ps_result copy_embedded(struct mesh_job *job, const struct aiTexture *emb
     return PS_OK;
 }
 
-static bool is_missing(const struct mesh_job *job, const char *name)
+/* Whether it is the first time that the texture is left out. */
+static ps_result remember(struct mesh_job *job, const char *name, bool *is_new)
 {
-    for (size_t i = 0; i < job->missing_count; i++)
-        if (strcmp(job->missing[i], name) == 0)
-            return true;
-    return false;
-}
-
-static void name_missing(struct mesh_report *report, const char *name)
-{
-    char *end = report->missing_names + strlen(report->missing_names);
-    size_t room = sizeof report->missing_names - (size_t)(end - report->missing_names);
-    snprintf(end, room, "%s%.*s", report->missing_textures > 0 ? ", " : "", MESH_MISSING_LENGTH,
-             name);
+    size_t bytes = (job->lost_count + 1) * sizeof *job->lost;
+    *is_new = false;
+    for (size_t i = 0; i < job->lost_count; i++)
+        if (strcmp(job->lost[i], name) == 0)
+            return PS_OK;
+    char **lost = realloc(job->lost, bytes);
+    if (!lost)
+        return mesh_out_of_memory(job, bytes);
+    job->lost = lost;
+    lost[job->lost_count] = strdup(name);
+    if (!lost[job->lost_count])
+        return mesh_out_of_memory(job, strlen(name));
+    job->lost_count++;
+    *is_new = true;
+    return PS_OK;
 }
 
 static ps_result count_missing(struct mesh_job *job, const char *name)
 {
-    size_t bytes = (job->missing_count + 1) * sizeof *job->missing;
-    if (is_missing(job, name))
-        return PS_OK;
-    char **missing = realloc(job->missing, bytes);
-    if (!missing)
-        return mesh_out_of_memory(job, bytes);
-    job->missing = missing;
-    missing[job->missing_count] = strdup(name);
-    if (!missing[job->missing_count])
-        return mesh_out_of_memory(job, strlen(name));
-    job->missing_count++;
-    if (job->report->missing_textures < MESH_MISSING_NAMES)
-        name_missing(job->report, name);
-    job->report->missing_textures++;
-    return PS_OK;
+    struct mesh_report *report = job->report;
+    char *end = report->missing_names + strlen(report->missing_names);
+    size_t room = sizeof report->missing_names - (size_t)(end - report->missing_names);
+    bool is_new;
+    ps_result result = remember(job, name, &is_new);
+    if (is_new && report->missing_textures++ < MESH_MISSING_NAMES)
+        snprintf(end, room, "%s%.*s", *report->missing_names ? ", " : "", MESH_MISSING_LENGTH,
+                 name);
+    return result;
+}
+
+static ps_result count_unknown(struct mesh_job *job, const char *name)
+{
+    bool is_new;
+    ps_result result = remember(job, name, &is_new);
+    if (is_new && job->unknown_textures++ == 0)
+        snprintf(job->unknown_name, sizeof job->unknown_name, "%.*s", MESH_MISSING_LENGTH, name);
+    return result;
+}
+
+void mesh_note_textures(struct mesh_job *job)
+{
+    if (job->unknown_textures == 1)
+        mesh_note(job, "texture %s is left out: it is neither PNG, JPEG nor OpenEXR",
+                  job->unknown_name);
+    else if (job->unknown_textures > 1)
+        mesh_note(job,
+                  "texture %s and %zu more are left out: they are neither PNG, JPEG nor OpenEXR",
+                  job->unknown_name, job->unknown_textures - 1);
+}
+
+static ps_result locate_inside(struct mesh_job *job, const struct aiTexture *embedded,
+                               const char *name, struct texture_description *texture)
+{
+    bool is_file = embedded->mHeight == 0 && embedded->mWidth > 0 && embedded->pcData;
+    if (!is_file)
+        return count_missing(job, name);
+    if (!raster_is_known((const unsigned char *)embedded->pcData, embedded->mWidth))
+        return count_unknown(job, name);
+    return copy_embedded(job, embedded, name, texture);
 }
 
 static ps_result locate(struct mesh_job *job, char *name, struct texture_description *texture)
 {
     const struct aiTexture *embedded = find_embedded(job->scene, name);
     char path[LONGEST_PATH];
-    bool is_file = embedded && embedded->mHeight == 0 && embedded->mWidth > 0 && embedded->pcData;
-    if (is_file)
-        return copy_embedded(job, embedded, name, texture);
-    if (embedded || name[0] == '*' || !find_path(job, name, path))
+    unsigned char start[RASTER_MAGIC];
+    if (embedded)
+        return locate_inside(job, embedded, name, texture);
+    if (name[0] == '*' || !find_path(job, name, path))
         return count_missing(job, name);
+    if (!raster_is_known(start, mesh_files_peek(&job->files, path, start, sizeof start)))
+        return count_unknown(job, name);
     texture->path = strdup(path);
     return texture->path ? PS_OK : mesh_out_of_memory(job, strlen(path));
 }

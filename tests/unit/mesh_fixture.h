@@ -37,6 +37,9 @@ static inline struct mesh_request request_all(const char *path)
     };
 }
 
+/* By which a picture's kind is known. */
+#define PNG_START "\x89PNG\r\n\x1a\n"
+
 static inline struct mesh_memory_file text_file(const char *path, const char *text)
 {
     return (struct mesh_memory_file){path, text, strlen(text)};

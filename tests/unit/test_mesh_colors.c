@@ -201,7 +201,7 @@ static struct imported import_gltf(const char *material, const char *attributes)
     struct mesh_request request = request_all("d/m.gltf");
     const struct mesh_memory_file files[] = {text_file("d/m.gltf", text),
                                              {"d/m.bin", content, sizeof content},
-                                             text_file("d/a.png", "a")};
+                                             text_file("d/a.png", PNG_START)};
     struct imported imported = import_files(&request, files, 3);
     expect_success(&imported);
     return imported;

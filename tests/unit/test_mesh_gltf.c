@@ -39,7 +39,7 @@ static struct imported import_parts_of(const struct mesh_request *request, struc
              or_else(parts.extra, ""));
     const struct mesh_memory_file files[] = {text_file("d/m.gltf", text),
                                              {"d/my data.bin", triangle, sizeof triangle},
-                                             text_file("d/a.png", "a")};
+                                             text_file("d/a.png", PNG_START)};
     return import_files(request, files, 3);
 }
 

@@ -11,9 +11,12 @@ static struct imported import_mtl_of(const struct mesh_request *request, const c
     char text[8192];
     snprintf(text, sizeof text, "newmtl m\n%s\n", mtl);
     const struct mesh_memory_file files[] = {text_file("d/m.obj", triangle),
-                                             text_file("d/m.mtl", text), text_file("d/a.png", "a"),
-                                             text_file("d/sub/b c.png", "b")};
-    struct imported imported = import_files(request, files, 4);
+                                             text_file("d/m.mtl", text),
+                                             text_file("d/a.png", PNG_START),
+                                             text_file("d/sub/b c.png", PNG_START),
+                                             text_file("d/a.webp", "RIFF....WEBPVP8 ...."),
+                                             text_file("d/b.webp", "RIFF")};
+    struct imported imported = import_files(request, files, 6);
     expect_success(&imported);
     return imported;
 }
@@ -209,6 +212,22 @@ static void missing_texture_is_reported(void **state)
     release_imported(&imported);
 }
 
+static void pictures_of_unknown_kinds_are_left_out(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl("map_Kd a.webp\nbump a.webp");
+    assert_int_equal(imported.report.missing_textures, 0);
+    assert_int_equal(imported.fragment.texture_count, 0);
+    assert_string_equal(imported.report.notes,
+                        "texture a.webp is left out: it is neither PNG, JPEG nor OpenEXR");
+    release_imported(&imported);
+    imported = import_mtl("map_Kd a.webp\nbump b.webp");
+    assert_string_equal(
+        imported.report.notes,
+        "texture a.webp and 1 more are left out: they are neither PNG, JPEG nor OpenEXR");
+    release_imported(&imported);
+}
+
 /* Each once, the first twenty by name. */
 static void all_missing_textures_are_named(void **state)
 {
@@ -283,6 +302,7 @@ int main(void)
         cmocka_unit_test(picture_of_colour_and_opacity_gives_its_alpha),
         cmocka_unit_test(bump_grows_with_the_unit),
         cmocka_unit_test(missing_texture_is_reported),
+        cmocka_unit_test(pictures_of_unknown_kinds_are_left_out),
         cmocka_unit_test(all_missing_textures_are_named),
         cmocka_unit_test(absent_material_has_but_a_name),
         cmocka_unit_test(statements_before_the_first_material_are_harmless),
