@@ -10,6 +10,7 @@
 
 #include "base/output_file.h"
 
+#include "base/path.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
@@ -21,12 +22,6 @@
 
 #define ATTEMPT_LIMIT 1000   /* names tried; only leftovers of a killed process are in the way */
 #define NAME_KEPT_LENGTH 200 /* of the target's name, so that the temporary one stays below 255 */
-
-static const char *name_start(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
 
 static ps_result refuse(const struct output_file *file, struct error *error, const char *why)
 {
@@ -53,7 +48,7 @@ static ps_result find_target(struct output_file *file, bool *direct, struct erro
         if (lstat(file->path, &status) == 0) {
             return refuse(file, error, "it is a symbolic link to nothing");
         }
-        if (*name_start(file->path) == '\0') {
+        if (*path_name(file->path) == '\0') {
             return refuse(file, error, "it names no file");
         }
         file->target = strdup(file->path);
@@ -72,7 +67,7 @@ static ps_result find_target(struct output_file *file, bool *direct, struct erro
 
 static ps_result open_temporary(struct output_file *file, struct error *error)
 {
-    const char *name = name_start(file->target);
+    const char *name = path_name(file->target);
     int directory_length = (int)(name - file->target);
     size_t size = (size_t)directory_length + NAME_KEPT_LENGTH + 48;
     file->temporary = malloc(size);

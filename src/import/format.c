@@ -1,6 +1,7 @@
 /* format.c: the table of extensions. */
 #include "import/format.h"
 
+#include "base/path.h"
 #include "import/import.h"
 
 #include <stdio.h>
@@ -33,8 +34,7 @@ static void list_extensions(char *text, size_t size)
 
 static const struct row *find(const char *path)
 {
-    const char *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
-    const char *dot = strrchr(name, '.');
+    const char *dot = strrchr(path_name(path), '.');
     for (size_t i = 0; dot && i < TABLE_LENGTH; i++)
         if (strcasecmp(dot + 1, table[i].extension) == 0)
             return &table[i];

@@ -1,5 +1,6 @@
 #include "model/model_scene.h"
 
+#include "base/path.h"
 #include "model/model.h"
 #include <errno.h>
 #include <stdio.h>
@@ -9,19 +10,13 @@
 /* The absolute path, without symbolic links, of the folder that a file is in; to be freed. NULL, with errno. */
 static char *folder_of(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+    size_t length = (size_t)(path_name(path) - path);
+    char *folder = length > 0 ? strndup(path, length) : strdup(".");
     char *resolved = folder ? realpath(folder, NULL) : NULL;
     int reason = errno;
     free(folder);
     errno = reason;
     return resolved;
-}
-
-static const char *name_of(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
 }
 
 /* Of absolute paths of folders: how long the part is that both begin with, at the end of a folder's name. */
@@ -54,7 +49,7 @@ static char *relative_path(const char *model_path, const char *scene_path)
     size_t length = 0;
     FILE *stream = to ? open_memstream(&path, &length) : NULL;
     if (stream) {
-        write_relative(stream, from, to, name_of(model_path));
+        write_relative(stream, from, to, path_name(model_path));
         if (fclose(stream) != 0) {
             free(path);
             path = NULL;
@@ -72,7 +67,7 @@ ps_result model_scene_make(const char *model_path, const char *scene_path, const
     ps_result result = model_read(model_path, folder, &model, error);
     if (result != PS_OK)
         return result;
-    char *file = scene_path ? relative_path(model_path, scene_path) : strdup(name_of(model_path));
+    char *file = scene_path ? relative_path(model_path, scene_path) : strdup(path_name(model_path));
     if (!file)
         return error_set(error, PS_ERROR_IO, "no path leads from %s to %s: %s",
                          scene_path ? scene_path : "", model_path, strerror(errno));

@@ -13,6 +13,7 @@
  */
 #include "scene/camera_frame.h"
 
+#include "scene/vector.h"
 #include <float.h>
 
 /* The view from a model's front: 29 degrees to the right; raised by 20 degrees, and by 40 what is flat, of which a
@@ -27,25 +28,6 @@
 
 #define RADIANS (3.14159265358979323846 / 180.0)
 
-struct vector {
-    double x, y, z;
-};
-
-static struct vector exact(ps_vec3 v)
-{
-    return (struct vector){v.x, v.y, v.z};
-}
-
-static double dot(struct vector a, struct vector b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static struct vector cross(struct vector a, struct vector b)
-{
-    return (struct vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 static struct vector add_scaled(struct vector a, double s, struct vector b)
 {
     return (struct vector){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
@@ -53,7 +35,7 @@ static struct vector add_scaled(struct vector a, double s, struct vector b)
 
 static struct vector unit(struct vector v)
 {
-    double length = sqrt(dot(v, v));
+    double length = vector_length(v);
     return (struct vector){v.x / length, v.y / length, v.z / length};
 }
 
@@ -69,8 +51,8 @@ struct view {
 
 static struct view view_along(struct vector forward, ps_vec3 up)
 {
-    struct vector f = unit(forward), right = unit(cross(f, unit(exact(up))));
-    return (struct view){right, cross(right, f), f};
+    struct vector f = unit(forward), right = unit(vector_cross(f, unit(vector_of(up))));
+    return (struct view){right, vector_cross(right, f), f};
 }
 
 /* --- the direction of view ------------------------------------------------------------------------ */
@@ -82,14 +64,14 @@ static struct vector turned_with_up(struct vector v, struct vector up)
         return (struct vector){v.x, -v.y, -v.z};
     struct vector k = {up.z, 0.0, -up.x};
     struct vector turned = add_scaled((struct vector){0, 0, 0}, up.y, v);
-    turned = add_scaled(turned, 1.0, cross(k, v));
-    return add_scaled(turned, dot(k, v) / (1.0 + up.y), k);
+    turned = add_scaled(turned, 1.0, vector_cross(k, v));
+    return add_scaled(turned, vector_dot(k, v) / (1.0 + up.y), k);
 }
 
 /* Length of the box along an axis. */
 static double extent_along(const struct box *box, struct vector axis)
 {
-    struct vector size = exact(ps_subtract(box->high, box->low));
+    struct vector size = vector_of(ps_subtract(box->high, box->low));
     return fabs(axis.x) * size.x + fabs(axis.y) * size.y + fabs(axis.z) * size.z;
 }
 
@@ -110,8 +92,8 @@ static struct vector three_quarter(const struct box *box, struct vector up)
 
 static double diagonal_of(const struct box *box)
 {
-    struct vector size = exact(ps_subtract(box->high, box->low));
-    return sqrt(dot(size, size));
+    struct vector size = vector_of(ps_subtract(box->high, box->low));
+    return vector_length(size);
 }
 
 /* A wide view shows all from next to the nearest corner: the depth before that where the camera may be at most. */
@@ -119,7 +101,7 @@ static double nearest_depth(const struct box *box, struct vector forward)
 {
     double nearest = DBL_MAX;
     for (unsigned i = 0; i < 8; i++)
-        nearest = fmin(nearest, dot(exact(box_corner(box, i)), forward));
+        nearest = fmin(nearest, vector_dot(vector_of(box_corner(box, i)), forward));
     return nearest - LEAST_DISTANCE * diagonal_of(box);
 }
 
@@ -133,8 +115,8 @@ static struct span span_of(const struct box *box, struct vector side, struct vec
 {
     struct span span = {-DBL_MAX, -DBL_MAX};
     for (unsigned i = 0; i < 8; i++) {
-        struct vector p = exact(box_corner(box, i));
-        double across = dot(p, side), depth = tangent * dot(p, forward);
+        struct vector p = vector_of(box_corner(box, i));
+        double across = vector_dot(p, side), depth = tangent * vector_dot(p, forward);
         span.high = fmax(span.high, across - depth);
         span.low = fmax(span.low, -across - depth);
     }
@@ -171,13 +153,13 @@ static struct vector perspective_location(const struct box *box, const struct vi
 static double perspective_distance(const struct box *box, const struct view *view,
                                    struct vector target, struct tangents tangents)
 {
-    double distance = dot(target, view->forward) - nearest_depth(box, view->forward);
+    double distance = vector_dot(target, view->forward) - nearest_depth(box, view->forward);
     distance = fmax(distance, LEAST_DISTANCE * diagonal_of(box)); /* of a target before the box */
     for (unsigned i = 0; i < 8; i++) {
-        struct vector p = add_scaled(exact(box_corner(box, i)), -1.0, target);
-        double depth = dot(p, view->forward);
-        distance = fmax(distance, fabs(dot(p, view->right)) / tangents.across - depth);
-        distance = fmax(distance, fabs(dot(p, view->up)) / tangents.up - depth);
+        struct vector p = add_scaled(vector_of(box_corner(box, i)), -1.0, target);
+        double depth = vector_dot(p, view->forward);
+        distance = fmax(distance, fabs(vector_dot(p, view->right)) / tangents.across - depth);
+        distance = fmax(distance, fabs(vector_dot(p, view->up)) / tangents.up - depth);
     }
     return distance;
 }
@@ -188,9 +170,9 @@ static double orthographic_half_width(const struct box *box, const struct view *
 {
     double half = 0.0;
     for (unsigned i = 0; i < 8; i++) {
-        struct vector p = add_scaled(exact(box_corner(box, i)), -1.0, target);
-        half = fmax(half, fabs(dot(p, view->right)));
-        half = fmax(half, fabs(dot(p, view->up)) * aspect);
+        struct vector p = add_scaled(vector_of(box_corner(box, i)), -1.0, target);
+        half = fmax(half, fabs(vector_dot(p, view->right)));
+        half = fmax(half, fabs(vector_dot(p, view->up)) * aspect);
     }
     return half / USED_SHARE;
 }
@@ -199,13 +181,13 @@ static double orthographic_half_width(const struct box *box, const struct view *
 
 static ps_result check_direction(const struct camera_description *camera, struct error *error)
 {
-    struct vector view = exact(ps_subtract(camera->look_at, camera->location));
-    struct vector side = cross(view, unit(exact(camera->up)));
-    if (!(dot(view, view) > 0.0))
+    struct vector view = vector_of(ps_subtract(camera->look_at, camera->location));
+    struct vector side = vector_cross(view, unit(vector_of(camera->up)));
+    if (!(vector_dot(view, view) > 0.0))
         return error_set(error, PS_ERROR_INVALID,
                          "look_at: auto is the camera's location, in the middle of what there is "
                          "to see");
-    if (!(dot(side, side) > 1e-12 * dot(view, view)))
+    if (!(vector_dot(side, side) > 1e-12 * vector_dot(view, view)))
         return error_set(error, PS_ERROR_INVALID,
                          "up is along the direction of view to look_at: auto");
     return PS_OK;
@@ -216,19 +198,19 @@ static void find_location(struct camera_description *camera, const struct box *b
                           struct vector away, double aspect)
 {
     struct view view = view_along((struct vector){-away.x, -away.y, -away.z}, camera->up);
-    struct vector center = exact(box_center(box));
-    struct vector target = camera->finds_look_at ? center : exact(camera->look_at);
+    struct vector center = vector_of(box_center(box));
+    struct vector target = camera->finds_look_at ? center : vector_of(camera->look_at);
     struct vector location;
     double distance = diagonal_of(box);
     if (camera->kind == CAMERA_ORTHOGRAPHIC) {
         struct vector to_center = add_scaled(center, -1.0, target);
-        distance += fabs(dot(to_center, view.forward));
+        distance += fabs(vector_dot(to_center, view.forward));
         if (!(camera->width > 0))
             camera->width = 2.0 * orthographic_half_width(box, &view, target, aspect);
         location = add_scaled(target, -distance, view.forward);
     } else if (camera->finds_look_at) {
         location = perspective_location(box, &view, tangents_of(camera, aspect));
-        distance = dot(add_scaled(center, -1.0, location), view.forward);
+        distance = vector_dot(add_scaled(center, -1.0, location), view.forward);
     } else {
         distance = perspective_distance(box, &view, target, tangents_of(camera, aspect));
         location = add_scaled(target, -distance, view.forward);
@@ -243,7 +225,7 @@ void camera_frame_from(struct camera_description *camera, const struct box *box,
 {
     camera->kind = CAMERA_PERSPECTIVE;
     camera->finds_look_at = true;
-    find_location(camera, box, exact(away), aspect);
+    find_location(camera, box, vector_of(away), aspect);
 }
 
 ps_result camera_frame(struct camera_description *camera, const struct box *box, size_t width,
@@ -256,7 +238,7 @@ ps_result camera_frame(struct camera_description *camera, const struct box *box,
     if (camera->finds_location) {
         if (!(camera->angle > 0) && !(camera->vertical_angle > 0))
             *(aspect >= 1.0 ? &camera->angle : &camera->vertical_angle) = ANGLE;
-        find_location(camera, &around, three_quarter(&around, unit(exact(camera->up))), aspect);
+        find_location(camera, &around, three_quarter(&around, unit(vector_of(camera->up))), aspect);
     } else if (camera->finds_look_at) {
         camera->look_at = box_center(&around);
     }

@@ -12,41 +12,28 @@
  */
 #include "scene/shape_build.h"
 
+#include "scene/vector.h"
 #include <stdlib.h>
 
-struct wide {
-    double x, y, z;
-};
-
-static struct wide edge(const struct shape *shape, uint32_t from, uint32_t to)
+static struct vector edge(const struct shape *shape, uint32_t from, uint32_t to)
 {
     ps_vec3 a = shape->vertices[from], b = shape->vertices[to];
-    return (struct wide){(double)b.x - a.x, (double)b.y - a.y, (double)b.z - a.z};
-}
-
-static struct wide cross(struct wide a, struct wide b)
-{
-    return (struct wide){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-static double length(struct wide a)
-{
-    return sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
+    return (struct vector){(double)b.x - a.x, (double)b.y - a.y, (double)b.z - a.z};
 }
 
 /* Twice the area along the normal; exact enough in double precision to be 0 for corners on a
  * line. */
-static struct wide area_vector(const struct shape *shape, const uint32_t corners[3])
+static struct vector area_vector(const struct shape *shape, const uint32_t corners[3])
 {
-    return cross(edge(shape, corners[0], corners[1]), edge(shape, corners[0], corners[2]));
+    return vector_cross(edge(shape, corners[0], corners[1]), edge(shape, corners[0], corners[2]));
 }
 
 static double corner_angle(const struct shape *shape, const uint32_t corners[3], int k)
 {
     uint32_t here = corners[k];
-    struct wide a = edge(shape, here, corners[(k + 1) % 3]);
-    struct wide b = edge(shape, here, corners[(k + 2) % 3]);
-    return atan2(length(cross(a, b)), a.x * b.x + a.y * b.y + a.z * b.z);
+    struct vector a = edge(shape, here, corners[(k + 1) % 3]);
+    struct vector b = edge(shape, here, corners[(k + 2) % 3]);
+    return atan2(vector_length(vector_cross(a, b)), vector_dot(a, b));
 }
 
 static ps_result place_vertices(const struct object_description *object, struct shape *shape,
@@ -98,7 +85,7 @@ static void drop_flat_triangles(struct shape *shape)
 {
     size_t kept = 0;
     for (size_t i = 0; i < shape->triangle_count; i++) {
-        if (!(length(area_vector(shape, shape->triangles[i])) > 0.0))
+        if (!(vector_length(area_vector(shape, shape->triangles[i])) > 0.0))
             continue;
         for (int k = 0; k < 3; k++)
             shape->triangles[kept][k] = shape->triangles[i][k];
@@ -115,8 +102,8 @@ static bool is_missing(ps_vec3 normal)
 
 static ps_vec3 face_normal(const struct shape *shape, const uint32_t corners[3])
 {
-    struct wide area = area_vector(shape, corners);
-    double size = length(area);
+    struct vector area = area_vector(shape, corners);
+    double size = vector_length(area);
     return (ps_vec3){(float)(area.x / size), (float)(area.y / size), (float)(area.z / size)};
 }
 

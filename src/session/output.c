@@ -1,6 +1,7 @@
 #include "session/output.h"
 
 #include "base/parallel.h"
+#include "base/path.h"
 #include "base/text.h"
 #include "image/tonemap.h"
 #include "job/facts.h"
@@ -32,8 +33,7 @@ bool output_holds_layers(const char *path)
 
 char *output_default_path(const char *scene_path, const char *suffix)
 {
-    const char *slash = strrchr(scene_path, '/');
-    const char *name = slash ? slash + 1 : scene_path;
+    const char *name = path_name(scene_path);
     if (strcmp(name, "-") == 0)
         name = "stdin";
     size_t length = strlen(name);
@@ -121,9 +121,8 @@ bool output_check(const char *path, struct error *error)
                   S_ISDIR(status.st_mode) ? "a directory" : "neither a file nor a device");
         return false;
     }
-    const char *slash = strrchr(path, '/');
-    size_t length = slash ? (size_t)(slash - path) + 1 : 0;
-    char *folder = length ? strndup(path, length) : strdup(".");
+    size_t length = (size_t)(path_name(path) - path);
+    char *folder = length > 0 ? strndup(path, length) : strdup(".");
     bool good = folder && access(folder, W_OK | X_OK) == 0;
     if (!good)
         error_set(error, PS_ERROR_IO, "can't write '%s': %s", path, strerror(errno));
