@@ -13,7 +13,6 @@
 #include "base/path.h"
 #include <errno.h>
 #include <fcntl.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +25,12 @@
 static ps_result refuse(const struct output_file *file, struct error *error, const char *why)
 {
     return error_set(error, PS_ERROR_IO, "cannot write '%s': %s", file->path, why);
+}
+
+static ps_result refuse_taken(const struct output_file *file, struct error *error)
+{
+    return error_set(error, PS_ERROR_INVALID, "%s is there already, and stays as it is",
+                     file->path);
 }
 
 static void release(struct output_file *file)
@@ -90,20 +95,44 @@ static ps_result open_temporary(struct output_file *file, struct error *error)
                      directory_length ? file->target : ".", strerror(errno));
 }
 
+/* Fails with EEXIST where the name was taken: of all calls link(2) alone asks and acts at once on every system. Where
+ * the file system has no links, a name that is taken in this very moment is lost. */
+static bool put_new(const struct output_file *file)
+{
+    if (link(file->temporary, file->target) == 0) {
+        unlink(file->temporary);
+        return true;
+    }
+    if (errno != EPERM && errno != EOPNOTSUPP && errno != ENOSYS)
+        return false;
+    if (access(file->target, F_OK) != 0)
+        return rename(file->temporary, file->target) == 0;
+    errno = EEXIST;
+    return false;
+}
+
+static bool put(const struct output_file *file)
+{
+    return file->is_new ? put_new(file) : rename(file->temporary, file->target) == 0;
+}
+
 static ps_result open_device(struct output_file *file, struct error *error)
 {
     file->descriptor = open(file->target, O_WRONLY | O_NOCTTY | O_CLOEXEC);
     return file->descriptor >= 0 ? PS_OK : refuse(file, error, strerror(errno));
 }
 
-ps_result output_file_open(struct output_file *file, const char *path, struct error *error)
+static ps_result open_file(struct output_file *file, const char *path, bool is_new,
+                           struct error *error)
 {
-    bool direct;
-    *file = (struct output_file){.path = strdup(path), .descriptor = -1};
+    struct stat status;
+    bool direct = false;
+    *file = (struct output_file){.path = strdup(path), .descriptor = -1, .is_new = is_new};
     if (!file->path) {
         return error_memory(error, strlen(path) + 1, "a file's name");
     }
-    ps_result result = find_target(file, &direct, error);
+    ps_result result = is_new && lstat(path, &status) == 0 ? refuse_taken(file, error)
+                                                           : find_target(file, &direct, error);
     if (result == PS_OK) {
         result = direct ? open_device(file, error) : open_temporary(file, error);
     }
@@ -111,6 +140,16 @@ ps_result output_file_open(struct output_file *file, const char *path, struct er
         release(file);
     }
     return result;
+}
+
+ps_result output_file_open(struct output_file *file, const char *path, struct error *error)
+{
+    return open_file(file, path, false, error);
+}
+
+ps_result output_file_open_new(struct output_file *file, const char *path, struct error *error)
+{
+    return open_file(file, path, true, error);
 }
 
 ps_result output_file_write(const struct output_file *file, uint64_t offset, const void *data,
@@ -142,11 +181,13 @@ ps_result output_file_commit(struct output_file *file, struct error *error)
         stored = false;
         reason = errno;
     }
-    if (stored && file->temporary && rename(file->temporary, file->target) != 0) {
+    if (stored && file->temporary && !put(file)) {
         stored = false;
         reason = errno;
     }
-    ps_result result = stored ? PS_OK : refuse(file, error, strerror(reason));
+    ps_result result = stored                             ? PS_OK
+                       : file->is_new && reason == EEXIST ? refuse_taken(file, error)
+                                                          : refuse(file, error, strerror(reason));
     if (!stored && file->temporary) {
         unlink(file->temporary);
     }

@@ -7,20 +7,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const struct option options[] = {
     {0, "from", "MODEL", "write the scene that shows this mesh file"},
 };
 
-/* The file appears whole or not at all, and takes the place of no other. */
 static ps_result write_text(const char *path, const char *text, struct error *error)
 {
     struct output_file file;
-    if (access(path, F_OK) == 0)
-        return error_set(error, PS_ERROR_INVALID, "new: %s is there already, and stays as it is",
-                         path);
-    ps_result result = output_file_open(&file, path, error);
+    ps_result result = output_file_open_new(&file, path, error);
     if (result != PS_OK)
         return result;
     result = output_file_write(&file, 0, text, strlen(text), error);

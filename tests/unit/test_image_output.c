@@ -187,6 +187,28 @@ static void test_two_files_at_once(void **state)
     assert_int_equal(scratch_file_count(state), 1);
 }
 
+/* The second of two new files of a name finds it taken; and so does a third. */
+static void test_a_new_file_replaces_none(void **state)
+{
+    struct output_file first, second;
+    struct error error;
+    const char *path = scratch_path(state, "new");
+    size_t size;
+    assert_int_equal(output_file_open_new(&first, path, &error), PS_OK);
+    assert_int_equal(output_file_open_new(&second, path, &error), PS_OK);
+    assert_int_equal(output_file_write(&first, 0, "abc", 3, &error), PS_OK);
+    assert_int_equal(output_file_write(&second, 0, "no", 2, &error), PS_OK);
+    assert_int_equal(output_file_commit(&first, &error), PS_OK);
+    assert_int_equal(output_file_commit(&second, &error), PS_ERROR_INVALID);
+    assert_non_null(strstr(error.text, "new is there already, and stays as it is"));
+    assert_int_equal(output_file_open_new(&second, path, &error), PS_ERROR_INVALID);
+    unsigned char *bytes = scratch_load(path, &size);
+    assert_int_equal(size, 3);
+    assert_memory_equal(bytes, "abc", 3);
+    free(bytes);
+    assert_int_equal(scratch_file_count(state), 1);
+}
+
 static void assert_has_text(png_const_textp texts, int count, const char *key, const char *value,
                             int compression)
 {
@@ -318,6 +340,7 @@ int main(void)
         SCRATCH_TEST(test_replacing),
         SCRATCH_TEST(test_long_names),
         SCRATCH_TEST(test_two_files_at_once),
+        SCRATCH_TEST(test_a_new_file_replaces_none),
         SCRATCH_TEST(test_png),
         SCRATCH_TEST(test_png_refusals),
         SCRATCH_TEST(test_exr_refusals),
