@@ -6,7 +6,6 @@
  */
 #include "parser/yaml/encoding.h"
 
-#include <stdbool.h>
 #include <string.h>
 
 /* A scene needs none, or %YAML. */
@@ -36,6 +35,16 @@ size_t utf8_decode(const char *text, size_t length, uint32_t *code)
         return n;
     }
     return 0;
+}
+
+bool utf8_is_valid(const char *text, size_t length)
+{
+    size_t used = 1;
+    for (size_t at = 0; at < length && used > 0; at += used) {
+        uint32_t code;
+        used = utf8_decode(text + at, length - at, &code);
+    }
+    return used > 0;
 }
 
 size_t line_break_length(const char *text, size_t length)

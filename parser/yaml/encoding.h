@@ -7,11 +7,15 @@
 #define PARSER_YAML_ENCODING_H
 
 #include "parser/yaml/diagnostic.h"
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 /* Reads one character; returns how many bytes it takes, or 0 where they are no UTF-8. */
 size_t utf8_decode(const char *text, size_t length, uint32_t *code);
+
+/* Whether all of it is UTF-8. */
+bool utf8_is_valid(const char *text, size_t length);
 
 /* Bytes of the line break that the text starts with, or 0. */
 size_t line_break_length(const char *text, size_t length);

@@ -29,8 +29,8 @@ bool model_is_file(const char *path);
 ps_result model_read(const char *path, const char *folder, struct model *model,
                      struct error *error);
 
-/* The scene, to be freed, in which the model is `file`: a path from where the scene's text is. NULL when out of
- * memory. */
+/* The scene, to be freed, in which the model is `file`: a path from where the scene's text is, in UTF-8, that does not
+ * begin as a formula does. NULL when out of memory. */
 char *model_scene_text(const struct model *model, const char *file);
 
 /* A first scene without a model, with comments that tell what to change: lines, then NULL. */

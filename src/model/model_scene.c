@@ -2,6 +2,7 @@
 
 #include "base/path.h"
 #include "model/model.h"
+#include "parser/yaml/encoding.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,7 +32,7 @@ static size_t common_length(const char *a, const char *b)
     return length;
 }
 
-/* "../../models/duck.glb" */
+/* "../../models/duck.glb"; of a name that begins as a formula does "./=1.glb". */
 static void write_relative(FILE *stream, const char *from, const char *to, const char *name)
 {
     size_t common = common_length(from, to);
@@ -40,12 +41,15 @@ static void write_relative(FILE *stream, const char *from, const char *to, const
             fputs("../", stream);
     for (to += common; *to == '/';)
         to++;
-    fprintf(stream, "%s%s%s", to, *to ? "/" : "", name);
+    fprintf(stream, "%s%s%s%s", *(*to ? to : name) == '=' ? "./" : "", to, *to ? "/" : "", name);
 }
 
+/* From where the scene is, which is beside the model where its path is NULL. */
 static char *relative_path(const char *model_path, const char *scene_path)
 {
-    char *from = folder_of(scene_path), *to = from ? folder_of(model_path) : NULL, *path = NULL;
+    char *from = scene_path ? folder_of(scene_path) : strdup("");
+    char *to = !from ? NULL : scene_path ? folder_of(model_path) : strdup("");
+    char *path = NULL;
     size_t length = 0;
     FILE *stream = to ? open_memstream(&path, &length) : NULL;
     if (stream) {
@@ -60,6 +64,16 @@ static char *relative_path(const char *model_path, const char *scene_path)
     return path;
 }
 
+static ps_result write_text(const struct model *model, const char *file, char **text,
+                            struct error *error)
+{
+    if (!utf8_is_valid(file, strlen(file)))
+        return error_set(error, PS_ERROR_INVALID,
+                         "%s: the name is not UTF-8, so no scene can name it", file);
+    *text = model_scene_text(model, file);
+    return *text ? PS_OK : error_memory(error, 4096, "the scene of a model");
+}
+
 ps_result model_scene_make(const char *model_path, const char *scene_path, const char *folder,
                            char **text, struct error *error)
 {
@@ -67,11 +81,11 @@ ps_result model_scene_make(const char *model_path, const char *scene_path, const
     ps_result result = model_read(model_path, folder, &model, error);
     if (result != PS_OK)
         return result;
-    char *file = scene_path ? relative_path(model_path, scene_path) : strdup(path_name(model_path));
+    char *file = relative_path(model_path, scene_path);
     if (!file)
         return error_set(error, PS_ERROR_IO, "no path leads from %s to %s: %s",
                          scene_path ? scene_path : "", model_path, strerror(errno));
-    *text = model_scene_text(&model, file);
+    result = write_text(&model, file, text, error);
     free(file);
-    return *text ? PS_OK : error_memory(error, 4096, "the scene of a model");
+    return result;
 }

@@ -8,7 +8,9 @@
  */
 #include "model/model.h"
 
+#include "base/text.h"
 #include "import/import.h"
+#include "parser/yaml/quote.h"
 #include <math.h>
 #include <psplat/math.h>
 #include <stdio.h>
@@ -26,21 +28,16 @@ static const ps_vec3 sun_direction = {0.6F, -1.0F, -0.7F};
 /* Above middle grey, to which the tone map brings the mean of the picture. */
 #define EXPOSURE 0.8
 
-/* In double quotes, with YAML's escapes. What begins as a formula does is spelled otherwise. */
-static void write_file_name(FILE *stream, const char *file)
-{
-    fprintf(stream, file[0] == '=' ? "\"./" : "\"");
-    for (const unsigned char *c = (const unsigned char *)file; *c; c++)
-        if (*c < 0x20 || *c == 0x7f)
-            fprintf(stream, "\\x%02X", *c);
-        else
-            fprintf(stream, *c == '"' || *c == '\\' ? "\\%c" : "%c", *c);
-    fputc('"', stream);
-}
-
 static void write_point(FILE *stream, const char *key, ps_vec3 p)
 {
-    fprintf(stream, "%s: [%.4g, %.4g, %.4g]", key, (double)p.x, (double)p.y, (double)p.z);
+    const float numbers[3] = {p.x, p.y, p.z};
+    fprintf(stream, "%s: [", key);
+    for (int i = 0; i < 3; i++) {
+        char text[32];
+        text_from_float(numbers[i], text, sizeof text);
+        fprintf(stream, i > 0 ? ", %s" : "%s", text);
+    }
+    fputc(']', stream);
 }
 
 static void write_camera(FILE *stream, const struct model *model)
@@ -93,7 +90,9 @@ static void write_materials(FILE *stream, const struct model *model)
 static void write_lights(FILE *stream, const struct model *model)
 {
     if (model->has_lights) {
-        fputs("# The file has lights of its own. More can be added here.\nlights: []\n\n", stream);
+        fputs("# The file has lights, or surfaces that shine. More lights can be added here.\n"
+              "lights: []\n\n",
+              stream);
         return;
     }
     fputs("lights:\n", stream);
@@ -133,7 +132,7 @@ static void write_objects(FILE *stream, const struct model *model, const char *f
 {
     static const char axes[] = "xyz";
     fputs("objects:\n  - mesh:\n      file: ", stream);
-    write_file_name(stream, file);
+    yaml_quote(stream, file);
     fprintf(stream, "\n      use: [geometry, materials%s%s]\n", model->has_camera ? ", camera" : "",
             model->has_lights ? ", lights" : "");
     fprintf(stream, "      up: %c # which of its axes points upwards: x, y or z\n",

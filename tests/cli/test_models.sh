@@ -102,8 +102,9 @@ expect_text err "nowhere/a.psd"
 [ -z "$(find . -name 'a.psd' -o -name 'gone.psd' -o -name 'other.psd')" ] || fail "a scene in spite of the error"
 
 # Names that mean something to YAML or to formulas.
+soft=$(printf '\302\205\342\200\250\357\273\277\357\277\277\302\237') # U+0085, U+2028, U+FEFF, U+FFFF, U+009F
 for name in '=1 + 1.obj' 'a"b\c: #d.OBJ' "it's, [x].obj" "two
-lines.obj"; do
+lines.obj" "$(printf 'caf\303\251.obj')" "a${soft}b.obj"; do
     cp models/cube.obj "$name"
     run 0 check "$name"
     expect_empty err
@@ -112,6 +113,15 @@ lines.obj"; do
     expect_empty err
     rm odd.psd
 done
+
+# Latin-1, which scenes are not written in.
+latin=$(printf 'caf\351.obj')
+cp models/cube.obj "$latin"
+run 2 check "$latin"
+expect_text err "the name is not UTF-8, so no scene can name it"
+run 2 new --from "$latin" latin.psd
+expect_text err "the name is not UTF-8, so no scene can name it"
+[ ! -e latin.psd ] || fail "a scene that cannot be read"
 
 # --- what a file lacks, and what it has ---
 

@@ -137,6 +137,22 @@ static void test_scene_has_what_the_model_lacks(void **state)
     }
 }
 
+/* Places are written as exactly as they are known. */
+static void test_scene_far_from_the_origin(void **state)
+{
+    struct model model = {.box = {{123455.5F, 0, 0}, {123456.5F, 1, 1}}, .up = 1};
+    (void)state;
+    char *text = model_scene_text(&model, "m.obj");
+    assert_non_null(text);
+    expect_in(text, "translate: [123456, 0, 0.5]", true);
+    free(text);
+    model.room = (struct room){.is_room = true, .location = {123456.5F, 1, -2}, .angle = 40};
+    text = model_scene_text(&model, "m.obj");
+    assert_non_null(text);
+    expect_in(text, "location: [123456.5, 1, -2]", true);
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -144,6 +160,7 @@ int main(void)
         cmocka_unit_test(test_camera_stands_inside),
         cmocka_unit_test(test_camera_looks_through_the_open_side),
         cmocka_unit_test(test_scene_has_what_the_model_lacks),
+        cmocka_unit_test(test_scene_far_from_the_origin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
