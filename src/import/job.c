@@ -125,6 +125,7 @@ static void release(struct mesh_job *job)
     mesh_files_release(&job->files);
     free(job->nodes);
     free(job->materials);
+    free(job->missing_library);
     for (size_t i = 0; i < job->lost_count; i++)
         free(job->lost[i]);
     free(job->lost);

@@ -38,6 +38,7 @@ struct mesh_job {
     struct mesh_files files;
     struct mesh_file *main_file;
     struct mesh_file *library; /* OBJ: the last MTL file read, or NULL */
+    char *missing_library;     /* OBJ: the first that could not be read, or NULL */
     struct gltf gltf;
     const struct aiScene *scene;
     struct mesh_node *nodes; /* each before its children */

@@ -128,10 +128,21 @@ static struct mesh_file *find_file(struct mesh_job *job, const char *path)
     return clean_path(path, clean) ? find_companion(job, clean) : NULL;
 }
 
+/* assimp goes on without it, and tries the name of the mesh with another suffix next. */
+static void miss_library(struct mesh_job *job, const char *path)
+{
+    if (job->missing_library)
+        return;
+    job->missing_library = strdup(path);
+    job->out_of_memory |= !job->missing_library;
+}
+
 static struct aiFile *open_stream(struct aiFileIO *io, const char *path, const char *mode)
 {
     struct mesh_job *job = (struct mesh_job *)(void *)io->UserData;
     struct mesh_file *file = mode[0] == 'r' ? find_file(job, path) : NULL;
+    if (!file && job->format == FORMAT_OBJ)
+        miss_library(job, path);
     if (!file)
         return NULL;
     if (job->format == FORMAT_OBJ && file != job->main_file) {
@@ -194,6 +205,8 @@ ps_result mesh_source_open(struct mesh_job *job)
     job->scene = aiImportFileEx(job->request->path, 0, &io);
     if (job->out_of_memory)
         return mesh_out_of_memory(job, sizeof(struct stream));
+    if (job->scene && job->missing_library && !job->library && job->request->materials)
+        mesh_note(job, "cannot read its library %.1000s", job->missing_library);
     return job->scene ? PS_OK : report_assimp(job);
 }
 

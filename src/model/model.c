@@ -21,14 +21,12 @@ static struct box box_of(const struct scene_description *fragment)
     return box;
 }
 
+/* Also such as the file names and lacks: that is told where the scene is read, unless the scene has others for them. */
 static bool has_materials(const struct scene_description *fragment)
 {
     bool some = false;
-    for (size_t i = 0; i < fragment->object_count; i++) {
-        size_t material = fragment->objects[i].material;
-        some =
-            some || (material != NO_INDEX && !material_is_absent(&fragment->materials[material]));
-    }
+    for (size_t i = 0; i < fragment->object_count; i++)
+        some = some || fragment->objects[i].material != NO_INDEX;
     return some;
 }
 

@@ -164,6 +164,20 @@ expect_no_text own.psd "sky:"
 run 0 check own.psd
 expect_empty err
 
+# Materials that the file names and lacks are told of; a model without any is grey without a word.
+{ printf 'mtllib gone.mtl\nusemtl red\n'; cat models/cube.obj; } >models/unpainted.obj
+run 0 check models/unpainted.obj
+expect_text err "models/unpainted.obj: cannot read its library models/gone.mtl"
+expect_text err "models/unpainted.obj: there is no library for material red"
+printf 'newmtl red\nKd 1 0 0\n' >gone.mtl
+sed 's|gone.mtl|../gone.mtl|' models/unpainted.obj >models/outside.obj
+run 0 check --restrict models models/outside.obj
+expect_text err "cannot read its library models/../gone.mtl"
+run 0 check models/outside.obj
+expect_empty err
+run 0 new --from models/unpainted.obj unpainted.psd
+expect_no_text unpainted.psd "has no materials"
+
 # Rooms are seen from inside, or through the side that is open.
 { box 0,0,0 6,3,5 1 in; box 2,0,2 3,0.8,3.4 9; } >models/room.obj
 run 0 new --from models/room.obj room.psd

@@ -268,6 +268,7 @@ static void absent_material_has_but_a_name(void **state)
     imported = import_files(&request, files, 1); /* without its library */
     expect_success(&imported);
     assert_true(material_is_absent(&imported.fragment.materials[0]));
+    assert_non_null(strstr(imported.report.notes, "cannot read its library m.mtl"));
     assert_non_null(strstr(imported.report.notes, "no library"));
     release_imported(&imported);
 }
