@@ -119,7 +119,7 @@ struct box scene_box_to_frame(const struct scene_description *description,
     scene_each_box(description, scene, add_visible, &search);
     if (box_is_empty(&search.solid))
         return box_is_empty(&search.all) ? search.seen : search.all;
-    search.lowest = range_along(&search.solid, search.up).low;
+    search.lowest = range_along(&search.all, search.up).low;
     search.tolerance =
         FLOOR_TOLERANCE * ps_length(ps_subtract(search.solid.high, search.solid.low));
     scene_each_box(description, scene, add_raised, &search);

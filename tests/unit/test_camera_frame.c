@@ -201,7 +201,8 @@ static void test_what_is_left_out(void **state)
     expect_box_of("objects:\n" BALL
                   "  - sphere: {center: [9, 1, 0], radius: 1, material: white, camera: no}\n",
                   BALL_BOX);
-    expect_box_of("objects:\n" BALL LEVEL("0.5"), "-9 0 -9, 9 2 9"); /* a table */
+    expect_box_of("objects:\n" BALL LEVEL("0.5"), "-9 0 -9, 9 2 9");             /* a table */
+    expect_box_of("objects:\n" BALL LEVEL("0") LEVEL("-0.5"), "-9 0 -9, 9 2 9"); /* above a floor */
     expect_box_of("objects:\n" BALL "  - box: {corners: [[-3, -1, -3], [3, 0, 3]], "
                   "material: white}\n",
                   "-3 -1 -3, 3 2 3");
