@@ -75,6 +75,87 @@ static void test_things_are_no_rooms(void **state)
     assert_false(room_of(&content).is_room);
 }
 
+#define CELLS 40 /* at most */
+
+/* A height field of that many cells along each side, from -5 to 5, of which the front is above. */
+static void add_ground(struct content *content, uint32_t cells, float (*height)(float x, float z))
+{
+    static ps_vec3 vertices[(CELLS + 1) * (CELLS + 1)];
+    static uint32_t triangles[2 * CELLS * CELLS][3];
+    struct mesh_description *mesh = &content->meshes[content->fragment.object_count];
+    *mesh = (struct mesh_description){.vertices = vertices, .triangles = triangles};
+    for (uint32_t i = 0; i < (cells + 1) * (cells + 1); i++) {
+        float x = 10 * (float)(i % (cells + 1)) / (float)cells - 5;
+        float z = 10 * (float)(i / (cells + 1)) / (float)cells - 5;
+        vertices[i] = (ps_vec3){x, height(x, z), z};
+        box_add_point(&content->box, vertices[i]);
+    }
+    for (uint32_t i = 0; i < cells * cells; i++) {
+        uint32_t a = i / cells * (cells + 1) + i % cells, c = a + cells + 1;
+        const uint32_t square[2][3] = {{a, c, a + 1}, {a + 1, c, c + 1}};
+        memcpy(triangles[mesh->triangle_count], square, sizeof square);
+        mesh->triangle_count += 2;
+    }
+    content->objects[content->fragment.object_count++] =
+        (struct object_description){.kind = OBJECT_MESH,
+                                    .mesh = (size_t)(mesh - content->meshes),
+                                    .placement = AFFINE_IDENTITY};
+    content->fragment.objects = content->objects;
+    content->fragment.meshes = content->meshes;
+}
+
+static float flat(float x, float z)
+{
+    (void)x;
+    (void)z;
+    return 0;
+}
+
+static float hills(float x, float z)
+{
+    return 0.7F * sinf(1.3F * x) * cosf(1.1F * z) + 0.1F * sinf(5 * x + 3 * z);
+}
+
+static float valley(float x, float z)
+{
+    return 0.3F * fabsf(x) + 0.1F * sinf(3 * z);
+}
+
+/* As of a file with another axis upwards. */
+static void turn(struct content *content)
+{
+    const struct box box = content->box;
+    content->box = (struct box)BOX_EMPTY;
+    for (size_t i = 0; i < content->fragment.object_count; i++)
+        content->objects[i].placement =
+            (struct affine){{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {0, 0, 0}};
+    box_add_placed(&content->box, &box, &content->objects[0].placement);
+}
+
+static void expect_no_room(float (*height)(float x, float z), bool has_cubes, bool is_turned)
+{
+    const struct box cubes[2] = {{{-3, 0, -3}, {-1, 2, -1}}, {{1, 0, 0}, {4, 3, 3}}};
+    struct content content = {.box = BOX_EMPTY};
+    add_ground(&content, height == flat ? 1 : CELLS, height);
+    for (int i = 0; i < 2 && has_cubes; i++) {
+        add_box(&content, cubes[i], false, -1);
+        box_add_box(&content.box, &cubes[i]);
+    }
+    if (is_turned)
+        turn(&content);
+    assert_false(room_of(&content).is_room);
+}
+
+static void test_ground_is_no_room(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        expect_no_room(flat, i & 1, i & 2);
+        expect_no_room(hills, i & 1, i & 2);
+        expect_no_room(valley, i & 1, false);
+    }
+}
+
 /* In the one corner that is free, where a cupboard fills that one which would come first. */
 static void test_camera_stands_inside(void **state)
 {
@@ -157,6 +238,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_things_are_no_rooms),
+        cmocka_unit_test(test_ground_is_no_room),
         cmocka_unit_test(test_camera_stands_inside),
         cmocka_unit_test(test_camera_looks_through_the_open_side),
         cmocka_unit_test(test_scene_has_what_the_model_lacks),
