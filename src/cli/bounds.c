@@ -78,9 +78,15 @@ static void add_part(void *user, const struct object_description *object, const 
     box_add_box(&list->box, box);
 }
 
-static void print_camera(const struct camera_description *camera)
+static void print_number(const char *key, double value)
 {
     char number[32];
+    text_from_number(value, number, sizeof number);
+    printf(", %s: %s", key, number);
+}
+
+static void print_camera(const struct camera_description *camera)
+{
     bool upright = ps_same(camera->up, (ps_vec3){0, 1, 0});
     const char *key = camera->kind == CAMERA_ORTHOGRAPHIC ? "projection: orthographic, width"
                       : camera->vertical_angle > 0        ? "vertical_angle"
@@ -92,8 +98,12 @@ static void print_camera(const struct camera_description *camera)
     print_point(", look_at:", camera->look_at);
     if (!upright)
         print_point(", up:", camera->up);
-    text_from_number(value, number, sizeof number);
-    printf(", %s: %s}\n", key, number);
+    print_number(key, value);
+    if (camera->aperture > 0)
+        print_number("aperture", camera->aperture);
+    if (camera->focus > 0)
+        print_number("focus", camera->focus);
+    printf("}\n");
 }
 
 ps_result bounds_print(const struct scene_description *description, const struct scene *scene,

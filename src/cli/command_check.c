@@ -1,13 +1,12 @@
 /* command_check.c: psplat check: is a scene file right? */
+#include "base/input_file.h"
 #include "cli/bounds.h"
 #include "cli/command.h"
 #include "cli/render_arguments.h"
 #include "model/model.h"
 #include "pipeline/render.h"
 
-#include <errno.h>
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 static const struct option options[] = {
@@ -102,19 +101,23 @@ static bool list_parameters(const struct scene_options *scene_options, const cha
 }
 
 /* The scene of a model has none, and is not made to say so. */
-static bool list_nothing(const char *path)
+static bool list_nothing(const struct scene_options *scene_options, const char *path)
 {
-    if (access(path, R_OK) != 0) {
-        fprintf(stderr, "psplat: error: %s: %s\n", path, strerror(errno));
+    struct input_file file;
+    struct error error;
+    if (input_file_open(path, scene_options->psd.folder, &file, &error) != PS_OK) {
+        fprintf(stderr, "psplat: error: %s: %s\n", path, error.text);
         return false;
     }
+    close(file.descriptor);
     printf("%s:\n  no parameters\n", path);
     return true;
 }
 
 static bool list_of(const struct scene_options *scene_options, const char *path)
 {
-    return model_is_file(path) ? list_nothing(path) : list_parameters(scene_options, path);
+    return model_is_file(path) ? list_nothing(scene_options, path)
+                               : list_parameters(scene_options, path);
 }
 
 static int check_scenes(const struct argument *arguments, size_t count,

@@ -47,6 +47,8 @@ run 0 $quick --preview --camera camera -o preview.png models/cube.obj
 run 0 check --bounds --set objects.0.mesh.translate='[5, 0, 0]' --set camera.angle=20 models/cube.obj
 expect_text out "center [5, 1, 0]"
 expect_text out ", angle: 20}"
+run 0 check --bounds --set camera.aperture=0.1 --set camera.focus=2.5 models/cube.obj
+expect_text out ", aperture: 0.1, focus: 2.5}"
 run 2 check --set objects.0.mesh.uup=z models/cube.obj
 expect_text err "unknown key 'uup' in mesh; did you mean 'up'?"
 run 2 check --restrict scenes models/cube.obj
@@ -55,6 +57,12 @@ run 0 check --restrict models models/cube.obj
 run 2 check models/gone.obj models/cube.obj
 expect_text err "psplat: error: models/gone.obj: cannot open: No such file"
 run 2 check --parameters models/gone.obj
+expect_text err "psplat: error: models/gone.obj: cannot open: No such file"
+mkdir folder.obj
+run 2 check --parameters folder.obj
+expect_text err "folder.obj: it is a directory"
+run 2 check --parameters --restrict scenes models/cube.obj
+expect_text err "models/cube.obj: no readable file of that name lies in"
 printf 'v 0 0 0\n' >models/empty.obj
 run 2 check models/empty.obj
 expect_text err "models/empty.obj: "
