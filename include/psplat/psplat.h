@@ -137,7 +137,8 @@ const float *psplat_picture_channel(const psplat_picture *picture, const char *n
 const char *psplat_picture_attribute(const psplat_picture *picture, const char *name);
 
 /* Writes an OpenEXR or PNG file, by the name's end (.exr, .png), as the command does: the former has the layers
- * that the option `layers` says, the latter what a display shows. The file appears whole or not at all. */
+ * that the option `layers` says, the latter what a display shows. The file appears whole or not at all, and replaces
+ * any of that name, also one that the scene read. */
 ps_result psplat_picture_write(const psplat_picture *picture, const char *path,
                                psplat_error *error);
 

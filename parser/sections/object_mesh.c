@@ -163,6 +163,7 @@ void object_mesh_read(struct reader *reader, const struct item *item,
     };
     ps_result result = mesh_import(&request, &content, &report, &error);
     if (result == PS_OK) {
+        reader_add_file(reader, path);
         warn_of(reader, item->key, path, &report);
         append(reader, item, keys, &content, &placed);
     } else if (result == PS_ERROR_MEMORY) {

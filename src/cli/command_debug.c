@@ -194,9 +194,13 @@ static int load_and_draw(struct job *job)
 {
     struct scene_input input;
     struct render_settings settings;
+    struct error error;
     int status = STATUS_USAGE;
     if (render_arguments_load(&job->taken, &input, &settings)) {
-        status = draw_job(job, &input, &settings);
+        if (output_spares(job->output, "--output", &input.description, &error))
+            status = draw_job(job, &input, &settings);
+        else
+            print_error(error.text);
         settings_release(&settings);
     }
     scene_input_release(&input);

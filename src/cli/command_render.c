@@ -295,6 +295,18 @@ static void set_wishes(const struct job *job, struct render_settings *settings)
     settings->exposure = job->description->image.exposure;
 }
 
+/* A checkpoint that is there already is not replaced, or is a film. */
+static bool spares_scene(const struct job *job)
+{
+    struct error error;
+    if (!output_list_spares(&job->outputs, job->description))
+        return false;
+    if (!job->stats_path || output_spares(job->stats_path, "--stats", job->description, &error))
+        return true;
+    print_error(error.text);
+    return false;
+}
+
 static int load_and_render(struct job *job)
 {
     struct scene_input input;
@@ -305,7 +317,7 @@ static int load_and_render(struct job *job)
         job->description = &input.description;
         job->passes.workers = settings.workers;
         set_wishes(job, &settings);
-        if (output_list_suits(&job->outputs, &settings) &&
+        if (spares_scene(job) && output_list_suits(&job->outputs, &settings) &&
             long_job_set_passes(&job->passes, &settings))
             status = render_job(job, &input);
         else

@@ -74,6 +74,17 @@ bool output_list_check(const struct output_list *list)
     return good;
 }
 
+bool output_list_spares(const struct output_list *list, const struct scene_description *description)
+{
+    struct error error;
+    bool good = true;
+    for (size_t i = 0; i < list->count && good; i++)
+        good = output_spares(list->paths[i], "--output", description, &error);
+    if (!good)
+        print_error(error.text);
+    return good;
+}
+
 static const char *layers(const struct output_list *list)
 {
     return output_options_layers(&list->options);

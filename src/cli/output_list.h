@@ -35,6 +35,10 @@ bool output_list_add_defaults(struct output_list *list, const char *scene_path);
 /* Finds out before the work what can be told by then; false, printed. */
 bool output_list_check(const struct output_list *list);
 
+/* Whether none of them is a file that the scene was read from; false, printed. */
+bool output_list_spares(const struct output_list *list,
+                        const struct scene_description *description);
+
 /* Whether layers beside the picture are asked for; and that which tells the denoiser's error. */
 bool output_list_wants_layers(const struct output_list *list);
 bool output_list_wants_error(const struct output_list *list);

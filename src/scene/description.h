@@ -251,7 +251,7 @@ struct scene_description {
     struct object_description *objects;
     size_t object_count;
     struct render_description render;
-    char **files; /* every name that an origin refers to */
+    char **files; /* every name that an origin refers to, and paths of mesh files */
     size_t file_count;
 };
 

@@ -130,6 +130,33 @@ bool output_check(const char *path, struct error *error)
     return good;
 }
 
+static bool is_file(const struct stat *file, const char *path)
+{
+    struct stat other;
+    return stat(path, &other) == 0 && other.st_dev == file->st_dev && other.st_ino == file->st_ino;
+}
+
+static const char *role_in(const struct scene_description *description, const struct stat *file)
+{
+    for (size_t i = 0; i < description->texture_count; i++)
+        if (!description->textures[i].bytes && is_file(file, description->textures[i].path))
+            return "a picture that the scene reads";
+    for (size_t i = 0; i < description->file_count; i++)
+        if (is_file(file, description->files[i]))
+            return "a file of the scene";
+    return NULL;
+}
+
+bool output_spares(const char *path, const char *option,
+                   const struct scene_description *description, struct error *error)
+{
+    struct stat file;
+    const char *role = stat(path, &file) == 0 ? role_in(description, &file) : NULL;
+    if (role)
+        error_set(error, PS_ERROR_INVALID, "%s is %s; give %s another name", path, role, option);
+    return !role;
+}
+
 /* Quotes a word for a shell unless it needs none. */
 static void print_word(FILE *stream, const char *word)
 {

@@ -186,6 +186,33 @@ expect_empty err
 run 0 new --from models/unpainted.obj unpainted.psd
 expect_no_text unpainted.psd "has no materials"
 
+# Pictures do not take the place of what the scene was read from, whatever they are called.
+run 0 $quick --size 4x4 -o painted.png models/cube.obj
+cp painted.png kept.png
+printf 'newmtl red\nmap_Kd painted.png\n' >painted.mtl
+{ printf 'mtllib painted.mtl\nusemtl red\n'; sed 's|^f \(.*\) \(.*\) \(.*\) |f \1/1 \2/1 \3/1 |;1i vt 0 0' models/cube.obj; } >painted.obj
+run 0 check painted.obj
+expect_empty err
+run 2 $quick painted.obj
+expect_text err "psplat: error: painted.png is a picture that the scene reads; give --output another name"
+ln painted.png hard.png
+ln -s painted.png soft.png
+for name in hard soft; do
+    run 2 $quick -o fine.exr -o "$name.png" painted.obj
+    expect_text err "$name.png is a picture that the scene reads"
+    run 2 debug -q --size 4x4 -o "$name.png" gbuffer:normal painted.obj
+    expect_text err "$name.png is a picture that the scene reads; give --output another name"
+done
+run 2 $quick -o fine.exr --stats painted.obj painted.obj
+expect_text err "painted.obj is a file of the scene; give --stats another name"
+run 0 new --from painted.obj painted.psd
+run 2 $quick -o fine.exr --stats painted.obj painted.psd
+expect_text err "painted.obj is a file of the scene; give --stats another name"
+[ ! -e fine.exr ] || fail "a picture in spite of the error"
+expect_same painted.png kept.png
+run 0 $quick -o fine.exr painted.obj
+expect_empty err
+
 # Rooms are seen from inside, or through the side that is open.
 { box 0,0,0 6,3,5 1 in; box 2,0,2 3,0.8,3.4 9; } >models/room.obj
 run 0 new --from models/room.obj room.psd
