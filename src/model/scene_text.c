@@ -8,9 +8,9 @@
  */
 #include "model/model.h"
 
-#include "base/text.h"
 #include "import/import.h"
 #include "parser/yaml/quote.h"
+#include <locale.h>
 #include <math.h>
 #include <psplat/math.h>
 #include <stdio.h>
@@ -28,16 +28,23 @@ static const ps_vec3 sun_direction = {0.6F, -1.0F, -0.7F};
 /* Above middle grey, to which the tone map brings the mean of the picture. */
 #define EXPOSURE 0.8
 
-static void write_point(FILE *stream, const char *key, ps_vec3 p)
+static float reach(ps_vec3 p)
 {
-    const float numbers[3] = {p.x, p.y, p.z};
-    fprintf(stream, "%s: [", key);
-    for (int i = 0; i < 3; i++) {
-        char text[32];
-        text_from_float(numbers[i], text, sizeof text);
-        fprintf(stream, i > 0 ? ", %s" : "%s", text);
-    }
-    fputc(']', stream);
+    return fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
+}
+
+/* Four of the model's size, and more where it is far from the origin. */
+static int digits_of(const struct box *box)
+{
+    double size = (double)ps_length(ps_subtract(box->high, box->low));
+    double farthest = (double)fmaxf(reach(box->low), reach(box->high));
+    return 4 + (int)fmin(ceil(log10(fmax(farthest / size, 1.0))), 5.0);
+}
+
+static void write_point(FILE *stream, const char *key, ps_vec3 p, int digits)
+{
+    fprintf(stream, "%s: [%.*g, %.*g, %.*g]", key, digits, (double)p.x, digits, (double)p.y, digits,
+            (double)p.z);
 }
 
 static void write_camera(FILE *stream, const struct model *model)
@@ -55,8 +62,8 @@ static void write_camera(FILE *stream, const struct model *model)
               "from outside.\n"
               "camera: {",
               stream);
-        write_point(stream, "location", room->location);
-        write_point(stream, ", look_at", room->look_at);
+        write_point(stream, "location", room->location, digits_of(&model->box));
+        write_point(stream, ", look_at", room->look_at, digits_of(&model->box));
         fprintf(stream, ", angle: %g}\n\n", room->angle);
         return;
     }
@@ -98,13 +105,13 @@ static void write_lights(FILE *stream, const struct model *model)
     fputs("lights:\n", stream);
     if (model->room.is_room) {
         fputs("  - sphere: # a lamp below the ceiling\n      ", stream);
-        write_point(stream, "location", model->room.lamp);
+        write_point(stream, "location", model->room.lamp, digits_of(&model->box));
         fprintf(stream, "\n      radius: %.2g\n      radiance: %g\n      visible: no\n\n",
                 model->room.lamp_radius, LAMP_RADIANCE);
         return;
     }
     fprintf(stream, "  - sky: {radiance: %g} # even, all around\n", SKY_RADIANCE);
-    write_point(stream, "  - sun: {direction", sun_direction);
+    write_point(stream, "  - sun: {direction", sun_direction, 4);
     fprintf(stream, ", angle: %g, irradiance: %g} # wide, for soft shadows\n\n", SUN_ANGLE,
             SUN_IRRADIANCE);
 }
@@ -122,7 +129,7 @@ static void write_ground(FILE *stream, const struct box *box)
             GROUND_RADII * radius);
     center.y = 0;
     if ((double)ps_length(center) > radius) {
-        write_point(stream, "      translate", center);
+        write_point(stream, "      translate", center, digits_of(box));
         fputc('\n', stream);
     }
     fputs("      material: ground\n", stream);
@@ -172,7 +179,11 @@ char *model_scene_text(const struct model *model, const char *file)
     FILE *stream = open_memstream(&text, &length);
     if (!stream)
         return NULL;
+    locale_t decimal_point = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
+    locale_t caller = uselocale(decimal_point);
     write_scene(stream, model, file);
+    uselocale(caller);
+    freelocale(decimal_point);
     bool good = ferror(stream) == 0;
     if (fclose(stream) == 0 && good)
         return text;

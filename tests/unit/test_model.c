@@ -218,8 +218,8 @@ static void test_scene_has_what_the_model_lacks(void **state)
     }
 }
 
-/* Places are written as exactly as they are known. */
-static void test_scene_far_from_the_origin(void **state)
+/* Places have digits enough to be told from each other, and no more. */
+static void test_digits_of_places(void **state)
 {
     struct model model = {.box = {{123455.5F, 0, 0}, {123456.5F, 1, 1}}, .up = 1};
     (void)state;
@@ -227,10 +227,16 @@ static void test_scene_far_from_the_origin(void **state)
     assert_non_null(text);
     expect_in(text, "translate: [123456, 0, 0.5]", true);
     free(text);
-    model.room = (struct room){.is_room = true, .location = {123456.5F, 1, -2}, .angle = 40};
+    model.room = (struct room){.is_room = true, .location = {123456.5F, 1, -2}, .angle = 40.5};
     text = model_scene_text(&model, "m.obj");
     assert_non_null(text);
     expect_in(text, "location: [123456.5, 1, -2]", true);
+    free(text);
+    model.box = (struct box){{-1, 0, -1}, {1, 1, 1}};
+    model.room.location = (ps_vec3){0.300000012F, 0.123456F, 0};
+    text = model_scene_text(&model, "m.obj");
+    assert_non_null(text);
+    expect_in(text, "location: [0.3, 0.1235, 0]", true);
     free(text);
 }
 
@@ -242,7 +248,7 @@ int main(void)
         cmocka_unit_test(test_camera_stands_inside),
         cmocka_unit_test(test_camera_looks_through_the_open_side),
         cmocka_unit_test(test_scene_has_what_the_model_lacks),
-        cmocka_unit_test(test_scene_far_from_the_origin),
+        cmocka_unit_test(test_digits_of_places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
