@@ -2,6 +2,7 @@
 #include "model/model.h"
 
 #include "parser_fixture.h"
+#include "unit/locale_fixture.h"
 #include <stdlib.h>
 
 #define MOST_BOXES 3
@@ -240,6 +241,20 @@ static void test_digits_of_places(void **state)
     free(text);
 }
 
+static void test_scene_in_a_comma_locale(void **state)
+{
+    const struct model model = {.box = {{-1, 0, -1}, {1, 2.5F, 1}}, .up = 1};
+    if (!use_locale(state, "de_DE.UTF-8", ",")) {
+        print_message("skipped: no locale de_DE.UTF-8 here\n");
+        return;
+    }
+    char *text = model_scene_text(&model, "m.obj");
+    assert_non_null(text);
+    expect_in(text, "sky: {radiance: 0.45}", true);
+    assert_string_equal(localeconv()->decimal_point, ",");
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -249,6 +264,7 @@ int main(void)
         cmocka_unit_test(test_camera_looks_through_the_open_side),
         cmocka_unit_test(test_scene_has_what_the_model_lacks),
         cmocka_unit_test(test_digits_of_places),
+        LOCALE_TEST(test_scene_in_a_comma_locale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
