@@ -71,6 +71,18 @@ run 2 $quick models/broken.glb
 expect_text err "models/broken.glb: not binary glTF"
 [ ! -e broken.exr ] || fail "a picture of a broken model"
 
+# Numbers in range, whose products are not.
+cat >models/overflow.gltf <<'END'
+{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+ "nodes": [{"mesh": 0, "matrix": [1e37, 0, 0, 0, 1e37, 1e-37, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [1e4, -3e4, 0], "max": [3e4, -1e4, 500]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AEAcRgBAHMYAAAAAAECcRgBAnMYAAIA/AGDqRgBg6sYAAPpD"}]}
+END
+run 2 check models/overflow.gltf
+expect_text err "models/overflow.gltf: there is nothing to see in it"
+
 # --- new ---
 
 run 0 new first.psd
