@@ -5,6 +5,7 @@
  */
 #include "import/material.h"
 
+#include "base/path.h"
 #include "image/raster.h"
 #include "import/steps.h"
 #include "import/text.h"
@@ -46,16 +47,10 @@ bool mesh_texture_is_named(const struct aiMaterial *source, enum aiTextureType t
     return read_name(source, type, &name);
 }
 
-static const char *last_part(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 static bool try_path(const struct mesh_job *job, const char *name, char *path)
 {
     const char *mesh = job->request->path;
-    size_t folder = name[0] == '/' ? 0 : (size_t)(last_part(mesh) - mesh);
+    size_t folder = name[0] == '/' ? 0 : (size_t)(path_name(mesh) - mesh);
     int length = snprintf(path, LONGEST_PATH, "%.*s%s", (int)folder, mesh, name);
     return length > 0 && length < LONGEST_PATH && mesh_files_exist(&job->files, path);
 }
@@ -70,7 +65,7 @@ static bool find_path(const struct mesh_job *job, char *name, char *path)
     if (try_path(job, name, path))
         return true;
     mesh_decode_percent(name);
-    return try_path(job, name, path) || try_path(job, last_part(name), path);
+    return try_path(job, name, path) || try_path(job, path_name(name), path);
 }
 
 /* "*3" is the third of those inside of the file; some formats name them by their file's name. */
@@ -86,7 +81,7 @@ static const struct aiTexture *find_embedded(const struct aiScene *scene, const 
     for (unsigned i = 0; i < scene->mNumTextures; i++) {
         const struct aiTexture *texture = scene->mTextures[i];
         if (texture && texture->mFilename.length > 0 &&
-            strcmp(last_part(texture->mFilename.data), last_part(name)) == 0)
+            strcmp(path_name(texture->mFilename.data), path_name(name)) == 0)
             return texture;
     }
     return NULL;
