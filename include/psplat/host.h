@@ -205,7 +205,8 @@ struct ps_host {
     int32_t (*tile_of)(const ps_host *host, uint32_t x, uint32_t y, uint32_t *tile, uint32_t *lane);
 
     /* Tile `index` of the picture; one worker at a time may write to it. Borrowed until the pass ends. Where a part of
-     * the picture is rendered, the others see nothing, and what is written to them is lost. [any thread, tiles] */
+     * the picture is rendered, those that are not there are all one, which sees nothing: never write to it.
+     * [any thread, tiles] */
     ps_tile *(*tile)(const ps_host *host, uint32_t index);
 
     /* The surfaces that the pixels of a tile show, as intersect tells them, PS_TILE_PIXELS each, and the
@@ -298,9 +299,10 @@ struct ps_host {
     /* Since 1.7: like for_each_tile, for every tile of the picture, be it there or not. [main thread, estimator] */
     ps_result (*for_each_picture_tile)(const ps_host *host, ps_body body, void *user);
 
-    /* Since 1.7: `tile` becomes what the pixels of tile `index` of the picture see, be it there or not, without light;
-     * its radiance is NULL. The paths from the camera are traced where it is not there. [any thread, estimator] */
-    void (*tile_surfaces)(const ps_host *host, uint32_t index, ps_tile *tile);
+    /* Since 1.7: `tile`, of `size` bytes as the caller knows it, becomes what the pixels of tile `index` of the picture
+     * see, be it there or not, without light; its radiance is NULL. The paths from the camera are traced where it is
+     * not there. [any thread, estimator] */
+    void (*tile_surfaces)(const ps_host *host, uint32_t index, size_t size, ps_tile *tile);
 };
 
 #define PS_SPHERE_TRIANGLES 512u

@@ -55,7 +55,7 @@ static void shoot_from_tile(void *user, uint64_t index, uint32_t worker)
     struct findings findings = {0, 0};
     ps_tile seen;
     ps_points points;
-    pilot->rays->host->tile_surfaces(pilot->rays->host, (uint32_t)tile, &seen);
+    pilot->rays->host->tile_surfaces(pilot->rays->host, (uint32_t)tile, sizeof seen, &seen);
     ps_collect_points(&seen, &points);
     keep_every(pilot->step, &points);
     for (uint64_t ray = 0; ray < pilot->count; ray++)

@@ -72,7 +72,7 @@ static bool has_tile(const ps_host *host, uint32_t index, const char *service)
     return false;
 }
 
-/* One that is not there is all empty, and what is written to it is lost. */
+/* Those that are not there are all one, which is empty; workers share it. */
 static ps_tile *host_tile(const ps_host *host, uint32_t index)
 {
     struct render *render = render_of(host);
@@ -146,7 +146,7 @@ static void trace_surfaces(const struct render *render, uint32_t index, ps_tile 
     view_trace(&pass, &points, 0);
 }
 
-static void host_tile_surfaces(const ps_host *host, uint32_t index, ps_tile *tile)
+static void find_surfaces(const ps_host *host, uint32_t index, ps_tile *tile)
 {
     const struct render *render = render_of(host);
     uint32_t there;
@@ -164,6 +164,14 @@ static void host_tile_surfaces(const ps_host *host, uint32_t index, ps_tile *til
     memset(tile->irradiance_g, 0, sizeof tile->irradiance_g);
     memset(tile->irradiance_b, 0, sizeof tile->irradiance_b);
     memset(tile->weight, 0, sizeof tile->weight);
+}
+
+/* The caller's tile may be that of an older interface, which is shorter. */
+static void host_tile_surfaces(const ps_host *host, uint32_t index, size_t size, ps_tile *tile)
+{
+    ps_tile found;
+    find_surfaces(host, index, &found);
+    memcpy(tile, &found, size < sizeof found ? size : sizeof found);
 }
 
 void host_add_tiles(ps_host *host)

@@ -68,7 +68,7 @@ static ps_result init(void *state, const ps_host *host)
     if (does("init:for_each_picture_tile"))
         host->for_each_picture_tile(host, NULL, NULL);
     if (does("init:tile_surfaces"))
-        host->tile_surfaces(host, 0, &seen);
+        host->tile_surfaces(host, 0, sizeof seen, &seen);
 #endif
     if (does("init:for_each_tile"))
         host->for_each_tile(host, NULL, NULL);
@@ -140,7 +140,7 @@ static ps_result accumulate(void *state, const ps_host *host, const ps_pass *pas
 #if PS_ABI_MINOR >= 7
     ps_tile seen;
     if (does("tile_surfaces"))
-        host->tile_surfaces(host, pass->tile_count, &seen);
+        host->tile_surfaces(host, pass->tile_count, sizeof seen, &seen);
 #endif
 #if PS_ABI_MINOR >= 6
     static const ps_surface_point no_object = {.object = 9999}, no_triangle = {.triangle = 9999};

@@ -495,13 +495,19 @@ static void count_tile(void *user, uint64_t index, uint32_t worker)
     visits[index]++;
 }
 
-/* A tile that is there shows the same. */
+/* A tile that is there shows the same; of a module's shorter struct, nothing behind its end is written to. */
 static void look_at_tile_surfaces(const ps_host *host)
 {
     const ps_tile *there = host->tile(host, 0);
     ps_tile seen;
     uint32_t visits[1] = {0};
-    host->tile_surfaces(host, 0, &seen);
+    memset(&seen, 0x5a, sizeof seen);
+    host->tile_surfaces(host, 0, offsetof(ps_tile, radiance_r), &seen);
+    const unsigned char *behind = (const unsigned char *)&seen.radiance_r;
+    for (size_t i = 0; i < sizeof seen - offsetof(ps_tile, radiance_r); i++)
+        assert_int_equal(behind[i], 0x5a);
+    host->tile_surfaces(host, 0, sizeof seen, &seen);
+    assert_null(seen.radiance_r);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
         assert_true(seen.object[lane] == there->object[lane] && seen.weight[lane] == 0.0f);
         assert_true(ps_same(ps_tile_position(&seen, lane), ps_tile_position(there, lane)));

@@ -39,7 +39,7 @@ static void find_in_tile(void *user, uint64_t index, uint32_t worker)
     uint64_t indices[PS_TILE_PIXELS];
     float numbers[PS_TILE_PIXELS][4];
     memset(surfels->lengths + first, 0, work->rays * sizeof *surfels->lengths);
-    host->tile_surfaces(host, (uint32_t)index, &tile);
+    host->tile_surfaces(host, (uint32_t)index, sizeof tile, &tile);
     ps_collect_points(&tile, &points);
     if (points.count == 0)
         return;

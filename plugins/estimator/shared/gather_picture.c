@@ -52,7 +52,7 @@ static void take_first_round(void *user, uint64_t index, uint32_t worker)
     ps_tile tile;
     struct gather gather;
     work->pilots[index] = (struct tile_pilot){0};
-    host->tile_surfaces(host, (uint32_t)index, &tile);
+    host->tile_surfaces(host, (uint32_t)index, sizeof tile, &tile);
     if (!begin_tile(work, index, &tile, &gather))
         return;
     gather.goes_on = true;
