@@ -159,15 +159,15 @@ typedef struct ps_film_view {
     const float *coverage; /* passes in which the pixel saw a surface */
 } ps_film_view;
 
-#define PS_NORMALIZATION_CROPS                                                                     \
-    1u /* since 1.7: what a pixel gets depends on nothing but its own sums */
+#define PS_NORMALIZATION_CROPS 1u /* since 1.7: what a pixel gets depends on its own sums alone */
 
 typedef struct ps_normalization_vtable {
     uint32_t size;
-    uint32_t flags; /* PS_NORMALIZATION_... */
+    uint32_t reserved;
     /* Indirect radiance of every pixel; anything where the weight is 0. [main thread] */
     ps_result (*resolve)(const void *state, const ps_host *host, const ps_film_view *film,
                          float *out_r, float *out_g, float *out_b);
+    uint64_t flags; /* since 1.7: PS_NORMALIZATION_... */
 } ps_normalization_vtable;
 
 /* --- denoiser -------------------------------------------------------------------------------- */

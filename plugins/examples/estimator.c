@@ -53,7 +53,13 @@ static const ps_param params[] = {
     PS_INT(struct state, rays, "16", 1, 65536, "rays", "rays for each pixel and pass"),
 };
 
-static const ps_estimator_vtable vtable = {.size = sizeof vtable, .accumulate = accumulate};
+static const ps_estimator_vtable vtable = {
+    .size = sizeof vtable,
+#if PS_ABI_MINOR >= 7
+    .flags = PS_ESTIMATOR_CROPS,
+#endif
+    .accumulate = accumulate,
+};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

@@ -23,7 +23,13 @@ static const ps_param params[] = {
     PS_NUMBER(struct state, factor, "1", 0, 1e6, 0, "", "factor on the indirect light"),
 };
 
-static const ps_normalization_vtable vtable = {.size = sizeof vtable, .resolve = resolve};
+static const ps_normalization_vtable vtable = {
+    .size = sizeof vtable,
+    .resolve = resolve,
+#if PS_ABI_MINOR >= 7
+    .flags = PS_NORMALIZATION_CROPS,
+#endif
+};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

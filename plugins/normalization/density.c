@@ -21,8 +21,8 @@ static ps_result resolve(const void *state, const ps_host *host, const ps_film_v
 
 static const ps_normalization_vtable vtable = {
     .size = sizeof vtable,
-    .flags = PS_NORMALIZATION_CROPS,
     .resolve = resolve,
+    .flags = PS_NORMALIZATION_CROPS,
 };
 
 static const ps_descriptor descriptor = {

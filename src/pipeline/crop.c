@@ -24,8 +24,8 @@ ps_result render_check_crop(const struct render_settings *settings, size_t width
                          crop->x, crop->y, crop->width, crop->height, width, height);
     if (!(estimator->table.estimator.flags & PS_ESTIMATOR_CROPS))
         return error_set(error, PS_ERROR_INVALID,
-                         "--crop: estimator %.80s goes by the whole picture and cannot render a "
-                         "part of it; psplat(1) names those that can",
+                         "--crop: estimator %.80s does not say that it can render a part of a "
+                         "picture (PS_ESTIMATOR_CROPS); psplat(1) tells which cannot",
                          estimator->name);
     return PS_OK;
 }
@@ -56,7 +56,7 @@ void crop_warn(const struct render *render)
         if (!goes_by_others(render, (ps_kind)kind))
             continue;
         snprintf(warning, sizeof warning,
-                 "--crop: %s %.80s goes by other pixels too, and sees those of this part alone: "
+                 "--crop: %s %.80s may go by other pixels, and sees those of this part alone: "
                  "the picture may differ from that part of the whole",
                  kinds[kind].name, strategy_in(render, (ps_kind)kind)->type->name);
         host->log(host, PS_LOG_WARNING, warning);

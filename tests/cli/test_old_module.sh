@@ -15,6 +15,17 @@ for example in injection stratification visibility filter estimator normalizatio
     run 0 compare --fail 'max>0' old.exr new.exr
 done
 
+# What an older interface does not know, its modules do not have: parts of a picture (1.7).
+# shellcheck disable=SC2086
+{
+    run 2 -q $small -p estimator=./old-estimator.so --crop 5,9,17,3 -o a.exr "$cornell"
+    expect_text err "estimator bounce does not say that it can render a part of a picture"
+    run 0 -q $small -p normalization=./old-normalization.so --crop 5,9,17,3 -o a.exr "$cornell"
+    expect_text err "warning: --crop: normalization factor may go by other pixels"
+    run 0 -q $small -p estimator=./new-estimator.so -p normalization=./new-normalization.so --crop 5,9,17,3 -o a.exr "$cornell"
+    expect_empty err
+}
+
 # Hooks, radiance, half buffers and ids; and that calls out of place still fail.
 compile_module "$old" "$PSPLAT_SOURCE/tests/plugins/witness.c" "$PWD/witness.so"
 run 0 --size 48x27 --passes 3 -p estimator=./witness.so -p denoiser=./witness.so -o a.exr --stats a.json "$cornell"
