@@ -42,6 +42,7 @@ static ps_result subtract(const struct picture_pair *pair, struct image *differe
     size_t pixels = pair->width * pair->height;
     difference->width = pair->width;
     difference->height = pair->height;
+    difference->window = pair->images[0].window;
     for (size_t c = 0; c < pair->channel_count; c++) {
         float *samples = image_add_channel(difference, pair->names[c]);
         if (!samples)

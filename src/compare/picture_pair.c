@@ -31,6 +31,36 @@ static void crop_to(struct image *image, const struct layer *layer, const struct
     image->window = part->window;
 }
 
+static bool is_part(const struct image *image)
+{
+    return image->width < image->window.picture_width ||
+           image->height < image->window.picture_height;
+}
+
+/* Where an image lies: as it says, or all of its picture. */
+static struct picture_window place_of(const struct image *image)
+{
+    return image->window.picture_width > 0
+               ? image->window
+               : (struct picture_window){0, 0, image->width, image->height};
+}
+
+/* Two of one size. */
+static ps_result check_places(const struct image images[2], const char *const paths[2],
+                              struct error *error)
+{
+    struct picture_window a = place_of(&images[0]), b = place_of(&images[1]);
+    bool same = a.left == b.left && a.top == b.top && a.picture_width == b.picture_width &&
+                a.picture_height == b.picture_height;
+    if (same || (!is_part(&images[0]) && !is_part(&images[1])))
+        return PS_OK;
+    return error_set(error, PS_ERROR_INVALID,
+                     "the parts lie at different places: '%s' is at %zu,%zu of %zux%zu, '%s' at "
+                     "%zu,%zu of %zux%zu",
+                     paths[0], a.left, a.top, a.picture_width, a.picture_height, paths[1], b.left,
+                     b.top, b.picture_width, b.picture_height);
+}
+
 static ps_result check_alike(const struct picture_pair *pair, const char *const paths[2],
                              const struct layer layers[2], struct error *error)
 {
@@ -43,7 +73,7 @@ static ps_result check_alike(const struct picture_pair *pair, const char *const 
         return error_set(error, PS_ERROR_INVALID,
                          "the layer's channels differ: it begins with '%s' in '%s', '%s' in '%s'",
                          layers[0].names[0], paths[0], layers[1].names[0], paths[1]);
-    return PS_OK;
+    return check_places(pair->images, paths, error);
 }
 
 ps_result picture_pair_read(struct picture_pair *pair, const char *reference_path,
@@ -62,6 +92,8 @@ ps_result picture_pair_read(struct picture_pair *pair, const char *reference_pat
     crop_to(&pair->images[1], &layers[1], &pair->images[0]);
     pair->width = pair->images[0].width;
     pair->height = pair->images[0].height;
+    pair->left = pair->images[0].window.left;
+    pair->top = pair->images[0].window.top;
     pair->channel_count = layers[0].channel_count;
     for (size_t c = 0; c < pair->channel_count; c++) {
         pair->names[c] = layers[0].names[c];

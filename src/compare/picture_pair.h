@@ -9,7 +9,7 @@
 /* Zero-initialise before reading; release whatever came of it. */
 struct picture_pair {
     size_t width, height;
-    size_t left, top; /* of the crop in the pictures read */
+    size_t left, top; /* in the whole picture */
     size_t left_out;  /* pixels that do not count; they are 0 in both pictures */
     size_t channel_count;
     const char *names[3];          /* of the channels */
@@ -18,8 +18,8 @@ struct picture_pair {
     struct workers *workers;       /* for metrics; owned, NULL: the caller alone */
 };
 
-/* Fails where a file can't be read, lacks the layer (NULL: R, G, B), or the sizes differ; but of two windows of one
- * picture that lie in each other, the larger is cropped to the smaller. Starts a worker for each
+/* Fails where a file can't be read, lacks the layer (NULL: R, G, B), or the sizes or places in whole pictures differ;
+ * but of two windows of one picture that lie in each other, the larger is cropped to the smaller. Starts a worker for each
  * processor. */
 ps_result picture_pair_read(struct picture_pair *pair, const char *reference_path,
                             const char *test_path, const char *layer, struct error *error);

@@ -122,6 +122,17 @@ run 0 info whole.exr
 expect_text out "whole.exr: 48x27"
 expect_no_text out " at 0,0"
 
+# Parts of one size are compared where they are of one place.
+run 0 -q $small --crop 6,9,17,3 -o aside.exr "$cornell"
+run 0 -q --size 17x3 -p injection=photon:count=500 -p estimator=splat -o tiny.exr "$cornell"
+run 1 compare first.exr aside.exr
+expect_text err "the parts lie at different places: 'first.exr' is at 5,9 of 48x27, 'aside.exr' at 6,9 of 48x27"
+run 1 diff tiny.exr first.exr -o no.exr
+expect_text err "'tiny.exr' is at 0,0 of 17x3, 'first.exr' at 5,9 of 48x27"
+run 0 diff whole.exr first.exr -o difference.exr
+run 0 info difference.exr
+expect_text out "difference.exr: 17x3 at 5,9 of 48x27"
+
 # --- films ---
 
 job="-q --size 112x112 $few -p estimator=splat --crop 70,60,30,50"
