@@ -5,9 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How far means over neighbours reach, in pixels: samples at edges look for the indirect light around them
- * (view/edges.h). That is a mean over interleaved subsets and of short-range light; whose rays are shared out by how
- * many pixels are averaged, which is a matter of surfaces as far again. Each stage goes tile by tile. */
+/* What the film's pixels depend on, and how far that reaches, in pixels:
+ *
+ *     samples at edges     edges, and the indirect light around (view/edges.h)                  EDGE_REACH
+ *     means of that light  of interleaved subsets, of short-range light, of direct light (a     MEAN_REACH
+ *                          discontinuity buffer); flat tiles are averaged in one
+ *     rays of that light   shared out by how many pixels are averaged, in blocks of 4 x 4       MEAN_REACH again
+ *                          pixels that lie on the same surface
+ *
+ * Means go tile by tile, so that the first is of pixels and the others are of its tiles. Any estimator may splat. */
 #define EDGE_REACH 2
 #define MEAN_REACH (PS_MOST_INTERLEAVE / 2)
 
@@ -38,21 +44,23 @@ static struct tile_range grow(struct tile_range range, uint32_t pixels, uint32_t
 }
 
 /* The tiles that `length` pixels from `first` on need, of a picture of so many pixels. */
-static struct tile_range tiles_around(size_t first, size_t length, size_t pixels)
+static struct tile_range tiles_around(size_t first, size_t length, size_t reach, size_t pixels)
 {
-    size_t end = first + length + EDGE_REACH;
+    size_t end = first + length + reach;
     uint32_t tiles = (uint32_t)((pixels + PS_TILE_SIZE - 1) / PS_TILE_SIZE);
     struct tile_range range = {
-        (uint32_t)((first > EDGE_REACH ? first - EDGE_REACH : 0) / PS_TILE_SIZE),
+        (uint32_t)((first > reach ? first - reach : 0) / PS_TILE_SIZE),
         (uint32_t)(((end < pixels ? end : pixels) + PS_TILE_SIZE - 1) / PS_TILE_SIZE)};
-    return grow(grow(range, MEAN_REACH, tiles), MEAN_REACH, tiles);
+    return grow(range, 2 * MEAN_REACH, tiles);
 }
 
-struct gbuffer gbuffer_layout_around(struct rectangle part, size_t width, size_t height)
+struct gbuffer gbuffer_layout_around(struct rectangle part, bool smooth_edges, size_t width,
+                                     size_t height)
 {
+    size_t reach = smooth_edges ? EDGE_REACH : 0;
     struct gbuffer gbuffer = gbuffer_layout(width, height);
-    struct tile_range columns = tiles_around(part.x, part.width, width);
-    struct tile_range rows = tiles_around(part.y, part.height, height);
+    struct tile_range columns = tiles_around(part.x, part.width, reach, width);
+    struct tile_range rows = tiles_around(part.y, part.height, reach, height);
     assert(rectangle_fits(part, width, height));
     gbuffer.first_column = columns.first;
     gbuffer.first_row = rows.first;

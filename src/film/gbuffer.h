@@ -52,8 +52,9 @@ struct gbuffer {
 struct gbuffer gbuffer_layout(size_t width, size_t height);
 
 /* The tiles of which a part of the picture needs any, so that its film is that of the whole picture: its own and those
- * that its means over neighbours look at. */
-struct gbuffer gbuffer_layout_around(struct rectangle part, size_t width, size_t height);
+ * that its means over neighbours look at. `smooth_edges`: pixels take several samples at edges. */
+struct gbuffer gbuffer_layout_around(struct rectangle part, bool smooth_edges, size_t width,
+                                     size_t height);
 
 /* The picture's pixels in the window. */
 struct rectangle gbuffer_window(const struct gbuffer *gbuffer);

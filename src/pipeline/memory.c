@@ -39,7 +39,8 @@ static double bytes_of_passes(const struct render_size *size)
 double render_bytes(const struct render_size *size)
 {
     struct rectangle film = film_of(size);
-    struct gbuffer gbuffer = gbuffer_layout_around(film, size->width, size->height);
+    struct gbuffer gbuffer =
+        gbuffer_layout_around(film, size->smooth_edges, size->width, size->height);
     struct interleaved interleaved = interleaved_layout(&gbuffer, 1);
     return (double)gbuffer_bytes(&gbuffer) + (double)interleaved_bytes(&interleaved) +
            (double)gathered_light_bytes(&gbuffer) +

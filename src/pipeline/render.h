@@ -22,6 +22,7 @@ struct render_size {
     struct rectangle crop;           /* see render_settings */
     bool several_passes, keeps_film; /* whose file is made of it */
     bool display;                    /* the layer of that name is made */
+    bool smooth_edges;               /* aa_samples is more than 1 */
 };
 
 /* Bytes that grow with the picture: G-buffer, film and the picture, which has all layers. */

@@ -55,7 +55,8 @@ static ps_result create_gbuffer_and_film(struct render *render, struct error *er
     struct rectangle crop = render->settings->crop;
     bool all = crop.width == 0;
     struct gbuffer layout =
-        all ? gbuffer_layout(width, height) : gbuffer_layout_around(crop, width, height);
+        all ? gbuffer_layout(width, height)
+            : gbuffer_layout_around(crop, render->settings->aa_samples > 1, width, height);
     ps_result result = gbuffer_create(layout, &render->gbuffer, error);
     if (result == PS_OK)
         result = film_create(all ? width : crop.width, all ? height : crop.height,

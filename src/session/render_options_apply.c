@@ -80,3 +80,4 @@ ps_result render_options_check_size(const struct render_options *options,
     ps_result result = render_check_crop(settings, size.width, size.height, error);
     return result == PS_OK ? render_check_memory(&size, options->memory_limit, error) : result;
 }
+        .smooth_edges = settings->aa_samples > 1,

@@ -422,7 +422,7 @@ static void test_window_of_a_part(void **state)
 {
     (void)state;
     struct gbuffer whole = gbuffer_layout(311, 190);
-    struct gbuffer window = gbuffer_layout_around(part, 311, 190);
+    struct gbuffer window = gbuffer_layout_around(part, true, 311, 190);
     struct rectangle pixels = gbuffer_window(&window);
     assert_true(window.tile_count < gbuffer_picture_tiles(&window) / 2);
     assert_int_equal(gbuffer_picture_tiles(&window), whole.tile_count);
@@ -446,7 +446,13 @@ static void test_window_of_a_part(void **state)
         if (x < window.width && y < window.height)
             assert_true(found == tile && lane == 17);
     }
-    window = gbuffer_layout_around((struct rectangle){0, 0, 311, 190}, 311, 190);
+    /* a tile and those around it, and with smooth edges once more */
+    const struct rectangle one_tile = {96, 80, 16, 16};
+    window = gbuffer_layout_around(one_tile, false, 311, 190);
+    assert_int_equal(window.tile_count, 9);
+    window = gbuffer_layout_around(one_tile, true, 311, 190);
+    assert_int_equal(window.tile_count, 25);
+    window = gbuffer_layout_around((struct rectangle){0, 0, 311, 190}, true, 311, 190);
     assert_int_equal(window.tile_count, whole.tile_count);
 }
 
@@ -457,7 +463,7 @@ static void test_film_of_a_part(void **state)
     struct gbuffer gbuffer;
     struct film film;
     struct error error;
-    assert_int_equal(gbuffer_create(gbuffer_layout_around(part, 311, 190), &gbuffer, &error),
+    assert_int_equal(gbuffer_create(gbuffer_layout_around(part, true, 311, 190), &gbuffer, &error),
                      PS_OK);
     assert_int_equal(film_create(part.width, part.height, true, &film, &error), PS_OK);
     film.window = (struct picture_window){part.x, part.y, 311, 190};
