@@ -169,8 +169,8 @@ static ps_result resolve(psplat_rendering *rendering, psplat_error *error)
         error_memory(&reason, 0, "the settings");
         return report_error(error, PS_ERROR_MEMORY, &reason);
     }
-    ps_result result = render_options_resolve(&scene->options, &scene->input.description.render,
-                                              sink, &rendering->settings);
+    ps_result result = render_options_resolve(&scene->options, &scene->input.description, sink,
+                                              &rendering->settings);
     if (result != PS_OK)
         report_problems(error, result, sink);
     diagnostics_destroy(sink);

@@ -65,7 +65,7 @@ static ps_result try_settings(psplat_scene *scene)
     struct render_settings settings;
     struct error error;
     ps_result result =
-        render_options_resolve(&scene->options, &input->description.render, input->sink, &settings);
+        render_options_resolve(&scene->options, &input->description, input->sink, &settings);
     if (result != PS_OK)
         return result;
     settings.display = true;

@@ -57,7 +57,7 @@ bool render_arguments_load(const struct render_arguments *taken, struct scene_in
 {
     if (!render_arguments_read(taken, taken->scene_path, input))
         return false;
-    bool good = render_options_resolve(&taken->options, &input->description.render, input->sink,
+    bool good = render_options_resolve(&taken->options, &input->description, input->sink,
                                        settings) == PS_OK;
     if (!good)
         print_problems(input);

@@ -231,11 +231,18 @@ ps_result facts_of_job(struct image *image, const struct scene_description *desc
     return result == PS_OK ? set_digests(image, description, scene, error) : result;
 }
 
+/* NULL where there is none. A film that tells no crop is of the whole picture. */
+static const char *value_of(const struct image *facts, const char *key)
+{
+    const char *value = image_attribute(facts, key);
+    return !value && strcmp(key, "psplat.crop") == 0 ? "none" : value;
+}
+
 uint64_t facts_digest(const struct image *facts)
 {
     uint64_t digest = DIGEST_START;
     for (size_t i = 0; i < sizeof binding / sizeof binding[0]; i++) {
-        const char *value = image_attribute(facts, binding[i].key);
+        const char *value = value_of(facts, binding[i].key);
         digest_add(&digest, value ? value : "", value ? strlen(value) + 1 : 1);
     }
     return digest;
@@ -244,7 +251,7 @@ uint64_t facts_digest(const struct image *facts)
 bool facts_agree(const struct image *a, const struct image *b, char *difference, size_t size)
 {
     for (size_t i = 0; i < sizeof binding / sizeof binding[0]; i++) {
-        const char *x = image_attribute(a, binding[i].key), *y = image_attribute(b, binding[i].key);
+        const char *x = value_of(a, binding[i].key), *y = value_of(b, binding[i].key);
         bool tells = strncmp(binding[i].key, "psplat.digest.", 14) != 0;
         if (x && y && strcmp(x, y) == 0)
             continue;

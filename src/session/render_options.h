@@ -44,7 +44,7 @@ ps_result render_options_lay_over(const struct render_options *options, struct s
 /* Makes settings of a description over which the options were laid, and starts the threads. Settings refer to the
  * options. What is wrong is in the sink. */
 ps_result render_options_resolve(const struct render_options *options,
-                                 const struct render_description *description,
+                                 const struct scene_description *description,
                                  struct diagnostics *sink, struct render_settings *settings);
 
 /* PS_ERROR_INVALID where a part is asked for that can't be rendered alone (render_check_crop); PS_ERROR_MEMORY where a

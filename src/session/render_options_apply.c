@@ -45,18 +45,28 @@ ps_result render_options_lay_over(const struct render_options *options, struct s
     return PS_OK;
 }
 
+/* The part that is asked for; none where that is all of the picture. */
+static struct rectangle crop_of(const struct render_options *options,
+                                const struct image_description *image)
+{
+    bool all = options->crop.width == (size_t)image->width &&
+               options->crop.height == (size_t)image->height;
+    return all && options->crop.x == 0 && options->crop.y == 0 ? (struct rectangle){0}
+                                                               : options->crop;
+}
+
 ps_result render_options_resolve(const struct render_options *options,
-                                 const struct render_description *description,
+                                 const struct scene_description *description,
                                  struct diagnostics *sink, struct render_settings *settings)
 {
     uint32_t threads =
         options->threads > 0 ? (uint32_t)options->threads : parallel_processor_count();
     size_t batch = options->batch > 0 ? (size_t)options->batch : DEFAULT_BATCH;
-    ps_result result = scene_input_resolve(description, threads, batch, sink, settings);
+    ps_result result = scene_input_resolve(&description->render, threads, batch, sink, settings);
     if (result != PS_OK)
         return result;
     settings->isa = options->isa;
-    settings->crop = options->crop;
+    settings->crop = crop_of(options, &description->image);
     if (options->passes.is_given) {
         settings->first_pass = options->passes.first;
         settings->passes = options->passes.end;
@@ -76,8 +86,8 @@ ps_result render_options_check_size(const struct render_options *options,
         .several_passes = keeps_film || settings_pass_count(settings) > 1,
         .keeps_film = keeps_film,
         .display = settings->display,
+        .smooth_edges = settings->aa_samples > 1,
     };
     ps_result result = render_check_crop(settings, size.width, size.height, error);
     return result == PS_OK ? render_check_memory(&size, options->memory_limit, error) : result;
 }
-        .smooth_edges = settings->aa_samples > 1,

@@ -115,9 +115,14 @@ sed -n 's/^psplat render/run 0 -q/p' out | sed 's/$/ -o part.exr/' >again
 . ./again
 expect_part first.exr part.exr R direct indirect weight
 [ "$(od -An -tu1 -j16 -N8 part.png | tr -s ' ')" = " 0 0 0 17 0 0 0 3" ] || fail "the PNG is not 17x3"
-run 0 -q $small --crop 0,0,48,27 -o all.exr "$cornell"
+# A part that is all of the picture is none: any estimator makes it, and films add up.
+run 0 -q $small -p estimator=ssao --crop 0,0,48,27 -o all.exr "$cornell"
+run 0 -q $small --crop 0,0,48,27 --passes 1:2 --checkpoint late.exr -o all.png "$cornell"
+run 0 -q $small --passes 1 --checkpoint none.exr -o none.png "$cornell"
+run 0 merge -q none.exr late.exr -o merged.exr
+LC_ALL=C sed 's/psplat\.crop/psplat.else/' none.exr >untold.exr
+run 0 merge -q untold.exr late.exr -o merged.exr
 run 0 -q $small -o whole.exr "$cornell"
-expect_part whole.exr all.exr R direct indirect weight
 run 0 info whole.exr
 expect_text out "whole.exr: 48x27"
 expect_no_text out " at 0,0"
