@@ -33,6 +33,9 @@ bool long_job_set_passes(const struct long_job *job, struct render_settings *set
                 settings->strategies[PS_DENOISER].type->name);
         return false;
     }
+    if (job->schedule.error > 0.0 && settings->crop.width > 0)
+        print_warning("--crop: --error sees this part alone: others may get another number of "
+                      "passes, and then differ");
     return true;
 }
 

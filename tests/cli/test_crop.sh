@@ -174,6 +174,8 @@ for strategy in "denoiser gaussian" "normalization weight" "tonemap clip"; do
 done
 run 0 -q $small --crop 5,9,17,3 -o part.png "$cornell"
 expect_empty err
+run 0 -q $small --crop 5,9,17,3 --error 90 --passes 2 -o part.png "$cornell"
+expect_text err "psplat: warning: --crop: --error sees this part alone"
 
 # --- memory ---
 
