@@ -33,6 +33,7 @@ every_part() {
 job="-q --size 112x112 --set render.aa_samples=2 -p injection=photon:count=1000 -p denoiser=none"
 "$PSPLAT" plugins | awk '/^[a-z]/ { kind = $1 } /^  [a-z]/ { print kind "=" $1 }' >strategies
 grep '^estimator=' strategies >estimators
+[ -z "$PSPLAT_QUICK" ] || grep -E '^estimator=(bdpt|gather|photonmap)$' strategies >estimators
 while read -r strategy; do
     case $strategy in
     estimator=bdpt | estimator=hbao | estimator=irradiance_cache | estimator=lpv | estimator=ssao)
@@ -54,6 +55,7 @@ grep -E '^(injection|stratification|visibility|filter)=' strategies | awk -F= '
     { if (!($1 in count)) kinds[++kind_count] = $1; name[$1, count[$1]++] = $0; if (count[$1] > most) most = count[$1] }
     END { for (i = 0; i < most; i++) { for (k = 1; k <= kind_count; k++) printf "%s ", name[kinds[k], i % count[kinds[k]]]; print "" } }
 ' >sets
+[ -z "$PSPLAT_QUICK" ] || : >sets
 while read -r set; do
     choices=
     for strategy in $set; do
@@ -65,13 +67,15 @@ done <sets
 
 # --- four uneven parts, with smooth edges and noise of all kinds ---
 
+parts="0,0,51,67 51,0,99,67 0,67,51,45 51,67,99,45"
+[ -z "$PSPLAT_QUICK" ] || parts=51,67,99,45
 # reassemble SCENE OPTION...
 reassemble() {
     scene=$1
     shift
     rm -f ./*.exr
     run 0 -q --size 150x112 -p denoiser=none "$@" -o whole.exr "$scene"
-    for crop in 0,0,51,67 51,0,99,67 0,67,51,45 51,67,99,45; do
+    for crop in $parts; do
         run 0 -q --size 150x112 -p denoiser=none "$@" --crop $crop --threads $((${crop%%,*} % 2 + 1)) -o part.exr "$scene"
         expect_part whole.exr part.exr R direct indirect albedo N P weight
     done
