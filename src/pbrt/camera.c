@@ -202,7 +202,7 @@ static void write_projection(struct importer *importer, const struct statement *
     }
     double angle = 2.0 * atan(half_width * tan(0.5 * fov * PI / 180.0)) * 180.0 / PI;
     fputs(", angle: ", out);
-    put_number(out, fmin(fmax(angle, 1e-6), 179.999999));
+    put_number(out, fmin(fmax(angle, 1e-6), 179.999));
     write_lens(importer, camera, unit);
 }
 

@@ -1,9 +1,11 @@
 /* importer.c: see importer.h. */
 #include "pbrt/importer.h"
 
+#include "base/input_file.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define MOST_WARNINGS 1000      /* kinds that are told apart */
 #define LARGEST_COORDINATE 1e30 /* floats hold it, and its products with what scenes have */
@@ -128,5 +130,26 @@ char *importer_file_name(struct importer *importer, const char *name)
 
 char *importer_file_path(struct importer *importer, const char *name)
 {
-    return join(importer, importer->options->scene_folder, name);
+    char *path = join(importer, importer->options->scene_folder, name);
+    if (!path || scene_text_note(&importer->scene, path))
+        return path;
+    free(path);
+    importer_no_memory(importer);
+    return NULL;
+}
+
+bool importer_check_file(struct importer *importer, const struct place *place, const char *path)
+{
+    const char *folder = importer->options->folder;
+    struct input_file file;
+    struct error error;
+    if (input_file_open(path, folder, &file, &error) == PS_OK) {
+        close(file.descriptor);
+        return true;
+    }
+    if (folder)
+        importer_error(importer, place->origin, place->width, "%.200s: %s", path, error.text);
+    else
+        importer_warn(importer, place->origin, place->width, "%.200s: %s", path, error.text);
+    return !folder;
 }

@@ -31,6 +31,7 @@ struct graphics_state {
     const struct statement *area_light; /* NULL: none; kept */
     const struct attributes *attributes[TARGETS];
     bool only_end_time; /* ActiveTransform EndTime: transforms are not of the shutter's opening */
+    size_t texture_count, material_count; /* where it was saved */
 };
 
 /* Names of one sort, in a list. */
@@ -47,6 +48,7 @@ struct named_statement {
 struct pattern;
 struct named_pattern {
     const char *name;
+    bool of_numbers; /* of the type float */
     const struct pattern *pattern;
 };
 
@@ -87,6 +89,8 @@ struct importer {
     char **said; /* warnings that were given */
     size_t said_count, said_capacity;
 
+    size_t inline_numbers; /* of meshes, in the scene's text */
+
     struct arena arena; /* of names and patterns, which stay */
     struct scene_text scene;
 };
@@ -122,7 +126,10 @@ FILE *importer_objects(struct importer *importer);
 
 /* The path under which the scene names a file that the pbrt scene names; to be freed. NULL: reported. */
 char *importer_file_name(struct importer *importer, const char *name);
-/* The path under which that file is opened now; to be freed. NULL: reported. */
+/* The path under which that file is opened now, which is not to be overwritten; to be freed. NULL: reported. */
 char *importer_file_path(struct importer *importer, const char *name);
+/* For a file that only the new scene opens: warns where it is not there. With a folder to read from, one that does not
+ * lie there is an error, and the result false. */
+bool importer_check_file(struct importer *importer, const struct place *place, const char *path);
 
 #endif

@@ -79,13 +79,18 @@ static void kd_ks(struct importer *importer, FILE *out, const struct statement *
     if (!pattern_is_black(&kr) || !pattern_is_black(&kt))
         material_nearest(importer, statement, "Kr and Kt beside Kd and Ks are left out");
     put_glossy(out, &kd, &ks, &roughness);
-    struct pattern opacity;
-    if (uber && texture_parameter(importer, statement, "opacity", white, &opacity)) {
-        material_nearest(importer, statement, "opacity is a hole where it is below 1/2");
-        pattern_clamp(importer, &(struct place){&statement->origin, statement->width}, "opacity",
-                      1.0, &opacity);
-        material_put_key(out, ", opacity", &opacity, true);
-    }
+}
+
+bool material_opacity(struct importer *importer, const struct statement *statement,
+                      struct pattern *opacity)
+{
+    if (strcmp(statement->kind, "uber") != 0 ||
+        !texture_parameter(importer, statement, "opacity", white, opacity))
+        return false;
+    material_nearest(importer, statement, "opacity is a hole where it is below 1/2");
+    pattern_clamp(importer, &(struct place){&statement->origin, statement->width}, "opacity", 1.0,
+                  opacity);
+    return true;
 }
 
 /* What passes through a surface that shines on both sides has no counterpart. */

@@ -9,6 +9,7 @@ struct surface {
     const char *material; /* its name in the scene; NULL: the shape is left out */
     bool unseen;          /* by the camera: pbrt's lights with alpha 0 */
     bool one_sided;       /* its front matters: it shines there, or is the border of glass */
+    bool has_holes;
 };
 
 /* The surface of a shape in the current graphics state. `area` is the shape's in the scene, for lights with a power;
@@ -20,7 +21,13 @@ struct surface material_surface(struct importer *importer, const struct statemen
 void surface_finish(struct importer *importer, FILE *out, const struct surface *surface,
                     const struct transform *placement);
 
-/* Writes psd(5)'s keys of a material; false, with nothing written, for one that is no surface. `depth` counts mixes
+struct pattern;
+
+/* The opacity of pbrt-v3's uber; false: it states none, or is of another kind. */
+bool material_opacity(struct importer *importer, const struct statement *statement,
+                      struct pattern *opacity);
+
+/* Writes psd(5)'s keys of a material, but for its opacity; false, with nothing written, for one that is no surface. `depth` counts mixes
  * that it is in. */
 bool material_put(struct importer *importer, FILE *out, const struct statement *statement,
                   int depth);

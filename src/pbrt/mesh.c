@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define INLINE_TRIANGLES 64 /* a mesh of more becomes a file: it would be no text to read */
+/* A mesh of more becomes a file: it would be no text to read. So does each of many: a scene's text has its limit. */
+#define INLINE_TRIANGLES 64
+#define INLINE_NUMBERS ((size_t)500000) /* of all meshes in the text */
 
 bool mesh_allocate(struct importer *importer, size_t vertices, bool normals, bool uv,
                    size_t triangles, struct mesh *mesh)
@@ -94,6 +96,18 @@ static void put_inline(FILE *out, const struct mesh *mesh)
     fputc(']', out);
 }
 
+/* Whether the mesh goes into the text, which is then counted. */
+static bool fits_inline(struct importer *importer, const struct mesh *mesh)
+{
+    size_t numbers = 3 * mesh->triangle_count +
+                     mesh->vertex_count * (3 + (mesh->normals ? 3u : 0u) + (mesh->uv ? 2u : 0u));
+    if (mesh->triangle_count > INLINE_TRIANGLES || mesh->vertex_count > 3 * INLINE_TRIANGLES ||
+        importer->inline_numbers + numbers > INLINE_NUMBERS)
+        return false;
+    importer->inline_numbers += numbers;
+    return true;
+}
+
 /* False: reported. */
 static bool put_file(struct importer *importer, FILE *out, const struct mesh *mesh)
 {
@@ -147,7 +161,7 @@ void mesh_add(struct importer *importer, const struct statement *shape, struct m
     struct surface surface = material_surface(importer, shape, mesh_area(mesh, &placement));
     if (!surface.material || mesh->triangle_count == 0)
         return;
-    if (mesh->triangle_count <= INLINE_TRIANGLES && mesh->vertex_count <= 3 * INLINE_TRIANGLES)
+    if (fits_inline(importer, mesh))
         put_inline(out, mesh);
     else if (!put_file(importer, out, mesh))
         return;

@@ -5,15 +5,15 @@
 #include "pbrt/pbrt.h"
 
 #include "base/file.h"
-#include "base/output_file.h"
 #include "base/version.h"
-#include "image/image.h"
+#include "parser/yaml/builder.h"
+#include "parser/yaml/encoding.h"
 #include "pbrt/camera.h"
 #include "pbrt/parser.h"
+#include "pbrt/scene_files.h"
 #include "pbrt/version.h"
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static void release(struct importer *importer)
 {
@@ -92,6 +92,10 @@ ps_result pbrt_convert(const char *name, const char *text, size_t length,
              importer.version);
     if (diagnostics_error_count(sink) == 0 && !scene_text_finish(&importer.scene, comment, scene))
         importer_no_memory(&importer);
+    if (scene->text && scene_text_values(scene->text) > MOST_NODES)
+        importer_error(&importer, NULL, 0,
+                       "the scene has more than %zu values, the most that psplat reads",
+                       MOST_NODES);
     release(&importer);
     if (diagnostics_error_count(sink) == 0)
         return PS_OK;
@@ -143,59 +147,14 @@ static char *path_between(const char *from, const char *to)
     return path;
 }
 
-static ps_result write_bytes(const char *path, const void *bytes, size_t size, struct error *error)
+/* A .psd is UTF-8, and so are the names in it. */
+static bool is_utf8(const char *text)
 {
-    struct output_file file;
-    ps_result result = output_file_open(&file, path, error);
-    if (result != PS_OK)
-        return result;
-    result = output_file_write(&file, 0, bytes, size, error);
-    if (result == PS_OK)
-        return output_file_commit(&file, error);
-    output_file_discard(&file);
-    return result;
-}
-
-static ps_result write_side_file(const char *folder, const struct pbrt_side_file *file,
-                                 struct error *error)
-{
-    size_t size = strlen(folder) + strlen(file->name) + 1;
-    char *path = malloc(size);
-    if (!path)
-        return error_memory(error, size, "a path");
-    snprintf(path, size, "%s%s", folder, file->name);
-    ps_result result = file->picture ? image_write_exr(file->picture, path, IMAGE_ZIP, NULL, error)
-                                     : write_bytes(path, file->bytes, file->size, error);
-    free(path);
-    return result;
-}
-
-static void remove_side_file(const char *folder, const struct pbrt_side_file *file)
-{
-    size_t size = strlen(folder) + strlen(file->name) + 1;
-    char *path = malloc(size);
-    if (path) {
-        snprintf(path, size, "%s%s", folder, file->name);
-        unlink(path);
-    }
-    free(path);
-}
-
-/* The scene last: what it names is there when it is. */
-static ps_result write_all(const struct pbrt_scene *scene, const char *output, const char *folder,
-                           struct error *error)
-{
-    ps_result result = PS_OK;
-    size_t written = 0;
-    while (written < scene->file_count && result == PS_OK) {
-        result = write_side_file(folder, &scene->files[written], error);
-        written += result == PS_OK;
-    }
-    if (result == PS_OK)
-        result = write_bytes(output, scene->text, scene->length, error);
-    for (size_t i = 0; i < written && result != PS_OK; i++)
-        remove_side_file(folder, &scene->files[i]);
-    return result;
+    uint32_t code;
+    size_t length = 1;
+    for (size_t left = strlen(text); left > 0 && length > 0; left -= length, text += length)
+        length = utf8_decode(text, left, &code);
+    return length > 0;
 }
 
 /* Reads and converts; errors of reading go to `error`. */
@@ -233,6 +192,9 @@ ps_result pbrt_import(const char *path, const char *output, const struct pbrt_op
     if (!base || !between) {
         result =
             error_set(error, PS_ERROR_IO, "%s: can't find its folder, or that of %s", output, path);
+    } else if (!is_utf8(base) || !is_utf8(between)) {
+        result = error_set(error, PS_ERROR_INVALID,
+                           "%s: its name, and the way from it to %s, must be UTF-8", output, path);
     } else {
         struct pbrt_options whole = *options;
         base[strlen(base) - strlen(".psd")] = '\0';
@@ -241,7 +203,7 @@ ps_result pbrt_import(const char *path, const char *output, const struct pbrt_op
         whole.from_output = between;
         result = convert_file(path, &whole, sink, &scene, error);
         if (result == PS_OK)
-            result = write_all(&scene, output, output_folder, error);
+            result = scene_files_write(&scene, path, output, output_folder, error);
     }
     pbrt_scene_release(&scene);
     free(scene_folder);

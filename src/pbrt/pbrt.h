@@ -18,7 +18,7 @@ struct pbrt_options {
     const char *folder;       /* the only one to read from (base/input_file.h), or NULL */
     const char *base;         /* names of files beside the scene begin with it */
     const char *scene_folder; /* of the pbrt scene: "" or ending in a slash */
-    const char *from_output;  /* the same, seen from the folder of the .psd */
+    const char *from_output;  /* the same, seen from the folder of the .psd; UTF-8, as `base` */
     uint64_t device, serial;  /* of the pbrt scene's file (base/file.h); 0: not known */
     size_t most_triangles;    /* that subdivision may make; 0: as many as usual */
 };
@@ -37,6 +37,8 @@ struct pbrt_scene {
     size_t length;
     struct pbrt_side_file *files; /* owned */
     size_t file_count;
+    char **named; /* owned, each too; paths of files that the pbrt scene names */
+    size_t named_count;
 };
 
 /* Converts a text; `name` stands in messages. Errors and warnings go to the sink. Not PS_OK: there is an error in the
@@ -46,7 +48,7 @@ ps_result pbrt_convert(const char *name, const char *text, size_t length,
                        struct pbrt_scene *scene);
 void pbrt_scene_release(struct pbrt_scene *scene);
 
-/* Converts the file at `path` and writes `output`, which ends in ".psd", and the files beside it: all or none. What is
+/* Converts the file at `path` and writes `output`, which ends in ".psd", and the files beside it (scene_files.h). What is
  * wrong with the scene goes to the sink (PS_ERROR_INVALID), what is wrong with writing to `error`, whose text is empty
  * otherwise. `options` may lack all but version and folder. */
 ps_result pbrt_import(const char *path, const char *output, const struct pbrt_options *options,

@@ -156,7 +156,7 @@ static bool read_disk(struct importer *importer, const struct statement *stateme
                       struct quadric *q)
 {
     q->low = number(importer, statement, "height", 0.0);
-    q->high = q->low + 1.0; /* flat: not looked at */
+    q->high = q->low + fabs(q->low) + 1.0; /* flat: not looked at */
     q->hole = fmax(number(importer, statement, "innerradius", 0.0), 0.0);
     return q->hole < (double)(float)q->radius && (float)q->hole < (float)q->radius;
 }
@@ -197,7 +197,8 @@ static const struct kind {
     {"hyperboloid", hyperboloid_point, read_hyperboloid, NULL, NULL, ROWS},
 };
 
-/* As an object of psplat's; false: its back must be its front, which that can't say. */
+/* As an object of psplat's; false: that can't say what is wanted, that its back is its front, or holes of a sphere that
+ * shines. */
 static bool add_own(struct importer *importer, const struct statement *statement,
                     const struct kind *kind, const struct quadric *q, double area)
 {
@@ -208,7 +209,8 @@ static bool add_own(struct importer *importer, const struct statement *statement
     struct surface surface = material_surface(importer, statement, area);
     if (!surface.material)
         return true;
-    if (importer->state.reverse && surface.one_sided)
+    if ((importer->state.reverse && surface.one_sided) ||
+        (importer->state.area_light && surface.has_holes && kind->point == sphere_point))
         return false;
     placement = transform_compose(&placement, kind->frame);
     kind->put(importer_objects(importer), q);
@@ -224,13 +226,13 @@ static void add(struct importer *importer, const struct statement *statement,
     bool is_whole = q.radius > 0.0 && phimax >= 360.0;
     struct mesh mesh = {0};
     q.turn = fmin(phimax, 360.0) * PI / 180.0;
-    if (!(q.radius > 0.0) || !(q.turn > 0.0)) {
+    if (!((float)q.radius > 0.0f) || !(q.turn > 0.0)) {
         importer_error(importer, &statement->origin, statement->width,
-                       "Shape %s: radius and phimax must be above 0", kind->name);
+                       "Shape %s: radius and phimax must be above 0, as floats are", kind->name);
         return;
     }
     is_whole = kind->read(importer, statement, &q) && is_whole;
-    if (q.low == q.high || (kind->point == paraboloid_point && !(q.high > 0.0))) {
+    if ((float)q.low == (float)q.high || (kind->point == paraboloid_point && !(q.high > 0.0))) {
         importer_error(importer, &statement->origin, statement->width, "Shape %s: it has no extent",
                        kind->name);
         return;

@@ -51,11 +51,20 @@ static void release_file(struct pbrt_side_file *file)
     free(file->picture);
 }
 
+static void release_files(struct pbrt_side_file *files, size_t count, char **named,
+                          size_t named_count)
+{
+    for (size_t i = 0; i < count; i++)
+        release_file(&files[i]);
+    free(files);
+    for (size_t i = 0; i < named_count; i++)
+        free(named[i]);
+    free(named);
+}
+
 void pbrt_scene_release(struct pbrt_scene *scene)
 {
-    for (size_t i = 0; i < scene->file_count; i++)
-        release_file(&scene->files[i]);
-    free(scene->files);
+    release_files(scene->files, scene->file_count, scene->named, scene->named_count);
     free(scene->text);
     *scene = (struct pbrt_scene){0};
 }
@@ -73,9 +82,7 @@ void scene_text_release(struct scene_text *scene)
     for (size_t i = 0; i < scene->name_count; i++)
         free(scene->names[i].name);
     free(scene->names);
-    for (size_t i = 0; i < scene->file_count; i++)
-        release_file(&scene->files[i]);
-    free(scene->files);
+    release_files(scene->files, scene->file_count, scene->named, scene->named_count);
     *scene = (struct scene_text){0};
 }
 
@@ -87,6 +94,21 @@ static bool put_section(FILE *out, const char *heading, struct text_buffer *buff
         fprintf(out, "%s%s", heading, bytes);
     free(bytes);
     return bytes != NULL;
+}
+
+size_t scene_text_values(const char *text)
+{
+    size_t count = 0;
+    bool quoted = false;
+    for (; *text; text++) {
+        if (quoted && *text == '\\')
+            text++; /* a quote may follow */
+        else if (*text == '"')
+            quoted = !quoted;
+        else if (!quoted)
+            count += *text == '\n' ? 2 : strchr("[{,:", *text) != NULL;
+    }
+    return count;
 }
 
 bool scene_text_finish(struct scene_text *scene, const char *comment, struct pbrt_scene *result)
@@ -109,9 +131,11 @@ bool scene_text_finish(struct scene_text *scene, const char *comment, struct pbr
         free(text);
         return false;
     }
-    *result = (struct pbrt_scene){text, length, scene->files, scene->file_count};
+    *result = (struct pbrt_scene){
+        text, length, scene->files, scene->file_count, scene->named, scene->named_count};
     scene->files = NULL;
-    scene->file_count = 0;
+    scene->named = NULL;
+    scene->file_count = scene->named_count = 0;
     return true;
 }
 
@@ -217,6 +241,19 @@ struct pbrt_side_file *scene_text_file(struct scene_text *scene, const char *bas
     return file;
 }
 
+bool scene_text_note(struct scene_text *scene, const char *path)
+{
+    char *copy = strdup(path);
+    if (!copy || !grow((void **)&scene->named, &scene->named_capacity, scene->named_count + 1,
+                       sizeof *scene->named)) {
+        free(copy);
+        scene->failed = true;
+        return false;
+    }
+    scene->named[scene->named_count++] = copy;
+    return true;
+}
+
 /* --- values --------------------------------------------------------------------------------------- */
 
 void put_number(FILE *out, double value)
@@ -256,13 +293,12 @@ static bool is_special(uint32_t code)
            (code >= 0xfef0 && code <= 0xffff);
 }
 
-void put_text(FILE *out, const char *text)
+static void put_characters(FILE *out, const char *text)
 {
-    fputc('"', out);
     for (size_t left = strlen(text); left > 0;) {
         uint32_t code = 0;
         size_t length = utf8_decode(text, left, &code);
-        if (length == 0) { /* lexer.h: does not happen */
+        if (length == 0) { /* pbrt.h: does not happen */
             length = 1;
             code = 0xfffd;
         }
@@ -275,19 +311,21 @@ void put_text(FILE *out, const char *text)
         text += length;
         left -= length;
     }
+}
+
+void put_text(FILE *out, const char *text)
+{
+    fputc('"', out);
+    put_characters(out, text);
     fputc('"', out);
 }
 
 /* psd(5): a text can't begin with an equals sign. */
 void put_path(FILE *out, const char *path)
 {
-    if (*path == '=') {
-        fputs("\"./", out);
-        fputs(path, out);
-        fputc('"', out);
-    } else {
-        put_text(out, path);
-    }
+    fputs(*path == '=' ? "\"./" : "\"", out);
+    put_characters(out, path);
+    fputc('"', out);
 }
 
 static bool is_identity(const struct transform *map)

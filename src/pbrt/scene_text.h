@@ -42,6 +42,8 @@ struct scene_text {
     size_t name_count, name_capacity;
     struct pbrt_side_file *files;
     size_t file_count, file_capacity;
+    char **named; /* paths of files that the pbrt scene names */
+    size_t named_count, named_capacity;
     bool failed;
 };
 
@@ -50,6 +52,9 @@ void scene_text_release(struct scene_text *scene);
 
 /* Puts the sections together. False: out of memory. */
 bool scene_text_finish(struct scene_text *scene, const char *comment, struct pbrt_scene *result);
+
+/* How many values YAML finds in a text of this form: one for each opening, comma and colon, and two for a line. */
+size_t scene_text_values(const char *text);
 
 /* A name that was not given before, near to the wanted one; owned by the scene. NULL: out of memory. */
 const char *scene_text_name(struct scene_text *scene, const char *wanted);
@@ -61,6 +66,9 @@ const char *scene_text_material(struct scene_text *scene, const char *wanted, co
  * memory. */
 struct pbrt_side_file *scene_text_file(struct scene_text *scene, const char *base, const char *what,
                                        const char *suffix);
+
+/* Notes that the pbrt scene names the file of that path. False: out of memory. */
+bool scene_text_note(struct scene_text *scene, const char *path);
 
 /* Values, as YAML, in the precision of floats, as psplat has them. */
 void put_number(FILE *out, double value);

@@ -4,7 +4,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A PLY file stays where it is; what is compressed has to be unpacked beside it. */
+/* The path by which the scene names a mesh's file; what is compressed has to be unpacked beside it. To be freed; NULL:
+ * reported. */
+static char *name_mesh(struct importer *importer, const struct place *place, const char *name)
+{
+    size_t length = strlen(name);
+    bool packed = length > 3 && strcmp(name + length - 3, ".gz") == 0;
+    char *unpacked = strndup(name, packed ? length - 3 : length);
+    char *path = importer_file_path(importer, name);
+    char *shown = unpacked ? importer_file_name(importer, unpacked) : NULL;
+    char *read = unpacked ? importer_file_path(importer, unpacked) : NULL;
+    if (path && shown && read) {
+        importer_check_file(importer, place, path);
+        if (packed)
+            importer_warn(
+                importer, place->origin, place->width,
+                "'%.200s' is compressed; the scene names '%.200s': unpack it with gunzip -k", name,
+                shown);
+    } else {
+        importer_no_memory(importer);
+    }
+    free(unpacked);
+    free(path);
+    free(read);
+    return shown;
+}
+
+/* A PLY file stays where it is. */
 static void ply_mesh(struct importer *importer, const struct statement *statement)
 {
     const char *name = statement_string(importer, statement, "filename");
@@ -16,14 +42,7 @@ static void ply_mesh(struct importer *importer, const struct statement *statemen
                        "Shape plymesh: \"string filename\" is missing");
         return;
     }
-    char *path = importer_file_name(importer, name);
-    size_t length = path ? strlen(path) : 0;
-    if (length > 3 && strcmp(path + length - 3, ".gz") == 0) {
-        path[length - 3] = '\0';
-        importer_warn(importer, place.origin, place.width,
-                      "'%.200s' is compressed; the scene names '%.200s': unpack it with gunzip -k",
-                      name, path);
-    }
+    char *path = name_mesh(importer, &place, name);
     if (path &&
         importer_placement(importer, &importer->state.ctm, place.origin, place.width, &placement)) {
         struct surface surface = material_surface(importer, statement, -1.0);

@@ -5,16 +5,44 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Holes by alpha and by the material's opacity; as many as psd(5) has room for. */
+static void put_holes(struct importer *importer, FILE *out, const struct statement *shape,
+                      const struct pattern *alpha, struct surface *surface)
+{
+    const struct statement *material = importer->state.material;
+    const struct place place = statement_place(shape, NULL);
+    struct pattern opacity, holes = *alpha;
+    bool has_alpha = !pattern_is_constant(alpha) || alpha->colors[0][0] < 1.0;
+    bool has_opacity = material && material_opacity(importer, material, &opacity);
+    if (has_alpha) {
+        pattern_clamp(importer, &place, "alpha", 1.0, &holes);
+        importer_warn(importer, place.origin, place.width, "alpha is a hole where it is below 1/2");
+    }
+    if (has_opacity && pattern_is_constant(&holes)) {
+        pattern_multiply(&opacity, holes.colors[0]);
+        holes = opacity;
+    } else if (has_opacity && pattern_is_constant(&opacity)) {
+        pattern_multiply(&holes, opacity.colors[0]);
+    } else if (has_opacity) {
+        importer_warn(importer, place.origin, place.width,
+                      "opacity of the material is left out where alpha varies too");
+    }
+    if (!has_alpha && !has_opacity)
+        return;
+    fputs(", opacity: ", out);
+    put_pattern(out, &holes, true);
+    surface->has_holes = true;
+}
+
 /* The keys that the shape adds to its material. False: the shape is left out. */
 static bool put_light(struct importer *importer, FILE *out, const struct statement *shape,
                       double area, struct surface *surface)
 {
     const struct statement *light = importer->state.area_light;
+    static const double one[3] = {1, 1, 1};
     struct pattern alpha;
-    struct place place = statement_place(shape, NULL);
-    bool has_alpha =
-        texture_parameter(importer, shape, "alpha", (const double[3]){1, 1, 1}, &alpha);
-    bool is_gone = has_alpha && pattern_is_constant(&alpha) && pattern_is_black(&alpha);
+    texture_parameter(importer, shape, "alpha", one, &alpha);
+    bool is_gone = pattern_is_constant(&alpha) && pattern_is_black(&alpha);
     if (light) {
         struct pattern emission = light_emission(importer, light, area);
         bool both = statement_bool(importer, light, "twosided", false);
@@ -25,12 +53,9 @@ static bool put_light(struct importer *importer, FILE *out, const struct stateme
         surface->one_sided = surface->one_sided || !both;
         surface->unseen = is_gone;
     }
-    if (has_alpha && !is_gone && !(pattern_is_constant(&alpha) && alpha.colors[0][0] >= 1.0)) {
-        pattern_clamp(importer, &place, "alpha", 1.0, &alpha);
-        importer_warn(importer, place.origin, place.width, "alpha is a hole where it is below 1/2");
-        fputs(", opacity: ", out);
-        put_pattern(out, &alpha, true);
-    }
+    if (is_gone) /* its light stays */
+        alpha = pattern_constant(one);
+    put_holes(importer, out, shape, &alpha, surface);
     return light || !is_gone;
 }
 

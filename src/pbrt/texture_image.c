@@ -1,7 +1,6 @@
 /* texture_image.c: pictures as textures; see texture.h. */
 #include "pbrt/texture.h"
 
-#include "base/input_file.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,8 +28,7 @@ struct pattern texture_image(struct importer *importer, const struct place *plac
                       name);
         pattern = pattern_constant(half);
     } else if (path && shown) {
-        if (!input_file_exists(path, importer->options->folder))
-            importer_warn(importer, place->origin, place->width, "there is no file '%.200s'", path);
+        importer_check_file(importer, place, path);
         pattern.kind = PATTERN_IMAGE;
         pattern.file = arena_copy(&importer->arena, shown, strlen(shown));
         pattern.repeat[0] = pattern.repeat[1] = 1.0;
