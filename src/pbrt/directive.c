@@ -58,8 +58,10 @@ char *call_text(const struct call *call)
 bool call_statement(const struct call *call, bool has_kind, struct statement *statement)
 {
     struct parser *parser = call->parser;
-    *statement =
-        (struct statement){.directive = call->word, .origin = *call->origin, .width = call->width};
+    *statement = (struct statement){.directive = call->word,
+                                    .textures = call->importer->texture_count,
+                                    .origin = *call->origin,
+                                    .width = call->width};
     if (has_kind) {
         statement->kind = call_text(call);
         if (!statement->kind)

@@ -15,14 +15,20 @@ static void attribute_end(const struct call *call)
     state_pop(call->importer, MARK_ATTRIBUTES, call->origin, call->width);
 }
 
+/* In pbrt-v4 an old name of AttributeBegin. */
+static enum state_mark transform_mark(const struct call *call)
+{
+    return call->importer->version == 4 ? MARK_ATTRIBUTES : MARK_TRANSFORM;
+}
+
 static void transform_begin(const struct call *call)
 {
-    state_push(call->importer, MARK_TRANSFORM, call->origin, call->width);
+    state_push(call->importer, transform_mark(call), call->origin, call->width);
 }
 
 static void transform_end(const struct call *call)
 {
-    state_pop(call->importer, MARK_TRANSFORM, call->origin, call->width);
+    state_pop(call->importer, transform_mark(call), call->origin, call->width);
 }
 
 static void world_begin(const struct call *call)

@@ -65,13 +65,20 @@ static void color_space(const struct call *call)
     free(name);
 }
 
+/* Option "NAME" VALUE: of one word, text or number. */
 static void option(const struct call *call)
 {
-    struct statement statement;
-    if (!call_statement(call, false, &statement))
+    const struct token *token = &call->parser->token;
+    char *name = call_text(call);
+    if (!name)
         return;
-    importer_warn(call->importer, call->origin, call->width, "Option has no counterpart: left out");
-    statement_release(&statement);
+    if (token->kind != TOKEN_WORD && token->kind != TOKEN_STRING && token->kind != TOKEN_NUMBER)
+        call_stop(call, "expected a name and a value");
+    else
+        parser_advance(call->parser);
+    importer_warn(call->importer, call->origin, call->width,
+                  "Option '%.40s' has no counterpart: left out", name);
+    free(name);
 }
 
 static void medium_interface(const struct call *call)
@@ -167,6 +174,7 @@ static void texture(const struct call *call)
     struct statement statement;
     if (type && call_statement(call, true, &statement)) {
         statement.attributes = call->importer->state.attributes[TARGET_TEXTURE];
+        statement.of_numbers = strcmp(type, "float") == 0;
         texture_define(call->importer, &statement, name, type);
         statement_release(&statement);
     }

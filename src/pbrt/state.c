@@ -20,6 +20,8 @@ bool state_push(struct importer *importer, enum state_mark mark, const struct or
         !importer_grow(importer, (void **)&importer->stack_marks, &importer->marks_capacity,
                        importer->depth + 1, 1))
         return false;
+    importer->state.texture_count = importer->texture_count;
+    importer->state.material_count = importer->material_count;
     importer->stack_marks[importer->depth] = (char)mark;
     importer->stack[importer->depth++] = importer->state;
     return true;
@@ -38,10 +40,16 @@ bool state_pop(struct importer *importer, enum state_mark mark, const struct ori
         return false;
     }
     const struct graphics_state *saved = &importer->stack[--importer->depth];
-    if (mark == MARK_TRANSFORM)
+    if (mark == MARK_TRANSFORM) {
         importer->state.ctm = saved->ctm;
-    else
-        importer->state = *saved;
+        importer->state.only_end_time = saved->only_end_time;
+        return true;
+    }
+    importer->state = *saved;
+    if (importer->version == 3) { /* where textures and named materials belong to the state */
+        importer->texture_count = saved->texture_count;
+        importer->material_count = saved->material_count;
+    }
     return true;
 }
 
@@ -58,7 +66,7 @@ bool state_begin_world(struct importer *importer)
     camera_settle(importer);
     importer->in_world = true;
     importer->state.ctm = transform_identity;
-    importer->state.reverse = false;
+    importer->state.reverse = importer->state.only_end_time = false;
     return state_name_coordinates(importer, "world", &transform_identity);
 }
 
@@ -102,7 +110,9 @@ bool state_begin_object(struct importer *importer, const char *name, const struc
                        importer->object_count + 1, sizeof *importer->objects) ||
         !state_push(importer, MARK_OBJECT, origin, width))
         return false;
-    importer->state.area_light = NULL; /* pbrt has no lights in objects */
+    if (importer->state.area_light)
+        importer_warn(importer, origin, width, "lights in objects are left out, as pbrt does");
+    importer->state.area_light = NULL;
     importer->current_object = &importer->objects[importer->object_count++];
     *importer->current_object = (struct object_definition){copy, group, 0};
     return true;

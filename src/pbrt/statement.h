@@ -41,6 +41,8 @@ struct statement {
     struct parameter *parameters;
     size_t count, capacity;
     const struct attributes *attributes; /* NULL: none */
+    size_t textures;                     /* how many were defined before */
+    bool of_numbers;                     /* of a Texture: its type is float */
     struct origin origin;
     int width;
 };

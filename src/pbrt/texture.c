@@ -17,12 +17,44 @@ static bool is_class(const struct statement *statement, const char *name)
     return strcmp(statement->kind, name) == 0;
 }
 
-static const struct pattern *find_texture(const struct importer *importer, const char *name)
+/* Whether pbrt looks for a texture of the type float. */
+static bool wants_numbers(const struct importer *importer, const struct statement *statement,
+                          const char *parameter)
 {
-    for (size_t i = importer->texture_count; i-- > 0;)
-        if (strcmp(importer->textures[i].name, name) == 0)
-            return importer->textures[i].pattern;
-    return NULL;
+    static const char *const names[] = {"alpha",        "shadowalpha", "sigma",    "bumpmap",
+                                        "displacement", "roughness",   "metallic", "scale"};
+    bool is_texture = strcmp(statement->directive, "Texture") == 0;
+    if (strcmp(parameter, "amount") == 0)
+        return is_texture || importer->version == 4;
+    size_t length = strlen(parameter);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        size_t part = strlen(names[i]); /* also uroughness, conductor.roughness */
+        if (length >= part && strcmp(parameter + length - part, names[i]) == 0)
+            return true;
+    }
+    return is_texture && statement->of_numbers;
+}
+
+/* Textures of floats and of spectra are two sets of names: the wanted one goes first. pbrt-v3's are those from before
+ * the statement. */
+static const struct pattern *find_texture(const struct importer *importer,
+                                          const struct statement *statement, const char *parameter,
+                                          const char *name)
+{
+    bool numbers = wants_numbers(importer, statement, parameter);
+    size_t count = importer->texture_count;
+    const struct pattern *other = NULL;
+    if (importer->version == 3 && statement->textures < count)
+        count = statement->textures;
+    for (size_t i = count; i-- > 0;) {
+        const struct named_pattern *named = &importer->textures[i];
+        if (strcmp(named->name, name) != 0)
+            continue;
+        if (named->of_numbers == numbers)
+            return named->pattern;
+        other = other ? other : named->pattern;
+    }
+    return other;
 }
 
 bool texture_parameter(struct importer *importer, const struct statement *statement,
@@ -34,7 +66,8 @@ bool texture_parameter(struct importer *importer, const struct statement *statem
         return false;
     if (strcmp(parameter->type->name, "texture") == 0) {
         const struct pattern *found =
-            parameter->count == 1 ? find_texture(importer, parameter->strings[0]) : NULL;
+            parameter->count == 1 ? find_texture(importer, statement, name, parameter->strings[0])
+                                  : NULL;
         if (found)
             *pattern = *found;
         else
@@ -268,5 +301,6 @@ void texture_define(struct importer *importer, const struct statement *statement
     }
     *pattern = resolve(importer, statement);
     statement_report_unused(importer, statement);
-    importer->textures[importer->texture_count++] = (struct named_pattern){copy, pattern};
+    importer->textures[importer->texture_count++] =
+        (struct named_pattern){copy, statement->of_numbers, pattern};
 }

@@ -124,6 +124,58 @@ done
 expect_match Import.psd 'radius: 2, material: "grey", matrix: [^9]*$'
 expect_match Include.psd 'radius: 2, material: "diffuse", matrix: .*9'
 
+# Names of textures: those of floats and of spectra are two sets. In pbrt-v3 they and named materials end with their
+# level, and a material has the textures from before it.
+red='"spectrum" "constant" "rgb value" [1 0 0]' green='"spectrum" "constant" "rgb value" [0 1 0]'
+cat >names3.pbrt <<EOF
+$film3
+WorldBegin LightSource "point"
+Texture "c" $red Texture "c" "float" "constant" "float value" .25
+MakeNamedMaterial "m" "string type" "mirror" "color Kr" [.5 .5 .5]
+AttributeBegin
+Texture "c" $green MakeNamedMaterial "m" "string type" "mirror"
+AttributeEnd
+Material "plastic" "texture Kd" "c" "texture roughness" "c" "bool remaproughness" "false"
+Texture "c" $green
+Shape "sphere"
+NamedMaterial "m" Shape "sphere"
+EOF
+import names3
+expect_text names3.psd 'diffuse: [1, 0, 0], specular: 0.01, roughness: 0.5'
+expect_text names3.psd 'mirror: 0.5}'
+cat >names4.pbrt <<EOF
+$film
+WorldBegin LightSource "point"
+AttributeBegin Texture "c" $red AttributeEnd
+Texture "c" "float" "constant" "float value" .25
+Material "diffuse" "texture reflectance" "c" Shape "sphere"
+EOF
+import names4
+expect_text names4.psd 'diffuse: [1, 0, 0]'
+
+# TransformBegin is AttributeBegin in pbrt-v4; ActiveTransform ends with its level, and at WorldBegin.
+for version in 3 4; do
+    cat >levels.pbrt <<EOF
+ActiveTransform EndTime Camera "perspective"
+WorldBegin LightSource "point"
+Translate 3 0 0
+TransformBegin
+ActiveTransform EndTime Translate 7 0 0 ReverseOrientation Material "mirror"
+TransformEnd
+Translate 2 0 0 Shape "sphere"
+EOF
+    run 0 import --pbrt $version levels.pbrt
+    expect_match levels.psd "material: \"$([ $version = 3 ] && echo mirror || echo grey)\", matrix: \[-1, 0, 0, 5,"
+done
+printf '%s\nOption "disablepixeljitter" true Option "seed" 3 Option "rendercoordsys" "world"\nWorldBegin Shape "sphere"\n' "$film" >option.pbrt
+run 0 import option.pbrt
+expect_text err "option.pbrt:2:1: warning: Option 'disablepixeljitter' has no counterpart: left out"
+expect_text err "Option 'rendercoordsys'"
+run 0 check option.psd
+printf '%s\nWorldBegin AreaLightSource "diffuse" ObjectBegin "a" Shape "sphere" ObjectEnd ObjectInstance "a"\n' "$film" >dark.pbrt
+run 0 import dark.pbrt
+expect_text err 'warning: lights in objects are left out, as pbrt does'
+
 # --- fov is of the shorter side ---
 
 sed 's/"integer xresolution" 48 "integer yresolution" 32/"integer xresolution" 24 "integer yresolution" 36/' \
@@ -612,7 +664,7 @@ echo AttributeBegin >parts/open.pbrt
 printf 'WorldBegin Import "parts/open.pbrt" Shape "sphere"' >wrong.pbrt
 run 2 import wrong.pbrt
 expect_text err 'the file that was imported before this closes not all that it opens'
-wrong 'AttributeBegin TransformEnd' '16: error: no Begin of this is open here'
+wrong 'AttributeBegin ObjectEnd' '16: error: no Begin of this is open here'
 wrong 'NamedMaterial "x"' "1: error: there is no material 'x'"
 wrong 'ObjectInstance "x"' "1: error: there is no object 'x'"
 wrong 'Material "diffuse" "texture reflectance" "x" Shape "sphere"' "20: error: reflectance: no texture 'x' before this"
