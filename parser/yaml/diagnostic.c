@@ -37,13 +37,29 @@ struct diagnostics {
     struct source *sources;
     size_t source_count;
     size_t counts[2]; /* by severity */
-    struct entry entries[2 * DIAGNOSTICS_KEPT];
+    size_t kept;      /* of each severity */
+    struct entry *entries;
+    const struct entry **sorted; /* room for all, to print them */
     size_t entry_count;
 };
 
+struct diagnostics *diagnostics_create_for(size_t kept)
+{
+    struct diagnostics *sink = calloc(1, sizeof *sink);
+    if (!sink)
+        return NULL;
+    sink->kept = kept;
+    sink->entries = calloc(2 * kept, sizeof *sink->entries);
+    sink->sorted = calloc(2 * kept, sizeof *sink->sorted);
+    if (sink->entries && sink->sorted)
+        return sink;
+    diagnostics_destroy(sink);
+    return NULL;
+}
+
 struct diagnostics *diagnostics_create(void)
 {
-    return calloc(1, sizeof(struct diagnostics));
+    return diagnostics_create_for(DIAGNOSTICS_KEPT);
 }
 
 void diagnostics_destroy(struct diagnostics *sink)
@@ -55,6 +71,8 @@ void diagnostics_destroy(struct diagnostics *sink)
         free(sink->sources[i].text);
     }
     free(sink->sources);
+    free(sink->entries);
+    free(sink->sorted);
     free(sink);
 }
 
@@ -151,7 +169,7 @@ void diagnostics_report_list(struct diagnostics *sink, enum severity severity,
                              const struct origin *origin, int width, const char *format,
                              va_list arguments)
 {
-    if (sink->counts[severity] >= DIAGNOSTICS_KEPT) {
+    if (sink->counts[severity] >= sink->kept) {
         sink->counts[severity]++;
         return;
     }
@@ -196,8 +214,8 @@ size_t diagnostics_warning_count(const struct diagnostics *sink)
 bool diagnostics_count_text(const struct diagnostics *sink, char text[DIAGNOSTICS_COUNT_TEXT])
 {
     size_t errors = sink->counts[SEVERITY_ERROR];
-    if (errors > DIAGNOSTICS_KEPT)
-        snprintf(text, DIAGNOSTICS_COUNT_TEXT, "%zu errors (%d shown)", errors, DIAGNOSTICS_KEPT);
+    if (errors > sink->kept)
+        snprintf(text, DIAGNOSTICS_COUNT_TEXT, "%zu errors (%zu shown)", errors, sink->kept);
     else
         snprintf(text, DIAGNOSTICS_COUNT_TEXT, "%zu errors", errors);
     return errors > 1;
@@ -205,7 +223,7 @@ bool diagnostics_count_text(const struct diagnostics *sink, char text[DIAGNOSTIC
 
 bool diagnostics_is_full(const struct diagnostics *sink)
 {
-    return sink->counts[SEVERITY_ERROR] >= DIAGNOSTICS_KEPT;
+    return sink->counts[SEVERITY_ERROR] >= sink->kept;
 }
 
 /* Where the line starts in the source; its length in bytes goes to `length`. NULL: no such line. */
@@ -305,12 +323,12 @@ static int compare_entries(const void *a, const void *b)
     return first < second ? -1 : 1;
 }
 
-static void sort_entries(const struct diagnostics *sink,
-                         const struct entry *sorted[2 * DIAGNOSTICS_KEPT])
+static const struct entry **sort_entries(const struct diagnostics *sink)
 {
     for (size_t i = 0; i < sink->entry_count; i++)
-        sorted[i] = &sink->entries[i];
-    qsort(sorted, sink->entry_count, sizeof sorted[0], compare_entries);
+        sink->sorted[i] = &sink->entries[i];
+    qsort(sink->sorted, sink->entry_count, sizeof sink->sorted[0], compare_entries);
+    return sink->sorted;
 }
 
 static void visit_entry(const struct diagnostics *sink, const struct entry *entry,
@@ -336,8 +354,7 @@ static void visit_entry(const struct diagnostics *sink, const struct entry *entr
 void diagnostics_each(const struct diagnostics *sink, diagnostics_visit visit, void *user)
 {
     static const struct origin nowhere = {.file = NULL};
-    const struct entry *sorted[2 * DIAGNOSTICS_KEPT];
-    sort_entries(sink, sorted);
+    const struct entry **sorted = sort_entries(sink);
     for (size_t i = 0; i < sink->entry_count; i++)
         if (sorted[i]->source == NO_SOURCE)
             visit(user, sorted[i]->severity, &nowhere, sorted[i]->message);
@@ -348,14 +365,16 @@ void diagnostics_each(const struct diagnostics *sink, diagnostics_visit visit, v
 
 void diagnostics_print(const struct diagnostics *sink, FILE *stream)
 {
-    const struct entry *sorted[2 * DIAGNOSTICS_KEPT];
-    sort_entries(sink, sorted);
+    const struct entry **sorted = sort_entries(sink);
     for (size_t i = 0; i < sink->entry_count; i++) {
         if (i == 0 || sorted[i]->source != sorted[i - 1]->source)
             print_includers(sink, sorted[i]->source, stream);
         print_entry(sink, sorted[i], stream);
     }
     char count[DIAGNOSTICS_COUNT_TEXT];
+    size_t warnings = sink->counts[SEVERITY_WARNING];
+    if (warnings > sink->kept)
+        fprintf(stream, "%zu warnings (%zu shown)\n", warnings, sink->kept);
     if (diagnostics_count_text(sink, count))
         fprintf(stream, "%s\n", count);
 }

@@ -16,7 +16,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Errors, and warnings, past this many are counted but not kept. */
+/* Errors, and warnings, past this many are counted but not kept, where no other number is asked for. */
 #define DIAGNOSTICS_KEPT 20
 
 enum severity { SEVERITY_WARNING, SEVERITY_ERROR };
@@ -25,6 +25,8 @@ struct diagnostics;
 
 /* NULL when out of memory. */
 struct diagnostics *diagnostics_create(void);
+/* `kept`: of errors, and as many of warnings. */
+struct diagnostics *diagnostics_create_for(size_t kept);
 void diagnostics_destroy(struct diagnostics *sink);
 
 /* Registers (and copies) the text of a file so that its lines can be shown; a name that is known
@@ -65,7 +67,7 @@ void diagnostics_each(const struct diagnostics *sink, diagnostics_visit visit, v
 bool diagnostics_count_text(const struct diagnostics *sink, char text[DIAGNOSTICS_COUNT_TEXT]);
 
 /* Prints all in the order of file and position, with carets, and last those that have no file, as "psplat: error:
- * ...". Then their count. */
+ * ...". Then how many errors there are, where there is more than one, and how many warnings, where not all were kept. */
 void diagnostics_print(const struct diagnostics *sink, FILE *stream);
 
 #endif

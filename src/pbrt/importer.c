@@ -7,7 +7,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#define MOST_WARNINGS 1000      /* kinds that are told apart */
 #define LARGEST_COORDINATE 1e30 /* floats hold it, and its products with what scenes have */
 #define SMALLEST_DETERMINANT 1e-30
 
@@ -41,14 +40,14 @@ bool importer_grow(struct importer *importer, void **items, size_t *capacity, si
     return true;
 }
 
-/* Whether the warning is new, which it then no longer is. */
+/* Whether the warning is new, which it then no longer is. After very many they are counted by the sink alone. */
 static bool is_new(struct importer *importer, const char *text)
 {
     for (size_t i = 0; i < importer->said_count; i++)
         if (strcmp(importer->said[i], text) == 0)
             return false;
-    if (importer->said_count == MOST_WARNINGS)
-        return false;
+    if (importer->said_count == PBRT_WARNINGS)
+        return true;
     char *copy = strdup(text);
     if (!copy || !importer_grow(importer, (void **)&importer->said, &importer->said_capacity,
                                 importer->said_count + 1, sizeof *importer->said)) {

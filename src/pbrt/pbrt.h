@@ -13,6 +13,9 @@
 #include "base/error.h"
 #include "parser/yaml/diagnostic.h"
 
+/* Kinds of warnings that are told apart; a sink should keep as many. */
+#define PBRT_WARNINGS ((size_t)1000)
+
 struct pbrt_options {
     int version;              /* 3 or 4; 0: as the words of the scene tell */
     const char *folder;       /* the only one to read from (base/input_file.h), or NULL */

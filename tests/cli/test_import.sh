@@ -632,6 +632,12 @@ expect_text err "odd.pbrt:16:16: warning: Shape sphere: parameter 'radious' is l
 expect_text err "warning: media have no counterpart"
 expect_text err "odd.pbrt:18:19: warning: Attribute shape: parameter 'alhpa' is left out"
 run 0 check odd.psd
+{
+    printf '%s\nWorldBegin\n' "$film"
+    for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25; do echo "Shape \"kind$i\""; done
+} >crowd.pbrt
+run 0 import crowd.pbrt
+[ "$(grep -c warning: err)" -eq 25 ] || fail "not 25 warnings: $(grep -c warning: err)"
 echo 'WorldBegin' >bare.pbrt
 run 0 import bare.pbrt
 expect_text err "bare.pbrt:1:1: warning: no word here tells pbrt-v3 from pbrt-v4"

@@ -160,6 +160,20 @@ static void test_errors_past_the_cap_are_counted(void **state)
     expect_printed(sink, expected);
 }
 
+static void test_keeps_as_many_as_asked(void **state)
+{
+    (void)state;
+    struct diagnostics *sink = diagnostics_create_for(2);
+    assert_non_null(sink);
+    for (int i = 1; i <= 3; i++) {
+        const struct origin origin = {"d.psd", i, 1};
+        diagnostics_report(sink, SEVERITY_WARNING, &origin, 1, "odd");
+    }
+    assert_int_equal(diagnostics_warning_count(sink), 3);
+    expect_printed(sink, "d.psd:1:1: warning: odd\nd.psd:2:1: warning: odd\n"
+                         "3 warnings (2 shown)\n");
+}
+
 static void test_long_lines_are_cut(void **state)
 {
     (void)state;
@@ -195,6 +209,7 @@ int main(void)
         cmocka_unit_test(test_no_position),
         cmocka_unit_test(test_each),
         cmocka_unit_test(test_errors_past_the_cap_are_counted),
+        cmocka_unit_test(test_keeps_as_many_as_asked),
         cmocka_unit_test(test_long_lines_are_cut),
         cmocka_unit_test(test_byte_order_mark_is_no_column),
     };
