@@ -149,7 +149,7 @@ static void infinite(struct importer *importer, const struct statement *statemen
     double rgb[3];
     (void)placement;
     statement_ignore(statement, sampling, 2);
-    light_color(importer, statement, "L", "illuminance", PI, rgb);
+    light_color(importer, statement, "L", file ? "" : "illuminance", PI, rgb);
     if (statement_find(statement, "portal"))
         importer_warn(importer, &statement->origin, statement->width,
                       "LightSource infinite: portal is left out");
@@ -176,13 +176,13 @@ static void goniometric(struct importer *importer, const struct statement *state
 static void projection(struct importer *importer, const struct statement *statement,
                        const struct transform *placement)
 {
-    static const char *const pictures[] = {"filename", "mapname", "power"};
+    static const char *const pictures[] = {"filename", "mapname"};
     struct vector from = transform_point(placement, (struct vector){0, 0, 0});
     struct vector to = transform_point(placement, (struct vector){0, 0, 1});
     double rgb[3], half = 0.5 * statement_number(importer, statement, "fov",
                                                  importer->version == 3 ? 45.0 : 90.0);
     half = fmin(fmax(half, 0.01), 90.0);
-    statement_ignore(statement, pictures, 3);
+    statement_ignore(statement, pictures, 2);
     importer_warn(importer, &statement->origin, statement->width,
                   "LightSource projection: a spotlight without its picture stands in for it");
     light_color(importer, statement, "I", "", 1.0, rgb);
@@ -233,7 +233,10 @@ struct pattern light_emission(struct importer *importer, const struct statement 
                       "its radiance");
         area = 1.0 / PI;
     }
-    light_color(importer, statement, "L", "power", PI * area * (both ? 2.0 : 1.0), rgb);
+    double mean = 1.0;
+    if (file && statement_find(statement, "power"))
+        mean = light_picture_luminance(importer, statement, file);
+    light_color(importer, statement, "L", "power", mean * PI * area * (both ? 2.0 : 1.0), rgb);
     struct place place = statement_place(statement, NULL);
     pattern = file ? texture_image(importer, &place, file) : pattern_constant(rgb);
     if (file)

@@ -7,9 +7,13 @@
 /* Adds what a LightSource statement says. */
 void light_add(struct importer *importer, const struct statement *statement);
 
-/* Adds an infinite light with a picture, times the colour (sky.c). */
+/* Adds an infinite light with a picture, times the colour, or of the statement's illuminance (sky.c). */
 void light_add_sky(struct importer *importer, const struct statement *statement, const char *file,
                    const double rgb[3]);
+
+/* The mean of a picture's luminance; 1 where it can't be read, which is reported, or is black. */
+double light_picture_luminance(struct importer *importer, const struct statement *statement,
+                               const char *file);
 
 /* The radiance of an AreaLightSource statement on a shape of that area in the scene; below 0: not known. */
 struct pattern light_emission(struct importer *importer, const struct statement *statement,

@@ -8,6 +8,7 @@
 #include "pbrt/light.h"
 
 #include "image/image.h"
+#include "pbrt/spectrum.h"
 #include "scene/texture.h"
 #include <math.h>
 #include <stdlib.h>
@@ -48,9 +49,16 @@ static struct vector direction_of(double u, double v)
     return (struct vector){sine * sin(longitude), cos(PI * v), -sine * cos(longitude)};
 }
 
-static void draw(const struct texture *texture, const struct transform *to_light, bool square,
-                 struct image *sky, float *const planes[3])
+static double luminance_of(const float rgba[4])
 {
+    return spectrum_luminance((const double[3]){rgba[0], rgba[1], rgba[2]});
+}
+
+/* Returns the illuminance of a surface that faces the light's z axis: the integral of luminance times cosine. */
+static double draw(const struct texture *texture, const struct transform *to_light, bool square,
+                   struct image *sky, float *const planes[3])
+{
+    double illuminance = 0.0;
     for (size_t row = 0; row < sky->height; row++)
         for (size_t column = 0; column < sky->width; column++) {
             double u = ((double)column + 0.5) / (double)sky->width,
@@ -62,14 +70,16 @@ static void draw(const struct texture *texture, const struct transform *to_light
             d = (struct vector){d.x / length, d.y / length, d.z / length};
             (square ? equal_area_square : longitude_latitude)(d, uv);
             texture_sample(texture, (float)uv[0], (float)(1.0 - uv[1]), rgba);
+            illuminance += fmax(d.z, 0.0) * sin(PI * v) * luminance_of(rgba);
             for (int c = 0; c < 3; c++)
                 planes[c][row * sky->width + column] = rgba[c];
         }
+    return illuminance * 2.0 * PI * PI / ((double)sky->width * (double)sky->height);
 }
 
 /* The picture, to be owned by a side file; NULL: reported. */
 static struct image *make_sky(struct importer *importer, const struct texture *texture,
-                              const struct transform *to_light, bool square)
+                              const struct transform *to_light, bool square, double *illuminance)
 {
     struct image *sky = calloc(1, sizeof *sky);
     float *planes[3] = {NULL, NULL, NULL};
@@ -91,13 +101,13 @@ static struct image *make_sky(struct importer *importer, const struct texture *t
         free(sky);
         return NULL;
     }
-    draw(texture, to_light, square, sky, planes);
+    *illuminance = draw(texture, to_light, square, sky, planes);
     return sky;
 }
 
 /* Draws the picture anew into a side file. NULL: reported. */
 static const char *convert(struct importer *importer, const struct statement *statement,
-                           const struct texture *texture)
+                           const struct texture *texture, double *illuminance)
 {
     struct transform placement, to_light;
     bool square = importer->version == 4;
@@ -111,7 +121,7 @@ static const char *convert(struct importer *importer, const struct statement *st
                       "longitude and latitude");
         square = false;
     }
-    struct image *sky = make_sky(importer, texture, &to_light, square);
+    struct image *sky = make_sky(importer, texture, &to_light, square, illuminance);
     if (!sky)
         return NULL;
     struct pbrt_side_file *file =
@@ -126,30 +136,57 @@ static const char *convert(struct importer *importer, const struct statement *st
     return file->name;
 }
 
+/* False: reported. */
+static bool load(struct importer *importer, const struct statement *statement, const char *name,
+                 struct texture *texture)
+{
+    struct error error;
+    char *path = importer_file_path(importer, name);
+    if (!path)
+        return false;
+    const struct texture_description description = {.path = path};
+    bool good = texture_load(&description, importer->options->folder, texture, &error) == PS_OK;
+    if (!good)
+        importer_error(importer, &statement->origin, statement->width, "%s %s: %.300s",
+                       statement->directive, statement->kind, error.text);
+    free(path);
+    return good;
+}
+
+double light_picture_luminance(struct importer *importer, const struct statement *statement,
+                               const char *file)
+{
+    struct texture texture;
+    double sum = 0.0;
+    if (!load(importer, statement, file, &texture))
+        return 1.0;
+    for (uint32_t row = 0; row < texture.height; row++)
+        for (uint32_t column = 0; column < texture.width; column++) {
+            float rgba[4];
+            texture_texel(&texture, column, row, rgba);
+            sum += luminance_of(rgba);
+        }
+    double mean = sum / ((double)texture.width * (double)texture.height);
+    texture_release(&texture);
+    return mean > 0.0 ? mean : 1.0;
+}
+
 void light_add_sky(struct importer *importer, const struct statement *statement, const char *name,
                    const double rgb[3])
 {
     struct texture texture = {0};
-    struct error error;
-    char *path = importer_file_path(importer, name);
-    if (!path)
+    double illuminance = 0.0, wanted = statement_number(importer, statement, "illuminance", -1.0);
+    if (!load(importer, statement, name, &texture))
         return;
-    const struct texture_description description = {.path = path};
-    if (texture_load(&description, importer->options->folder, &texture, &error) != PS_OK) {
-        importer_error(importer, &statement->origin, statement->width,
-                       "LightSource infinite: %.300s", error.text);
-        free(path);
-        return;
-    }
-    const char *file = convert(importer, statement, &texture);
+    const char *file = convert(importer, statement, &texture, &illuminance);
+    double factor = wanted > 0.0 && illuminance > 0.0 ? wanted / illuminance : 1.0;
     if (file) {
         FILE *out = importer->scene.lights.stream;
         fputs("  - sky: {file: ", out);
         put_path(out, file);
         fputs(", radiance: ", out);
-        put_color(out, rgb);
+        put_color(out, (const double[3]){factor * rgb[0], factor * rgb[1], factor * rgb[2]});
         fputs("}\n", out);
     }
     texture_release(&texture);
-    free(path);
 }

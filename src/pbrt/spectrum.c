@@ -57,12 +57,12 @@ static double planck(double wavelength, double temperature)
     return 1.0 / (pow(l, 5) * (exp(0.014387769 / (l * temperature)) - 1.0));
 }
 
-/* Linear between samples, and the outermost beyond: where there are none, 0. */
+/* Linear between samples; where there are none, 0. */
 static double sampled(const struct spectrum *spectrum, double wavelength)
 {
     const double *s = spectrum->samples;
     size_t low = 0, high = spectrum->count;
-    if (high == 0)
+    if (high == 0 || (spectrum->is_bounded && (wavelength < s[0] || wavelength > s[2 * high - 2])))
         return 0.0;
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
@@ -132,7 +132,7 @@ void spectrum_reflectance(const struct spectrum *spectrum, double rgb[3])
         reflectance_of(spectrum_value, spectrum, rgb);
 }
 
-static double luminance(const double rgb[3])
+double spectrum_luminance(const double rgb[3])
 {
     return 0.2126729 * rgb[0] + 0.7151522 * rgb[1] + 0.0721750 * rgb[2];
 }
@@ -152,7 +152,7 @@ void spectrum_illuminant(const struct spectrum *spectrum, int version, double rg
     }
     rgb_from_xyz(xyz, rgb);
     if (version == 4)
-        factor = luminance(rgb) > 0.0 ? 1.0 / luminance(rgb) : 0.0;
+        factor = spectrum_luminance(rgb) > 0.0 ? 1.0 / spectrum_luminance(rgb) : 0.0;
     else if (spectrum->kind == SPECTRUM_BLACKBODY) /* its largest value is 1: Wien's law */
         factor =
             spectrum->scale / planck(2.8977721e6 / spectrum->temperature, spectrum->temperature);
@@ -224,6 +224,7 @@ static bool take_samples(struct importer *importer, const struct parameter *para
     memcpy(spectrum->samples, numbers, count * sizeof *numbers);
     spectrum->kind = SPECTRUM_SAMPLED;
     spectrum->count = count / 2;
+    spectrum->is_bounded = importer->version == 4;
     return true;
 }
 

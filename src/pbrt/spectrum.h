@@ -24,8 +24,9 @@ enum spectrum_kind {
 struct spectrum {
     enum spectrum_kind kind;
     double rgb[3];
-    double *samples;           /* pairs of wavelength and value, wavelengths rising */
-    size_t count;              /* of pairs */
+    double *samples; /* pairs of wavelength and value, wavelengths rising */
+    size_t count;    /* of pairs */
+    bool is_bounded; /* 0 beyond the samples, as in pbrt-v4; pbrt-v3 goes on with the outermost */
     double temperature, scale; /* K; of pbrt-v3's blackbody */
     double x, y;               /* CIE 1931 chromaticity */
 };
@@ -40,6 +41,9 @@ bool spectrum_read(struct importer *importer, const struct parameter *parameter,
 bool spectrum_named(const char *name, struct spectrum *spectrum);
 /* The named spectrum that a word most likely meant, or "". */
 void spectrum_suggest(const char *word, char *text);
+
+/* Y of a linear colour. */
+double spectrum_luminance(const double rgb[3]);
 
 void spectrum_reflectance(const struct spectrum *spectrum, double rgb[3]);
 void spectrum_illuminant(const struct spectrum *spectrum, int version, double rgb[3]);

@@ -596,6 +596,34 @@ last="the halves of a sky"
 "$PSPLAT" compare halves-hand.exr halves.exr --metric p99 --crop 0,0,11,32 --fail 'p99>1e-3' >out || fail "left: $(cat out)"
 "$PSPLAT" compare halves-hand.exr halves.exr --metric p99 --crop 21,0,11,32 --fail 'p99>1e-3' >out || fail "right: $(cat out)"
 
+# Pictures of a light: what the scene says of its illuminance or power is of the light with the picture.
+cat >grey.psd <<EOF
+psd: 1
+camera: {location: [0, 0, 5], look_at: [0, 0, 0], angle: 90}
+image: {width: 32, height: 32}
+materials: {grey: {diffuse: 0, emission: 0.25}}
+objects: [quad: {corners: [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], material: grey}]
+EOF
+render grey
+cat >measured.pbrt <<EOF
+$film
+WorldBegin
+LightSource "infinite" "string filename" "grey.exr" "float illuminance" 1.5707963
+AreaLightSource "diffuse" "string filename" "grey.exr" "float power" 6.2831853
+Shape "bilinearmesh" "point3 P" [-1 0 0  1 0 0  -1 2 0  1 2 0]
+EOF
+import measured
+expect_match measured.psd 'sky: \{file: .*, radiance: (2|2.000[0-9]*|1.999[0-9]*)\}'
+expect_match measured.psd 'emission: \{image: \{file: "grey.exr", color: (2|2.000[0-9]*|1.999[0-9]*)[,}]'
+
+# Spectra end with their samples in pbrt-v4.
+printf '%s\nWorldBegin LightSource "point" Material "diffuse" "spectrum reflectance" [500 .5 600 .5] Shape "sphere"\n' "$film" >band.pbrt
+import band
+expect_match band.psd 'diffuse: \[0.[0-9]*, 0.[0-9]*, 0\]'
+printf '%s\nWorldBegin LightSource "point" Material "matte" "spectrum Kd" [500 .5 600 .5] Shape "sphere"\n' "$film3" >band.pbrt
+import band
+expect_match band.psd 'diffuse: (0.5|0.499[0-9]*|\[0.[45][0-9]*, 0.[45][0-9]*, 0.[45][0-9]*\])\}'
+
 # --- what has no counterpart is said once for each kind, with its place ---
 
 cat >odd.pbrt <<EOF
