@@ -164,8 +164,10 @@ static void named_material(const struct call *call)
     free(name);
     if (!copy)
         return;
-    importer->state.material = material_find(importer, copy, &place);
     importer->state.material_name = copy;
+    importer->state.material = importer->version == 4 && !material_is_named(importer, copy)
+                                   ? NULL /* surface.c looks again */
+                                   : material_find(importer, copy, &place);
 }
 
 static void texture(const struct call *call)

@@ -86,8 +86,9 @@ static void coordinate_transform(const struct call *call)
     if (found)
         call->importer->state.ctm = *found;
     else if (name)
-        importer_error(call->importer, call->origin, call->width,
-                       "there is no coordinate system '%.100s'", name);
+        importer_warn(call->importer, call->origin, call->width,
+                      "there is no coordinate system '%.100s': the transform stays, as in pbrt",
+                      name);
     free(name);
 }
 

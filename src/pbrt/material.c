@@ -117,14 +117,25 @@ static void transmitting(struct importer *importer, FILE *out, const struct stat
     material_put_key(out, "diffuse", &color, false);
 }
 
+/* A number of a material that has no textures here; one that varies counts by its mean. */
+static double mean_number(struct importer *importer, const struct statement *statement,
+                          const char *name, double otherwise)
+{
+    struct pattern pattern;
+    double rgb[3];
+    texture_parameter(importer, statement, name, (const double[3]){otherwise, otherwise, otherwise},
+                      &pattern);
+    pattern_mean(&pattern, rgb);
+    return (rgb[0] + rgb[1] + rgb[2]) / 3.0;
+}
+
 static void disney(struct importer *importer, FILE *out, const struct statement *statement)
 {
     struct pattern color = material_read_reflectance(importer, statement, "color", half);
-    double metallic = statement_number(importer, statement, "metallic", 0.0);
+    double metallic = mean_number(importer, statement, "metallic", 0.0);
     double f = material_normal_reflectance(material_index(importer, statement, 1.5));
-    double r = fmin(fmax(statement_number(importer, statement, "roughness", 0.5), 0.0),
-                    1.0); /* alpha is its square */
-    struct pattern roughness = pattern_constant((const double[3]){r, r, r});
+    struct pattern roughness = /* alpha is its square, as here */
+        material_read_reflectance(importer, statement, "roughness", half);
     struct pattern specular = pattern_constant((const double[3]){f, f, f});
     material_nearest(importer, statement, "a metal or a glossy surface stands in for it");
     if (metallic < 0.5) {

@@ -36,6 +36,7 @@ bool material_put(struct importer *importer, FILE *out, const struct statement *
 void material_put_mix(struct importer *importer, FILE *out, const struct statement *statement,
                       int depth);
 
+bool material_is_named(const struct importer *importer, const char *name);
 /* Of a material that was named before; NULL, reported: there is none. */
 const struct statement *material_find(struct importer *importer, const char *name,
                                       const struct place *place);

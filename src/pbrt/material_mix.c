@@ -11,12 +11,25 @@
 
 #define DEEPEST_MIX 16 /* psd(5) */
 
-const struct statement *material_find(struct importer *importer, const char *name,
-                                      const struct place *place)
+static const struct statement *find(const struct importer *importer, const char *name)
 {
     for (size_t i = importer->material_count; i-- > 0;)
         if (strcmp(importer->materials[i].name, name) == 0)
             return importer->materials[i].statement;
+    return NULL;
+}
+
+bool material_is_named(const struct importer *importer, const char *name)
+{
+    return find(importer, name) != NULL;
+}
+
+const struct statement *material_find(struct importer *importer, const char *name,
+                                      const struct place *place)
+{
+    const struct statement *found = find(importer, name);
+    if (found)
+        return found;
     importer_error(importer, place->origin, place->width, "there is no material '%.100s'", name);
     return NULL;
 }

@@ -11,6 +11,7 @@
 #include "pbrt/camera.h"
 #include "pbrt/parser.h"
 #include "pbrt/scene_files.h"
+#include "pbrt/state.h"
 #include "pbrt/version.h"
 #include <stdlib.h>
 #include <string.h>
@@ -45,6 +46,14 @@ static void choose_version(struct importer *importer, const char *name, const ch
                       "no word here tells pbrt-v3 from pbrt-v4; read as pbrt-v4");
 }
 
+static const char *word_of(char mark)
+{
+    return mark == MARK_ATTRIBUTES  ? "AttributeBegin"
+           : mark == MARK_TRANSFORM ? "TransformBegin"
+           : mark == MARK_OBJECT    ? "ObjectBegin"
+                                    : "Import";
+}
+
 /* What is open at the end, or missing. */
 static void check_end(struct importer *importer, const char *name)
 {
@@ -55,9 +64,7 @@ static void check_end(struct importer *importer, const char *name)
         importer_error(importer, &start, 1, "the scene has no WorldBegin");
     if (importer->depth > 0)
         importer_error(importer, &start, 1, "the scene ends before a %s is closed",
-                       importer->stack_marks[importer->depth - 1] == 'a'   ? "AttributeBegin"
-                       : importer->stack_marks[importer->depth - 1] == 't' ? "TransformBegin"
-                                                                           : "ObjectBegin");
+                       word_of(importer->stack_marks[importer->depth - 1]));
 }
 
 /* Parameters of Attribute directives are used by what follows them, or by nothing. */

@@ -1,6 +1,7 @@
 /* scene_text.c: see scene_text.h. */
 #include "pbrt/scene_text.h"
 
+#include "base/digest.h"
 #include "base/text.h"
 #include "image/image.h"
 #include "parser/yaml/encoding.h"
@@ -193,12 +194,10 @@ const char *scene_text_name(struct scene_text *scene, const char *wanted)
     return name;
 }
 
-/* FNV-1a. */
 static uint64_t hash_of(const char *text)
 {
-    uint64_t hash = UINT64_C(14695981039346656037);
-    for (; *text; text++)
-        hash = (hash ^ (unsigned char)*text) * UINT64_C(1099511628211);
+    uint64_t hash = DIGEST_START;
+    digest_add(&hash, text, strlen(text));
     return hash;
 }
 

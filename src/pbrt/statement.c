@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-static bool is_type(const struct parameter *parameter, const char *name)
+bool parameter_is(const struct parameter *parameter, const char *type)
 {
-    return strcmp(parameter->type->name, name) == 0;
+    return strcmp(parameter->type->name, type) == 0;
 }
 
 static struct parameter *find_in(const struct statement *statement, const char *name)
@@ -51,12 +51,12 @@ static const struct parameter *find_one(struct importer *importer,
 
 static bool is_number(const struct parameter *parameter)
 {
-    return is_type(parameter, "float") || is_type(parameter, "integer");
+    return parameter_is(parameter, "float") || parameter_is(parameter, "integer");
 }
 
 static bool is_whole(const struct parameter *parameter)
 {
-    return is_type(parameter, "integer");
+    return parameter_is(parameter, "integer");
 }
 
 static bool is_bool(const struct parameter *parameter)
@@ -71,8 +71,8 @@ static bool is_string(const struct parameter *parameter)
 
 static bool is_vector(const struct parameter *parameter)
 {
-    return parameter->type->width == 3 && !is_type(parameter, "rgb") &&
-           !is_type(parameter, "color");
+    return parameter->type->width == 3 && !parameter_is(parameter, "rgb") &&
+           !parameter_is(parameter, "color");
 }
 
 double statement_number(struct importer *importer, const struct statement *statement,

@@ -34,6 +34,9 @@ struct parameter {
     bool used;
 };
 
+/* Whether its type is called that. */
+bool parameter_is(const struct parameter *parameter, const char *type);
+
 /* Zeroed: empty. */
 struct statement {
     const char *directive; /* as written, in the table of directives */

@@ -25,11 +25,6 @@ static const struct parameter_type *find_type(const char *name, size_t length)
     return NULL;
 }
 
-static bool is_type(const struct parameter *parameter, const char *name)
-{
-    return strcmp(parameter->type->name, name) == 0;
-}
-
 void statement_release(struct statement *statement)
 {
     for (size_t i = 0; i < statement->count; i++) {
@@ -89,8 +84,8 @@ static struct parameter *declare(struct importer *importer, const struct token *
 static bool add_string(struct importer *importer, const struct token *token,
                        struct parameter *parameter, size_t *capacity)
 {
-    bool fits = parameter->type->kind == VALUE_STRING || is_type(parameter, "spectrum") ||
-                is_type(parameter, "bool");
+    bool fits = parameter->type->kind == VALUE_STRING || parameter_is(parameter, "spectrum") ||
+                parameter_is(parameter, "bool");
     if (!fits || parameter->numbers) {
         importer_error(importer, &token->origin, token->width, "%s %s: expected a number",
                        parameter->type->name, parameter->name);
@@ -109,8 +104,8 @@ static bool add_string(struct importer *importer, const struct token *token,
 static bool add_number(struct importer *importer, const struct token *token, double number,
                        struct parameter *parameter, size_t *capacity)
 {
-    bool whole =
-        !is_type(parameter, "integer") || (number == floor(number) && fabs(number) <= 2147483647.0);
+    bool whole = !parameter_is(parameter, "integer") ||
+                 (number == floor(number) && fabs(number) <= 2147483647.0);
     if (!whole || fabs(number) > LARGEST_NUMBER) {
         importer_error(importer, &token->origin, token->width, "%s %s: expected %s",
                        parameter->type->name, parameter->name,

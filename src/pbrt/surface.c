@@ -86,8 +86,11 @@ struct surface material_surface(struct importer *importer, const struct statemen
 {
     struct surface surface = {0};
     struct text_buffer buffer;
-    const struct statement *material = importer->state.material;
     const char *name = importer->state.material_name;
+    struct place place = statement_place(shape, NULL);
+    if (name && !importer->state.material && importer->version == 4) /* named after NamedMaterial */
+        importer->state.material = material_find(importer, name, &place);
+    const struct statement *material = importer->state.material;
     if (!text_buffer_open(&buffer)) {
         importer_no_memory(importer);
         return surface;

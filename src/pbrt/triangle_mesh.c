@@ -24,7 +24,8 @@ static bool read_indices(struct importer *importer, const struct statement *stat
     return true;
 }
 
-/* A list that is absent, or has one value for each point; otherwise it is left out, reported. */
+/* A list that is absent, or has one value for each point; otherwise it is left out, reported. pbrt-v3 has room for
+ * texture coordinates that are too many. */
 static const double *read_for_points(struct importer *importer, const struct statement *statement,
                                      const char *name, size_t width, size_t points)
 {
@@ -33,6 +34,11 @@ static const double *read_for_points(struct importer *importer, const struct sta
     if (!list || count == points)
         return list;
     struct place place = statement_place(statement, statement_find(statement, name));
+    if (count > points && width == 2 && importer->version == 3) {
+        importer_warn(importer, place.origin, place.width,
+                      "%s: those past the last point are left out", name);
+        return list;
+    }
     importer_error(importer, place.origin, place.width,
                    "%s: expected %zu values, one for each point, got %zu", name, points, count);
     return NULL;

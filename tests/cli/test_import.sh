@@ -153,6 +153,27 @@ EOF
 import names4
 expect_text names4.psd 'diffuse: [1, 0, 0]'
 
+# What pbrt reads with a warning, and materials that are named before they are made.
+cat >lenient4.pbrt <<EOF
+$film
+WorldBegin LightSource "point"
+NamedMaterial "m" MakeNamedMaterial "m" "string type" "diffuse" "rgb reflectance" [.1 .2 .3]
+CoordSysTransform "nowhere" Shape "sphere"
+EOF
+run 0 import lenient4.pbrt
+expect_text err "lenient4.pbrt:4:1: warning: there is no coordinate system 'nowhere'"
+expect_text lenient4.psd '"m": {diffuse: [0.1, 0.2, 0.3]}'
+cat >lenient3.pbrt <<EOF
+$film3
+WorldBegin LightSource "point"
+Texture "n" "float" "fbm" Material "disney" "texture metallic" "n" "texture roughness" "n"
+Shape "trianglemesh" "integer indices" [0 1 2] "point P" [0 0 0 1 0 0 0 1 0] "float uv" [0 0 1 0 0 1 1 1]
+EOF
+run 0 import lenient3.pbrt
+expect_text err 'warning: uv: those past the last point are left out'
+expect_text lenient3.psd 'roughness: {noise: {colors: [0, 1]'
+run 0 check lenient3.psd
+
 # TransformBegin is AttributeBegin in pbrt-v4; ActiveTransform ends with its level, and at WorldBegin.
 for version in 3 4; do
     cat >levels.pbrt <<EOF
@@ -699,7 +720,10 @@ printf 'WorldBegin Import "parts/open.pbrt" Shape "sphere"' >wrong.pbrt
 run 2 import wrong.pbrt
 expect_text err 'the file that was imported before this closes not all that it opens'
 wrong 'AttributeBegin ObjectEnd' '16: error: no Begin of this is open here'
-wrong 'NamedMaterial "x"' "1: error: there is no material 'x'"
+wrong 'NamedMaterial "x" Shape "sphere"' "19: error: there is no material 'x'"
+printf '%s\nWorldBegin NamedMaterial "x"' "$film3" >wrong.pbrt
+run 2 import wrong.pbrt
+expect_text err "there is no material 'x'"
 wrong 'ObjectInstance "x"' "1: error: there is no object 'x'"
 wrong 'Material "diffuse" "texture reflectance" "x" Shape "sphere"' "20: error: reflectance: no texture 'x' before this"
 wrong 'Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 3]' \
