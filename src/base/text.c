@@ -137,6 +137,12 @@ size_t text_distance(const char *a, const char *b)
     return previous[b_length];
 }
 
+bool text_has_suffix(const char *text, const char *suffix)
+{
+    size_t length = strlen(text), suffix_length = strlen(suffix);
+    return length > suffix_length && strcmp(text + length - suffix_length, suffix) == 0;
+}
+
 bool text_is_near(const char *word, const char *candidate)
 {
     size_t length = strlen(candidate);

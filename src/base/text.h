@@ -19,6 +19,9 @@ void text_from_float(float value, char *text, size_t size);
 /* Gives a number that printf wrote the decimal point '.'. */
 void text_delocalize(char *text);
 
+/* Whether it ends in that, with something before it. */
+bool text_has_suffix(const char *text, const char *suffix);
+
 /* Optimal string alignment distance (Damerau-Levenshtein without repeated edits), for did-you-mean.
  */
 size_t text_distance(const char *a, const char *b);

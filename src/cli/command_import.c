@@ -1,5 +1,6 @@
 /* command_import.c: psplat import: makes a .psd scene of a scene of another renderer, pbrt. */
 #include "base/input_file.h"
+#include "base/text.h"
 #include "cli/command.h"
 #include "pbrt/pbrt.h"
 
@@ -19,12 +20,6 @@ struct request {
     const char *scene, *output, *folder;
     double version;
 };
-
-static bool ends_in(const char *text, const char *ending)
-{
-    size_t length = strlen(text), ending_length = strlen(ending);
-    return length > ending_length && strcmp(text + length - ending_length, ending) == 0;
-}
 
 static bool parse_arguments(const struct argument *arguments, size_t count, struct request *request)
 {
@@ -46,7 +41,7 @@ static bool parse_arguments(const struct argument *arguments, size_t count, stru
         print_error("import: expected one scene. Try 'psplat import --help'.");
         return false;
     }
-    if (request->output && !ends_in(request->output, ".psd")) {
+    if (request->output && !text_has_suffix(request->output, ".psd")) {
         fprintf(stderr, "psplat: error: --output: expected FILE.psd, got '%s'\n", request->output);
         return false;
     }
@@ -57,7 +52,7 @@ static bool parse_arguments(const struct argument *arguments, size_t count, stru
 static char *default_output(const char *scene)
 {
     size_t length = strlen(scene);
-    if (ends_in(scene, ".pbrt"))
+    if (text_has_suffix(scene, ".pbrt"))
         length -= strlen(".pbrt");
     char *path = malloc(length + sizeof ".psd");
     if (path)

@@ -41,7 +41,7 @@ double material_index(struct importer *importer, const struct statement *stateme
     parameter = parameter ? parameter : statement_find(statement, "index");
     if (!parameter)
         return otherwise;
-    if (strcmp(parameter->type->name, "texture") == 0) {
+    if (parameter_is(parameter, "texture")) {
         material_nearest(importer, statement,
                          "an index of refraction that varies has no counterpart");
         return otherwise;
@@ -65,7 +65,7 @@ static bool read_constants(struct importer *importer, const struct statement *st
     const struct parameter *parameter = statement_find(statement, name);
     if (!parameter)
         return spectrum_named(otherwise, spectrum);
-    if (strcmp(parameter->type->name, "texture") == 0) {
+    if (parameter_is(parameter, "texture")) {
         material_nearest(
             importer, statement,
             "optical constants that vary have no counterpart; those of copper are taken");

@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/suggestion.h"
+#include "base/text.h"
 #include "pbrt/state.h"
 #include <stdlib.h>
 #include <string.h>
@@ -66,9 +67,8 @@ void parser_include(struct parser *parser, const char *name, bool is_import,
                     const struct origin *origin, int width)
 {
     struct importer *importer = parser->importer;
-    size_t length = strlen(name);
     importer->stopped = true; /* unless all goes well: what follows would mean nothing */
-    if (length > 3 && strcmp(name + length - 3, ".gz") == 0) {
+    if (text_has_suffix(name, ".gz")) {
         importer_error(importer, origin, width,
                        "'%.200s' is compressed: unpack it, and include what comes out", name);
         return;

@@ -1,6 +1,7 @@
 /* pattern.c: values that vary over a surface, in the words of psd(5); see texture.h. */
 #include "pbrt/texture.h"
 
+#include "base/text.h"
 #include <math.h>
 #include <string.h>
 
@@ -86,17 +87,11 @@ static void put_pair(FILE *out, const char *key, const double pair[2], double ot
     fputc(']', out);
 }
 
-static bool ends_in(const char *text, const char *ending)
-{
-    size_t length = strlen(text), ending_length = strlen(ending);
-    return length >= ending_length && strcmp(text + length - ending_length, ending) == 0;
-}
-
 static void put_image(FILE *out, const struct pattern *pattern, bool is_number)
 {
     /* pbrt decodes pictures for numbers too, where psd(5) takes them as they are. */
     const char *encoding = pattern->encoding;
-    if (!encoding && is_number && !ends_in(pattern->file, ".exr"))
+    if (!encoding && is_number && !text_has_suffix(pattern->file, ".exr"))
         encoding = "srgb";
     fputs("{image: {file: ", out);
     put_path(out, pattern->file);

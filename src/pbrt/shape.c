@@ -1,6 +1,7 @@
 /* shape.c: see shape.h. */
 #include "pbrt/shape.h"
 
+#include "base/text.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +10,7 @@
 static char *name_mesh(struct importer *importer, const struct place *place, const char *name)
 {
     size_t length = strlen(name);
-    bool packed = length > 3 && strcmp(name + length - 3, ".gz") == 0;
+    bool packed = text_has_suffix(name, ".gz");
     char *unpacked = strndup(name, packed ? length - 3 : length);
     char *path = importer_file_path(importer, name);
     char *shown = unpacked ? importer_file_name(importer, unpacked) : NULL;

@@ -64,7 +64,7 @@ bool texture_parameter(struct importer *importer, const struct statement *statem
     *pattern = pattern_constant(otherwise);
     if (!parameter)
         return false;
-    if (strcmp(parameter->type->name, "texture") == 0) {
+    if (parameter_is(parameter, "texture")) {
         const struct pattern *found =
             parameter->count == 1 ? find_texture(importer, statement, name, parameter->strings[0])
                                   : NULL;

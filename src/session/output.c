@@ -15,20 +15,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static bool has_suffix(const char *path, const char *suffix)
-{
-    size_t length = strlen(path), suffix_length = strlen(suffix);
-    return length > suffix_length && strcmp(path + length - suffix_length, suffix) == 0;
-}
-
 bool output_is_writable_format(const char *path)
 {
-    return output_holds_layers(path) || has_suffix(path, ".png");
+    return output_holds_layers(path) || text_has_suffix(path, ".png");
 }
 
 bool output_holds_layers(const char *path)
 {
-    return has_suffix(path, ".exr");
+    return text_has_suffix(path, ".exr");
 }
 
 char *output_default_path(const char *scene_path, const char *suffix)
@@ -37,7 +31,7 @@ char *output_default_path(const char *scene_path, const char *suffix)
     if (strcmp(name, "-") == 0)
         name = "stdin";
     size_t length = strlen(name);
-    if (has_suffix(name, ".psd") || model_is_file(name))
+    if (text_has_suffix(name, ".psd") || model_is_file(name))
         length = (size_t)(strrchr(name, '.') - name);
     size_t bytes = length + strlen(suffix) + 1;
     char *path = malloc(bytes);
