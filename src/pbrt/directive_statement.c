@@ -145,8 +145,10 @@ static void make_named_material(const struct call *call)
         importer_error(importer, call->origin, call->width,
                        "MakeNamedMaterial: \"string type\" is missing");
     const struct statement *kept = statement.kind ? importer_keep(importer, &statement) : NULL;
-    if (kept && importer_grow(importer, (void **)&importer->materials, &importer->material_capacity,
-                              importer->material_count + 1, sizeof *importer->materials))
+    if (kept &&
+        importer_grow(importer, (void **)&importer->materials, &importer->material_capacity,
+                      importer->material_count + 1, sizeof *importer->materials) &&
+        name_index_add(&importer->materials_by_name, name_index_hash(copy)))
         importer->materials[importer->material_count++] = (struct named_statement){copy, kept};
     else
         importer_no_memory(importer);

@@ -29,15 +29,7 @@ void importer_report_memory(struct importer *importer)
 bool importer_grow(struct importer *importer, void **items, size_t *capacity, size_t wanted,
                    size_t size)
 {
-    if (wanted <= *capacity)
-        return true;
-    size_t larger = wanted + wanted / 2 + 4;
-    void *grown = larger <= SIZE_MAX / size ? realloc(*items, larger * size) : NULL;
-    if (!grown)
-        return importer_no_memory(importer);
-    *items = grown;
-    *capacity = larger;
-    return true;
+    return scene_text_grow(items, capacity, wanted, size) || importer_no_memory(importer);
 }
 
 /* Whether the warning is new, which it then no longer is. After very many they are counted by the sink alone. */

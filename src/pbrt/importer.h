@@ -7,6 +7,7 @@
 
 #include "base/arena.h"
 #include "parser/yaml/diagnostic.h"
+#include "pbrt/name_index.h"
 #include "pbrt/pbrt.h"
 #include "pbrt/scene_text.h"
 #include "pbrt/statement.h"
@@ -80,6 +81,7 @@ struct importer {
     struct named_statement *materials;
     struct named_pattern *textures;
     size_t material_count, material_capacity, texture_count, texture_capacity;
+    struct name_index materials_by_name, textures_by_name;
     struct object_definition *objects;
     size_t object_count, object_capacity;
     struct object_definition *current_object; /* between ObjectBegin and ObjectEnd */

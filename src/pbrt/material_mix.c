@@ -13,7 +13,9 @@
 
 static const struct statement *find(const struct importer *importer, const char *name)
 {
-    for (size_t i = importer->material_count; i-- > 0;)
+    const struct name_index *index = &importer->materials_by_name;
+    size_t i = name_index_find(index, name_index_hash(name));
+    for (; i != NAME_INDEX_NONE; i = name_index_before(index, i))
         if (strcmp(importer->materials[i].name, name) == 0)
             return importer->materials[i].statement;
     return NULL;

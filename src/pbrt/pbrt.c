@@ -31,6 +31,8 @@ static void release(struct importer *importer)
     free(importer->coordinates);
     free(importer->materials);
     free(importer->textures);
+    name_index_release(&importer->materials_by_name);
+    name_index_release(&importer->textures_by_name);
     free(importer->objects);
     arena_release(&importer->arena);
     scene_text_release(&importer->scene);

@@ -1,12 +1,24 @@
 /* scene_text.c: see scene_text.h. */
 #include "pbrt/scene_text.h"
 
-#include "base/digest.h"
 #include "base/text.h"
 #include "image/image.h"
 #include "parser/yaml/encoding.h"
 #include <stdlib.h>
 #include <string.h>
+
+bool scene_text_grow(void **items, size_t *capacity, size_t wanted, size_t size)
+{
+    if (wanted <= *capacity)
+        return true;
+    size_t larger = wanted + wanted / 2 + 4;
+    void *grown = larger <= SIZE_MAX / size ? realloc(*items, larger * size) : NULL;
+    if (!grown)
+        return false;
+    *items = grown;
+    *capacity = larger;
+    return true;
+}
 
 /* --- buffers -------------------------------------------------------------------------------------- */
 
@@ -80,6 +92,8 @@ void scene_text_release(struct scene_text *scene)
     for (size_t i = 0; i < scene->material_count; i++)
         free(scene->interned[i].text);
     free(scene->interned);
+    name_index_release(&scene->by_text);
+    name_index_release(&scene->by_name);
     for (size_t i = 0; i < scene->name_count; i++)
         free(scene->names[i].name);
     free(scene->names);
@@ -142,22 +156,10 @@ bool scene_text_finish(struct scene_text *scene, const char *comment, struct pbr
 
 /* --- names ---------------------------------------------------------------------------------------- */
 
-static bool grow(void **items, size_t *capacity, size_t wanted, size_t size)
-{
-    if (wanted <= *capacity)
-        return true;
-    size_t larger = 2 * wanted + 8;
-    void *grown = realloc(*items, larger * size);
-    if (!grown)
-        return false;
-    *items = grown;
-    *capacity = larger;
-    return true;
-}
-
 static struct scene_name *find_name(const struct scene_text *scene, const char *name)
 {
-    for (size_t i = 0; i < scene->name_count; i++)
+    size_t i = name_index_find(&scene->by_name, name_index_hash(name));
+    for (; i != NAME_INDEX_NONE; i = name_index_before(&scene->by_name, i))
         if (strcmp(scene->names[i].name, name) == 0)
             return &scene->names[i];
     return NULL;
@@ -178,8 +180,8 @@ const char *scene_text_name(struct scene_text *scene, const char *wanted)
 {
     size_t size = strlen(wanted) + 32;
     char *name = malloc(size);
-    if (!name || !grow((void **)&scene->names, &scene->name_capacity, scene->name_count + 1,
-                       sizeof *scene->names)) {
+    if (!name || !scene_text_grow((void **)&scene->names, &scene->name_capacity,
+                                  scene->name_count + 1, sizeof *scene->names)) {
         free(name);
         scene->failed = true;
         return NULL;
@@ -190,33 +192,33 @@ const char *scene_text_name(struct scene_text *scene, const char *wanted)
     struct scene_name *same = find_name(scene, name);
     for (struct scene_name *taken = same; taken; taken = find_name(scene, name))
         snprintf(name + length, size - length, "-%zu", same->next++);
+    if (!name_index_add(&scene->by_name, name_index_hash(name))) {
+        free(name);
+        scene->failed = true;
+        return NULL;
+    }
     scene->names[scene->name_count++] = (struct scene_name){name, 2};
     return name;
 }
 
-static uint64_t hash_of(const char *text)
-{
-    uint64_t hash = DIGEST_START;
-    digest_add(&hash, text, strlen(text));
-    return hash;
-}
-
 const char *scene_text_material(struct scene_text *scene, const char *wanted, const char *text)
 {
-    uint64_t hash = hash_of(text);
-    for (size_t i = scene->material_count; i-- > 0;)
-        if (scene->interned[i].hash == hash && strcmp(scene->interned[i].text, text) == 0)
+    uint64_t hash = name_index_hash(text);
+    size_t i = name_index_find(&scene->by_text, hash);
+    for (; i != NAME_INDEX_NONE; i = name_index_before(&scene->by_text, i))
+        if (strcmp(scene->interned[i].text, text) == 0)
             return scene->interned[i].name;
     const char *name = scene_text_name(scene, wanted);
     char *copy = strdup(text);
     if (!name || !copy ||
-        !grow((void **)&scene->interned, &scene->material_capacity, scene->material_count + 1,
-              sizeof *scene->interned)) {
+        !scene_text_grow((void **)&scene->interned, &scene->material_capacity,
+                         scene->material_count + 1, sizeof *scene->interned) ||
+        !name_index_add(&scene->by_text, hash)) {
         free(copy);
         scene->failed = true;
         return NULL;
     }
-    scene->interned[scene->material_count++] = (struct scene_material){(char *)name, copy, hash};
+    scene->interned[scene->material_count++] = (struct scene_material){(char *)name, copy};
     fputs("  ", scene->materials.stream);
     put_text(scene->materials.stream, name);
     fprintf(scene->materials.stream, ": {%s}\n", text);
@@ -228,8 +230,8 @@ struct pbrt_side_file *scene_text_file(struct scene_text *scene, const char *bas
 {
     size_t size = strlen(base) + strlen(what) + strlen(suffix) + 32;
     char *name = malloc(size);
-    if (!name || !grow((void **)&scene->files, &scene->file_capacity, scene->file_count + 1,
-                       sizeof *scene->files)) {
+    if (!name || !scene_text_grow((void **)&scene->files, &scene->file_capacity,
+                                  scene->file_count + 1, sizeof *scene->files)) {
         free(name);
         scene->failed = true;
         return NULL;
@@ -243,8 +245,8 @@ struct pbrt_side_file *scene_text_file(struct scene_text *scene, const char *bas
 bool scene_text_note(struct scene_text *scene, const char *path)
 {
     char *copy = strdup(path);
-    if (!copy || !grow((void **)&scene->named, &scene->named_capacity, scene->named_count + 1,
-                       sizeof *scene->named)) {
+    if (!copy || !scene_text_grow((void **)&scene->named, &scene->named_capacity,
+                                  scene->named_count + 1, sizeof *scene->named)) {
         free(copy);
         scene->failed = true;
         return false;

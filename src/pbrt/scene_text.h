@@ -6,6 +6,7 @@
 #ifndef PBRT_SCENE_TEXT_H
 #define PBRT_SCENE_TEXT_H
 
+#include "pbrt/name_index.h"
 #include "pbrt/pbrt.h"
 #include "pbrt/transform.h"
 #include <stdbool.h>
@@ -18,6 +19,9 @@ struct text_buffer {
     size_t length;
 };
 
+/* Room for `wanted` items of that size in a list. False: out of memory. */
+bool scene_text_grow(void **items, size_t *capacity, size_t wanted, size_t size);
+
 /* False: out of memory. */
 bool text_buffer_open(struct text_buffer *buffer);
 /* The text, to be freed; NULL: out of memory. The buffer is closed either way. */
@@ -25,7 +29,6 @@ char *text_buffer_close(struct text_buffer *buffer);
 
 struct scene_material {
     char *name, *text;
-    uint64_t hash;
 };
 
 /* Of a material or a group. */
@@ -38,8 +41,10 @@ struct scene_text {
     struct text_buffer camera, image, materials, lights, groups, group, objects;
     struct scene_material *interned;
     size_t material_count, material_capacity;
-    struct scene_name *names; /* unique in the scene */
+    struct name_index by_text; /* of the materials */
+    struct scene_name *names;  /* unique in the scene */
     size_t name_count, name_capacity;
+    struct name_index by_name;
     struct pbrt_side_file *files;
     size_t file_count, file_capacity;
     char **named; /* paths of files that the pbrt scene names */

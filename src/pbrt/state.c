@@ -49,6 +49,8 @@ bool state_pop(struct importer *importer, enum state_mark mark, const struct ori
     if (importer->version == 3) { /* where textures and named materials belong to the state */
         importer->texture_count = saved->texture_count;
         importer->material_count = saved->material_count;
+        name_index_cut(&importer->textures_by_name, saved->texture_count);
+        name_index_cut(&importer->materials_by_name, saved->material_count);
     }
     return true;
 }

@@ -42,13 +42,13 @@ static const struct pattern *find_texture(const struct importer *importer,
                                           const char *name)
 {
     bool numbers = wants_numbers(importer, statement, parameter);
-    size_t count = importer->texture_count;
+    const struct name_index *index = &importer->textures_by_name;
     const struct pattern *other = NULL;
-    if (importer->version == 3 && statement->textures < count)
-        count = statement->textures;
-    for (size_t i = count; i-- > 0;) {
+    size_t end = importer->version == 3 ? statement->textures : SIZE_MAX;
+    size_t i = name_index_find(index, name_index_hash(name));
+    for (; i != NAME_INDEX_NONE; i = name_index_before(index, i)) {
         const struct named_pattern *named = &importer->textures[i];
-        if (strcmp(named->name, name) != 0)
+        if (i >= end || strcmp(named->name, name) != 0)
             continue;
         if (named->of_numbers == numbers)
             return named->pattern;
@@ -301,6 +301,10 @@ void texture_define(struct importer *importer, const struct statement *statement
     }
     *pattern = resolve(importer, statement);
     statement_report_unused(importer, statement);
+    if (!name_index_add(&importer->textures_by_name, name_index_hash(name))) {
+        importer_no_memory(importer);
+        return;
+    }
     importer->textures[importer->texture_count++] =
         (struct named_pattern){copy, statement->of_numbers, pattern};
 }

@@ -1,6 +1,7 @@
 /* test_pbrt.c: tokens, transforms, spectra, roughness and subdivision of pbrt scenes. */
 #include "pbrt/importer.h"
 #include "pbrt/lexer.h"
+#include "pbrt/name_index.h"
 #include "pbrt/roughness.h"
 #include "pbrt/shape.h"
 #include "pbrt/spectrum.h"
@@ -198,6 +199,27 @@ static void test_remaps_roughness(void **state)
     assert_true(roughness_from(0, true, 4) == 0.0);
 }
 
+/* --- names ------------------------------------------------------------------------------------------ */
+
+static void test_finds_the_latest_of_a_name(void **state)
+{
+    (void)state;
+    struct name_index index = {0};
+    const uint64_t a = name_index_hash("a"), b = name_index_hash("b");
+    assert_true(name_index_find(&index, a) == NAME_INDEX_NONE);
+    for (int i = 0; i < 1000; i++)
+        assert_true(name_index_add(&index, i % 2 ? b : a));
+    assert_int_equal(name_index_find(&index, a), 998);
+    assert_int_equal(name_index_before(&index, 998), 996);
+    assert_true(name_index_before(&index, 0) == NAME_INDEX_NONE);
+    name_index_cut(&index, 2);
+    assert_int_equal(name_index_find(&index, a), 0);
+    assert_int_equal(name_index_find(&index, b), 1);
+    name_index_cut(&index, 1);
+    assert_true(name_index_find(&index, b) == NAME_INDEX_NONE);
+    name_index_release(&index);
+}
+
 /* --- subdivision ------------------------------------------------------------------------------------ */
 
 static void test_subdivides_an_octahedron(void **state)
@@ -244,6 +266,7 @@ int main(void)
         cmocka_unit_test(test_turns_spectra_to_colors),
         cmocka_unit_test(test_knows_names_and_temperatures),
         cmocka_unit_test(test_remaps_roughness),
+        cmocka_unit_test(test_finds_the_latest_of_a_name),
         cmocka_unit_test(test_subdivides_an_octahedron),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
