@@ -72,12 +72,13 @@ static void option(const struct call *call)
     char *name = call_text(call);
     if (!name)
         return;
-    if (token->kind != TOKEN_WORD && token->kind != TOKEN_STRING && token->kind != TOKEN_NUMBER)
-        call_stop(call, "expected a name and a value");
-    else
+    if (token->kind == TOKEN_WORD || token->kind == TOKEN_STRING || token->kind == TOKEN_NUMBER) {
         parser_advance(call->parser);
-    importer_warn(call->importer, call->origin, call->width,
-                  "Option '%.40s' has no counterpart: left out", name);
+        importer_warn(call->importer, call->origin, call->width,
+                      "Option '%.40s' has no counterpart: left out", name);
+    } else {
+        call_stop(call, "expected a name and a value");
+    }
     free(name);
 }
 

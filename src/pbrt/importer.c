@@ -129,18 +129,15 @@ char *importer_file_path(struct importer *importer, const char *name)
     return NULL;
 }
 
-bool importer_check_file(struct importer *importer, const struct place *place, const char *path)
+void importer_check_file(struct importer *importer, const struct place *place, const char *path)
 {
     const char *folder = importer->options->folder;
     struct input_file file;
     struct error error;
-    if (input_file_open(path, folder, &file, &error) == PS_OK) {
+    if (input_file_open(path, folder, &file, &error) == PS_OK)
         close(file.descriptor);
-        return true;
-    }
-    if (folder)
+    else if (folder)
         importer_error(importer, place->origin, place->width, "%.200s: %s", path, error.text);
     else
         importer_warn(importer, place->origin, place->width, "%.200s: %s", path, error.text);
-    return !folder;
 }

@@ -131,7 +131,7 @@ char *importer_file_name(struct importer *importer, const char *name);
 /* The path under which that file is opened now, which is not to be overwritten; to be freed. NULL: reported. */
 char *importer_file_path(struct importer *importer, const char *name);
 /* For a file that only the new scene opens: warns where it is not there. With a folder to read from, one that does not
- * lie there is an error, and the result false. */
-bool importer_check_file(struct importer *importer, const struct place *place, const char *path);
+ * lie there is an error. */
+void importer_check_file(struct importer *importer, const struct place *place, const char *path);
 
 #endif

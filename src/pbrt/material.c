@@ -50,8 +50,10 @@ static void coated_diffuse(struct importer *importer, FILE *out, const struct st
 /* plastic, substrate, uber and translucent of pbrt-v3: Kd below, Ks above. */
 static void kd_ks(struct importer *importer, FILE *out, const struct statement *statement)
 {
+    static const char *const elsewhere[] = {"opacity"}; /* material_opacity */
     bool substrate = strcmp(statement->kind, "substrate") == 0,
          uber = strcmp(statement->kind, "uber") == 0;
+    statement_ignore(statement, elsewhere, uber ? 1 : 0);
     double f =
         substrate
             ? 1.0
@@ -81,6 +83,7 @@ static void kd_ks(struct importer *importer, FILE *out, const struct statement *
     put_glossy(out, &kd, &ks, &roughness);
 }
 
+/* Of uber; who calls material_put has it written. */
 bool material_opacity(struct importer *importer, const struct statement *statement,
                       struct pattern *opacity)
 {

@@ -2,8 +2,7 @@
  *
  * pbrt-v4's `amount` is the share of the second material, pbrt-v3's that of the first.
  */
-#include "pbrt/material.h"
-#include "pbrt/texture.h"
+#include "pbrt/material_kinds.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -53,7 +52,10 @@ static const char *component(struct importer *importer, const char *name, const 
         importer_no_memory(importer);
         return NULL;
     }
+    struct pattern opacity;
     bool is_surface = material_put(importer, buffer.stream, statement, depth + 1);
+    if (is_surface && material_opacity(importer, statement, &opacity))
+        material_put_key(buffer.stream, ", opacity", &opacity, true);
     char *text = text_buffer_close(&buffer);
     const char *found =
         text && is_surface ? scene_text_material(&importer->scene, name, text) : NULL;

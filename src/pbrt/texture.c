@@ -21,14 +21,14 @@ static bool is_class(const struct statement *statement, const char *name)
 static bool wants_numbers(const struct importer *importer, const struct statement *statement,
                           const char *parameter)
 {
-    static const char *const names[] = {"alpha",        "shadowalpha", "sigma",    "bumpmap",
-                                        "displacement", "roughness",   "metallic", "scale"};
+    static const char *const names[] = {"alpha",     "sigma",    "bumpmap", "displacement",
+                                        "roughness", "metallic", "scale"};
     bool is_texture = strcmp(statement->directive, "Texture") == 0;
     if (strcmp(parameter, "amount") == 0)
         return is_texture || importer->version == 4;
     size_t length = strlen(parameter);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        size_t part = strlen(names[i]); /* also uroughness, conductor.roughness */
+        size_t part = strlen(names[i]); /* also shadowalpha, conductor.uroughness */
         if (length >= part && strcmp(parameter + length - part, names[i]) == 0)
             return true;
     }

@@ -125,6 +125,7 @@ echo "$noise"' Material "uber" "float opacity" .7 Shape "sphere" "texture alpha"
 readable opacity
 expect_text opacity.psd 'opacity: {noise: {colors: [0, 0.7]'
 expect_text opacity.psd 'opacity: {noise: {colors: [0, 0.6]'
+expect_no_text said "parameter 'opacity' is left out"
 expect_text said 'opacity of the material is left out where alpha varies too'
 echo "$noise"' AreaLightSource "diffuse" Shape "sphere" "texture alpha" "n"' | scene shining
 readable shining
