@@ -150,7 +150,8 @@ static void make_named_material(const struct call *call)
         importer_grow(importer, (void **)&importer->materials, &importer->material_capacity,
                       importer->material_count + 1, sizeof *importer->materials) &&
         name_index_add(&importer->materials_by_name, name_index_hash(copy)))
-        importer->materials[importer->material_count++] = (struct named_statement){copy, kept};
+        importer->materials[importer->material_count++] =
+            (struct named_statement){.name = copy, .statement = kept};
     else
         importer_no_memory(importer);
     statement_release(&statement);

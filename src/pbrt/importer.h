@@ -41,9 +41,17 @@ struct named_transform {
     struct transform transform;
 };
 
+/* What psd(5) limits of a material. */
+struct mix_extent {
+    int height; /* mixes in each other, itself included */
+    int parts;  /* materials that are no mixes */
+};
+
 struct named_statement {
     const char *name;
     const struct statement *statement;
+    const char *written; /* its name in the scene, once it is in a mix; or NULL */
+    struct mix_extent extent;
 };
 
 struct pattern;
@@ -82,6 +90,7 @@ struct importer {
     struct named_pattern *textures;
     size_t material_count, material_capacity, texture_count, texture_capacity;
     struct name_index materials_by_name, textures_by_name;
+    struct mix_extent extent; /* of the material that was written last */
     struct object_definition *objects;
     size_t object_count, object_capacity;
     struct object_definition *current_object; /* between ObjectBegin and ObjectEnd */

@@ -216,6 +216,7 @@ bool material_put(struct importer *importer, FILE *out, const struct statement *
         material_put_mix(importer, out, statement, depth);
         return true;
     }
+    importer->extent = (struct mix_extent){0, 1};
     size_t i = 0, count = sizeof kinds / sizeof kinds[0];
     while (i < count && strcmp(kinds[i].name, kind) != 0)
         i++;

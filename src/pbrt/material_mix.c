@@ -4,19 +4,20 @@
  */
 #include "pbrt/material_kinds.h"
 
+#include "scene/material.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define DEEPEST_MIX 16 /* psd(5) */
 
-static const struct statement *find(const struct importer *importer, const char *name)
+static struct named_statement *find(const struct importer *importer, const char *name)
 {
     const struct name_index *index = &importer->materials_by_name;
     size_t i = name_index_find(index, name_index_hash(name));
     for (; i != NAME_INDEX_NONE; i = name_index_before(index, i))
         if (strcmp(importer->materials[i].name, name) == 0)
-            return importer->materials[i].statement;
+            return &importer->materials[i];
     return NULL;
 }
 
@@ -28,9 +29,9 @@ bool material_is_named(const struct importer *importer, const char *name)
 const struct statement *material_find(struct importer *importer, const char *name,
                                       const struct place *place)
 {
-    const struct statement *found = find(importer, name);
+    const struct named_statement *found = find(importer, name);
     if (found)
-        return found;
+        return found->statement;
     importer_error(importer, place->origin, place->width, "there is no material '%.100s'", name);
     return NULL;
 }
@@ -40,9 +41,14 @@ static const char *component(struct importer *importer, const char *name, const 
                              int depth)
 {
     const struct statement *statement = material_find(importer, name, place);
+    struct named_statement *named = find(importer, name);
     struct text_buffer buffer;
     if (!statement)
         return NULL;
+    if (named->written && depth + named->extent.height < DEEPEST_MIX) {
+        importer->extent = named->extent;
+        return named->written;
+    }
     if (depth >= DEEPEST_MIX) {
         importer_error(importer, place->origin, place->width,
                        "mixes are in mixes more than %d deep", DEEPEST_MIX);
@@ -62,6 +68,8 @@ static const char *component(struct importer *importer, const char *name, const 
     if (!text || (is_surface && !found))
         importer_no_memory(importer);
     free(text);
+    named->written = found;
+    named->extent = importer->extent;
     return found;
 }
 
@@ -115,9 +123,20 @@ void material_put_mix(struct importer *importer, FILE *out, const struct stateme
     double weight = fmin(fmax((share[0] + share[1] + share[2]) / 3.0, 0.0), 1.0);
     const double weights[2] = {list ? 1.0 - weight : weight, list ? weight : 1.0 - weight};
     const char *found[2] = {NULL, NULL};
+    struct mix_extent whole = {1, 0};
     for (int i = 0; i < 2; i++)
-        if (weights[i] > 0.0)
+        if (weights[i] > 0.0) {
+            importer->extent = (struct mix_extent){0, 0};
             found[i] = component(importer, names[i], &place, depth);
+            if (importer->extent.height >= whole.height)
+                whole.height = importer->extent.height + 1;
+            whole.parts += importer->extent.parts;
+        }
+    importer->extent = whole;
+    if (whole.parts > MATERIAL_MOST_COMPONENTS)
+        importer_error(importer, place.origin, place.width,
+                       "Material mix: it comes to %d materials, of which psplat mixes up to %d",
+                       whole.parts, MATERIAL_MOST_COMPONENTS);
     if (!found[0] && !found[1])
         fputs("diffuse: 0", out);
     else

@@ -153,6 +153,7 @@ void material_thin_dielectric(struct importer *importer, FILE *out,
         fputs("dielectric: {ior: 1}", out);
         return;
     }
+    importer->extent = (struct mix_extent){1, 2};
     fputs("mix: [{material: ", out);
     put_text(out, mirror);
     fputs(", weight: ", out);

@@ -152,6 +152,28 @@ run 2 import many.pbrt
 expect_text err 'the scene has more than 4000000 values, the most that psplat reads'
 [ ! -e many.psd ] || fail "many.psd was written"
 
+# nested COUNT: mixes in mixes, the shapes from the inside.
+nested() {
+    awk -v n="$1" 'BEGIN { print "MakeNamedMaterial \"m0\" \"string type\" \"diffuse\""
+        for (i = 1; i <= n; i++) printf "MakeNamedMaterial \"m%d\" \"string type\" \"mix\" \"string materials\" [\"m%d\" \"m%d\"] NamedMaterial \"m%d\" Shape \"sphere\"\n", i, i - 1, i - 1, i }' |
+        scene nested
+}
+nested 3
+readable nested
+nested 4
+run 2 import nested.pbrt
+expect_text err 'Material mix: it comes to 16 materials, of which psplat mixes up to 8'
+# chain COUNT: each of one material alone.
+chain() {
+    nested "$1"
+    sed -i 's/"mix"/& "float amount" 0/g' nested.pbrt
+}
+chain 16
+readable nested
+chain 17
+run 2 import nested.pbrt
+expect_text err 'mixes are in mixes more than 16 deep'
+
 # The corpus of the fuzzer, in either version: what becomes a scene is one.
 for file in "$PSPLAT_SOURCE"/tests/fuzz/corpus_pbrt/*; do
     name=$(basename "$file")
