@@ -7,7 +7,7 @@
 
 /* A mesh of more becomes a file: it would be no text to read. So does each of many: a scene's text has its limit. */
 #define INLINE_TRIANGLES 64
-#define INLINE_NUMBERS ((size_t)500000) /* of all meshes in the text */
+#define INLINE_NUMBERS ((size_t)1500000) /* of all meshes in the text */
 
 bool mesh_allocate(struct importer *importer, size_t vertices, bool normals, bool uv,
                    size_t triangles, struct mesh *mesh)
