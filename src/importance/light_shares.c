@@ -8,7 +8,7 @@
 /* Finds by power that are added to those of each run. */
 #define MORE_BY_POWER 2.0
 
-/* Lights in order, with sums over those before each. */
+/* Lights in order, and what is known of each. */
 struct light_list {
     const uint32_t *order;
     const float *powers;
@@ -32,7 +32,7 @@ static struct sums sums_of(const struct light_list *list, size_t first, size_t e
     return sums;
 }
 
-/* The part of a group's light that one half of it is taken to have. */
+/* The part of a run's light that one half of it is taken to have. */
 static double part_of(const struct sums *half, const struct sums *whole)
 {
     double by_power = whole->power > 0.0 ? half->power / whole->power : 0.0;
