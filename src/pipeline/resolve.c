@@ -288,6 +288,30 @@ static ps_image_view image_of(const struct render *render, struct rgb_planes ind
     };
 }
 
+/* Where a pixel saw a surface in a part of its samples only, its light is the mean over all of them, but its albedo and
+ * normal are those of the surface. A denoiser compares pixels by these, so it gets the light of that part alone: of what
+ * is covered (`of_part`), or back to the mean. */
+static void scale_light(const struct film *film, bool of_part, float *light)
+{
+    const float *coverage = film->planes[FILM_COVERAGE];
+    for (size_t i = 0; light && i < film->width * film->height; i++) {
+        float share = coverage[i] / (float)film->passes;
+        if (share > 0.0f && share < 1.0f)
+            light[i] *= of_part ? 1.0f / share : share;
+    }
+}
+
+/* The same for all that the denoiser is given; `estimate`, which it makes, is in the units of the light. */
+static void scale_all(const struct film *film, bool of_part, struct rgb_planes light,
+                      const struct halves *halves, float *estimate)
+{
+    float *const planes[] = {light.r,        light.g,        light.b,       halves->even.r,
+                             halves->even.g, halves->even.b, halves->odd.r, halves->odd.g,
+                             halves->odd.b,  estimate};
+    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
+        scale_light(film, of_part, planes[i]);
+}
+
 /* Needs room for a copy of the light. */
 static ps_result denoise(struct render *render, struct rgb_planes indirect, struct rgb_planes copy,
                          const struct halves *halves, float *estimate, struct error *error)
@@ -299,7 +323,9 @@ static ps_result denoise(struct render *render, struct rgb_planes indirect, stru
         return PS_OK;
     double start = clock_seconds();
     copy_rgb(render, indirect, copy);
+    scale_all(&render->film, true, indirect, halves, NULL);
     ps_result result = table->filter(strategy->state, strategy->host, &view);
+    scale_all(&render->film, false, indirect, halves, estimate);
     statistics_add_seconds(render->statistics, "denoise", clock_seconds() - start);
     result = render_judge(render, PS_DENOISER, result, error);
     if (result == PS_OK) {

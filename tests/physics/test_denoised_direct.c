@@ -161,6 +161,32 @@ static void test_threads_do_not_matter(void **state)
     rendering_release(&three);
 }
 
+/* A sphere of albedo 0.4 before a sky of radiance 1: what is partly sky is no brighter than the sky. */
+static void test_silhouettes_before_the_sky(void **state)
+{
+    (void)state;
+    static const char *const choices[] = {"estimator=ambient:irradiance=0", "denoiser=regression",
+                                          NULL};
+    static const char text[] = "psd: 1\n"
+                               "camera: {location: [0, 1, 6], look_at: [0, 1.2, 0], angle: 40}\n"
+                               "image: {width: 120, height: 90}\n"
+                               "materials: {grey: {diffuse: 0.4}}\n"
+                               "lights: [{sky: {radiance: 1}}]\n"
+                               "objects:\n"
+                               "  - sphere: {center: [0, 1.2, 0], radius: 1, material: grey}\n"
+                               "  - box: {corners: [[-3, -0.1, -3], [3, 0, 3]], material: grey}\n"
+                               "render: {light_samples: 2, aa_samples: 8, seed: 1}\n";
+    struct rendering rendering = render_text(text, 2, choices);
+    const float *direct = image_channel(&rendering.image, "direct.G");
+    size_t partly = 0;
+    for (size_t i = 0; i < PIXELS; i++) {
+        assert_true(direct[i] < 1.005f);
+        partly += direct[i] > 0.5f && direct[i] < 0.95f;
+    }
+    assert_true(partly > 20);
+    rendering_release(&rendering);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -169,6 +195,7 @@ int main(void)
         cmocka_unit_test(test_hard_shadows_stay),
         cmocka_unit_test(test_emission_stays),
         cmocka_unit_test(test_threads_do_not_matter),
+        cmocka_unit_test(test_silhouettes_before_the_sky),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
