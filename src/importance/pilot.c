@@ -189,7 +189,8 @@ static void trace_chunk(void *user, uint64_t chunk, uint32_t worker)
         pilot->host->intersect(pilot->host, paths.rays, paths.count, paths.hits);
         record_emission(pilot, &paths, findings->met[segment]);
         note_places(&paths, findings);
-        record_direct(pilot, chunk, 1 + 2 * segment, &paths, findings->sampled[segment]);
+        if (segment > 0) /* what the first surface gets is direct light */
+            record_direct(pilot, chunk, 1 + 2 * segment, &paths, findings->sampled[segment]);
         scatter(pilot, chunk, 2 + 2 * segment, &paths);
     }
 }
