@@ -76,10 +76,9 @@ static size_t move_material(struct joint *joint, size_t index)
     *material = content->materials[index];
     content->materials[index] = (struct material_description){.name = NULL};
     joint->materials[index] = joint->reader->description->material_count - 1;
-    struct pigment_description *pigments[] = {
-        &material->color,   &material->specular, &material->roughness,  &material->emission,
-        &material->opacity, &material->bump,     &material->normal_map, &material->share};
-    for (size_t i = 0; i < sizeof pigments / sizeof pigments[0]; i++)
+    struct pigment_description *pigments[MATERIAL_PIGMENTS];
+    material_pigments(material, pigments);
+    for (size_t i = 0; i < MATERIAL_PIGMENTS; i++)
         move_pigment(joint, pigments[i]);
     return joint->materials[index];
 }

@@ -50,9 +50,7 @@ static ps_result check_places(const struct image images[2], const char *const pa
                               struct error *error)
 {
     struct picture_window a = place_of(&images[0]), b = place_of(&images[1]);
-    bool same = a.left == b.left && a.top == b.top && a.picture_width == b.picture_width &&
-                a.picture_height == b.picture_height;
-    if (same || (!is_part(&images[0]) && !is_part(&images[1])))
+    if (picture_window_same(a, b) || (!is_part(&images[0]) && !is_part(&images[1])))
         return PS_OK;
     return error_set(error, PS_ERROR_INVALID,
                      "the parts lie at different places: '%s' is at %zu,%zu of %zux%zu, '%s' at "

@@ -126,8 +126,8 @@ static ps_result read_emission(struct mesh_job *job, const struct aiMaterial *so
     return mesh_pigment_texture(job, source, use, &material->emission);
 }
 
-ps_result mesh_gltf_surface(struct mesh_job *job, const struct aiMaterial *source,
-                            const struct json *extras, struct material_description *material)
+static ps_result read_surface(struct mesh_job *job, const struct aiMaterial *source,
+                              const struct json *extras, struct material_description *material)
 {
     const struct json *info = json_member(extras, "normalTexture");
     const struct mesh_texture_use normal = {aiTextureType_NORMALS, CHANNEL_RGB, ENCODING_LINEAR,
@@ -304,7 +304,7 @@ ps_result mesh_material_read_gltf(struct mesh_job *job, const struct aiMaterial 
     struct pbr pbr = read_pbr(job, source, extras, name);
     struct material_description material = mesh_material_white(job->request->origin);
     omit_rest(job, source, extras, &pbr, name);
-    ps_result result = mesh_gltf_surface(job, source, extras, &material);
+    ps_result result = read_surface(job, source, extras, &material);
     if (result == PS_OK && mesh_gltf_extension(extras, "KHR_materials_pbrSpecularGlossiness"))
         return mesh_material_read_glossiness(job, source, extras, &material, name, index);
     if (result == PS_OK)

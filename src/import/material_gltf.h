@@ -16,10 +16,6 @@ ps_result mesh_gltf_opacity(struct mesh_job *job, const struct aiMaterial *sourc
                             struct mesh_texture_use use, const struct json *extras, double alpha,
                             struct material_description *material);
 
-/* Fills emission and normal map. */
-ps_result mesh_gltf_surface(struct mesh_job *job, const struct aiMaterial *source,
-                            const struct json *extras, struct material_description *material);
-
 /* material_glossiness.c: adds the material by KHR_materials_pbrSpecularGlossiness; `surface` has what is common. */
 ps_result mesh_material_read_glossiness(struct mesh_job *job, const struct aiMaterial *source,
                                         const struct json *extras,

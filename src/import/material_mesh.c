@@ -37,11 +37,10 @@ ps_result mesh_material_paint(struct mesh_job *job, size_t *index)
 
 bool mesh_material_has_second_uv(const struct mesh_job *job, size_t index)
 {
-    const struct material_description *material = &job->fragment->materials[index];
-    const struct pigment_description *pigments[] = {
-        &material->color,   &material->specular, &material->roughness,  &material->emission,
-        &material->opacity, &material->bump,     &material->normal_map, &material->share};
-    for (size_t i = 0; i < sizeof pigments / sizeof pigments[0]; i++)
+    struct material_description *material = &job->fragment->materials[index];
+    struct pigment_description *pigments[MATERIAL_PIGMENTS];
+    material_pigments(material, pigments);
+    for (size_t i = 0; i < MATERIAL_PIGMENTS; i++)
         if (pigments[i]->kind == PIGMENT_IMAGE && pigments[i]->uv_set == 1)
             return true;
     for (size_t i = 0; i < material->component_count; i++)
@@ -53,9 +52,10 @@ bool mesh_material_has_second_uv(const struct mesh_job *job, size_t index)
 /* Surfaces look up either colours or the second set (scene/material.h). */
 static void forget_second_uv(struct material_description *material)
 {
-    material->color.uv_set = material->specular.uv_set = material->roughness.uv_set = 0;
-    material->emission.uv_set = material->opacity.uv_set = material->bump.uv_set = 0;
-    material->normal_map.uv_set = material->share.uv_set = 0;
+    struct pigment_description *pigments[MATERIAL_PIGMENTS];
+    material_pigments(material, pigments);
+    for (size_t i = 0; i < MATERIAL_PIGMENTS; i++)
+        pigments[i]->uv_set = 0;
 }
 
 void mesh_settle_materials(struct mesh_job *job)

@@ -20,22 +20,10 @@ static char *folder_of(const char *path)
     return resolved;
 }
 
-/* Of absolute paths of folders: how long the part is that both begin with, at the end of a folder's name. */
-static size_t common_length(const char *a, const char *b)
-{
-    size_t length = 0, i = 0;
-    for (; a[i] && a[i] == b[i]; i++)
-        if (a[i] == '/')
-            length = i;
-    if ((!a[i] || a[i] == '/') && (!b[i] || b[i] == '/'))
-        length = i;
-    return length;
-}
-
 /* "../../models/duck.glb"; of a name that begins as a formula does "./=1.glb". */
 static void write_relative(FILE *stream, const char *from, const char *to, const char *name)
 {
-    size_t common = common_length(from, to);
+    size_t common = path_common_length(from, to);
     for (const char *c = from + common; *c; c++)
         if (*c == '/' && c[1])
             fputs("../", stream);

@@ -127,17 +127,24 @@ static void material(const struct call *call)
     call->importer->state.material_name = NULL;
 }
 
+/* A text in quotes that follows, which stays; NULL: reported. */
+static const char *kept_text(const struct call *call)
+{
+    char *text = call_text(call);
+    const char *kept = text ? arena_copy(&call->importer->arena, text, strlen(text)) : NULL;
+    if (text && !kept)
+        importer_no_memory(call->importer);
+    free(text);
+    return kept;
+}
+
 /* The kind is the parameter "string type". */
 static void make_named_material(const struct call *call)
 {
     struct importer *importer = call->importer;
-    char *name = call_text(call),
-         *copy = name ? arena_copy(&importer->arena, name, strlen(name)) : NULL;
+    const char *name = kept_text(call);
     struct statement statement;
-    if (name && !copy)
-        importer_no_memory(importer);
-    free(name);
-    if (!copy || !call_statement(call, false, &statement))
+    if (!name || !call_statement(call, false, &statement))
         return;
     statement.attributes = importer->state.attributes[TARGET_MATERIAL];
     const char *kind = statement_string(importer, &statement, "type");
@@ -149,9 +156,9 @@ static void make_named_material(const struct call *call)
     if (kept &&
         importer_grow(importer, (void **)&importer->materials, &importer->material_capacity,
                       importer->material_count + 1, sizeof *importer->materials) &&
-        name_index_add(&importer->materials_by_name, name_index_hash(copy)))
+        name_index_add(&importer->materials_by_name, name_index_hash(name)))
         importer->materials[importer->material_count++] =
-            (struct named_statement){.name = copy, .statement = kept};
+            (struct named_statement){.name = name, .statement = kept};
     else
         importer_no_memory(importer);
     statement_release(&statement);
@@ -160,18 +167,14 @@ static void make_named_material(const struct call *call)
 static void named_material(const struct call *call)
 {
     struct importer *importer = call->importer;
-    char *name = call_text(call),
-         *copy = name ? arena_copy(&importer->arena, name, strlen(name)) : NULL;
+    const char *name = kept_text(call);
     struct place place = {call->origin, call->width};
-    if (name && !copy)
-        importer_no_memory(importer);
-    free(name);
-    if (!copy)
+    if (!name)
         return;
-    importer->state.material_name = copy;
-    importer->state.material = importer->version == 4 && !material_is_named(importer, copy)
+    importer->state.material_name = name;
+    importer->state.material = importer->version == 4 && !material_is_named(importer, name)
                                    ? NULL /* surface.c looks again */
-                                   : material_find(importer, copy, &place);
+                                   : material_find(importer, name, &place);
 }
 
 static void texture(const struct call *call)

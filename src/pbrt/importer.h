@@ -33,6 +33,7 @@ struct graphics_state {
     const struct attributes *attributes[TARGETS];
     bool only_end_time; /* ActiveTransform EndTime: transforms are not of the shutter's opening */
     size_t texture_count, material_count; /* where it was saved */
+    char mark; /* what opened the level that it was saved for (state.h) */
 };
 
 /* Names of one sort, in a list. */
@@ -76,8 +77,6 @@ struct importer {
 
     struct graphics_state state, *stack;
     size_t depth, stack_capacity;
-    char *stack_marks; /* what opened each level (state.h) */
-    size_t marks_capacity;
 
     bool in_world;
     double mirror;           /* world's z in the scene, times this: -1 or 1 (camera.h) */

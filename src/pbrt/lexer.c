@@ -81,17 +81,6 @@ static char escaped(char c)
     return found ? meanings[found - letters] : '\0';
 }
 
-static bool is_utf8(const char *text, size_t length)
-{
-    for (size_t at = 0, used; at < length; at += used) {
-        uint32_t code;
-        used = utf8_decode(text + at, length - at, &code);
-        if (used == 0)
-            return false;
-    }
-    return true;
-}
-
 static struct token read_string(struct lexer *lexer, struct token token)
 {
     size_t length = 0;
@@ -117,7 +106,7 @@ static struct token read_string(struct lexer *lexer, struct token token)
     if (!reserve(lexer, length))
         return bad(token, "out of memory");
     lexer->text[length] = '\0';
-    if (!is_utf8(lexer->text, length))
+    if (!utf8_is_valid(lexer->text, length))
         return bad(token, "a string is not UTF-8");
     token.kind = TOKEN_STRING;
     token.text = lexer->text;

@@ -5,6 +5,7 @@
 #include "pbrt/pbrt.h"
 
 #include "base/file.h"
+#include "base/path.h"
 #include "base/version.h"
 #include "parser/yaml/builder.h"
 #include "parser/yaml/encoding.h"
@@ -27,7 +28,6 @@ static void release(struct importer *importer)
     free(importer->kept);
     free(importer->said);
     free(importer->stack);
-    free(importer->stack_marks);
     free(importer->coordinates);
     free(importer->materials);
     free(importer->textures);
@@ -66,7 +66,7 @@ static void check_end(struct importer *importer, const char *name)
         importer_error(importer, &start, 1, "the scene has no WorldBegin");
     if (importer->depth > 0)
         importer_error(importer, &start, 1, "the scene ends before a %s is closed",
-                       word_of(importer->stack_marks[importer->depth - 1]));
+                       word_of(importer->stack[importer->depth - 1].mark));
 }
 
 /* Parameters of Attribute directives are used by what follows them, or by nothing. */
@@ -117,8 +117,7 @@ ps_result pbrt_convert(const char *name, const char *text, size_t length,
 /* "FOLDER/" of a path, or ""; to be freed. */
 static char *folder_of(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    return strndup(path, slash ? (size_t)(slash - path) + 1 : 0);
+    return strndup(path, (size_t)(path_name(path) - path));
 }
 
 static char *resolved(const char *folder)
@@ -132,15 +131,7 @@ static char *path_between(const char *from, const char *to)
 {
     char *a = resolved(from), *b = resolved(to), *path = NULL;
     if (a && b) {
-        size_t common = 0;
-        for (size_t i = 0;; i++) {
-            bool a_ends = a[i] == '\0' || a[i] == '/', b_ends = b[i] == '\0' || b[i] == '/';
-            if (a_ends && b_ends)
-                common = i;
-            if (a[i] != b[i] || a[i] == '\0')
-                break;
-        }
-        size_t ups = 0;
+        size_t common = path_common_length(a, b), ups = 0;
         for (const char *c = a + common; *c; c++)
             ups += *c == '/' && c[1];
         const char *rest = b[common] == '/' ? b + common + 1 : b + common;
@@ -154,16 +145,6 @@ static char *path_between(const char *from, const char *to)
     free(a);
     free(b);
     return path;
-}
-
-/* A .psd is UTF-8, and so are the names in it. */
-static bool is_utf8(const char *text)
-{
-    uint32_t code;
-    size_t length = 1;
-    for (size_t left = strlen(text); left > 0 && length > 0; left -= length, text += length)
-        length = utf8_decode(text, left, &code);
-    return length > 0;
 }
 
 /* Reads and converts; errors of reading go to `error`. */
@@ -201,7 +182,7 @@ ps_result pbrt_import(const char *path, const char *output, const struct pbrt_op
     if (!base || !between) {
         result =
             error_set(error, PS_ERROR_IO, "%s: can't find its folder, or that of %s", output, path);
-    } else if (!is_utf8(base) || !is_utf8(between)) {
+    } else if (!utf8_is_valid(base, strlen(base)) || !utf8_is_valid(between, strlen(between))) {
         result = error_set(error, PS_ERROR_INVALID,
                            "%s: its name, and the way from it to %s, must be UTF-8", output, path);
     } else {

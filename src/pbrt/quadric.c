@@ -117,19 +117,13 @@ static void put_disk(FILE *out, const struct quadric *q)
 
 /* --- reading ---------------------------------------------------------------------------------------- */
 
-static double number(struct importer *importer, const struct statement *statement, const char *name,
-                     double otherwise)
-{
-    return statement_number(importer, statement, name, otherwise);
-}
-
 /* The polar angles of zmin and zmax. */
 static bool read_sphere(struct importer *importer, const struct statement *statement,
                         struct quadric *q)
 {
     double r = q->radius;
-    double low = fmin(fmax(number(importer, statement, "zmin", -r), -r), r);
-    double high = fmin(fmax(number(importer, statement, "zmax", r), -r), r);
+    double low = fmin(fmax(statement_number(importer, statement, "zmin", -r), -r), r);
+    double high = fmin(fmax(statement_number(importer, statement, "zmax", r), -r), r);
     q->low = acos(fmin(low, high) / r);
     q->high = acos(fmax(low, high) / r);
     return q->low == acos(-1.0) && q->high == 0.0;
@@ -138,8 +132,8 @@ static bool read_sphere(struct importer *importer, const struct statement *state
 static bool read_cylinder(struct importer *importer, const struct statement *statement,
                           struct quadric *q)
 {
-    double a = number(importer, statement, "zmin", -1.0),
-           b = number(importer, statement, "zmax", 1.0);
+    double a = statement_number(importer, statement, "zmin", -1.0),
+           b = statement_number(importer, statement, "zmax", 1.0);
     q->low = fmin(a, b);
     q->high = fmax(a, b);
     return true;
@@ -148,24 +142,24 @@ static bool read_cylinder(struct importer *importer, const struct statement *sta
 static bool read_cone(struct importer *importer, const struct statement *statement,
                       struct quadric *q)
 {
-    q->high = number(importer, statement, "height", 1.0);
+    q->high = statement_number(importer, statement, "height", 1.0);
     return q->high > 0.0;
 }
 
 static bool read_disk(struct importer *importer, const struct statement *statement,
                       struct quadric *q)
 {
-    q->low = number(importer, statement, "height", 0.0);
+    q->low = statement_number(importer, statement, "height", 0.0);
     q->high = q->low + fabs(q->low) + 1.0; /* flat: not looked at */
-    q->hole = fmax(number(importer, statement, "innerradius", 0.0), 0.0);
+    q->hole = fmax(statement_number(importer, statement, "innerradius", 0.0), 0.0);
     return q->hole < (double)(float)q->radius && (float)q->hole < (float)q->radius;
 }
 
 static bool read_paraboloid(struct importer *importer, const struct statement *statement,
                             struct quadric *q)
 {
-    double a = number(importer, statement, "zmin", 0.0),
-           b = number(importer, statement, "zmax", 1.0);
+    double a = statement_number(importer, statement, "zmin", 0.0),
+           b = statement_number(importer, statement, "zmax", 1.0);
     q->low = fmin(a, b);
     q->high = q->first.z = fmax(a, b);
     return false;

@@ -6,6 +6,7 @@
 #include "pbrt/scene_files.h"
 
 #include "base/output_file.h"
+#include "base/path.h"
 #include "image/image.h"
 #include <errno.h>
 #include <stdlib.h>
@@ -32,8 +33,8 @@ static char *canonical(const char *path)
     char *whole = realpath(path, NULL), *folder = NULL;
     if (whole)
         return whole;
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    char *given = slash ? strndup(path, (size_t)(name - path)) : strdup("./");
+    const char *name = path_name(path);
+    char *given = name > path ? strndup(path, (size_t)(name - path)) : strdup("./");
     folder = given ? realpath(given, NULL) : NULL;
     free(given);
     if (folder) {

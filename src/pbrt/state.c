@@ -16,13 +16,11 @@ bool state_push(struct importer *importer, enum state_mark mark, const struct or
         return false;
     }
     if (!importer_grow(importer, (void **)&importer->stack, &importer->stack_capacity,
-                       importer->depth + 1, sizeof *importer->stack) ||
-        !importer_grow(importer, (void **)&importer->stack_marks, &importer->marks_capacity,
-                       importer->depth + 1, 1))
+                       importer->depth + 1, sizeof *importer->stack))
         return false;
     importer->state.texture_count = importer->texture_count;
     importer->state.material_count = importer->material_count;
-    importer->stack_marks[importer->depth] = (char)mark;
+    importer->state.mark = (char)mark;
     importer->stack[importer->depth++] = importer->state;
     return true;
 }
@@ -30,7 +28,7 @@ bool state_push(struct importer *importer, enum state_mark mark, const struct or
 bool state_pop(struct importer *importer, enum state_mark mark, const struct origin *origin,
                int width)
 {
-    if (importer->depth == 0 || importer->stack_marks[importer->depth - 1] != (char)mark) {
+    if (importer->depth == 0 || importer->stack[importer->depth - 1].mark != (char)mark) {
         importer_error(importer, origin, width,
                        mark == MARK_IMPORT
                            ? "the file that was imported before this closes not all "

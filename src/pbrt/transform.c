@@ -7,26 +7,6 @@
 
 const struct transform transform_identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
-struct vector vector_subtract(struct vector a, struct vector b)
-{
-    return (struct vector){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-struct vector vector_cross(struct vector a, struct vector b)
-{
-    return (struct vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-double vector_dot(struct vector a, struct vector b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-double vector_length(struct vector a)
-{
-    return sqrt(vector_dot(a, a));
-}
-
 /* False where there is no direction. */
 static bool normalize(struct vector *a)
 {

@@ -6,22 +6,14 @@
 #ifndef PBRT_TRANSFORM_H
 #define PBRT_TRANSFORM_H
 
+#include "scene/vector.h"
 #include <stdbool.h>
-
-struct vector {
-    double x, y, z;
-};
 
 struct transform {
     double m[3][4]; /* rows */
 };
 
 extern const struct transform transform_identity;
-
-struct vector vector_subtract(struct vector a, struct vector b);
-struct vector vector_cross(struct vector a, struct vector b);
-double vector_dot(struct vector a, struct vector b);
-double vector_length(struct vector a);
 
 /* First `inner`, then `outer`. */
 struct transform transform_compose(const struct transform *outer, const struct transform *inner);

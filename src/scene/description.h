@@ -123,6 +123,18 @@ struct material_description {
     struct origin origin;
 };
 
+/* All that it has. */
+#define MATERIAL_PIGMENTS 8
+static inline void material_pigments(struct material_description *material,
+                                     struct pigment_description *pigments[MATERIAL_PIGMENTS])
+{
+    struct pigment_description *const all[MATERIAL_PIGMENTS] = {
+        &material->color,   &material->specular, &material->roughness,  &material->emission,
+        &material->opacity, &material->bump,     &material->normal_map, &material->share};
+    for (size_t i = 0; i < MATERIAL_PIGMENTS; i++)
+        pigments[i] = all[i];
+}
+
 /* Whether only the name is known of a material: a mix of nothing, which stands for what a mesh file
  * names and does not define. No scene holds one. */
 static inline bool material_is_absent(const struct material_description *material)

@@ -111,12 +111,11 @@ static bool has_opacity(const struct material_description *from)
  * never want both, nor have they patterns. */
 static enum material_lookup lookup_of(const struct scene_description *description, size_t index)
 {
-    const struct material_description *from = &description->materials[index];
-    const struct pigment_description *pigments[] = {
-        &from->color,   &from->specular, &from->roughness,  &from->emission,
-        &from->opacity, &from->bump,     &from->normal_map, &from->share};
+    struct material_description *from = &description->materials[index];
+    struct pigment_description *pigments[MATERIAL_PIGMENTS];
     enum material_lookup lookup = LOOKUP_POINT;
-    for (size_t i = 0; i < sizeof pigments / sizeof pigments[0]; i++) {
+    material_pigments(from, pigments);
+    for (size_t i = 0; i < MATERIAL_PIGMENTS; i++) {
         if (pigments[i]->kind == PIGMENT_IMAGE && pigments[i]->uv_set == 1)
             lookup = LOOKUP_SECOND_UV;
         else if (pigments[i]->vertex_colors)
@@ -182,12 +181,13 @@ struct opacity_place material_opacity_place(const struct material *material,
                                             const struct shape_point *point, ps_vec3 patterns)
 {
     struct opacity_place place;
-    float rgba[4];
     shape_mesh_uv((const float(*)[2])shape->uv, point, place.uv);
-    place.texture_point = material_texture_point(material, shape, point, patterns);
     if (material->lookup == LOOKUP_COLORS) {
+        float rgba[4];
         shape_mesh_color(shape, point, rgba);
         place.texture_point = (ps_vec3){rgba[3], rgba[3], rgba[3]};
+    } else {
+        place.texture_point = material_texture_point(material, shape, point, patterns);
     }
     return place;
 }

@@ -64,12 +64,18 @@ static ps_rgb select_channel(const float rgba[4], int32_t channel)
     return (ps_rgb){value, value, value};
 }
 
-static ps_rgb image_color(const struct pigment *pigment, float u, float v)
+/* The image's own transform. */
+static void transform_uv(const struct pigment *pigment, const float uv[2], float place[2])
 {
-    float rgba[4];
-    texture_sample(pigment->texture,
-                   pigment->scale[0] * u + pigment->cross[0] * v + pigment->offset[0],
-                   pigment->scale[1] * v + pigment->cross[1] * u + pigment->offset[1], rgba);
+    for (int i = 0; i < 2; i++)
+        place[i] = pigment->scale[i] * uv[i] + pigment->cross[i] * uv[1 - i] + pigment->offset[i];
+}
+
+static ps_rgb image_color(const struct pigment *pigment, const float uv[2])
+{
+    float place[2], rgba[4];
+    transform_uv(pigment, uv, place);
+    texture_sample(pigment->texture, place[0], place[1], rgba);
     ps_rgb color = ps_rgb_multiply(pigment->colors[0], select_channel(rgba, pigment->channel));
     if (pigment->complement)
         return (ps_rgb){1.0f - color.r, 1.0f - color.g, 1.0f - color.b};
@@ -88,8 +94,7 @@ void pigment_place(const struct pigment *pigment, ps_vec3 point, const float uv[
 {
     float at[2];
     choose_uv(pigment, point, uv, at);
-    for (int i = 0; i < 2; i++)
-        place[i] = pigment->scale[i] * at[i] + pigment->cross[i] * at[1 - i] + pigment->offset[i];
+    transform_uv(pigment, at, place);
 }
 
 void pigment_tangents(const struct pigment *pigment, ps_vec3 *by_u, ps_vec3 *by_v)
@@ -159,8 +164,7 @@ static ps_rgb vary_by_mesh(const struct pigment *pigment, ps_vec3 point, const f
 {
     float at[2];
     choose_uv(pigment, point, uv, at);
-    ps_rgb color =
-        pigment->kind == PIGMENT_IMAGE ? image_color(pigment, at[0], at[1]) : pigment->colors[0];
+    ps_rgb color = pigment->kind == PIGMENT_IMAGE ? image_color(pigment, at) : pigment->colors[0];
     if (pigment->vertex_colors)
         color = ps_rgb_multiply(color, (ps_rgb){point.x, point.y, point.z});
     return pigment->bounded ? within_unit(color) : color;
@@ -228,8 +232,8 @@ static float image_slope(const struct pigment *pigment, const float uv[2], int a
     float way = after[axis] - before[axis];
     if (!(way > 0.0f) || isinf(way))
         return 0.0f;
-    return (pigment_mean(image_color(pigment, after[0], after[1])) -
-            pigment_mean(image_color(pigment, before[0], before[1]))) /
+    return (pigment_mean(image_color(pigment, after)) -
+            pigment_mean(image_color(pigment, before))) /
            way;
 }
 

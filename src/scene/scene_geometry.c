@@ -71,12 +71,23 @@ static ps_result add_shape(struct assembly *assembly, const struct object_descri
     return PS_OK;
 }
 
+/* Whether a plane takes its place from all else. */
+static bool asks_for_box(const struct scene_description *description)
+{
+    for (size_t i = 0; i < description->object_count; i++)
+        if (description->objects[i].kind == OBJECT_PLANE &&
+            description->objects[i].distance == DISTANCE_BELOW_ALL)
+            return true;
+    return false;
+}
+
 /* The objects of the world that are shapes, numbered in their order: planes that come last or the others. */
 static ps_result add_world(struct assembly *assembly, bool last)
 {
     const struct scene_description *description = assembly->description;
     const struct scene *scene = assembly->scene;
-    const struct box box = last ? scene_box(description, scene) : (struct box)BOX_EMPTY;
+    const struct box box =
+        last && asks_for_box(description) ? scene_box(description, scene) : (struct box)BOX_EMPTY;
     struct shape_surroundings surroundings = {
         .center = scene->center, .radius = scene->radius, .box = &box};
     size_t slot = 0;

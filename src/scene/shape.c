@@ -133,21 +133,18 @@ void shape_mesh_color(const struct shape *shape, const struct shape_point *point
     }
 }
 
-static void extend(ps_vec3 p, ps_vec3 *low, ps_vec3 *high)
-{
-    *low = (ps_vec3){fminf(low->x, p.x), fminf(low->y, p.y), fminf(low->z, p.z)};
-    *high = (ps_vec3){fmaxf(high->x, p.x), fmaxf(high->y, p.y), fmaxf(high->z, p.z)};
-}
-
 /* By triangles: a list may hold vertices that none of them uses. */
 void shape_extend_bounds(const struct shape *shape, ps_vec3 *low, ps_vec3 *high)
 {
+    struct box box = {*low, *high};
     if (shape->kind == SHAPE_SPHERE) {
         ps_vec3 extent = {shape->radius, shape->radius, shape->radius};
-        extend(ps_subtract(shape->center, extent), low, high);
-        extend(ps_add(shape->center, extent), low, high);
+        box_add_point(&box, ps_subtract(shape->center, extent));
+        box_add_point(&box, ps_add(shape->center, extent));
     }
     for (size_t i = 0; i < shape->triangle_count; i++)
         for (int k = 0; k < 3; k++)
-            extend(shape->vertices[shape->triangles[i][k]], low, high);
+            box_add_point(&box, shape->vertices[shape->triangles[i][k]]);
+    *low = box.low;
+    *high = box.high;
 }

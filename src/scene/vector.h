@@ -14,6 +14,11 @@ static inline struct vector vector_of(ps_vec3 v)
     return (struct vector){v.x, v.y, v.z};
 }
 
+static inline struct vector vector_subtract(struct vector a, struct vector b)
+{
+    return (struct vector){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
 static inline double vector_dot(struct vector a, struct vector b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
