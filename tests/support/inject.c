@@ -95,6 +95,7 @@ static void expect_no_memory(const struct statistics *statistics)
 /* Keeps the statistics, which the caller discards. */
 static void bench_release(struct bench *bench)
 {
+    importance_release(&bench->render.importance);
     trace_destroy(bench->render.trace);
     scene_release(&bench->scene);
     settings_release(&bench->settings);
