@@ -133,26 +133,44 @@ static void draw_runs(const struct scene *scene, const struct light_runs *runs, 
     to->choices = all.choices ? draws->choices : NULL;
 }
 
-/* Sums over the points of a tile, the shadow rays of number `from` to `end` each. */
+/* Irradiance of the points of a tile, summed over shadow rays: of all lights, and of those that cast hard shadows. */
+struct sums {
+    ps_rgb all[PS_TILE_PIXELS], hard[PS_TILE_PIXELS];
+};
+
+/* Adds the shadow rays of number `from` to `end` of each point. */
 static void add_samples(const struct receivers *receivers, uint64_t seed,
                         const struct light_runs *runs, const ps_points *points, uint32_t from,
-                        uint32_t end, ps_rgb *irradiance)
+                        uint32_t end, struct sums *sums)
 {
     if (points->count == 0)
         return;
     struct draws draws;
     struct receivers to = *receivers;
+    to.hard = receivers->hard ? sums->hard : NULL;
     for (uint32_t sample = from; sample < end; sample++) {
         draw_runs(to.lighting->scene, runs, seed, sample, points, &draws, &to);
-        receivers_add_lights(&to, irradiance);
+        receivers_add_lights(&to, sums->all);
+    }
+}
+
+/* Puts means over `count` shadow rays in their lanes: of what `sums` has more than `before` (NULL: nothing). */
+static void put_means(const ps_points *points, const ps_rgb *sums, const ps_rgb *before,
+                      uint32_t count, ps_rgb lanes[PS_TILE_PIXELS])
+{
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS && !before; lane++)
+        lanes[lane] = (ps_rgb){0, 0, 0};
+    for (size_t i = 0; i < points->count; i++) {
+        ps_rgb sum = before ? ps_rgb_add(sums[i], ps_rgb_scale(before[i], -1.0f)) : sums[i];
+        lanes[points->lanes[i]] = ps_rgb_scale(sum, 1.0f / (float)count);
     }
 }
 
 void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer, uint32_t index,
                        uint64_t seed, const struct light_runs *runs, uint32_t samples)
 {
-    ps_rgb *direct = &gbuffer->direct[(size_t)index * PS_TILE_PIXELS];
-    ps_rgb irradiance[PS_TILE_PIXELS] = {{0, 0, 0}}, first_half[PS_TILE_PIXELS];
+    size_t first = (size_t)index * PS_TILE_PIXELS;
+    struct sums sums = {.all = {{0, 0, 0}}}, half_sums;
     uint64_t occlusion[PS_TILE_PIXELS] = {0};
     samples = scene_samples_lights(lighting->scene) ? samples : 1;
     uint32_t half = (samples + 1) / 2;
@@ -162,18 +180,18 @@ void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer,
                                  .n = points.count,
                                  .positions = points.positions,
                                  .normals = points.normals,
+                                 .hard = gbuffer->hard ? sums.hard : NULL,
                                  .occlusion = gbuffer->occlusion ? occlusion : NULL};
-    add_samples(&to, seed, runs, &points, 0, half, irradiance);
-    memcpy(first_half, irradiance, sizeof first_half);
-    add_samples(&to, seed, runs, &points, half, samples, irradiance);
-    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
-        direct[lane] = (ps_rgb){0, 0, 0};
-    for (size_t i = 0; i < points.count; i++)
-        direct[points.lanes[i]] = ps_rgb_scale(irradiance[i], 1.0f / (float)samples);
-    for (size_t i = 0; i < points.count && gbuffer->direct_half && samples > half; i++)
-        gbuffer->direct_half[(size_t)index * PS_TILE_PIXELS + points.lanes[i]] =
-            ps_rgb_scale(ps_rgb_add(irradiance[i], ps_rgb_scale(first_half[i], -1.0f)),
-                         1.0f / (float)(samples - half));
+    add_samples(&to, seed, runs, &points, 0, half, &sums);
+    memcpy(&half_sums, &sums, sizeof half_sums);
+    add_samples(&to, seed, runs, &points, half, samples, &sums);
+    put_means(&points, sums.all, NULL, samples, gbuffer->direct + first);
+    if (gbuffer->hard)
+        put_means(&points, sums.hard, NULL, samples, gbuffer->hard + first);
+    if (gbuffer->direct_half && samples > half)
+        put_means(&points, sums.all, half_sums.all, samples - half, gbuffer->direct_half + first);
+    if (gbuffer->hard_half && samples > half)
+        put_means(&points, sums.hard, half_sums.hard, samples - half, gbuffer->hard_half + first);
     for (size_t i = 0; i < points.count && gbuffer->occlusion; i++)
-        gbuffer->occlusion[(size_t)index * PS_TILE_PIXELS + points.lanes[i]] = occlusion[i];
+        gbuffer->occlusion[first + points.lanes[i]] = occlusion[i];
 }

@@ -42,7 +42,7 @@ struct light_runs {
 
 /* Fills in the direct irradiance of a tile's lanes: the mean of `samples` shadow rays for each light that
  * has a size, with as many numbers of their runs. And, where the G-buffer has room for it, that of the second half of
- * them alone, and what they met. */
+ * them alone, what of both comes from lights that cast hard shadows, and what the rays met. */
 void direct_light_tile(const struct lighting *lighting, struct gbuffer *gbuffer, uint32_t tile,
                        uint64_t seed, const struct light_runs *runs, uint32_t samples);
 

@@ -134,11 +134,13 @@ static void trace_connections(const struct receivers *to, struct connections *co
     connections->count = open;
     find_lit(to, connections, rays, lit);
     for (size_t i = 0; i < open; i++) {
-        ps_rgb *sum = &sums[connections->receivers[i]];
-        *sum = ps_rgb_add(*sum, ps_rgb_scale(unshadowed[i], lit[i]));
+        uint32_t receiver = connections->receivers[i];
+        ps_rgb light = ps_rgb_scale(unshadowed[i], lit[i]);
+        sums[receiver] = ps_rgb_add(sums[receiver], light);
+        if (to->hard && scene_light_casts_hard_shadows(to->lighting->scene, connections->lights[i]))
+            to->hard[receiver] = ps_rgb_add(to->hard[receiver], light);
         if (to->occlusion)
-            to->occlusion[connections->receivers[i]] |=
-                gbuffer_occlusion(connections->lights[i], lit[i]);
+            to->occlusion[receiver] |= gbuffer_occlusion(connections->lights[i], lit[i]);
     }
     connections->count = 0;
 }

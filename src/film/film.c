@@ -90,13 +90,22 @@ static bool is_reflected(int plane)
     return plane >= FILM_REFLECTED_R && plane <= FILM_REFLECTED_B;
 }
 
-ps_result film_add_reflected(struct film *film, bool half_of_pass, struct error *error)
+static bool is_hard(int plane)
+{
+    return plane >= FILM_HARD_R && plane <= FILM_HARD_B;
+}
+
+ps_result film_add_reflected(struct film *film, bool half_of_pass, bool hard_apart,
+                             struct error *error)
 {
     ps_result result = add_part(film, half_of_pass, error);
-    if (result == PS_OK)
-        result = add_planes(film, is_reflected, error);
-    return result == PS_OK ? add_planes(half_of_pass ? film->half : film->odd, is_reflected, error)
-                           : result;
+    struct film *const films[] = {film, half_of_pass ? film->half : film->odd};
+    for (int i = 0; i < 2 && result == PS_OK; i++) {
+        result = add_planes(films[i], is_reflected, error);
+        if (result == PS_OK && hard_apart)
+            result = add_planes(films[i], is_hard, error);
+    }
+    return result;
 }
 
 static bool is_gloss(int plane)
@@ -176,6 +185,7 @@ static const struct glossy_tile no_gloss; /* depth 0 */
 struct tile_row {
     const ps_tile *tile;
     const ps_rgb *direct, *emitted;   /* of the row's pixels */
+    const ps_rgb *hard;               /* likewise; NULL: none is denoised apart */
     const struct glossy_tile *glossy; /* of the tile */
     size_t lane, pixel;               /* its first, in the tile and in the film */
     size_t count;
@@ -243,18 +253,24 @@ struct row_channel {
     const float *radiance;                         /* indirect; NULL: none */
     const float *glossy;                           /* reflectance, of the tile */
     float direct[PS_TILE_SIZE];                    /* irradiance */
+    float hard[PS_TILE_SIZE];                      /* what of it is denoised apart */
     float emitted[PS_TILE_SIZE];                   /* radiance */
 };
 
 /* What of the direct light a denoiser may smooth: all, where the path is one of chance. */
 static void add_denoised(struct film *film, const struct tile_row *row, int channel,
-                         const struct row_channel *from, const float direct[PS_TILE_SIZE])
+                         const struct row_channel *from, const float albedo[PS_TILE_SIZE])
 {
-    float values[PS_TILE_SIZE];
-    for (size_t i = 0; i < row->count; i++)
-        values[i] = (ends_at_surface(row, i) ? direct[i] : 0.0f) +
-                    (met_gloss(row, i) ? from->emitted[i] : 0.0f);
-    add_shares(film, FILM_REFLECTED_R + channel, row, values);
+    float hard[PS_TILE_SIZE], rest[PS_TILE_SIZE];
+    for (size_t i = 0; i < row->count; i++) {
+        bool seen = ends_at_surface(row, i); /* else lanes hold no light, but whatever */
+        float reflectance = albedo[i] * (1.0f / PS_PI);
+        hard[i] = seen ? reflectance * from->hard[i] : 0.0f;
+        rest[i] = seen ? reflectance * ps_max(from->direct[i] - from->hard[i], 0.0f) : 0.0f;
+        rest[i] += met_gloss(row, i) ? from->emitted[i] : 0.0f;
+    }
+    add_shares(film, FILM_HARD_R + channel, row, hard);
+    add_shares(film, FILM_REFLECTED_R + channel, row, rest);
 }
 
 /* Adds the share of the light that arrives where a pixel looks, and that its albedo and the way to the
@@ -272,7 +288,7 @@ static void add_reflected(struct film *film, const struct tile_row *row, int cha
     for (size_t i = 0; from->radiance && i < row->count; i++)
         indirect[i] += from->throughput[i] * from->radiance[i];
     add_seen(film, FILM_DIRECT_R + channel, row, direct);
-    add_denoised(film, row, channel, from, direct);
+    add_denoised(film, row, channel, from, albedo);
     add_seen(film, FILM_COLOR_R + channel, row, indirect);
     add_feature(film, FILM_ALBEDO_R + channel, row, albedo, from->glossy);
 }
@@ -303,6 +319,10 @@ static void add_light(struct film *film, const struct tile_row *row)
         channels[0].direct[i] = row->direct[i].r;
         channels[1].direct[i] = row->direct[i].g;
         channels[2].direct[i] = row->direct[i].b;
+        ps_rgb hard = row->hard ? row->hard[i] : (ps_rgb){0, 0, 0};
+        channels[0].hard[i] = hard.r;
+        channels[1].hard[i] = hard.g;
+        channels[2].hard[i] = hard.b;
         channels[0].emitted[i] = row->emitted[i].r;
         channels[1].emitted[i] = row->emitted[i].g;
         channels[2].emitted[i] = row->emitted[i].b;
@@ -349,9 +369,11 @@ static struct tile_row row_of(const struct film *film, const struct gbuffer *gbu
 {
     size_t first = (size_t)tile * PS_TILE_PIXELS + lane;
     bool half = film->is_half && gbuffer->direct_half;
+    const ps_rgb *hard = half ? gbuffer->hard_half : gbuffer->hard;
     return (struct tile_row){
         .tile = &gbuffer->tiles[tile],
         .direct = half ? &gbuffer->direct_half[first] : &gbuffer->direct[first],
+        .hard = hard ? &hard[first] : NULL,
         .emitted = &gbuffer->emitted[first],
         .glossy = gbuffer->glossy ? &gbuffer->glossy[tile] : &no_gloss,
         .lane = lane,
@@ -496,10 +518,11 @@ void film_end_pass(struct film *film)
         film->half->passes = 1;
 }
 
-static void average_light(struct film *film, int plane)
+/* `film` may be NULL, or without the plane. */
+static void average_light(const struct film *film, int plane)
 {
-    float *sums = film->planes[plane];
-    float per_pass = film->passes ? 1.0f / (float)film->passes : 0.0f;
+    float *sums = film ? film->planes[plane] : NULL;
+    float per_pass = film && film->passes ? 1.0f / (float)film->passes : 0.0f;
     for (size_t i = 0; sums && i < film->width * film->height; i++)
         sums[i] *= per_pass;
 }
@@ -516,11 +539,11 @@ void film_average(struct film *film)
 {
     for (int channel = 0; channel < 3; channel++) {
         average_light(film, FILM_DIRECT_R + channel);
-        average_light(film, FILM_REFLECTED_R + channel);
-        if (film->odd)
-            average_light(film->odd, FILM_REFLECTED_R + channel);
-        if (film->half)
-            average_light(film->half, FILM_REFLECTED_R + channel);
+        const struct film *const parts[] = {film, film->odd, film->half};
+        for (int i = 0; i < 3; i++) {
+            average_light(parts[i], FILM_REFLECTED_R + channel);
+            average_light(parts[i], FILM_HARD_R + channel);
+        }
     }
     if (!film->planes[FILM_DEPTH])
         return;

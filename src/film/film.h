@@ -32,7 +32,12 @@ enum film_plane {
     FILM_REFLECTED_R = FILM_ON_REQUEST,
     FILM_REFLECTED_G,
     FILM_REFLECTED_B, /* direct light that is reflected, or that gloss mirrors: what has noise */
-    FILM_GLOSS,       /* share of the albedo that is not diffuse */
+    /* Not in that, where it is denoised apart: direct light of lights that cast hard shadows
+     * (scene_has_hard_shadows_apart). */
+    FILM_HARD_R,
+    FILM_HARD_G,
+    FILM_HARD_B,
+    FILM_GLOSS, /* share of the albedo that is not diffuse */
     FILM_PLANES
 };
 
@@ -61,8 +66,9 @@ ps_result film_add_ids(struct film *film, struct error *error);
 ps_result film_add_halves(struct film *film, struct error *error);
 
 /* Lets it keep the direct light that is reflected apart from what is emitted, and half of it: of the passes, or of
- * each of them. */
-ps_result film_add_reflected(struct film *film, bool half_of_pass, struct error *error);
+ * each of them. With `hard_apart`, that of lights that cast hard shadows as well. */
+ps_result film_add_reflected(struct film *film, bool half_of_pass, bool hard_apart,
+                             struct error *error);
 
 /* Lets it tell gloss from diffuse surfaces. */
 ps_result film_add_gloss(struct film *film, struct error *error);

@@ -120,6 +120,17 @@ ps_result gbuffer_prepare_direct_half(struct gbuffer *gbuffer, struct error *err
                : error_memory(error, count * sizeof *gbuffer->direct_half, "direct light");
 }
 
+ps_result gbuffer_prepare_hard(struct gbuffer *gbuffer, struct error *error)
+{
+    size_t count = (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
+    gbuffer->hard = calloc(count, sizeof *gbuffer->hard);
+    if (gbuffer->direct_half)
+        gbuffer->hard_half = calloc(count, sizeof *gbuffer->hard_half);
+    return gbuffer->hard && (gbuffer->hard_half || !gbuffer->direct_half)
+               ? PS_OK
+               : error_memory(error, count * sizeof *gbuffer->hard, "direct light");
+}
+
 ps_result gbuffer_prepare_glossy(struct gbuffer *gbuffer, struct error *error)
 {
     gbuffer->glossy = calloc(gbuffer->tile_count, sizeof *gbuffer->glossy);
@@ -144,6 +155,8 @@ void gbuffer_release(struct gbuffer *gbuffer)
     free(gbuffer->tiles);
     free(gbuffer->direct);
     free(gbuffer->direct_half);
+    free(gbuffer->hard);
+    free(gbuffer->hard_half);
     free(gbuffer->emitted);
     free(gbuffer->by_chance);
     free(gbuffer->glossy);
@@ -155,10 +168,12 @@ size_t gbuffer_bytes(const struct gbuffer *gbuffer)
     size_t join = gbuffer->occlusion ? sizeof *gbuffer->occlusion + sizeof *gbuffer->joined : 0;
     size_t radiance = gbuffer->radiance ? 3 * sizeof(float) : 0;
     size_t half = gbuffer->direct_half ? sizeof *gbuffer->direct_half : 0;
+    size_t hard = (gbuffer->hard ? sizeof *gbuffer->hard : 0) +
+                  (gbuffer->hard_half ? sizeof *gbuffer->hard_half : 0);
     size_t glossy = gbuffer->glossy ? sizeof *gbuffer->glossy : 0;
     return gbuffer->tile_count *
            (sizeof(ps_tile) + glossy +
-            PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool) + join + radiance + half));
+            PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool) + join + radiance + half + hard));
 }
 
 bool gbuffer_tile_numbered(const struct gbuffer *gbuffer, uint32_t number, uint32_t *tile)

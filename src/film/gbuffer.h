@@ -37,6 +37,8 @@ struct gbuffer {
     ps_rgb *direct; /* direct irradiance, tile_count * PS_TILE_PIXELS, owned */
     /* The same by the second half of the shadow rays, likewise; NULL where nobody asks. */
     ps_rgb *direct_half;
+    /* What of both comes from lights that cast hard shadows, likewise; NULL where nobody asks. */
+    ps_rgb *hard, *hard_half;
     ps_rgb *emitted; /* radiance collected on the way there, of the same size, owned */
     bool *by_chance; /* whether another look would take another way (a lens, gloss), likewise */
     struct glossy_tile *glossy; /* of each tile, owned; NULL where the scene has no such surface */
@@ -68,6 +70,9 @@ ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error);
 
 /* Makes room for direct light by half of the shadow rays, where there is none yet. */
 ps_result gbuffer_prepare_direct_half(struct gbuffer *gbuffer, struct error *error);
+
+/* Makes room for light that casts hard shadows, and half of it if there are halves. */
+ps_result gbuffer_prepare_hard(struct gbuffer *gbuffer, struct error *error);
 
 /* Makes room for the first glossy surfaces. */
 ps_result gbuffer_prepare_glossy(struct gbuffer *gbuffer, struct error *error);

@@ -31,6 +31,9 @@ static const char *const plane_names[FILM_PLANES] = {
     [FILM_REFLECTED_R] = "reflected.R",
     [FILM_REFLECTED_G] = "reflected.G",
     [FILM_REFLECTED_B] = "reflected.B",
+    [FILM_HARD_R] = "hard.R",
+    [FILM_HARD_G] = "hard.G",
+    [FILM_HARD_B] = "hard.B",
     [FILM_GLOSS] = "gloss",
 };
 
@@ -239,9 +242,12 @@ static bool has_planes(const struct film_sum *sum, int first, int end)
     return has;
 }
 
-static bool has_reflected(const struct film_sum *sum, int part)
+/* Whether a part has the direct light that has noise, as far as the sum has it. */
+static bool has_direct(const struct film_sum *sum, int part)
 {
-    return has_planes(sum, part + FILM_REFLECTED_R, part + FILM_REFLECTED_B + 1);
+    bool hard = sum->planes[FILM_HARD_R].high != NULL;
+    return has_planes(sum, part + FILM_REFLECTED_R, part + FILM_REFLECTED_B + 1) &&
+           (!hard || has_planes(sum, part + FILM_HARD_R, part + FILM_HARD_B + 1));
 }
 
 /* All that a film of the driver has: the light of the odd passes in any case, and where the reflected light is apart,
@@ -249,12 +255,14 @@ static bool has_reflected(const struct film_sum *sum, int part)
 static bool has_what_it_needs(const struct film_sum *sum)
 {
     static const int odd = FILM_SUM_OF_ODD;
-    bool reflects = sum->planes[FILM_REFLECTED_R].high != NULL;
-    bool halved = has_reflected(sum, FILM_SUM_OF_ODD) || has_reflected(sum, FILM_SUM_OF_HALF);
+    bool reflects = sum->planes[FILM_REFLECTED_R].high != NULL, halves = false;
+    for (int plane = FILM_SUM_OF_HALF; plane < FILM_SUM_OF_HALF + FILM_PLANES; plane++)
+        halves |= sum->planes[plane].high != NULL;
+    bool halved = has_direct(sum, halves ? FILM_SUM_OF_HALF : FILM_SUM_OF_ODD);
     return has_planes(sum, 0, FILM_ON_REQUEST) && sum->planes[FILM_SUM_OF_SQUARES].high &&
            has_planes(sum, odd + FILM_COLOR_R, odd + FILM_WEIGHT + 1) &&
            sum->planes[odd + FILM_COVERAGE].high &&
-           (!reflects || (has_reflected(sum, 0) && halved));
+           (!reflects || (has_direct(sum, 0) && halved));
 }
 
 static ps_result read_passes(const char *path, const struct image *image, struct pass_set *passes,

@@ -14,7 +14,7 @@
 
 /* Planes of a film of several passes beyond those that each has: the reflected direct light and gloss; and in parts
  * of the passes the light, its weight, coverage, and the direct light. */
-#define MORE_PLANES (FILM_PLANES - FILM_ON_REQUEST + 5 + 3)
+#define MORE_PLANES (FILM_PLANES - FILM_ON_REQUEST + 5 + 6)
 
 static struct rectangle film_of(const struct render_size *size)
 {

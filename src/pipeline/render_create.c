@@ -103,7 +103,10 @@ static ps_result create_reflected(struct render *render, struct error *error)
         return PS_OK;
     if (halves && halved_shadows)
         result = gbuffer_prepare_direct_half(&render->gbuffer, error);
-    return result == PS_OK ? film_add_reflected(&render->film, halves, error) : result;
+    bool hard_apart = shadows && scene_has_hard_shadows_apart(scene);
+    if (result == PS_OK && hard_apart)
+        result = gbuffer_prepare_hard(&render->gbuffer, error);
+    return result == PS_OK ? film_add_reflected(&render->film, halves, hard_apart, error) : result;
 }
 
 /* Pixels that ask different lights have nothing to compare. */

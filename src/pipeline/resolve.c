@@ -350,10 +350,11 @@ static ps_result create_estimate(const struct render *render, float **estimate, 
                : error_memory(error, pixels_of(render) * sizeof **estimate, "the layer error");
 }
 
-static struct rgb_planes reflected_of(const struct film *film)
+/* Three planes from `first` on: FILM_REFLECTED_R, or FILM_HARD_R. */
+static struct rgb_planes planes_of(const struct film *film, int first)
 {
-    return (struct rgb_planes){film->planes[FILM_REFLECTED_R], film->planes[FILM_REFLECTED_G],
-                               film->planes[FILM_REFLECTED_B]};
+    return (struct rgb_planes){film->planes[first], film->planes[first + 1],
+                               film->planes[first + 2]};
 }
 
 /* What the odd share leaves of a mean. */
@@ -365,19 +366,19 @@ static void mean_of_rest(const float *mean, const float *odd_mean, float odd_sha
 }
 
 /* The film has them by half of each pass, or by the odd passes. */
-static struct halves halves_of_reflected(const struct film *film, float *even)
+static struct halves halves_of_direct(const struct film *film, int first, float *even)
 {
     size_t pixels = film->width * film->height;
     const struct film *odd = film->half ? film->half : film->odd;
     float odd_share = film->half ? 0.5f : (float)odd->passes / (float)film->passes;
     for (int c = 0; c < 3; c++)
-        mean_of_rest(film->planes[FILM_REFLECTED_R + c], odd->planes[FILM_REFLECTED_R + c],
-                     odd_share, pixels, even + (size_t)c * pixels);
+        mean_of_rest(film->planes[first + c], odd->planes[first + c], odd_share, pixels,
+                     even + (size_t)c * pixels);
     return (struct halves){
-        .even = planes_at(even, pixels), .odd = reflected_of(odd), .odd_share = odd_share};
+        .even = planes_at(even, pixels), .odd = planes_of(odd, first), .odd_share = odd_share};
 }
 
-static bool denoises_reflected(const struct render *render)
+static bool denoises_direct(const struct render *render)
 {
     const struct film *film = &render->film;
     uint32_t flags = strategy_in(render, PS_DENOISER)->type->table.denoiser.flags;
@@ -393,28 +394,40 @@ static void replace(float *restrict sum, const float *restrict old, const float 
         sum[i] = fmaxf(sum[i] - old[i], 0.0f) + new[i];
 }
 
-/* The direct light that surfaces reflect, where the film has it apart; needs room for a copy of it. */
-static ps_result denoise_direct(struct render *render, struct rgb_planes copy, struct error *error)
+/* One part of the direct light, its three planes from `first` on; `even` is room for half of it. */
+static ps_result denoise_part(struct render *render, int first, struct rgb_planes copy, float *even,
+                              struct error *error)
 {
     struct film *film = &render->film;
-    struct rgb_planes reflected = reflected_of(film);
+    struct rgb_planes part = planes_of(film, first);
     size_t pixels = pixels_of(render);
-    if (!denoises_reflected(render))
-        return PS_OK;
-    float *even = malloc(3 * pixels * sizeof *even);
-    if (!even)
-        return leave_out(render, PS_DENOISER,
-                         error_memory(error, 3 * pixels * sizeof *even, "half of the direct light"),
-                         "is not denoised", error);
-    const struct halves halves = halves_of_reflected(film, even);
-    ps_result result = denoise(render, reflected, copy, &halves, NULL, error);
-    free(even);
+    const struct halves halves = halves_of_direct(film, first, even);
+    ps_result result = denoise(render, part, copy, &halves, NULL, error);
     if (result != PS_OK)
         return result;
-    replace(film->planes[FILM_DIRECT_R], copy.r, reflected.r, pixels);
-    replace(film->planes[FILM_DIRECT_G], copy.g, reflected.g, pixels);
-    replace(film->planes[FILM_DIRECT_B], copy.b, reflected.b, pixels);
+    replace(film->planes[FILM_DIRECT_R], copy.r, part.r, pixels);
+    replace(film->planes[FILM_DIRECT_G], copy.g, part.g, pixels);
+    replace(film->planes[FILM_DIRECT_B], copy.b, part.b, pixels);
     return PS_OK;
+}
+
+/* The direct light that surfaces reflect, where the film has it apart; needs room for a copy of it. Noise of broad lights
+ * would hide the edges of hard shadows, so light that casts them is smoothed by itself. */
+static ps_result denoise_direct(struct render *render, struct rgb_planes copy, struct error *error)
+{
+    size_t bytes = 3 * pixels_of(render) * sizeof(float);
+    if (!denoises_direct(render))
+        return PS_OK;
+    float *even = malloc(bytes);
+    if (!even)
+        return leave_out(render, PS_DENOISER,
+                         error_memory(error, bytes, "half of the direct light"), "is not denoised",
+                         error);
+    ps_result result = denoise_part(render, FILM_REFLECTED_R, copy, even, error);
+    if (result == PS_OK && render->film.planes[FILM_HARD_R])
+        result = denoise_part(render, FILM_HARD_R, copy, even, error);
+    free(even);
+    return result;
 }
 
 static void combine(const struct render *render, struct rgb_planes indirect, struct rgb_planes out)

@@ -323,6 +323,21 @@ bool scene_samples_lights(const struct scene *scene)
     return scene->has_area_lights || scene_chooses_lights(scene);
 }
 
+bool scene_light_casts_hard_shadows(const struct scene *scene, size_t light)
+{
+    const struct light *asked = &scene->lights[light];
+    bool is_asked = light_is_afar(asked) || !scene_chooses_lights(scene);
+    return is_asked && (light_is_delta(asked) || asked->emitter == EMITTER_SUN);
+}
+
+bool scene_has_hard_shadows_apart(const struct scene *scene)
+{
+    size_t hard = 0;
+    for (size_t i = 0; i < scene->light_count; i++)
+        hard += scene_light_casts_hard_shadows(scene, i);
+    return hard > 0 && hard < scene->light_count;
+}
+
 size_t scene_choose_light(const struct scene *scene, float *u, float *probability)
 {
     size_t light = distribution_choose(&scene->light_choice, *u, u);

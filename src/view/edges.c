@@ -19,6 +19,7 @@
 struct looks {
     _Alignas(64) ps_tile tile;
     ps_rgb direct[PS_TILE_PIXELS], direct_half[PS_TILE_PIXELS], emitted[PS_TILE_PIXELS];
+    ps_rgb hard[PS_TILE_PIXELS], hard_half[PS_TILE_PIXELS];
     bool by_chance[PS_TILE_PIXELS];
     struct glossy_tile glossy;
     float radiance[3 * PS_TILE_PIXELS];
@@ -200,6 +201,8 @@ static void finish_looks(const struct edge_pass *pass, struct looks *looks, stru
         .tiles = &looks->tile,
         .direct = looks->direct,
         .direct_half = pass->gbuffer->direct_half ? looks->direct_half : NULL,
+        .hard = pass->gbuffer->hard ? looks->hard : NULL,
+        .hard_half = pass->gbuffer->hard_half ? looks->hard_half : NULL,
         .emitted = looks->emitted,
         .by_chance = looks->by_chance,
         .glossy = pass->gbuffer->glossy ? &looks->glossy : NULL,

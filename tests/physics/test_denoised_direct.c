@@ -129,6 +129,28 @@ static void test_hard_shadows_stay(void **state)
     rendering_release(&after);
 }
 
+/* Under a noisy sky the edges of a sun's shadows stay where they are: off by less than half of what a denoiser of the
+ * whole direct light leaves (4 %). */
+static void test_hard_shadows_stay_under_a_noisy_sky(void **state)
+{
+    (void)state;
+    static const char lights[] = "  - sun: {direction: [-2, -1, -1], irradiance: 6}\n"
+                                 "  - sky: {radiance: 0.5}\n";
+    struct setting setting = {lights, "", 2, 1, false};
+    struct setting many = {lights, "", 1024, 1, false};
+    struct rendering truth = render(many, "denoiser=none", 2);
+    struct rendering noisy = render(setting, "denoiser=none", 2);
+    struct rendering smooth = render(setting, "denoiser=regression", 2);
+    double before = deviation(&noisy.image, &truth.image);
+    double after = deviation(&smooth.image, &truth.image);
+    print_message("sun and sky: deviation %.4f -> %.4f\n", before, after);
+    assert_true(before > 0.05);
+    assert_true(after < 0.02);
+    rendering_release(&truth);
+    rendering_release(&noisy);
+    rendering_release(&smooth);
+}
+
 /* What lamps emit is no light that they reflect. */
 static void test_emission_stays(void **state)
 {
@@ -193,6 +215,7 @@ int main(void)
         cmocka_unit_test(test_soft_shadows_have_less_noise),
         cmocka_unit_test(test_it_stays_where_nothing_tells_its_noise),
         cmocka_unit_test(test_hard_shadows_stay),
+        cmocka_unit_test(test_hard_shadows_stay_under_a_noisy_sky),
         cmocka_unit_test(test_emission_stays),
         cmocka_unit_test(test_threads_do_not_matter),
         cmocka_unit_test(test_silhouettes_before_the_sky),

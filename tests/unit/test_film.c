@@ -302,7 +302,7 @@ static void test_reflected_light_apart(void **state)
 {
     (void)state;
     struct error error;
-    assert_int_equal(film_add_reflected(&bench.film, false, &error), PS_OK);
+    assert_int_equal(film_add_reflected(&bench.film, false, false, &error), PS_OK);
     add_pass(0, 1);
     add_pass(0, 3);
     film_average(&bench.film);
@@ -317,7 +317,7 @@ static void test_half_of_a_pass(void **state)
 {
     (void)state;
     struct error error;
-    assert_int_equal(film_add_reflected(&bench.film, true, &error), PS_OK);
+    assert_int_equal(film_add_reflected(&bench.film, true, false, &error), PS_OK);
     assert_int_equal(gbuffer_prepare_direct_half(&bench.gbuffer, &error), PS_OK);
     for (size_t i = 0; i < (size_t)bench.gbuffer.tile_count * PS_TILE_PIXELS; i++)
         bench.gbuffer.direct_half[i] = (ps_rgb){1, 2, 3};
@@ -328,6 +328,29 @@ static void test_half_of_a_pass(void **state)
     film_average(&bench.film);
     expect(FILM_REFLECTED_G, 12, 2, 2 * 0.25 / PI * 6 * pixel_value(12, 2));
     expect_in(bench.film.half, FILM_REFLECTED_G, 12, 2, 0.25 / PI * 2);
+}
+
+/* What comes from lights that cast hard shadows is kept apart from the rest, and in halves likewise. */
+static void test_hard_light_apart(void **state)
+{
+    (void)state;
+    struct error error;
+    assert_int_equal(film_add_reflected(&bench.film, true, true, &error), PS_OK);
+    assert_int_equal(gbuffer_prepare_direct_half(&bench.gbuffer, &error), PS_OK);
+    assert_int_equal(gbuffer_prepare_hard(&bench.gbuffer, &error), PS_OK);
+    for (size_t i = 0; i < (size_t)bench.gbuffer.tile_count * PS_TILE_PIXELS; i++) {
+        bench.gbuffer.direct_half[i] = (ps_rgb){1, 2, 3};
+        bench.gbuffer.hard_half[i] = (ps_rgb){0.25f, 0.5f, 0.75f};
+        bench.gbuffer.hard[i] = (ps_rgb){0.125f, 0.25f, 0.5f};
+    }
+    add_pass(0, 1);
+    film_average(&bench.film);
+    double reflectance = 0.25 / PI, direct = 6 * pixel_value(12, 2);
+    expect(FILM_HARD_G, 12, 2, reflectance * 0.25);
+    expect(FILM_REFLECTED_G, 12, 2, reflectance * (direct - 0.25));
+    expect(FILM_DIRECT_G, 12, 2, reflectance * direct);
+    expect_in(bench.film.half, FILM_HARD_G, 12, 2, reflectance * 0.5);
+    expect_in(bench.film.half, FILM_REFLECTED_G, 12, 2, reflectance * 1.5);
 }
 
 /* A lane whose path met gloss, of depth 8 and reflectance 1/2, with value 2 in all that it is. */
@@ -347,7 +370,7 @@ static void test_first_glossy_surface(void **state)
     (void)state;
     struct error error;
     assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
-    assert_int_equal(film_add_reflected(&bench.film, true, &error), PS_OK);
+    assert_int_equal(film_add_reflected(&bench.film, true, false, &error), PS_OK);
     assert_int_equal(film_add_gloss(&bench.film, &error), PS_OK);
     gbuffer_clear_tile(&bench.gbuffer, 0);
     for (uint32_t lane = 0; lane < 2; lane++)
@@ -385,7 +408,7 @@ static void test_halves_of_glossy_samples(void **state)
     double mean = 0.5 / PI * 5 * (1 + 2 + 3 + 4 + 5) / 5 + 3;
     assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
     assert_int_equal(gbuffer_prepare_direct_half(&bench.gbuffer, &error), PS_OK);
-    assert_int_equal(film_add_reflected(&bench.film, true, &error), PS_OK);
+    assert_int_equal(film_add_reflected(&bench.film, true, false, &error), PS_OK);
     gbuffer_clear_tile(&bench.gbuffer, 0);
     for (uint32_t lane = 0; lane < 5; lane++)
         see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[lane], lane, (float)(1 + lane));
@@ -506,6 +529,7 @@ int main(void)
         FILM_TEST(test_film_of_light_alone),
         FILM_TEST(test_reflected_light_apart),
         FILM_TEST(test_half_of_a_pass),
+        FILM_TEST(test_hard_light_apart),
         FILM_TEST(test_clear_indirect),
         FILM_TEST(test_samples_take_the_place_of_a_lane),
         FILM_TEST(test_many_samples_of_a_pixel),

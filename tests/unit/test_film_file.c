@@ -25,7 +25,7 @@ static struct film any_film(uint32_t number)
     assert_int_equal(film_create(WIDTH, HEIGHT, true, &film, &error), PS_OK);
     assert_int_equal(film_add_ids(&film, &error), PS_OK);
     assert_int_equal(film_add_halves(&film, &error), PS_OK);
-    assert_int_equal(film_add_reflected(&film, true, &error), PS_OK);
+    assert_int_equal(film_add_reflected(&film, true, true, &error), PS_OK);
     assert_int_equal(film_begin_pass(&film, number, &error), PS_OK);
     for (int plane = 0; plane < FILM_PLANES; plane++)
         for (size_t i = 0; i < PIXELS && film.planes[plane]; i++) {
@@ -166,6 +166,17 @@ static void drop_half(struct image *image)
     image_keep_channels(image, is_no_half, NULL);
 }
 
+static bool is_no_hard_half(const void *user, const char *name)
+{
+    (void)user;
+    return strstr(name, ".half.hard.G") == NULL;
+}
+
+static void drop_hard_half(struct image *image)
+{
+    image_keep_channels(image, is_no_hard_half, NULL);
+}
+
 static bool is_no_object(const void *user, const char *name)
 {
     (void)user;
@@ -205,6 +216,7 @@ static void test_what_is_no_whole_film(void **state)
     expect_refused(state, drop_weight, "layers are missing");
     expect_refused(state, drop_odd_weight, "layers are missing");
     expect_refused(state, drop_half, "layers are missing");
+    expect_refused(state, drop_hard_half, "layers are missing");
     expect_refused(state, drop_objects, "numbers of objects are missing");
     expect_refused(state, spoil_object, "numbers of objects are none");
     expect_refused(state, spoil_material, "numbers of objects are none");
