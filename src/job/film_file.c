@@ -261,8 +261,7 @@ static bool has_what_it_needs(const struct film_sum *sum)
     bool halved = has_direct(sum, halves ? FILM_SUM_OF_HALF : FILM_SUM_OF_ODD);
     return has_planes(sum, 0, FILM_ON_REQUEST) && sum->planes[FILM_SUM_OF_SQUARES].high &&
            has_planes(sum, odd + FILM_COLOR_R, odd + FILM_WEIGHT + 1) &&
-           sum->planes[odd + FILM_COVERAGE].high &&
-           (!reflects || (has_direct(sum, 0) && halved));
+           sum->planes[odd + FILM_COVERAGE].high && (!reflects || (has_direct(sum, 0) && halved));
 }
 
 static ps_result read_passes(const char *path, const struct image *image, struct pass_set *passes,
