@@ -1,11 +1,11 @@
 /* regression.c: planes fitted to the irradiance, as wide as its noise asks for.
  *
  * regression/fit.h fits planes to the irradiance E of the pixels around, along the surfaces that they show. One
- * bandwidth cannot do: a wide one blurs, a narrow one leaves noise. So fits F_R of four bandwidths R make bands, and
+ * bandwidth cannot do: a wide one blurs, a narrow one leaves noise. So fits F_R of five bandwidths R make bands, and
  * each band is added as far as it is signal, neighbourhood by neighbourhood (shrinkage: James and Stein 1961;
  * Donoho and Johnstone 1994):
  *
- *     E' = F_48 + sum over R = 24, 12, 6 of max(0, 1 - (2 <N^2> / <B^2>)^2) B,   B = F_R - F_2R
+ *     E' = F_48 + sum over R = 24, 12, 6, 3 of max(0, 1 - (2 <N^2> / <B^2>)^2) B,   B = F_R - F_2R
  *
  * N is the band of a picture of the noise alone, and <> a mean over a square around. Where two halves of the
  * light are known, of passes or of shadow rays, their difference is the noise, and the pixels themselves are a last
@@ -37,14 +37,14 @@
 #define CAUTION 2.0f       /* times the noise that a band must exceed */
 #define PIXELS_WINDOW 4    /* R of the window of the last band, of the pixels themselves */
 #define PIXELS_CAUTION                                                                             \
-    4.0f /* for that band: so few pixels may seem to have less noise than they have */
+    2.0f /* for that band: so few pixels may seem to have less noise than they have */
 /* Errors of the bands are not independent, and what is finer than the narrowest fit is none of them: against path-traced
  * references of seven scenes errors are larger than the sum over bands by so much. */
 #define UNSEEN 1.4f
 #define GLOSSY 0.125f             /* share of gloss from which on a pixel is of that class */
 #define WIDEST REGRESSION_LARGEST /* bandwidth of the rest */
 
-static const int bandwidths[] = {48, 24, 12, 6}; /* of the bands */
+static const int bandwidths[] = {48, 24, 12, 6, 3}; /* of the bands */
 
 enum { NOISE = REGRESSION_COLOURS, VALUES = REGRESSION_VALUES };
 

@@ -56,6 +56,15 @@ static void share_light(const struct light_list *list, size_t first, size_t end,
     share_light(list, middle, end, &back, light * part_of(&back, whole));
 }
 
+/* To five bits. Processors round differently, so that a path of the pilot or two go another way; light paths should begin
+ * at the same places of the same lights all the same. */
+static float rounded(double share)
+{
+    int exponent;
+    double fraction = frexp(share, &exponent);
+    return (float)ldexp(round(fraction * 0x1p5), exponent - 5);
+}
+
 void light_shares(const uint32_t *order, const float *powers, const struct found_light *found,
                   size_t count, float *shares)
 {
@@ -70,6 +79,6 @@ void light_shares(const uint32_t *order, const float *powers, const struct found
     for (size_t i = 0; i < count && whole.power > 0.0; i++) {
         double by_light = sum > 0.0 ? (double)shares[i] / sum : 0.0;
         double by_power = (double)powers[i] / whole.power;
-        shares[i] = (float)((1.0 - BY_POWER) * by_light + BY_POWER * by_power);
+        shares[i] = rounded((1.0 - BY_POWER) * by_light + BY_POWER * by_power);
     }
 }

@@ -32,7 +32,8 @@ struct sights {
     float variance[3][SIDE][SIDE]; /* of that radiance */
 };
 
-/* Half of the shadow rays find `half`, all of them the mean of that and the other half, which is as far off. */
+/* Half of the shadow rays find `half`, all of them the mean of that and the other half, which is as far off. Lights that
+ * cast hard shadows, where they are apart, have noise at their edges alone, which shall be found. */
 static void load_variance(const struct gbuffer *gbuffer, size_t pixel, ps_rgb albedo, int row,
                           int column, struct sights *sights)
 {
@@ -40,6 +41,10 @@ static void load_variance(const struct gbuffer *gbuffer, size_t pixel, ps_rgb al
         return;
     ps_rgb half = gbuffer->direct_half[pixel];
     ps_rgb off = ps_rgb_add(gbuffer->direct[pixel], ps_rgb_scale(half, -1.0f));
+    if (gbuffer->hard_half) {
+        ps_rgb hard = ps_rgb_scale(gbuffer->hard[pixel], -1.0f);
+        off = ps_rgb_add(off, ps_rgb_add(hard, gbuffer->hard_half[pixel]));
+    }
     ps_rgb noise = ps_rgb_scale(ps_rgb_multiply(albedo, off), 1.0f / PS_PI);
     sights->variance[0][row][column] = noise.r * noise.r;
     sights->variance[1][row][column] = noise.g * noise.g;

@@ -20,7 +20,7 @@
 
 #include <psplat/plugin.h>
 
-enum { REGRESSION_SMALLEST = 6, REGRESSION_LARGEST = 64 }; /* bandwidths, in pixels */
+enum { REGRESSION_SMALLEST = 3, REGRESSION_LARGEST = 64 }; /* bandwidths, in pixels */
 
 /* Values that are fitted together: three colours, and one more. */
 enum { REGRESSION_COLOURS = 3, REGRESSION_VALUES };
