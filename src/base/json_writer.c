@@ -9,7 +9,7 @@ static void start_item(struct json_writer *writer)
     if (!writer->keyed) {
         if (writer->follows)
             fputc(',', writer->stream);
-        if (writer->depth > 0)
+        if (writer->depth > 0 && !writer->compact)
             fprintf(writer->stream, "\n%*s", 2 * writer->depth, "");
     }
     writer->follows = true;
@@ -40,7 +40,7 @@ void json_writer_close(struct json_writer *writer, char bracket)
 {
     assert(writer->depth > 0 && !writer->keyed);
     writer->depth--;
-    if (writer->follows)
+    if (writer->follows && !writer->compact)
         fprintf(writer->stream, "\n%*s", 2 * writer->depth, "");
     fputc(bracket == '{' ? '}' : ']', writer->stream);
     writer->follows = true;
@@ -51,7 +51,7 @@ void json_writer_key(struct json_writer *writer, const char *key)
     assert(writer->depth > 0 && !writer->keyed);
     start_item(writer);
     put_text(writer, key);
-    fputs(": ", writer->stream);
+    fputs(writer->compact ? ":" : ": ", writer->stream);
     writer->keyed = true;
 }
 

@@ -1,4 +1,4 @@
-/* json_writer.h: writes JSON, indented, piece by piece.
+/* json_writer.h: writes JSON, indented or in one line, piece by piece.
  *
  * A key goes before each value in an object; pieces must fit together, which is the caller's duty.
  */
@@ -8,12 +8,13 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Zeroed but for the stream: at the start. Errors of the stream are the caller's to find. */
+/* Zeroed but for the stream, and `compact`: at the start. Errors of the stream are the caller's to find. */
 struct json_writer {
     FILE *stream;
     int depth;
     bool follows; /* on an item, so that a comma is due */
     bool keyed;   /* a key waits for its value */
+    bool compact; /* in one line */
 };
 
 /* `bracket` is { or [. */

@@ -9,7 +9,11 @@
 const struct command *const commands[] = {
     &command_render,  &command_check, &command_plugins, &command_info,  &command_compare,
     &command_diff,    &command_view,  &command_schema,  &command_debug, &command_merge,
-    &command_resolve, &command_new,   &command_import};
+    &command_resolve, &command_new,   &command_import,
+#ifdef PSPLAT_EXPLORE
+    &command_explore,
+#endif
+};
 const size_t command_count = sizeof commands / sizeof commands[0];
 
 void print_error(const char *message)

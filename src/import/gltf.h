@@ -10,7 +10,7 @@
 #define IMPORT_GLTF_H
 
 #include "import/files.h"
-#include "import/json.h"
+#include "base/json_reader.h"
 
 #define GLTF_DEPTH 256
 

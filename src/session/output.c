@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/path.h"
+#include "base/shell_word.h"
 #include "base/text.h"
 #include "image/tonemap.h"
 #include "job/facts.h"
@@ -151,28 +152,10 @@ bool output_spares(const char *path, const char *option,
     return !role;
 }
 
-/* Quotes a word for a shell unless it needs none. */
-static void print_word(FILE *stream, const char *word)
-{
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                "_-+=:,./@%";
-    if (word[0] && word[strspn(word, plain)] == '\0') {
-        fputs(word, stream);
-        return;
-    }
-    fputc('\'', stream);
-    for (; *word; word++)
-        if (*word == '\'')
-            fputs("'\\''", stream);
-        else
-            fputc(*word, stream);
-    fputc('\'', stream);
-}
-
 static void print_next(void *stream, const char *word)
 {
     fputc(' ', stream);
-    print_word(stream, word);
+    shell_word_print(stream, word);
 }
 
 static void print_command(FILE *stream, const struct image *image, const char *scene_path,
@@ -205,7 +188,7 @@ static void print_command(FILE *stream, const struct image *image, const char *s
         strategy_format(&settings->strategies[kind], choice, sizeof choice);
         snprintf(word, sizeof word, "%s=%s", kinds[kind].name, choice);
         fprintf(stream, " --plugin ");
-        print_word(stream, word);
+        shell_word_print(stream, word);
     }
 }
 

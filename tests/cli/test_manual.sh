@@ -35,6 +35,7 @@ option_lines() {
 commands=$("$PSPLAT" --help | sed -n '/^commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
 [ "$(echo "$commands" | wc -w)" -ge 4 ] || fail "no list of commands in the help"
 echo "$commands" | sed 's/^/.Ss psplat /' >program
+echo "$commands" | grep -qx explore || echo .Ss psplat explore >>program # it needs libmicrohttpd
 grep '^\.Ss psplat ' "$man/psplat.1" >page
 agree "commands of psplat(1)"
 for command in $commands; do

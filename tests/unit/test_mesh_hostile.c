@@ -1,5 +1,5 @@
 /* test_mesh_hostile.c: files that are no good, and what is mended. */
-#include "import/json.h"
+#include "base/json_reader.h"
 #include "mesh_fixture.h"
 #include "scratch.h"
 #include <sys/stat.h>

@@ -1,9 +1,10 @@
-/* json.c: recursive descent. */
-#include "import/json.h"
+/* json_reader.c: recursive descent. */
+#include "base/json_reader.h"
 
 #include "base/text.h"
 #include <math.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define LARGEST_WHOLE 9007199254740992.0
@@ -210,6 +211,86 @@ ps_result json_read(struct arena *arena, char *text, size_t length, struct json 
     if (result == PS_OK && next_character(&scanner) != '\0')
         result = complain(&scanner, "text after the end");
     return result;
+}
+
+/* Four hexadecimal digits. */
+static bool read_unit(const char *digits, size_t left, uint32_t *unit)
+{
+    static const char hexadecimal[] = "0123456789abcdef";
+    *unit = 0;
+    for (size_t i = 0; i < 4; i++) {
+        const char *found =
+            i < left && digits[i] ? strchr(hexadecimal, digits[i] | ('a' ^ 'A')) : NULL;
+        if (!found)
+            return false;
+        *unit = 16 * *unit + (uint32_t)(found - hexadecimal);
+    }
+    return true;
+}
+
+/* The character of an escape \uXXXX, or of two that are a surrogate pair; what follows `u`. Bytes used, or 0. */
+static size_t read_code(const char *text, size_t left, uint32_t *code)
+{
+    uint32_t low;
+    if (!read_unit(text, left, code) || *code == 0 || (*code >= 0xdc00 && *code < 0xe000))
+        return 0;
+    if (*code < 0xd800 || *code >= 0xe000)
+        return 4;
+    if (left < 10 || text[4] != '\\' || text[5] != 'u' || !read_unit(text + 6, left - 6, &low) ||
+        low < 0xdc00 || low >= 0xe000)
+        return 0;
+    *code = 0x10000 + ((*code - 0xd800) << 10) + (low - 0xdc00);
+    return 10;
+}
+
+static char *put_utf8(char *out, uint32_t code)
+{
+    static const unsigned char leads[] = {0, 0, 0xc0, 0xe0, 0xf0};
+    size_t bytes = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+    for (size_t i = bytes; i > 1; i--) {
+        out[i - 1] = (char)(0x80 | (code & 0x3f));
+        code >>= 6;
+    }
+    out[0] = (char)(leads[bytes] | code);
+    return out + bytes;
+}
+
+/* What follows a backslash; bytes used, or 0. */
+static size_t read_escape(const char *text, size_t left, char **out)
+{
+    static const char names[] = "\"\\/bfnrt", characters[] = "\"\\/\b\f\n\r\t";
+    const char *found = left > 0 && text[0] ? strchr(names, text[0]) : NULL;
+    uint32_t code;
+    if (found) {
+        *(*out)++ = characters[found - names];
+        return 1;
+    }
+    size_t used = left > 0 && text[0] == 'u' ? read_code(text + 1, left - 1, &code) : 0;
+    if (used == 0)
+        return 0;
+    *out = put_utf8(*out, code);
+    return used + 1;
+}
+
+char *json_unescape(const struct json_text *text)
+{
+    char *copy = malloc(text->length + 1),
+         *out = copy; /* an escape is longer than what it stands for */
+    for (size_t i = 0; copy && i < text->length;) {
+        if (text->start[i] != '\\') {
+            *out++ = text->start[i++];
+            continue;
+        }
+        size_t used = read_escape(text->start + i + 1, text->length - i - 1, &out);
+        if (used == 0) {
+            free(copy);
+            return NULL;
+        }
+        i += used + 1;
+    }
+    if (copy)
+        *out = '\0';
+    return copy;
 }
 
 bool json_is(const struct json_text *text, const char *expected)

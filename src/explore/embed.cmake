@@ -1,0 +1,17 @@
+# embed.cmake: makes the C source of page.h of files: cmake -DOUTPUT=page.c "-DFILES=A;B" -P embed.cmake
+set(arrays "")
+set(table "")
+set(index 0)
+foreach(path ${FILES})
+  get_filename_component(name ${path} NAME)
+  file(READ ${path} bytes HEX)
+  string(LENGTH "${bytes}" digits)
+  math(EXPR length "${digits} / 2")
+  string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
+  string(REGEX REPLACE "(................................................................................)" "\\1\n" bytes "${bytes}")
+  string(APPEND arrays "static const unsigned char file_${index}[] = {\n${bytes} 0};\n")
+  string(APPEND table "    {\"${name}\", file_${index}, ${length}},\n")
+  math(EXPR index "${index} + 1")
+endforeach()
+file(WRITE ${OUTPUT} "/* Made by src/explore/embed.cmake. */\n#include \"explore/page.h\"\n\n${arrays}
+const struct page_file page_files[] = {\n${table}};\nconst size_t page_file_count = sizeof page_files / sizeof page_files[0];\n")

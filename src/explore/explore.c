@@ -1,0 +1,99 @@
+#include "explore/explore.h"
+
+#include "explore/server.h"
+#include <errno.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#define WATCH_NANOSECONDS 200000000L
+
+extern char **environ;
+
+void explore_request_release(struct explore_request *request)
+{
+    option_list_release(&request->fixed);
+    option_list_release(&request->options);
+}
+
+/* A child of a child, which nobody needs to wait for; without a word, and with the signals that this one blocks. */
+static void open_browser(const char *address)
+{
+    char shell[] = "sh", flag[] = "-c", script[] = "xdg-open \"$0\" >/dev/null 2>&1 </dev/null &";
+    char copy[128];
+    char *const words[] = {shell, flag, script, copy, NULL};
+    posix_spawnattr_t attributes;
+    sigset_t none;
+    pid_t child;
+    snprintf(copy, sizeof copy, "%s", address);
+    sigemptyset(&none);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    if (posix_spawnp(&child, "sh", NULL, &attributes, words, environ) == 0)
+        while (waitpid(child, NULL, 0) < 0 && errno == EINTR)
+            ;
+    posix_spawnattr_destroy(&attributes);
+}
+
+/* Until a signal of the set comes. */
+static void watch_until(struct explorer *explorer, const sigset_t *signals)
+{
+    const struct timespec pause = {.tv_nsec = WATCH_NANOSECONDS};
+    while (sigtimedwait(signals, NULL, &pause) < 0)
+        explorer_watch(explorer);
+}
+
+static void announce(const struct explore_request *request, const struct server *server)
+{
+    char address[128];
+    snprintf(address, sizeof address, "http://%s/%s/", server->hosts[0], server->token);
+    printf("%s\n", address);
+    fflush(stdout);
+    bool has_desktop = getenv("DISPLAY") || getenv("WAYLAND_DISPLAY");
+    if (request->opens_browser && has_desktop)
+        open_browser(address);
+}
+
+static ps_result serve(const struct explore_request *request, struct explorer *explorer,
+                       const sigset_t *signals, psplat_error *error)
+{
+    struct server server;
+    struct error reason;
+    ps_result result = server_start(&server, explorer, request->port, &reason);
+    if (result == PS_OK) {
+        announce(request, &server);
+        watch_until(explorer, signals);
+    } else {
+        snprintf(error->message, sizeof error->message, "%s", reason.text);
+    }
+    explorer_stop(explorer);
+    if (result == PS_OK)
+        server_stop(&server);
+    return result;
+}
+
+/* The signals are blocked before there are threads, so that all of them leave these to the first. */
+ps_result explore(struct explore_request *request, psplat_error *error)
+{
+    struct explorer explorer;
+    sigset_t signals, before;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals, &before);
+    *error = (psplat_error){.result = PS_OK};
+    ps_result result = explorer_create(&explorer, request->path, &request->fixed, &request->options,
+                                       request->passes, error);
+    request->fixed = (struct option_list){0};
+    if (result == PS_OK) {
+        if (error->message[0])
+            fprintf(stderr, "%s\n", error->message);
+        result = serve(request, &explorer, &signals, error);
+        explorer_release(&explorer);
+    }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return result;
+}

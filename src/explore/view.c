@@ -1,0 +1,274 @@
+#include "explore/view.h"
+
+#include "base/clock.h"
+#include "explore/explorer.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Between what is told of progress, and between pictures of passes that take less. */
+#define TELL_SECONDS 0.1
+#define SHOW_SECONDS 0.5
+
+/* What a picture costs, with its denoiser, is at most this share of the time. */
+#define SHOW_SHARE 0.2
+
+/* One render of a view. */
+struct work {
+    struct view *view;
+    struct explorer *explorer;
+    unsigned change; /* that it is for */
+    bool is_preview;
+    double start, cpu_start;
+    double told, shown; /* when something was, last */
+    double show_cost;   /* seconds that the last picture took */
+};
+
+static bool is_over(const struct work *work)
+{
+    return atomic_load(&work->explorer->stopping) ||
+           atomic_load(&work->view->changes) != work->change;
+}
+
+static int was_cancelled(void *user)
+{
+    return is_over(user);
+}
+
+static void set_stage(struct view *view, const char *stage, double fraction)
+{
+    snprintf(view->stage, sizeof view->stage, "%s", stage);
+    view->fraction = fraction;
+    explorer_tell(view->explorer);
+}
+
+/* Under the lock, while its threads are there. */
+static void take_time(const struct work *work)
+{
+    if (work->is_preview)
+        return;
+    work->view->seconds = clock_seconds() - work->start;
+    work->view->cpu_seconds = cpu_time_of_threads(work->view->name) - work->cpu_start;
+}
+
+static void show_progress(void *user, const char *stage, double fraction)
+{
+    struct work *work = user;
+    double now = clock_seconds();
+    if (now - work->told < TELL_SECONDS || is_over(work))
+        return;
+    work->told = now;
+    pthread_mutex_lock(&work->explorer->lock);
+    take_time(work);
+    set_stage(work->view, work->is_preview ? "preview" : stage, fraction);
+    pthread_mutex_unlock(&work->explorer->lock);
+}
+
+/* Takes the picture over. */
+static void show(struct work *work, psplat_picture *picture, uint32_t passes)
+{
+    struct explorer *explorer = work->explorer;
+    struct view *view = work->view;
+    pthread_mutex_lock(&explorer->lock);
+    struct shown_picture *shown = shown_picture_create(picture, explorer->pictures + 1);
+    struct shown_picture *last = NULL;
+    if (shown && !is_over(work)) {
+        explorer->pictures++;
+        last = view->shown;
+        view->shown = shown;
+        view->shown_passes = passes;
+        view->shows_preview = work->is_preview;
+        explorer_tell(explorer);
+    } else {
+        last = shown;
+    }
+    pthread_mutex_unlock(&explorer->lock);
+    shown_picture_release(last);
+}
+
+/* The first passes are waited for; of later ones the differences get smaller. */
+static bool is_worth_showing(const struct work *work, uint32_t passes)
+{
+    double pause = fmax(SHOW_SECONDS, work->show_cost / SHOW_SHARE);
+    bool is_power = (passes & (passes - 1)) == 0;
+    return is_power || clock_seconds() - work->shown >= pause;
+}
+
+static void show_passes(void *user, psplat_rendering *rendering, uint32_t passes)
+{
+    struct work *work = user;
+    psplat_picture *picture;
+    if (is_over(work) || !is_worth_showing(work, passes))
+        return;
+    double start = clock_seconds();
+    pthread_mutex_lock(&work->explorer->lock);
+    take_time(work);
+    pthread_mutex_unlock(&work->explorer->lock);
+    psplat_rendering_picture(rendering, &picture, NULL);
+    if (picture)
+        show(work, picture, passes);
+    work->shown = clock_seconds();
+    work->show_cost = work->shown - start;
+}
+
+static ps_result render(struct work *work, const psplat_scene *scene, uint32_t passes,
+                        psplat_error *error)
+{
+    const psplat_callbacks callbacks = {
+        .size = sizeof callbacks,
+        .user = work,
+        .progress = show_progress,
+        .cancelled = was_cancelled,
+        .pass = show_passes,
+    };
+    psplat_picture *picture = NULL;
+    work->start = work->shown = clock_seconds();
+    work->cpu_start = cpu_time_of_threads(work->view->name);
+    ps_result result = psplat_render(scene, &callbacks, &picture, error);
+    if (picture && result != PS_CANCELLED)
+        show(work, picture, passes);
+    else
+        psplat_picture_destroy(picture);
+    return result;
+}
+
+/* What can't be had as a preview is waited for. */
+static void render_preview(struct work *work, const struct option_list *options)
+{
+    psplat_scene *scene = NULL;
+    psplat_error error;
+    if (explorer_load(work->explorer, options, 1, true, &scene, &error) != PS_OK)
+        return;
+    work->is_preview = true;
+    if (!is_over(work))
+        render(work, scene, 1, &error);
+    work->is_preview = false;
+    psplat_scene_destroy(scene);
+}
+
+static void note_end(struct work *work, ps_result result, const psplat_error *error)
+{
+    struct view *view = work->view;
+    if (is_over(work))
+        return;
+    view->render.failed = result != PS_OK;
+    if (result != PS_OK)
+        view->render.error = *error;
+    set_stage(view, "", result == PS_OK ? 1.0 : 0.0);
+}
+
+/* The scene, where no request has loaded it. NULL, noted, where it can't be. */
+static psplat_scene *load(struct work *work, const struct option_list *options, uint32_t passes)
+{
+    struct explorer *explorer = work->explorer;
+    struct view *view = work->view;
+    psplat_scene *scene = NULL;
+    psplat_error error;
+    struct timespec began;
+    clock_gettime(CLOCK_REALTIME, &began);
+    ps_result result = explorer_load(explorer, options, passes, false, &scene, &error);
+    pthread_mutex_lock(&explorer->lock);
+    if (result == PS_OK) {
+        explorer_note_scene(explorer, view, scene, began);
+    } else if (!is_over(work)) {
+        view->load = (struct view_failure){.failed = true, .error = error};
+        if (error.file[0])
+            watched_files_add(&view->files, error.file);
+        watched_files_read(&view->files, began);
+        set_stage(view, "", 0.0);
+    }
+    pthread_mutex_unlock(&explorer->lock);
+    return scene;
+}
+
+static void render_scene(struct work *work, psplat_scene *scene, const struct option_list *options,
+                         uint32_t passes)
+{
+    struct explorer *explorer = work->explorer;
+    psplat_error error = {.message = ""};
+    render_preview(work, options);
+    ps_result result = is_over(work) ? PS_CANCELLED : render(work, scene, passes, &error);
+    pthread_mutex_lock(&explorer->lock);
+    note_end(work, result, &error);
+    pthread_mutex_unlock(&explorer->lock);
+}
+
+/* Does what the view is asked for at present. Holds the lock at its begin and end. */
+static void work_once(struct view *view)
+{
+    struct explorer *explorer = view->explorer;
+    struct work work = {.view = view, .explorer = explorer, .change = atomic_load(&view->changes)};
+    struct option_list options = {0};
+    psplat_scene *scene = view->loaded;
+    uint32_t passes = view->passes;
+    view->loaded = NULL;
+    view->seen = work.change;
+    if (!view->is_present || !option_list_append(&options, &view->options)) {
+        psplat_scene_destroy(scene);
+        return;
+    }
+    view->seconds = view->cpu_seconds = 0.0;
+    set_stage(view, "loading", 0.0);
+    pthread_mutex_unlock(&explorer->lock);
+    if (!scene)
+        scene = load(&work, &options, passes);
+    if (scene)
+        render_scene(&work, scene, &options, passes);
+    psplat_scene_destroy(scene);
+    option_list_release(&options);
+    pthread_mutex_lock(&explorer->lock);
+}
+
+static void *run(void *user)
+{
+    struct view *view = user;
+    struct explorer *explorer = view->explorer;
+    pthread_setname_np(pthread_self(), view->name);
+    pthread_mutex_lock(&explorer->lock);
+    while (!atomic_load(&explorer->stopping)) {
+        if (view->seen == atomic_load(&view->changes))
+            pthread_cond_wait(&explorer->work, &explorer->lock);
+        else
+            work_once(view);
+    }
+    pthread_mutex_unlock(&explorer->lock);
+    return NULL;
+}
+
+ps_result view_start(struct view *view, struct explorer *explorer, const char *name)
+{
+    view->explorer = explorer;
+    snprintf(view->name, sizeof view->name, "%s", name);
+    return pthread_create(&view->thread, NULL, run, view) == 0 ? PS_OK : PS_ERROR_MEMORY;
+}
+
+void view_join(struct view *view)
+{
+    pthread_join(view->thread, NULL);
+}
+
+void view_release(struct view *view)
+{
+    view_clear(view);
+    option_list_release(&view->options);
+    psplat_scene_destroy(view->loaded);
+    watched_files_release(&view->files);
+    free(view->facts);
+}
+
+void view_change(struct view *view)
+{
+    atomic_fetch_add(&view->changes, 1);
+    pthread_cond_broadcast(&view->explorer->work);
+    explorer_tell(view->explorer);
+}
+
+void view_clear(struct view *view)
+{
+    shown_picture_release(view->shown);
+    view->shown = NULL;
+    view->shown_passes = 0;
+    view->shows_preview = false;
+    view->stage[0] = '\0';
+    view->load.failed = view->render.failed = false;
+}

@@ -1,0 +1,62 @@
+/* view.h: one view of the scene: options, and a render by them that goes on as a picture that gets better. */
+#ifndef EXPLORE_VIEW_H
+#define EXPLORE_VIEW_H
+
+#include "explore/cpu_time.h"
+#include "explore/option_list.h"
+#include "explore/shown_picture.h"
+#include "explore/watched_files.h"
+#include <pthread.h>
+#include <stdatomic.h>
+
+struct explorer;
+
+#define STAGE_LENGTH 64
+
+/* A step that can fail, and how it did. */
+struct view_failure {
+    bool failed;
+    psplat_error error;
+};
+
+struct view {
+    struct explorer *explorer;
+    pthread_t thread;
+    char name[THREAD_NAME_LENGTH]; /* of its threads */
+
+    /* What is asked for. Each change of it counts, so that a render finds out that it is no longer wanted. */
+    bool is_present;
+    struct option_list options;
+    uint32_t passes;
+    psplat_scene *loaded; /* that a request loaded with these; NULL: the view loads it */
+    atomic_uint changes;
+    unsigned seen; /* how many the thread has dealt with */
+
+    /* What came of it. */
+    struct watched_files files;
+    char *facts; /* JSON: members of an object, of scene_facts.h; NULL: nothing was loaded yet */
+    struct view_failure load, render;
+    struct shown_picture *shown; /* NULL: none yet */
+    uint32_t shown_passes;
+    bool shows_preview;
+    char stage[STAGE_LENGTH]; /* "": nothing goes on */
+    double fraction;
+    double seconds, cpu_seconds; /* that the render has taken so far, without loading and preview */
+};
+
+/* Starts its thread. PS_ERROR_MEMORY where there is none to be had. */
+ps_result view_start(struct view *view, struct explorer *explorer, const char *name);
+
+/* After the explorer was told to stop: waits for the thread. */
+void view_join(struct view *view);
+
+/* Frees what it holds; without a thread. */
+void view_release(struct view *view);
+
+/* What is asked for has changed. Under the lock. */
+void view_change(struct view *view);
+
+/* Drops what it shows. Under the lock. */
+void view_clear(struct view *view);
+
+#endif
