@@ -47,28 +47,58 @@ static double pixel_error(const struct percept percepts[2], size_t pixel, double
                1.0 - flip_feature_difference(features[0], features[1]));
 }
 
-ps_result flip_mean(const struct picture_pair *pair, double *number, struct error *error)
+/* Both pictures' percepts, and scratch, in one piece of memory. */
+struct percepts {
+    double *memory; /* owned */
+    struct percept of[2];
+    double *scratch[FLIP_SCRATCH_PLANES];
+};
+
+static ps_result percepts_create(const struct picture_pair *pair, struct percepts *percepts,
+                                 struct error *error)
 {
     size_t pixels = pair->width * pair->height;
     size_t bytes = (2 * (3 + 2) + FLIP_SCRATCH_PLANES) * pixels * sizeof(double);
-    double *memory = malloc(bytes), *next = memory, *scratch[FLIP_SCRATCH_PLANES];
-    struct percept percepts[2];
-    if (!memory)
+    double *next = percepts->memory = malloc(bytes);
+    if (!next)
         return error_memory(error, bytes, "FLIP");
     for (int i = 0; i < 2; i++) {
         for (int c = 0; c < 3; c++, next += pixels)
-            percepts[i].colour[c] = next;
+            percepts->of[i].colour[c] = next;
         for (int f = 0; f < 2; f++, next += pixels)
-            percepts[i].features[f] = next;
+            percepts->of[i].features[f] = next;
     }
     for (int i = 0; i < FLIP_SCRATCH_PLANES; i++, next += pixels)
-        scratch[i] = next;
-    perceive(pair, pair->reference, &percepts[0], scratch);
-    perceive(pair, pair->test, &percepts[1], scratch);
+        percepts->scratch[i] = next;
+    perceive(pair, pair->reference, &percepts->of[0], percepts->scratch);
+    perceive(pair, pair->test, &percepts->of[1], percepts->scratch);
+    return PS_OK;
+}
+
+ps_result flip_mean(const struct picture_pair *pair, double *number, struct error *error)
+{
+    struct percepts percepts;
+    ps_result result = percepts_create(pair, &percepts, error);
+    if (result != PS_OK)
+        return result;
+    size_t pixels = pair->width * pair->height;
     double sum = 0.0, largest_distance = flip_colour_largest_distance();
     for (size_t i = 0; i < pixels; i++)
-        sum += pixel_error(percepts, i, largest_distance);
+        sum += pixel_error(percepts.of, i, largest_distance);
     *number = sum / (double)pixels;
-    free(memory);
+    free(percepts.memory);
+    return PS_OK;
+}
+
+ps_result flip_map(const struct picture_pair *pair, float *map, struct error *error)
+{
+    struct percepts percepts;
+    ps_result result = percepts_create(pair, &percepts, error);
+    if (result != PS_OK)
+        return result;
+    double largest_distance = flip_colour_largest_distance();
+    for (size_t i = 0; i < pair->width * pair->height; i++)
+        map[i] = (float)pixel_error(percepts.of, i, largest_distance);
+    free(percepts.memory);
     return PS_OK;
 }

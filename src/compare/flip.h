@@ -18,6 +18,9 @@
 /* Mean over pixels: 0 for identical pictures, at most 1. A single channel counts as grey. */
 ps_result flip_mean(const struct picture_pair *pair, double *number, struct error *error);
 
+/* Each pixel's error, of which flip_mean is the mean. */
+ps_result flip_map(const struct picture_pair *pair, float *map, struct error *error);
+
 /* XYZ planes, relative to white, to the perceptually uniform, Hunt-adjusted L*a*b* of what the eye
  * resolves; in place. */
 void flip_colour_perceived(double *const planes[3], size_t width, size_t height,

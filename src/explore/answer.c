@@ -121,6 +121,22 @@ bool answer_picture(struct MHD_Connection *connection, struct shown_picture *sho
     return send_response(connection, MHD_HTTP_OK, "application/octet-stream", response);
 }
 
+bool answer_map(struct MHD_Connection *connection, const struct shown_picture *shown,
+                const float *map)
+{
+    const struct shown_layer layer = {.name = "", .channel_count = 1, .planes = {map}};
+    size_t length = shown_layer_bytes(shown, &layer);
+    char *bytes = malloc(length);
+    if (!bytes)
+        return answer_json(connection, MHD_HTTP_OK, NULL);
+    shown_layer_read(shown, &layer, 0, bytes, length);
+    struct MHD_Response *response =
+        MHD_create_response_from_buffer(length, bytes, MHD_RESPMEM_MUST_FREE);
+    if (!response)
+        free(bytes);
+    return send_response(connection, MHD_HTTP_OK, "application/octet-stream", response);
+}
+
 /* --- events ------------------------------------------------------------------------------------------ */
 
 /* Server-sent events (https://html.spec.whatwg.org/#server-sent-events): the text of one at a time, made when the

@@ -25,6 +25,10 @@ bool answer_bytes(struct MHD_Connection *connection, const char *type, const voi
 bool answer_picture(struct MHD_Connection *connection, struct shown_picture *shown,
                     const char *layer);
 
+/* A map of one channel, of the picture's size and with its number, likewise; it is copied. */
+bool answer_map(struct MHD_Connection *connection, const struct shown_picture *shown,
+                const float *map);
+
 /* State after state, until the connection or the explorer ends. */
 bool answer_events(struct MHD_Connection *connection, struct explorer *explorer);
 

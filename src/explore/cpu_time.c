@@ -1,4 +1,5 @@
-/* cpu_time.c: by /proc/self/task (proc(5)): `comm`, and `stat`, whose fields 14 and 15 are ticks. */
+/* cpu_time.c: by /proc/self/task (proc(5)): `schedstat` begins with nanoseconds, where the system keeps them; fields 14
+ * and 15 of `stat` are ticks. */
 #include "explore/cpu_time.h"
 
 #include <dirent.h>
@@ -7,8 +8,20 @@
 #include <string.h>
 #include <unistd.h>
 
+/* The first line of a thread's file; false where it has ended. */
+static bool read_line(const char *thread, const char *name, char *line, int size)
+{
+    char path[300];
+    snprintf(path, sizeof path, "/proc/self/task/%s/%s", thread, name);
+    FILE *file = fopen(path, "re");
+    bool good = file && fgets(line, size, file);
+    if (file)
+        fclose(file);
+    return good;
+}
+
 /* "TID (NAME) STATE ...": the name may hold anything, so that the last bracket ends it. */
-static bool read_ticks(const char *line, const char *name, unsigned long long *ticks)
+static bool read_ticks(const char *line, const char *name, double *seconds)
 {
     const char *open = strchr(line, '('), *close = strrchr(line, ')');
     unsigned long long user, system;
@@ -18,33 +31,32 @@ static bool read_ticks(const char *line, const char *name, unsigned long long *t
     if (sscanf(close + 1, " %*c %*s %*s %*s %*s %*s %*s %*s %*s %*s %*s %llu %llu", &user,
                &system) != 2)
         return false;
-    *ticks = user + system;
+    *seconds = (double)(user + system) / (double)sysconf(_SC_CLK_TCK);
     return true;
 }
 
-static unsigned long long ticks_of_thread(const char *thread, const char *name)
+static double seconds_of_thread(const char *thread, const char *name)
 {
-    char path[300], line[1024];
-    unsigned long long ticks = 0;
-    snprintf(path, sizeof path, "/proc/self/task/%s/stat", thread);
-    FILE *file = fopen(path, "re");
-    if (!file)
-        return 0; /* it has ended */
-    if (!fgets(line, sizeof line, file) || !read_ticks(line, name, &ticks))
-        ticks = 0;
-    fclose(file);
-    return ticks;
+    char line[1024];
+    double seconds;
+    unsigned long long nanoseconds;
+    if (!read_line(thread, "stat", line, sizeof line) || !read_ticks(line, name, &seconds))
+        return 0.0;
+    if (read_line(thread, "schedstat", line, sizeof line) &&
+        sscanf(line, "%llu", &nanoseconds) == 1)
+        return 1e-9 * (double)nanoseconds;
+    return seconds;
 }
 
 double cpu_time_of_threads(const char *name)
 {
-    unsigned long long ticks = 0;
+    double seconds = 0.0;
     DIR *threads = opendir("/proc/self/task");
     if (!threads)
         return 0.0;
     for (const struct dirent *entry = readdir(threads); entry; entry = readdir(threads))
         if (entry->d_name[0] != '.')
-            ticks += ticks_of_thread(entry->d_name, name);
+            seconds += seconds_of_thread(entry->d_name, name);
     closedir(threads);
-    return (double)ticks / (double)sysconf(_SC_CLK_TCK);
+    return seconds;
 }

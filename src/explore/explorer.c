@@ -133,6 +133,8 @@ static void set_view(struct explorer *explorer, int index, struct option_list *o
     if (scene)
         explorer_note_scene(explorer, view, scene, began);
     view_change(view);
+    if (index == VIEW_A)
+        reference_follow(explorer);
     pthread_mutex_unlock(&explorer->lock);
     *options = last;
     psplat_scene_destroy(unused);
@@ -142,7 +144,7 @@ static bool scene_is_wrong(struct explorer *explorer)
 {
     bool wrong = false;
     pthread_mutex_lock(&explorer->lock);
-    for (size_t i = 0; i < VIEW_COUNT; i++)
+    for (size_t i = VIEW_A; i <= VIEW_B; i++)
         wrong = wrong || explorer->views[i].load.failed;
     pthread_mutex_unlock(&explorer->lock);
     return wrong;
@@ -219,6 +221,7 @@ static void release(struct explorer *explorer)
 {
     for (size_t i = 0; i < VIEW_COUNT; i++)
         view_release(&explorer->views[i]);
+    reference_release(&explorer->reference);
     pthread_mutex_destroy(&explorer->loading);
     pthread_mutex_destroy(&explorer->lock);
     pthread_cond_destroy(&explorer->work);
@@ -255,14 +258,17 @@ static ps_result load_first(struct explorer *explorer, struct option_list *optio
 
 static ps_result start_views(struct explorer *explorer)
 {
-    static const char *const names[] = {"psplat view a", "psplat view b"};
-    for (size_t i = 0; i < VIEW_COUNT; i++)
+    static const char *const names[VIEW_COUNT] = {"psplat view a", "psplat view b",
+                                                  "psplat reference"};
+    for (size_t i = 0; i < VIEW_COUNT; i++) {
+        explorer->views[i].is_behind = i == VIEW_REFERENCE;
         if (view_start(&explorer->views[i], explorer, names[i]) != PS_OK) {
             explorer_stop(explorer);
             while (i > 0)
                 view_join(&explorer->views[--i]);
             return PS_ERROR_MEMORY;
         }
+    }
     return PS_OK;
 }
 

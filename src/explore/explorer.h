@@ -8,9 +8,10 @@
 #define EXPLORE_EXPLORER_H
 
 #include "explore/option_list.h"
+#include "explore/reference.h"
 #include "explore/view.h"
 
-enum { VIEW_A, VIEW_B, VIEW_COUNT };
+enum { VIEW_A, VIEW_B, VIEW_REFERENCE, VIEW_COUNT };
 
 #define MOST_VIEW_PASSES 65536
 #define DEFAULT_VIEW_PASSES 64
@@ -29,6 +30,7 @@ struct explorer {
     char *cameras; /* JSON: names, of the scene that was read last; NULL: of none. Owned */
     atomic_bool stopping;
     struct view views[VIEW_COUNT];
+    struct reference reference;
 };
 
 /* Loads the scene with options of both kinds into view a, and starts the views' threads. A scene whose text is wrong

@@ -52,13 +52,18 @@ void json_text_write_of(struct json_writer *writer, const char *key, const char 
     json_text_write(writer, text);
 }
 
-void json_number_write_of(struct json_writer *writer, const char *key, double value)
+void json_number_write(struct json_writer *writer, double value)
 {
-    json_writer_key(writer, key);
     if (isfinite(value))
         json_writer_number(writer, value);
     else
         json_writer_raw(writer, "null");
+}
+
+void json_number_write_of(struct json_writer *writer, const char *key, double value)
+{
+    json_writer_key(writer, key);
+    json_number_write(writer, value);
 }
 
 bool json_buffer_begin(struct json_buffer *buffer)

@@ -13,6 +13,7 @@ void json_text_write(struct json_writer *writer, const char *text);
 void json_text_write_of(struct json_writer *writer, const char *key, const char *text);
 
 /* Writes a number, or null where it is not finite. */
+void json_number_write(struct json_writer *writer, double value);
 void json_number_write_of(struct json_writer *writer, const char *key, double value);
 
 /* JSON that grows in memory, in one line. */

@@ -91,10 +91,40 @@ static void write_view(const struct explorer *explorer, const struct view *view,
 
 static const struct view_failure *scene_failure(const struct explorer *explorer)
 {
-    for (size_t i = 0; i < VIEW_COUNT; i++)
+    for (size_t i = VIEW_A; i <= VIEW_B; i++)
         if (explorer->views[i].is_present && explorer->views[i].load.failed)
             return &explorer->views[i].load;
     return &explorer->views[VIEW_A].load;
+}
+
+static void write_history(const struct view *view, struct json_writer *writer)
+{
+    json_writer_open(writer, '[');
+    for (size_t i = 0; i < view->history_count; i++) {
+        const struct history_point *point = &view->history[i];
+        json_writer_open(writer, '{');
+        json_writer_number_of(writer, "passes", point->passes);
+        json_number_write_of(writer, "cpu_seconds", point->cpu_seconds);
+        json_number_write_of(writer, "error", point->error);
+        json_writer_close(writer, '{');
+    }
+    json_writer_close(writer, '[');
+}
+
+char *state_write_history(struct explorer *explorer)
+{
+    struct json_buffer buffer;
+    if (!json_buffer_begin(&buffer))
+        return NULL;
+    pthread_mutex_lock(&explorer->lock);
+    json_writer_open(&buffer.writer, '{');
+    json_writer_key(&buffer.writer, "a");
+    write_history(&explorer->views[VIEW_A], &buffer.writer);
+    json_writer_key(&buffer.writer, "b");
+    write_history(&explorer->views[VIEW_B], &buffer.writer);
+    json_writer_close(&buffer.writer, '{');
+    pthread_mutex_unlock(&explorer->lock);
+    return json_buffer_end(&buffer);
 }
 
 char *state_write(struct explorer *explorer, uint64_t *serial)
@@ -115,6 +145,8 @@ char *state_write(struct explorer *explorer, uint64_t *serial)
     write_view(explorer, &explorer->views[VIEW_B], writer);
     json_writer_close(writer, '{');
     write_error(writer, "scene_error", scene_failure(explorer));
+    json_writer_key(writer, "reference");
+    reference_write(explorer, writer);
     json_writer_close(writer, '{');
     pthread_mutex_unlock(&explorer->lock);
     return json_buffer_end(&buffer);

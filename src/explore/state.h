@@ -9,4 +9,7 @@ struct explorer;
 /* In one line, to be freed; NULL when out of memory. `serial`: of what it tells. */
 char *state_write(struct explorer *explorer, uint64_t *serial);
 
+/* The views' histories, likewise: lists of {"passes", "cpu_seconds", "error"}. */
+char *state_write_history(struct explorer *explorer);
+
 #endif

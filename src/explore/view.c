@@ -1,10 +1,13 @@
 #include "explore/view.h"
 
 #include "base/clock.h"
+#include "explore/comparison.h"
 #include "explore/explorer.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 /* Between what is told of progress, and between pictures of passes that take less. */
 #define TELL_SECONDS 0.1
@@ -12,6 +15,8 @@
 
 /* What a picture costs, with its denoiser, is at most this share of the time. */
 #define SHOW_SHARE 0.2
+
+#define BEHIND_NICE 15
 
 /* One render of a view. */
 struct work {
@@ -64,6 +69,65 @@ static void show_progress(void *user, const char *stage, double fraction)
     pthread_mutex_unlock(&work->explorer->lock);
 }
 
+/* For a picture whose number is that of the last point, or larger. */
+static void note_point(struct view *view, const struct history_point *point)
+{
+    size_t count = view->history_count;
+    if (count > 0 && view->history[count - 1].picture == point->picture) {
+        view->history[count - 1] = *point;
+        return;
+    }
+    struct history_point *history = realloc(view->history, (count + 1) * sizeof *history);
+    if (!history)
+        return; /* a point less */
+    view->history = history;
+    history[view->history_count++] = *point;
+}
+
+void view_measure(struct view *view)
+{
+    struct explorer *explorer = view->explorer;
+    struct history_point point = {0};
+    struct error error;
+    pthread_mutex_lock(&explorer->lock);
+    struct shown_picture *shown = view->shows_preview ? NULL : shown_picture_keep(view->shown);
+    struct shown_picture *reference = shown ? reference_picture(explorer) : NULL;
+    if (shown)
+        point = (struct history_point){.picture = shown_picture_number(shown),
+                                       .passes = view->shown_passes,
+                                       .cpu_seconds = view->shown_cpu_seconds};
+    pthread_mutex_unlock(&explorer->lock);
+    if (reference && comparison_error(shown, reference, &point.error, &error) == PS_OK) {
+        pthread_mutex_lock(&explorer->lock);
+        if (view->shown == shown) {
+            note_point(view, &point);
+            explorer_tell(explorer);
+        }
+        pthread_mutex_unlock(&explorer->lock);
+    }
+    shown_picture_release(shown);
+    shown_picture_release(reference);
+}
+
+void view_forget_history(struct view *view)
+{
+    free(view->history);
+    view->history = NULL;
+    view->history_count = 0;
+}
+
+/* A picture measures itself, that of a reference all others. */
+static void measure(struct view *view)
+{
+    struct explorer *explorer = view->explorer;
+    if (!view->is_behind) {
+        view_measure(view);
+        return;
+    }
+    view_measure(&explorer->views[VIEW_A]);
+    view_measure(&explorer->views[VIEW_B]);
+}
+
 /* Takes the picture over. */
 static void show(struct work *work, psplat_picture *picture, uint32_t passes)
 {
@@ -77,6 +141,7 @@ static void show(struct work *work, psplat_picture *picture, uint32_t passes)
         last = view->shown;
         view->shown = shown;
         view->shown_passes = passes;
+        view->shown_cpu_seconds = view->cpu_seconds;
         view->shows_preview = work->is_preview;
         explorer_tell(explorer);
     } else {
@@ -84,6 +149,7 @@ static void show(struct work *work, psplat_picture *picture, uint32_t passes)
     }
     pthread_mutex_unlock(&explorer->lock);
     shown_picture_release(last);
+    measure(view);
 }
 
 /* The first passes are waited for; of later ones the differences get smaller. */
@@ -100,7 +166,7 @@ static void show_passes(void *user, psplat_rendering *rendering, uint32_t passes
     psplat_picture *picture;
     if (is_over(work) || !is_worth_showing(work, passes))
         return;
-    double start = clock_seconds();
+    double start = clock_seconds(), cpu_start = cpu_time_of_threads(work->view->name);
     pthread_mutex_lock(&work->explorer->lock);
     take_time(work);
     pthread_mutex_unlock(&work->explorer->lock);
@@ -109,6 +175,8 @@ static void show_passes(void *user, psplat_rendering *rendering, uint32_t passes
         show(work, picture, passes);
     work->shown = clock_seconds();
     work->show_cost = work->shown - start;
+    work->start += work->show_cost; /* passes are what is timed */
+    work->cpu_start += cpu_time_of_threads(work->view->name) - cpu_start;
 }
 
 static ps_result render(struct work *work, const psplat_scene *scene, uint32_t passes,
@@ -186,7 +254,8 @@ static void render_scene(struct work *work, psplat_scene *scene, const struct op
 {
     struct explorer *explorer = work->explorer;
     psplat_error error = {.message = ""};
-    render_preview(work, options);
+    if (!work->view->is_behind)
+        render_preview(work, options);
     ps_result result = is_over(work) ? PS_CANCELLED : render(work, scene, passes, &error);
     pthread_mutex_lock(&explorer->lock);
     note_end(work, result, &error);
@@ -208,6 +277,7 @@ static void work_once(struct view *view)
         return;
     }
     view->seconds = view->cpu_seconds = 0.0;
+    view_forget_history(view);
     set_stage(view, "loading", 0.0);
     pthread_mutex_unlock(&explorer->lock);
     if (!scene)
@@ -224,6 +294,9 @@ static void *run(void *user)
     struct view *view = user;
     struct explorer *explorer = view->explorer;
     pthread_setname_np(pthread_self(), view->name);
+    if (view->is_behind)
+        setpriority(PRIO_PROCESS, (id_t)gettid(),
+                    BEHIND_NICE); /* of a thread, and those that it starts */
     pthread_mutex_lock(&explorer->lock);
     while (!atomic_load(&explorer->stopping)) {
         if (view->seen == atomic_load(&view->changes))
@@ -253,6 +326,7 @@ void view_release(struct view *view)
     option_list_release(&view->options);
     psplat_scene_destroy(view->loaded);
     watched_files_release(&view->files);
+    view_forget_history(view);
     free(view->facts);
 }
 
@@ -271,4 +345,5 @@ void view_clear(struct view *view)
     view->shows_preview = false;
     view->stage[0] = '\0';
     view->load.failed = view->render.failed = false;
+    view_forget_history(view);
 }

@@ -19,10 +19,20 @@ struct view_failure {
     psplat_error error;
 };
 
+/* A picture that was shown, and how far it was from the reference. */
+struct history_point {
+    uint64_t picture;
+    uint32_t passes;
+    double cpu_seconds;
+    double error; /* comparison_error */
+};
+
 struct view {
     struct explorer *explorer;
     pthread_t thread;
     char name[THREAD_NAME_LENGTH]; /* of its threads */
+    bool
+        is_behind; /* for others to be measured by: without a preview, and other threads go before its */
 
     /* What is asked for. Each change of it counts, so that a render finds out that it is no longer wanted. */
     bool is_present;
@@ -38,10 +48,13 @@ struct view {
     struct view_failure load, render;
     struct shown_picture *shown; /* NULL: none yet */
     uint32_t shown_passes;
+    double shown_cpu_seconds; /* that these took */
     bool shows_preview;
     char stage[STAGE_LENGTH]; /* "": nothing goes on */
     double fraction;
-    double seconds, cpu_seconds; /* that the render has taken so far, without loading and preview */
+    double seconds, cpu_seconds;   /* that the passes have taken so far */
+    struct history_point *history; /* in their order; owned */
+    size_t history_count;
 };
 
 /* Starts its thread. PS_ERROR_MEMORY where there is none to be had. */
@@ -58,5 +71,11 @@ void view_change(struct view *view);
 
 /* Drops what it shows. Under the lock. */
 void view_clear(struct view *view);
+
+/* Measures the picture that it shows, unless that is a preview, by the reference, for the history. */
+void view_measure(struct view *view);
+
+/* Under the lock. */
+void view_forget_history(struct view *view);
 
 #endif

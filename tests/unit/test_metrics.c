@@ -1,5 +1,6 @@
 /* test_metrics.c: the comparison's metrics against values worked out by hand, their behaviour on
  * identical and on opposite pictures. */
+#include "compare/flip.h"
 #include "compare/metric.h"
 
 #include "scratch.h"
@@ -231,6 +232,25 @@ static void test_flip_black_and_white(void **state)
     assert_near(evaluate(METRIC_FLIP, &square.pair), flip, 1e-12);
 }
 
+/* The picture of a metric has it as its mean. */
+static void test_flip_map(void **state)
+{
+    (void)state;
+    static struct square_pair square;
+    static float map[PIXELS];
+    struct error error;
+    double sum = 0.0;
+    square_open(&square);
+    for (size_t i = 0; i < PIXELS / 2; i++)
+        square.pair.test[0][i] = 0.9f;
+    assert_int_equal(flip_map(&square.pair, map, &error), PS_OK);
+    for (size_t i = 0; i < PIXELS; i++)
+        sum += (double)map[i];
+    assert_near(sum / PIXELS, evaluate(METRIC_FLIP, &square.pair), 1e-6);
+    assert_true(map[0] > 0.1f);
+    assert_near((double)map[PIXELS - 1], 0.0, 1e-3);
+}
+
 static void test_flip_green_and_blue(void **state)
 {
     (void)state;
@@ -354,6 +374,7 @@ int main(void)
         cmocka_unit_test(test_bias_of_each_channel),
         cmocka_unit_test(test_p99),
         cmocka_unit_test(test_flip_black_and_white),
+        cmocka_unit_test(test_flip_map),
         cmocka_unit_test(test_flip_green_and_blue),
         cmocka_unit_test(test_flip_is_symmetric_and_grows),
         cmocka_unit_test(test_flip_sees_less_of_fine_patterns),
