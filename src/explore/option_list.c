@@ -26,16 +26,40 @@ bool option_list_add(struct option_list *list, const char *name, const char *val
     return true;
 }
 
-bool option_list_append(struct option_list *list, const struct option_list *other)
+static bool is_of_display(const struct explore_option *option)
+{
+    return strcmp(option->name, "plugin") == 0 &&
+           (strncmp(option->value, "bloom=", 6) == 0 || strncmp(option->value, "tonemap=", 8) == 0);
+}
+
+static bool is_of_scene(const struct explore_option *option)
+{
+    return is_of_display(option) ||
+           (strcmp(option->name, "plugin") != 0 && strcmp(option->name, "seed") != 0 &&
+            strcmp(option->name, "quality") != 0);
+}
+
+static bool append(struct option_list *list, const struct option_list *other, bool scene_alone)
 {
     size_t before = list->count;
     for (size_t i = 0; i < other->count; i++)
-        if (!option_list_add(list, other->items[i].name, other->items[i].value)) {
+        if ((!scene_alone || is_of_scene(&other->items[i])) &&
+            !option_list_add(list, other->items[i].name, other->items[i].value)) {
             while (list->count > before)
                 release(&list->items[--list->count]);
             return false;
         }
     return true;
+}
+
+bool option_list_append(struct option_list *list, const struct option_list *other)
+{
+    return append(list, other, false);
+}
+
+bool option_list_append_scene(struct option_list *list, const struct option_list *other)
+{
+    return append(list, other, true);
 }
 
 void option_list_release(struct option_list *list)

@@ -24,6 +24,9 @@ bool option_list_add(struct option_list *list, const char *name, const char *val
 /* Appends copies of all; false when out of memory, with the list as it was. */
 bool option_list_append(struct option_list *list, const struct option_list *other);
 
+/* The same for those alone that say what is to be seen, and not by which method and how well. */
+bool option_list_append_scene(struct option_list *list, const struct option_list *other);
+
 void option_list_release(struct option_list *list);
 
 /* The value of the last of that name; NULL: there is none, or it takes none. */

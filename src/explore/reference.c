@@ -14,20 +14,6 @@
 
 /* --- path tracing ------------------------------------------------------------------------------------ */
 
-static bool is_of_display(const struct explore_option *option)
-{
-    return strcmp(option->name, "plugin") == 0 &&
-           (strncmp(option->value, "bloom=", 6) == 0 || strncmp(option->value, "tonemap=", 8) == 0);
-}
-
-/* Whether an option changes what is to be seen, and not only how well. */
-static bool is_of_scene(const struct explore_option *option)
-{
-    return is_of_display(option) ||
-           (strcmp(option->name, "plugin") != 0 && strcmp(option->name, "seed") != 0 &&
-            strcmp(option->name, "quality") != 0);
-}
-
 static bool add_own(struct option_list *list, uint32_t samples)
 {
     char text[64];
@@ -40,11 +26,8 @@ static bool add_own(struct option_list *list, uint32_t samples)
 /* False when out of memory; to be released in any case. */
 static bool make_options(const struct option_list *view, uint32_t samples, struct option_list *list)
 {
-    bool good = true;
-    for (size_t i = 0; i < view->count && good; i++)
-        if (is_of_scene(&view->items[i]))
-            good = option_list_add(list, view->items[i].name, view->items[i].value);
-    return good && add_own(list, samples < SAMPLES_OF_PASS ? samples : SAMPLES_OF_PASS);
+    return option_list_append_scene(list, view) &&
+           add_own(list, samples < SAMPLES_OF_PASS ? samples : SAMPLES_OF_PASS);
 }
 
 static bool options_are_same(const struct option_list *a, const struct option_list *b)

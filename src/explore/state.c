@@ -21,7 +21,7 @@ static void write_error(struct json_writer *writer, const char *key,
     json_writer_close(writer, '{');
 }
 
-/* That makes the picture that is shown, or is to be. */
+/* That makes the picture that is shown; while that is a preview, the one that is to come. */
 static void write_command(const struct explorer *explorer, const struct view *view,
                           struct json_writer *writer)
 {
@@ -34,11 +34,8 @@ static void write_command(const struct explorer *explorer, const struct view *vi
     shell_word_print(stream, explorer->path);
     option_list_print(&explorer->fixed, stream);
     option_list_print(&view->options, stream);
-    if (view->shows_preview)
-        fputs(" --preview", stream);
-    else
-        fprintf(stream, " --passes %u",
-                (unsigned)(view->shown_passes > 0 ? view->shown_passes : view->passes));
+    bool is_shown = view->shown_passes > 0 && !view->shows_preview;
+    fprintf(stream, " --passes %u", (unsigned)(is_shown ? view->shown_passes : view->passes));
     fclose(stream);
     json_text_write_of(writer, "command", text);
     free(text);

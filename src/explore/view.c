@@ -26,6 +26,7 @@ struct work {
     bool is_preview;
     double start, cpu_start;
     double told, shown; /* when something was, last */
+    const char *stage;  /* that was told of */
     double show_cost;   /* seconds that the last picture took */
 };
 
@@ -60,9 +61,11 @@ static void show_progress(void *user, const char *stage, double fraction)
 {
     struct work *work = user;
     double now = clock_seconds();
-    if (now - work->told < TELL_SECONDS || is_over(work))
+    bool is_new = !work->stage || strcmp(stage, work->stage) != 0;
+    if ((now - work->told < TELL_SECONDS && !is_new) || is_over(work))
         return;
     work->told = now;
+    work->stage = stage;
     pthread_mutex_lock(&work->explorer->lock);
     take_time(work);
     set_stage(work->view, work->is_preview ? "preview" : stage, fraction);
@@ -90,7 +93,8 @@ void view_measure(struct view *view)
     struct history_point point = {0};
     struct error error;
     pthread_mutex_lock(&explorer->lock);
-    struct shown_picture *shown = view->shows_preview ? NULL : shown_picture_keep(view->shown);
+    bool has_passes = view->shown_passes > 0 && !view->shows_preview;
+    struct shown_picture *shown = has_passes ? shown_picture_keep(view->shown) : NULL;
     struct shown_picture *reference = shown ? reference_picture(explorer) : NULL;
     if (shown)
         point = (struct history_point){.picture = shown_picture_number(shown),
@@ -190,6 +194,7 @@ static ps_result render(struct work *work, const psplat_scene *scene, uint32_t p
         .pass = show_passes,
     };
     psplat_picture *picture = NULL;
+    work->stage = NULL;
     work->start = work->shown = clock_seconds();
     work->cpu_start = cpu_time_of_threads(work->view->name);
     ps_result result = psplat_render(scene, &callbacks, &picture, error);
@@ -200,18 +205,19 @@ static ps_result render(struct work *work, const psplat_scene *scene, uint32_t p
     return result;
 }
 
-/* What can't be had as a preview is waited for. */
+/* By a quick method, whatever the view's; what can't be had so is waited for. */
 static void render_preview(struct work *work, const struct option_list *options)
 {
+    struct option_list quick = {0};
     psplat_scene *scene = NULL;
     psplat_error error;
-    if (explorer_load(work->explorer, options, 1, true, &scene, &error) != PS_OK)
-        return;
     work->is_preview = true;
-    if (!is_over(work))
+    if (option_list_append_scene(&quick, options) &&
+        explorer_load(work->explorer, &quick, 1, true, &scene, &error) == PS_OK && !is_over(work))
         render(work, scene, 1, &error);
     work->is_preview = false;
     psplat_scene_destroy(scene);
+    option_list_release(&quick);
 }
 
 static void note_end(struct work *work, ps_result result, const psplat_error *error)
@@ -333,8 +339,10 @@ void view_release(struct view *view)
 void view_change(struct view *view)
 {
     atomic_fetch_add(&view->changes, 1);
+    view->shown_passes = 0; /* of what is asked for now */
+    view->shows_preview = false;
     pthread_cond_broadcast(&view->explorer->work);
-    explorer_tell(view->explorer);
+    set_stage(view, "loading", 0.0);
 }
 
 void view_clear(struct view *view)

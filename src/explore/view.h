@@ -47,7 +47,7 @@ struct view {
     char *facts; /* JSON: members of an object, of scene_facts.h; NULL: nothing was loaded yet */
     struct view_failure load, render;
     struct shown_picture *shown; /* NULL: none yet */
-    uint32_t shown_passes;
+    uint32_t shown_passes;       /* 0: it is of what was asked for before */
     double shown_cpu_seconds; /* that these took */
     bool shows_preview;
     char stage[STAGE_LENGTH]; /* "": nothing goes on */
