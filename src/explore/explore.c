@@ -58,42 +58,51 @@ static void announce(const struct explore_request *request, const struct server 
 }
 
 static ps_result serve(const struct explore_request *request, struct explorer *explorer,
-                       const sigset_t *signals, psplat_error *error)
+                       const sigset_t *signals, struct error *error)
 {
     struct server server;
-    struct error reason;
-    ps_result result = server_start(&server, explorer, request->port, &reason);
-    if (result == PS_OK) {
-        announce(request, &server);
-        watch_until(explorer, signals);
-    } else {
-        snprintf(error->message, sizeof error->message, "%s", reason.text);
-    }
+    if (explorer_start(explorer) != PS_OK)
+        return error_set(error, PS_ERROR_MEMORY, "no threads to render in");
+    ps_result result = server_start(&server, explorer, request->port, error);
+    if (result != PS_OK)
+        return result;
+    announce(request, &server);
+    watch_until(explorer, signals);
     explorer_stop(explorer);
-    if (result == PS_OK)
-        server_stop(&server);
-    return result;
+    server_stop(&server);
+    return PS_OK;
 }
 
 /* The signals are blocked before there are threads, so that all of them leave these to the first. */
-ps_result explore(struct explore_request *request, psplat_error *error)
+static ps_result run(const struct explore_request *request, struct explorer *explorer,
+                     struct error *error)
 {
-    struct explorer explorer;
     sigset_t signals, before;
     sigemptyset(&signals);
     sigaddset(&signals, SIGINT);
     sigaddset(&signals, SIGTERM);
     pthread_sigmask(SIG_BLOCK, &signals, &before);
-    *error = (psplat_error){.result = PS_OK};
+    ps_result result = serve(request, explorer, &signals, error);
+    explorer_stop(explorer);
+    explorer_release(explorer);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return result;
+}
+
+ps_result explore(struct explore_request *request, psplat_error *error)
+{
+    struct explorer explorer;
+    struct error reason;
     ps_result result = explorer_create(&explorer, request->path, &request->fixed, &request->options,
                                        request->passes, error);
     request->fixed = (struct option_list){0};
-    if (result == PS_OK) {
-        if (error->message[0])
-            fprintf(stderr, "%s\n", error->message);
-        result = serve(request, &explorer, &signals, error);
-        explorer_release(&explorer);
-    }
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    if (result != PS_OK)
+        return result;
+    if (error->message[0])
+        fprintf(stderr, "%s\n", error->message);
+    result = run(request, &explorer, &reason);
+    *error = (psplat_error){.result = result};
+    if (result != PS_OK)
+        snprintf(error->message, sizeof error->message, "%s", reason.text);
     return result;
 }

@@ -189,8 +189,11 @@ void explorer_watch(struct explorer *explorer)
     pthread_mutex_lock(&explorer->lock);
     for (size_t i = 0; i < VIEW_COUNT; i++) {
         struct view *view = &explorer->views[i];
-        if (view->is_present && watched_files_changed(&view->files))
-            view_change(view);
+        if (!view->is_present || !watched_files_changed(&view->files))
+            continue;
+        psplat_scene_destroy(view->loaded); /* it is of the files as they were */
+        view->loaded = NULL;
+        view_change(view);
     }
     pthread_mutex_unlock(&explorer->lock);
 }
@@ -256,22 +259,6 @@ static ps_result load_first(struct explorer *explorer, struct option_list *optio
     return PS_OK;
 }
 
-static ps_result start_views(struct explorer *explorer)
-{
-    static const char *const names[VIEW_COUNT] = {"psplat view a", "psplat view b",
-                                                  "psplat reference"};
-    for (size_t i = 0; i < VIEW_COUNT; i++) {
-        explorer->views[i].is_behind = i == VIEW_REFERENCE;
-        if (view_start(&explorer->views[i], explorer, names[i]) != PS_OK) {
-            explorer_stop(explorer);
-            while (i > 0)
-                view_join(&explorer->views[--i]);
-            return PS_ERROR_MEMORY;
-        }
-    }
-    return PS_OK;
-}
-
 static ps_result make_catalogue(struct explorer *explorer, psplat_error *problem)
 {
     struct error error;
@@ -284,6 +271,7 @@ static ps_result make_catalogue(struct explorer *explorer, psplat_error *problem
 ps_result explorer_create(struct explorer *explorer, const char *path, struct option_list *fixed,
                           struct option_list *options, uint32_t passes, psplat_error *problem)
 {
+    *problem = (psplat_error){.result = PS_OK};
     memset(explorer, 0, sizeof *explorer);
     explorer->path = path;
     explorer->fixed = *fixed;
@@ -293,14 +281,24 @@ ps_result explorer_create(struct explorer *explorer, const char *path, struct op
     ps_result result = make_catalogue(explorer, problem);
     if (result == PS_OK)
         result = load_first(explorer, options, passes, problem);
-    if (result == PS_OK && start_views(explorer) != PS_OK) {
-        result = PS_ERROR_MEMORY;
-        snprintf(problem->message, sizeof problem->message, "no threads to render in");
-    }
     option_list_release(options);
     if (result != PS_OK)
         release(explorer);
     return result;
+}
+
+ps_result explorer_start(struct explorer *explorer)
+{
+    static const char *const names[VIEW_COUNT] = {"psplat view a", "psplat view b",
+                                                  "psplat reference"};
+    for (size_t i = 0; i < VIEW_COUNT; i++) {
+        struct view *view = &explorer->views[i];
+        view->is_behind = i == VIEW_REFERENCE;
+        view->has_thread = view_start(view, names[i]) == PS_OK;
+        if (!view->has_thread)
+            return PS_ERROR_MEMORY;
+    }
+    return PS_OK;
 }
 
 void explorer_stop(struct explorer *explorer)
@@ -315,6 +313,7 @@ void explorer_stop(struct explorer *explorer)
 void explorer_release(struct explorer *explorer)
 {
     for (size_t i = 0; i < VIEW_COUNT; i++)
-        view_join(&explorer->views[i]);
+        if (explorer->views[i].has_thread)
+            view_join(&explorer->views[i]);
     release(explorer);
 }

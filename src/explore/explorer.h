@@ -33,11 +33,14 @@ struct explorer {
     struct reference reference;
 };
 
-/* Loads the scene with options of both kinds into view a, and starts the views' threads. A scene whose text is wrong
+/* Loads the scene with options of both kinds for view a. A scene whose text is wrong
  * is no failure: it may be mended. Then *problem, of any size, is what to print, or "". Takes over the lists, in any
  * case. To be released on success. */
 ps_result explorer_create(struct explorer *explorer, const char *path, struct option_list *fixed,
                           struct option_list *options, uint32_t passes, psplat_error *problem);
+
+/* Starts the views' threads. PS_ERROR_MEMORY where there are none to be had; it is to be stopped then, too. */
+ps_result explorer_start(struct explorer *explorer);
 
 /* Ends all that goes on, renders too. Requests that wait for changes return. */
 void explorer_stop(struct explorer *explorer);

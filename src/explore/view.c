@@ -314,9 +314,8 @@ static void *run(void *user)
     return NULL;
 }
 
-ps_result view_start(struct view *view, struct explorer *explorer, const char *name)
+ps_result view_start(struct view *view, const char *name)
 {
-    view->explorer = explorer;
     snprintf(view->name, sizeof view->name, "%s", name);
     return pthread_create(&view->thread, NULL, run, view) == 0 ? PS_OK : PS_ERROR_MEMORY;
 }

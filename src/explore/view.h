@@ -29,6 +29,7 @@ struct history_point {
 
 struct view {
     struct explorer *explorer;
+    bool has_thread;
     pthread_t thread;
     char name[THREAD_NAME_LENGTH]; /* of its threads */
     bool
@@ -48,7 +49,7 @@ struct view {
     struct view_failure load, render;
     struct shown_picture *shown; /* NULL: none yet */
     uint32_t shown_passes;       /* 0: it is of what was asked for before */
-    double shown_cpu_seconds; /* that these took */
+    double shown_cpu_seconds;    /* that these took */
     bool shows_preview;
     char stage[STAGE_LENGTH]; /* "": nothing goes on */
     double fraction;
@@ -58,7 +59,7 @@ struct view {
 };
 
 /* Starts its thread. PS_ERROR_MEMORY where there is none to be had. */
-ps_result view_start(struct view *view, struct explorer *explorer, const char *name);
+ps_result view_start(struct view *view, const char *name);
 
 /* After the explorer was told to stop: waits for the thread. */
 void view_join(struct view *view);

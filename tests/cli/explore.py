@@ -14,6 +14,8 @@ import subprocess
 import sys
 import time
 
+for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+    os.environ.pop(name, None)
 PSPLAT = os.environ["PSPLAT"]
 SLOW = float(os.environ.get("EXPLORE_PATIENCE", "60"))  # seconds that a busy machine may take
 failures = 0
@@ -492,6 +494,27 @@ def test_faulty_begin():
         check("did you mean 'lights'?" in err.read(), "the error on stderr")
 
 
+def test_browser():
+    """The page is opened where there is a desktop."""
+    os.mkdir("bin")
+    write("bin/xdg-open", "#!/bin/sh\necho noise\necho \"$@\" >opened.new\nmv opened.new opened\n")
+    os.chmod("bin/xdg-open", 0o755)
+    path = os.environ["PATH"]
+    os.environ.update(PATH=f"{os.getcwd()}/bin:{path}", DISPLAY=":99")
+    with serving("scene.psd"):
+        time.sleep(0.2)
+        check(not os.path.exists("opened"), "--no-browser opens nothing")
+    process = subprocess.Popen([PSPLAT, "explore", "scene.psd"], stdout=subprocess.PIPE, text=True)
+    address = process.stdout.readline()
+    if wait_for(lambda: os.path.exists("opened"), "the browser"):
+        with open("opened") as opened:
+            check_same(opened.read(), address, "what is opened")
+    process.send_signal(signal.SIGINT)
+    check_same((process.stdout.read(), process.wait(SLOW)), ("", 0), "output and status")
+    os.environ["PATH"] = path
+    del os.environ["DISPLAY"]
+
+
 def test_end():
     """In the middle of a render, with readers."""
     server = Server("scene.psd", "--plugin", "estimator=pathtrace:samples=1000", "--size", "320x180")
@@ -512,7 +535,7 @@ def main():
             start = time.monotonic()
             test(server)
             print(f"{test.__name__}: {time.monotonic() - start:.1f} s")
-    for test in (test_begin, test_faulty_begin, test_end):
+    for test in (test_begin, test_faulty_begin, test_browser, test_end):
         start = time.monotonic()
         test()
         print(f"{test.__name__}: {time.monotonic() - start:.1f} s")
