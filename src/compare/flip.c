@@ -54,14 +54,17 @@ struct percepts {
     double *scratch[FLIP_SCRATCH_PLANES];
 };
 
-static ps_result percepts_create(const struct picture_pair *pair, struct percepts *percepts,
-                                 struct error *error)
+/* False when out of memory. */
+static bool percepts_create(const struct picture_pair *pair, struct percepts *percepts,
+                            struct error *error)
 {
     size_t pixels = pair->width * pair->height;
     size_t bytes = (2 * (3 + 2) + FLIP_SCRATCH_PLANES) * pixels * sizeof(double);
     double *next = percepts->memory = malloc(bytes);
-    if (!next)
-        return error_memory(error, bytes, "FLIP");
+    if (!next) {
+        error_memory(error, bytes, "FLIP");
+        return false;
+    }
     for (int i = 0; i < 2; i++) {
         for (int c = 0; c < 3; c++, next += pixels)
             percepts->of[i].colour[c] = next;
@@ -72,15 +75,14 @@ static ps_result percepts_create(const struct picture_pair *pair, struct percept
         percepts->scratch[i] = next;
     perceive(pair, pair->reference, &percepts->of[0], percepts->scratch);
     perceive(pair, pair->test, &percepts->of[1], percepts->scratch);
-    return PS_OK;
+    return true;
 }
 
 ps_result flip_mean(const struct picture_pair *pair, double *number, struct error *error)
 {
     struct percepts percepts;
-    ps_result result = percepts_create(pair, &percepts, error);
-    if (result != PS_OK)
-        return result;
+    if (!percepts_create(pair, &percepts, error))
+        return PS_ERROR_MEMORY;
     size_t pixels = pair->width * pair->height;
     double sum = 0.0, largest_distance = flip_colour_largest_distance();
     for (size_t i = 0; i < pixels; i++)
@@ -93,9 +95,8 @@ ps_result flip_mean(const struct picture_pair *pair, double *number, struct erro
 ps_result flip_map(const struct picture_pair *pair, float *map, struct error *error)
 {
     struct percepts percepts;
-    ps_result result = percepts_create(pair, &percepts, error);
-    if (result != PS_OK)
-        return result;
+    if (!percepts_create(pair, &percepts, error))
+        return PS_ERROR_MEMORY;
     double largest_distance = flip_colour_largest_distance();
     for (size_t i = 0; i < pair->width * pair->height; i++)
         map[i] = (float)pixel_error(percepts.of, i, largest_distance);

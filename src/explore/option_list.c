@@ -106,19 +106,26 @@ static ps_result check(const char *name, const char *value, struct error *error)
     return PS_OK;
 }
 
+static ps_result add_checked(struct option_list *list, const char *name, const char *value,
+                             struct error *error)
+{
+    if (!name || !value)
+        return error_set(error, PS_ERROR_INVALID, "options: a text is not UTF-8, or has NUL");
+    ps_result result = check(name, value, error);
+    if (result == PS_OK && !option_list_add(list, name, value))
+        result = error_memory(error, 0, "options");
+    return result;
+}
+
 static ps_result read_pair(struct option_list *list, const struct json *pair, struct error *error)
 {
     const struct json *parts[2] = {json_element(pair, 0), json_element(pair, 1)};
-    if (!parts[1] || pair->count != 2 || parts[0]->kind != JSON_STRING ||
+    if (!parts[0] || !parts[1] || pair->count != 2 || parts[0]->kind != JSON_STRING ||
         parts[1]->kind != JSON_STRING)
         return error_set(error, PS_ERROR_INVALID,
                          "options: expected a list of [\"NAME\", \"VALUE\"]");
     char *name = json_text_copy(parts[0]), *value = json_text_copy(parts[1]);
-    ps_result result = name && value ? check(name, value, error)
-                                     : error_set(error, PS_ERROR_INVALID,
-                                                 "options: a text is not UTF-8 without NUL");
-    if (result == PS_OK && !option_list_add(list, name, value))
-        result = error_memory(error, 0, "options");
+    ps_result result = add_checked(list, name, value, error);
     free(name);
     free(value);
     return result;
