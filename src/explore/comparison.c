@@ -126,18 +126,3 @@ ps_result comparison_map(const struct shown_picture *test, const struct shown_pi
     }
     return result;
 }
-
-ps_result comparison_error(const struct shown_picture *test, const struct shown_picture *reference,
-                           double *number, struct error *error)
-{
-    struct picture_pair pair;
-    struct metric_value value;
-    ps_result result = pair_up(test, reference, "indirect", &pair, error);
-    if (result != PS_OK)
-        result = pair_up(test, reference, "picture", &pair, error);
-    if (result == PS_OK)
-        result = metric_evaluate(METRIC_REL_RMSE, &pair, &value, error);
-    if (result == PS_OK)
-        *number = value.numbers[0];
-    return result;
-}

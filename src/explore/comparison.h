@@ -16,8 +16,4 @@ ps_result comparison_write(const struct shown_picture *test, const struct shown_
 ps_result comparison_map(const struct shown_picture *test, const struct shown_picture *reference,
                          const char *layer, const char *metric, float **map, struct error *error);
 
-/* rel_rmse of the indirect light, or of the picture where there is none. */
-ps_result comparison_error(const struct shown_picture *test, const struct shown_picture *reference,
-                           double *number, struct error *error);
-
 #endif

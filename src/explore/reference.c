@@ -76,10 +76,11 @@ void reference_follow(struct explorer *explorer)
 
 /* --- putting and deleting ---------------------------------------------------------------------------- */
 
-static void clear_histories(struct explorer *explorer)
+/* Nothing is measured by a reference that is not there. */
+static void forget_errors(struct explorer *explorer)
 {
     for (size_t i = 0; i < VIEW_COUNT; i++)
-        view_forget_history(&explorer->views[i]);
+        history_forget_errors(&explorer->views[i].history);
 }
 
 /* Without a reference. */
@@ -92,7 +93,7 @@ static void drop(struct explorer *explorer)
         view_clear(view);
         view_change(view);
     }
-    clear_histories(explorer);
+    forget_errors(explorer);
     explorer_tell(explorer);
 }
 
@@ -112,7 +113,7 @@ static void set_picture(struct explorer *explorer, enum reference_kind kind, cha
     explorer->reference = (struct reference){.kind = kind, .file = file, .shown = shown};
     pthread_mutex_unlock(&explorer->lock);
     for (int i = VIEW_A; i <= VIEW_B; i++)
-        view_measure(&explorer->views[i]);
+        view_measure(&explorer->views[i], true);
 }
 
 /* Where the scene is, unless it is absolute; to be freed. */

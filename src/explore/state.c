@@ -94,20 +94,6 @@ static const struct view_failure *scene_failure(const struct explorer *explorer)
     return &explorer->views[VIEW_A].load;
 }
 
-static void write_history(const struct view *view, struct json_writer *writer)
-{
-    json_writer_open(writer, '[');
-    for (size_t i = 0; i < view->history_count; i++) {
-        const struct history_point *point = &view->history[i];
-        json_writer_open(writer, '{');
-        json_writer_number_of(writer, "passes", point->passes);
-        json_number_write_of(writer, "cpu_seconds", point->cpu_seconds);
-        json_number_write_of(writer, "error", point->error);
-        json_writer_close(writer, '{');
-    }
-    json_writer_close(writer, '[');
-}
-
 char *state_write_history(struct explorer *explorer)
 {
     struct json_buffer buffer;
@@ -116,9 +102,9 @@ char *state_write_history(struct explorer *explorer)
     pthread_mutex_lock(&explorer->lock);
     json_writer_open(&buffer.writer, '{');
     json_writer_key(&buffer.writer, "a");
-    write_history(&explorer->views[VIEW_A], &buffer.writer);
+    history_write(&explorer->views[VIEW_A].history, &buffer.writer);
     json_writer_key(&buffer.writer, "b");
-    write_history(&explorer->views[VIEW_B], &buffer.writer);
+    history_write(&explorer->views[VIEW_B].history, &buffer.writer);
     json_writer_close(&buffer.writer, '{');
     pthread_mutex_unlock(&explorer->lock);
     return json_buffer_end(&buffer);

@@ -1,7 +1,6 @@
 #include "explore/view.h"
 
 #include "base/clock.h"
-#include "explore/comparison.h"
 #include "explore/explorer.h"
 #include <math.h>
 #include <stdlib.h>
@@ -72,64 +71,61 @@ static void show_progress(void *user, const char *stage, double fraction)
     pthread_mutex_unlock(&work->explorer->lock);
 }
 
-/* For a picture whose number is that of the last point, or larger. */
-static void note_point(struct view *view, const struct history_point *point)
-{
-    size_t count = view->history_count;
-    if (count > 0 && view->history[count - 1].picture == point->picture) {
-        view->history[count - 1] = *point;
-        return;
-    }
-    struct history_point *history = realloc(view->history, (count + 1) * sizeof *history);
-    if (!history)
-        return; /* a point less */
-    view->history = history;
-    history[view->history_count++] = *point;
-}
-
-void view_measure(struct view *view)
+/* Outside of the lock: on copies. */
+void view_measure(struct view *view, bool anew)
 {
     struct explorer *explorer = view->explorer;
-    struct history_point point = {0};
-    struct error error;
     pthread_mutex_lock(&explorer->lock);
-    bool has_passes = view->shown_passes > 0 && !view->shows_preview;
-    struct shown_picture *shown = has_passes ? shown_picture_keep(view->shown) : NULL;
-    struct shown_picture *reference = shown ? reference_picture(explorer) : NULL;
-    if (shown)
-        point = (struct history_point){.picture = shown_picture_number(shown),
-                                       .passes = view->shown_passes,
-                                       .cpu_seconds = view->shown_cpu_seconds};
+    struct shown_picture *shown = reference_picture(explorer);
+    struct history history = history_copy(&view->history);
     pthread_mutex_unlock(&explorer->lock);
-    if (reference && comparison_error(shown, reference, &point.error, &error) == PS_OK) {
+    struct picture_sample *reference = shown ? picture_sample_create(shown) : NULL;
+    if (reference && history.count > 0) {
+        history_measure(&history, reference, anew);
         pthread_mutex_lock(&explorer->lock);
-        if (view->shown == shown) {
-            note_point(view, &point);
-            explorer_tell(explorer);
-        }
+        history_take_errors(&view->history, &history);
+        explorer_tell(explorer);
         pthread_mutex_unlock(&explorer->lock);
     }
+    history_clear(&history);
+    picture_sample_release(reference);
     shown_picture_release(shown);
-    shown_picture_release(reference);
 }
 
-void view_forget_history(struct view *view)
-{
-    free(view->history);
-    view->history = NULL;
-    view->history_count = 0;
-}
-
-/* A picture measures itself, that of a reference all others. */
+/* A new picture is measured by the reference; all by one that is a new reference. */
 static void measure(struct view *view)
 {
     struct explorer *explorer = view->explorer;
-    if (!view->is_behind) {
-        view_measure(view);
-        return;
+    if (view->is_behind) {
+        view_measure(&explorer->views[VIEW_A], true);
+        view_measure(&explorer->views[VIEW_B], true);
+    } else {
+        view_measure(view, false);
     }
-    view_measure(&explorer->views[VIEW_A]);
-    view_measure(&explorer->views[VIEW_B]);
+}
+
+/* Puts a picture in place; false, and nothing has changed, where it is no longer wanted. Under the lock. */
+static bool put_in_place(const struct work *work, struct shown_picture *shown, uint32_t passes,
+                         struct picture_sample *sample)
+{
+    struct view *view = work->view;
+    if (is_over(work))
+        return false;
+    view->shown = shown;
+    view->shown_passes = passes;
+    view->shows_preview = work->is_preview;
+    if (sample)
+        history_add(&view->history, passes, view->cpu_seconds, sample);
+    explorer_tell(work->explorer);
+    return true;
+}
+
+static uint64_t next_number(struct explorer *explorer)
+{
+    pthread_mutex_lock(&explorer->lock);
+    uint64_t number = ++explorer->pictures;
+    pthread_mutex_unlock(&explorer->lock);
+    return number;
 }
 
 /* Takes the picture over. */
@@ -137,30 +133,25 @@ static void show(struct work *work, psplat_picture *picture, uint32_t passes)
 {
     struct explorer *explorer = work->explorer;
     struct view *view = work->view;
+    struct shown_picture *shown = shown_picture_create(picture, next_number(explorer));
+    bool has_history = shown && !work->is_preview && !view->is_behind;
+    struct picture_sample *sample = has_history ? picture_sample_create(shown) : NULL;
     pthread_mutex_lock(&explorer->lock);
-    struct shown_picture *shown = shown_picture_create(picture, explorer->pictures + 1);
-    struct shown_picture *last = NULL;
-    if (shown && !is_over(work)) {
-        explorer->pictures++;
-        last = view->shown;
-        view->shown = shown;
-        view->shown_passes = passes;
-        view->shown_cpu_seconds = view->cpu_seconds;
-        view->shows_preview = work->is_preview;
-        explorer_tell(explorer);
-    } else {
-        last = shown;
-    }
+    struct shown_picture *last = view->shown;
+    bool is_shown = shown && put_in_place(work, shown, passes, sample);
     pthread_mutex_unlock(&explorer->lock);
-    shown_picture_release(last);
-    measure(view);
+    shown_picture_release(is_shown ? last : shown);
+    if (!is_shown)
+        picture_sample_release(sample);
+    else if (!work->is_preview)
+        measure(view);
 }
 
 /* The first passes are waited for; of later ones the differences get smaller. */
 static bool is_worth_showing(const struct work *work, uint32_t passes)
 {
     double pause = fmax(SHOW_SECONDS, work->show_cost / SHOW_SHARE);
-    bool is_power = (passes & (passes - 1)) == 0;
+    bool is_power = (passes & (passes - 1)) == 0; /* which the history keeps */
     return is_power || clock_seconds() - work->shown >= pause;
 }
 
@@ -283,7 +274,7 @@ static void work_once(struct view *view)
         return;
     }
     view->seconds = view->cpu_seconds = 0.0;
-    view_forget_history(view);
+    history_clear(&view->history);
     set_stage(view, "loading", 0.0);
     pthread_mutex_unlock(&explorer->lock);
     if (!scene)
@@ -331,7 +322,7 @@ void view_release(struct view *view)
     option_list_release(&view->options);
     psplat_scene_destroy(view->loaded);
     watched_files_release(&view->files);
-    view_forget_history(view);
+    history_clear(&view->history);
     free(view->facts);
 }
 
@@ -352,5 +343,5 @@ void view_clear(struct view *view)
     view->shows_preview = false;
     view->stage[0] = '\0';
     view->load.failed = view->render.failed = false;
-    view_forget_history(view);
+    history_clear(&view->history);
 }

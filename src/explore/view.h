@@ -3,6 +3,7 @@
 #define EXPLORE_VIEW_H
 
 #include "explore/cpu_time.h"
+#include "explore/history.h"
 #include "explore/option_list.h"
 #include "explore/shown_picture.h"
 #include "explore/watched_files.h"
@@ -17,14 +18,6 @@ struct explorer;
 struct view_failure {
     bool failed;
     psplat_error error;
-};
-
-/* A picture that was shown, and how far it was from the reference. */
-struct history_point {
-    uint64_t picture;
-    uint32_t passes;
-    double cpu_seconds;
-    double error; /* comparison_error */
 };
 
 struct view {
@@ -53,9 +46,8 @@ struct view {
     bool shows_preview;
     char stage[STAGE_LENGTH]; /* "": nothing goes on */
     double fraction;
-    double seconds, cpu_seconds;   /* that the passes have taken so far */
-    struct history_point *history; /* in their order; owned */
-    size_t history_count;
+    double seconds, cpu_seconds; /* that the passes have taken so far */
+    struct history history;
 };
 
 /* Starts its thread. PS_ERROR_MEMORY where there is none to be had. */
@@ -73,10 +65,7 @@ void view_change(struct view *view);
 /* Drops what it shows. Under the lock. */
 void view_clear(struct view *view);
 
-/* Measures the picture that it shows, unless that is a preview, by the reference, for the history. */
-void view_measure(struct view *view);
-
-/* Under the lock. */
-void view_forget_history(struct view *view);
+/* Measures its history by the reference: what was not yet, or all. */
+void view_measure(struct view *view, bool anew);
 
 #endif

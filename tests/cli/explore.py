@@ -316,7 +316,9 @@ def test_reference(server):
         server.put("reference", value, 422)
     check_same(server.json("state")["reference"], None, "no reference")
     server.put("reference", {"view": "a"})
-    check_same([point["error"] for point in server.json("history")["a"]], [0], "what is measured by itself")
+    points = server.json("history")["a"]
+    check_same([point["passes"] for point in points], [1, 2], "what was shown before there was a reference")
+    check(points[0]["error"] > 0 and points[1]["error"] == 0, f"what is measured by itself: {points}")
     server.put("reference", {"path_tracer": {"samples": 64}})
 
     def finished():
@@ -327,8 +329,9 @@ def test_reference(server):
     server.put("view/a", options(("plugin", "estimator=pathtrace:samples=1"), RAW, passes=16))
     server.finished()
     points = wait_for(lambda: (server.json("history")["a"] or [{"passes": 0}])[-1]["passes"] == 16
-                      and server.json("history")["a"], "the history")
-    check(points[0]["passes"] == 1 and points[-1]["error"] < points[0]["error"] / 2, f"history {points}")
+                      and server.json("history")["a"], "the history") or [{"passes": 0, "error": 0}]
+    check_same([point["passes"] for point in points], [1, 2, 4, 8, 16], "pictures that are kept")
+    check(points[-1]["error"] < points[0]["error"] / 2, f"history {points}")
     check(points[-1]["cpu_seconds"] >= points[0]["cpu_seconds"], f"history {points}")
     last = reference["picture"]
     server.put("view/a", options(SPLAT, FEW, RAW, ("size", "32x18")))
