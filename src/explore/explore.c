@@ -57,8 +57,9 @@ static void announce(const struct explore_request *request, const struct server 
         open_browser(address);
 }
 
+/* Until a signal of the set comes; another one then ends the process, as it would have before. */
 static ps_result serve(const struct explore_request *request, struct explorer *explorer,
-                       const sigset_t *signals, struct error *error)
+                       const sigset_t *signals, const sigset_t *before, struct error *error)
 {
     struct server server;
     if (explorer_start(explorer) != PS_OK)
@@ -68,6 +69,7 @@ static ps_result serve(const struct explore_request *request, struct explorer *e
         return result;
     announce(request, &server);
     watch_until(explorer, signals);
+    pthread_sigmask(SIG_SETMASK, before, NULL);
     explorer_stop(explorer);
     server_stop(&server);
     return PS_OK;
@@ -82,8 +84,8 @@ static ps_result run(const struct explore_request *request, struct explorer *exp
     sigaddset(&signals, SIGINT);
     sigaddset(&signals, SIGTERM);
     pthread_sigmask(SIG_BLOCK, &signals, &before);
-    ps_result result = serve(request, explorer, &signals, error);
-    explorer_stop(explorer);
+    ps_result result = serve(request, explorer, &signals, &before, error);
+    explorer_stop(explorer); /* where it could not be served */
     explorer_release(explorer);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return result;

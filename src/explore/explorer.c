@@ -9,15 +9,14 @@
 
 /* --- loading ----------------------------------------------------------------------------------------- */
 
-/* The machine's, shared out among the views. */
+/* The machine's, shared out among the views. A reference, which lets others go before, does not count. */
 static uint32_t thread_share(struct explorer *explorer)
 {
-    uint32_t views = 0, threads = parallel_processor_count();
+    uint32_t processors = parallel_processor_count();
     pthread_mutex_lock(&explorer->lock);
-    for (size_t i = 0; i < VIEW_COUNT; i++)
-        views += explorer->views[i].is_present;
+    bool two = explorer->views[VIEW_A].is_present && explorer->views[VIEW_B].is_present;
     pthread_mutex_unlock(&explorer->lock);
-    return views > 1 && threads > views ? threads / views : views > 1 ? 1 : threads;
+    return two && processors > 1 ? processors / 2 : processors;
 }
 
 /* A number as an option's value. */
@@ -94,6 +93,15 @@ static char *cameras_of(const psplat_scene *scene)
     return json_buffer_end(&buffer);
 }
 
+/* Takes the text over. */
+static void note_cameras(struct explorer *explorer, char *cameras)
+{
+    if (!cameras || !explorer->cameras || strcmp(cameras, explorer->cameras) != 0)
+        explorer->catalogue++;
+    free(explorer->cameras);
+    explorer->cameras = cameras;
+}
+
 void explorer_note_scene(struct explorer *explorer, struct view *view, const psplat_scene *scene,
                          struct timespec began)
 {
@@ -104,9 +112,7 @@ void explorer_note_scene(struct explorer *explorer, struct view *view, const psp
     watched_files_add(&view->files, explorer->path);
     scene_facts_each_file(scene, watch_file, &view->files);
     watched_files_read(&view->files, began);
-    free(explorer->cameras);
-    explorer->cameras = cameras_of(scene);
-    explorer->catalogue++;
+    note_cameras(explorer, cameras_of(scene));
     explorer_tell(explorer);
 }
 
@@ -218,6 +224,7 @@ static void init_locks(struct explorer *explorer)
     pthread_cond_init(&explorer->work, NULL);
     pthread_mutex_init(&explorer->lock, NULL);
     pthread_mutex_init(&explorer->loading, NULL);
+    pthread_mutex_init(&explorer->measuring, NULL);
 }
 
 static void release(struct explorer *explorer)
@@ -225,6 +232,7 @@ static void release(struct explorer *explorer)
     for (size_t i = 0; i < VIEW_COUNT; i++)
         view_release(&explorer->views[i]);
     reference_release(&explorer->reference);
+    pthread_mutex_destroy(&explorer->measuring);
     pthread_mutex_destroy(&explorer->loading);
     pthread_mutex_destroy(&explorer->lock);
     pthread_cond_destroy(&explorer->work);
@@ -289,8 +297,7 @@ ps_result explorer_create(struct explorer *explorer, const char *path, struct op
 
 ps_result explorer_start(struct explorer *explorer)
 {
-    static const char *const names[VIEW_COUNT] = {"psplat view a", "psplat view b",
-                                                  "psplat reference"};
+    static const char *const names[VIEW_COUNT] = {"view a", "view b", "reference"};
     for (size_t i = 0; i < VIEW_COUNT; i++) {
         struct view *view = &explorer->views[i];
         view->is_behind = i == VIEW_REFERENCE;

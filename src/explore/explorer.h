@@ -21,12 +21,13 @@ struct explorer {
     struct option_list fixed; /* options of the command line that hold for every view; owned */
     char *kinds;              /* JSON: kinds of strategy, for the catalogue; owned */
     pthread_mutex_t lock;
-    pthread_cond_t changed;  /* on CLOCK_MONOTONIC: `serial` grew, or it stops */
-    pthread_cond_t work;     /* a view has something to do, or it stops */
-    pthread_mutex_t loading; /* held while a request loads a scene: one at a time */
-    uint64_t serial;         /* grows with each change of what a page shows */
-    uint64_t catalogue;      /* grows each time that the scene was read */
-    uint64_t pictures;       /* how many there were */
+    pthread_cond_t changed;    /* on CLOCK_MONOTONIC: `serial` grew, or it stops */
+    pthread_cond_t work;       /* a view has something to do, or it stops */
+    pthread_mutex_t loading;   /* held while a request loads a scene: one at a time */
+    pthread_mutex_t measuring; /* held while a history is measured, before `lock` */
+    uint64_t serial;           /* grows with each change of what a page shows */
+    uint64_t catalogue;        /* grows when what can be set may have changed */
+    uint64_t pictures;         /* how many there were */
     char *cameras; /* JSON: names, of the scene that was read last; NULL: of none. Owned */
     atomic_bool stopping;
     struct view views[VIEW_COUNT];

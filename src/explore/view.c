@@ -24,9 +24,10 @@ struct work {
     unsigned change; /* that it is for */
     bool is_preview;
     double start, cpu_start;
-    double told, shown; /* when something was, last */
-    const char *stage;  /* that was told of */
-    double show_cost;   /* seconds that the last picture took */
+    double seconds, cpu_seconds; /* since then, without what pictures took */
+    double timed, told, shown;   /* when something was, last */
+    const char *stage;           /* that was told of */
+    double show_cost;            /* seconds that the last picture took */
 };
 
 static bool is_over(const struct work *work)
@@ -47,13 +48,21 @@ static void set_stage(struct view *view, const char *stage, double fraction)
     explorer_tell(view->explorer);
 }
 
-/* Under the lock, while its threads are there. */
-static void take_time(const struct work *work)
+/* While its threads are there. Outside of the lock: the system has much to look up. */
+static void take_time(struct work *work)
+{
+    work->timed = clock_seconds();
+    work->seconds = work->timed - work->start;
+    work->cpu_seconds = cpu_time_of_threads(work->view->name) - work->cpu_start;
+}
+
+/* Under the lock. */
+static void set_time(const struct work *work)
 {
     if (work->is_preview)
         return;
-    work->view->seconds = clock_seconds() - work->start;
-    work->view->cpu_seconds = cpu_time_of_threads(work->view->name) - work->cpu_start;
+    work->view->seconds = work->seconds;
+    work->view->cpu_seconds = work->cpu_seconds;
 }
 
 static void show_progress(void *user, const char *stage, double fraction)
@@ -65,8 +74,10 @@ static void show_progress(void *user, const char *stage, double fraction)
         return;
     work->told = now;
     work->stage = stage;
+    if (now - work->timed >= TELL_SECONDS)
+        take_time(work);
     pthread_mutex_lock(&work->explorer->lock);
-    take_time(work);
+    set_time(work);
     set_stage(work->view, work->is_preview ? "preview" : stage, fraction);
     pthread_mutex_unlock(&work->explorer->lock);
 }
@@ -75,6 +86,7 @@ static void show_progress(void *user, const char *stage, double fraction)
 void view_measure(struct view *view, bool anew)
 {
     struct explorer *explorer = view->explorer;
+    pthread_mutex_lock(&explorer->measuring);
     pthread_mutex_lock(&explorer->lock);
     struct shown_picture *shown = reference_picture(explorer);
     struct history history = history_copy(&view->history);
@@ -87,6 +99,7 @@ void view_measure(struct view *view, bool anew)
         explorer_tell(explorer);
         pthread_mutex_unlock(&explorer->lock);
     }
+    pthread_mutex_unlock(&explorer->measuring);
     history_clear(&history);
     picture_sample_release(reference);
     shown_picture_release(shown);
@@ -162,8 +175,9 @@ static void show_passes(void *user, psplat_rendering *rendering, uint32_t passes
     if (is_over(work) || !is_worth_showing(work, passes))
         return;
     double start = clock_seconds(), cpu_start = cpu_time_of_threads(work->view->name);
-    pthread_mutex_lock(&work->explorer->lock);
     take_time(work);
+    pthread_mutex_lock(&work->explorer->lock);
+    set_time(work);
     pthread_mutex_unlock(&work->explorer->lock);
     psplat_rendering_picture(rendering, &picture, NULL);
     if (picture)
@@ -188,6 +202,7 @@ static ps_result render(struct work *work, const psplat_scene *scene, uint32_t p
     work->stage = NULL;
     work->start = work->shown = clock_seconds();
     work->cpu_start = cpu_time_of_threads(work->view->name);
+    work->seconds = work->cpu_seconds = 0.0;
     ps_result result = psplat_render(scene, &callbacks, &picture, error);
     if (picture && result != PS_CANCELLED)
         show(work, picture, passes);
@@ -233,9 +248,12 @@ static psplat_scene *load(struct work *work, const struct option_list *options, 
     clock_gettime(CLOCK_REALTIME, &began);
     ps_result result = explorer_load(explorer, options, passes, false, &scene, &error);
     pthread_mutex_lock(&explorer->lock);
-    if (result == PS_OK) {
+    if (is_over(work)) {
+        /* A request has brought another since. */
+    } else if (result == PS_OK) {
         explorer_note_scene(explorer, view, scene, began);
-    } else if (!is_over(work)) {
+        explorer->catalogue++;
+    } else {
         view->load = (struct view_failure){.failed = true, .error = error};
         if (error.file[0])
             watched_files_add(&view->files, error.file);
@@ -291,9 +309,8 @@ static void *run(void *user)
     struct view *view = user;
     struct explorer *explorer = view->explorer;
     pthread_setname_np(pthread_self(), view->name);
-    if (view->is_behind)
-        setpriority(PRIO_PROCESS, (id_t)gettid(),
-                    BEHIND_NICE); /* of a thread, and those that it starts */
+    if (view->is_behind) /* on Linux, of the thread and those that it starts */
+        setpriority(PRIO_PROCESS, (id_t)gettid(), BEHIND_NICE);
     pthread_mutex_lock(&explorer->lock);
     while (!atomic_load(&explorer->stopping)) {
         if (view->seen == atomic_load(&view->changes))
@@ -331,6 +348,7 @@ void view_change(struct view *view)
     atomic_fetch_add(&view->changes, 1);
     view->shown_passes = 0; /* of what is asked for now */
     view->shows_preview = false;
+    view->render.failed = false;
     pthread_cond_broadcast(&view->explorer->work);
     set_stage(view, "loading", 0.0);
 }
