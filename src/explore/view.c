@@ -2,6 +2,9 @@
 
 #include "base/clock.h"
 #include "explore/explorer.h"
+#include "session/option_value.h"
+#include "session/preview.h"
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -211,6 +214,20 @@ static ps_result render(struct work *work, const psplat_scene *scene, uint32_t p
     return result;
 }
 
+/* A size that was asked for is made smaller, as a preview makes that of a scene; false when out of memory. */
+static bool shrink(struct option_list *options)
+{
+    struct image_description image = {0};
+    struct error error;
+    char text[64];
+    const char *size = option_list_value(options, "size");
+    if (!size || option_size(size, &image.width, &image.height, &error) != PS_OK)
+        return true;
+    preview_shrink(&image);
+    snprintf(text, sizeof text, "%" PRId64 "x%" PRId64, image.width, image.height);
+    return option_list_add(options, "size", text);
+}
+
 /* By a quick method, whatever the view's; what can't be had so is waited for. */
 static void render_preview(struct work *work, const struct option_list *options)
 {
@@ -218,7 +235,7 @@ static void render_preview(struct work *work, const struct option_list *options)
     psplat_scene *scene = NULL;
     psplat_error error;
     work->is_preview = true;
-    if (option_list_append_scene(&quick, options) &&
+    if (option_list_append_scene(&quick, options) && shrink(&quick) &&
         explorer_load(work->explorer, &quick, 1, true, &scene, &error) == PS_OK && !is_over(work))
         render(work, scene, 1, &error);
     work->is_preview = false;

@@ -248,8 +248,10 @@ def test_changes(server):
 
 def test_cancels(server):
     """A picture that takes minutes gives way to another."""
-    server.put("view/a", options(("plugin", "estimator=pathtrace:samples=1000"), RAW, ("size", "320x180")))
+    server.put("view/a", options(("plugin", "estimator=pathtrace:samples=1000"), RAW, ("size", "1280x360")))
     wait_for(lambda: server.view("a")["stage"] not in ("", "loading", "preview"), "a long render to begin")
+    view = server.view("a")
+    check_same((view["preview"], view["width"], view["height"]), (True, 640, 180), "the preview")
     start = time.monotonic()
     server.put("view/a", SMALL)
     server.finished()
