@@ -24,9 +24,27 @@ static bool asks_for(char *const words[], size_t count, const char *letter, cons
     return false;
 }
 
+/* A command that this program was built without. */
+static bool lacks_command(const char *word)
+{
+#ifdef PSPLAT_EXPLORE
+    (void)word;
+    return false;
+#else
+    return strcmp(word, "explore") == 0;
+#endif
+}
+
 /* A word before others that is nearly a command was meant as one. */
 static bool suggest_command(const char *word)
 {
+    if (lacks_command(word)) {
+        fprintf(stderr,
+                "psplat: error: 'psplat %s' needs libmicrohttpd, which this psplat was "
+                "built without\n",
+                word);
+        return true;
+    }
     struct suggestion suggestion = suggestion_start(word);
     char hint[SUGGESTION_TEXT];
     for (size_t i = 0; i < command_count && word[0] != '-'; i++)
