@@ -210,10 +210,10 @@ static void stop(struct explorer *explorer)
     explorer_release(explorer);
 }
 
-/* Waits, up to a minute, for all passes of a view; its picture, to be released. */
+/* Waits, up to ten minutes, for all passes of a view; its picture, to be released. */
 static struct shown_picture *wait_for_picture(struct explorer *explorer, int index)
 {
-    for (int i = 0; i < 6000; i++) {
+    for (int i = 0; i < 60000; i++) {
         struct view *view = &explorer->views[index];
         pthread_mutex_lock(&explorer->lock);
         bool done = !view->shows_preview && view->shown_passes == view->passes && !view->stage[0];
