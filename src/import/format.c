@@ -46,6 +46,11 @@ bool mesh_file_is_known(const char *path)
     return find(path) != NULL;
 }
 
+const char *mesh_file_extension(size_t index)
+{
+    return index < TABLE_LENGTH ? table[index].extension : NULL;
+}
+
 int32_t mesh_file_up(const char *path)
 {
     const struct row *row = find(path);

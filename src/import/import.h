@@ -55,6 +55,9 @@ ps_result mesh_import(const struct mesh_request *request, struct scene_descripti
 /* Whether the file's name ends as that of a format that is read. */
 bool mesh_file_is_known(const char *path);
 
+/* How names of such files end, without the dot; NULL for an index beyond the last. */
+const char *mesh_file_extension(size_t index);
+
 /* Which axis usually points upwards in files of that format, as mesh_request.up. */
 int32_t mesh_file_up(const char *path);
 

@@ -7,6 +7,11 @@ bool model_is_file(const char *path)
     return mesh_file_is_known(path);
 }
 
+const char *model_extension(size_t index)
+{
+    return mesh_file_extension(index);
+}
+
 static struct box box_of(const struct scene_description *fragment)
 {
     struct box box = BOX_EMPTY;

@@ -24,6 +24,9 @@ struct model {
 /* Whether the file is one, by the end of its name. */
 bool model_is_file(const char *path);
 
+/* How names of such files end, without the dot; NULL for an index beyond the last. */
+const char *model_extension(size_t index);
+
 /* Reads the file, which lies in the folder where that is not NULL (input_file.h). PS_ERROR_INVALID where nothing is
  * to be seen in it, _IO or _MEMORY, with a message that names it. */
 ps_result model_read(const char *path, const char *folder, struct model *model,

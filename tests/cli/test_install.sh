@@ -70,6 +70,11 @@ check_contents() {
     for scene in "$PSPLAT_SOURCE"/scenes/*.psd; do
         check_file "$prefix/share/psplat/scenes/$(basename "$scene")"
     done
+    for file in psplat/scenes/pictures/plate.png psplat/psd.schema.json mime/packages/psplat.xml \
+        bash-completion/completions/psplat zsh/site-functions/_psplat fish/vendor_completions.d/psplat.fish \
+        doc/psplat/README.md doc/psplat/docs/method.md; do
+        check_file "$prefix/share/$file"
+    done
     for example in "$PSPLAT_SOURCE"/examples/*; do
         check_file "$prefix/share/psplat/examples/$(basename "$example")"
     done
