@@ -7,9 +7,9 @@
 #include <string.h>
 
 const struct command *const commands[] = {
-    &command_render,  &command_check, &command_plugins, &command_info,     &command_compare,
-    &command_diff,    &command_view,  &command_schema,  &command_debug,    &command_merge,
-    &command_resolve, &command_new,   &command_import,  &command_complete,
+    &command_render,  &command_check, &command_plugins, &command_info,  &command_compare,
+    &command_diff,    &command_view,  &command_schema,  &command_debug, &command_merge,
+    &command_resolve, &command_new,   &command_import,  &command_fmt,   &command_complete,
 #ifdef PSPLAT_EXPLORE
     &command_explore,
 #endif

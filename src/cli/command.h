@@ -40,7 +40,7 @@ struct command {
 
 extern const struct command command_render, command_check, command_plugins, command_info,
     command_compare, command_diff, command_view, command_schema, command_debug, command_merge,
-    command_resolve, command_new, command_import, command_explore, command_complete;
+    command_resolve, command_new, command_import, command_explore, command_fmt, command_complete;
 
 /* All commands; the first is what runs when none is named. */
 extern const struct command *const commands[];
