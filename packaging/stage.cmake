@@ -1,7 +1,6 @@
 # stage.cmake: cpack runs it when the files of all components are in place, before it packs them. It makes of installed
-# files what Debian's policy asks for: manual pages compressed (12.1), and a copyright and changelogs for each package
-# (12.5, 12.7), and binaries without symbols (10.1) and the compiler's remark. Times of compressed files are not kept
-# (-n), so that the same files make the same package.
+# files what Debian's policy asks for: manual pages compressed (12.1), a copyright and changelogs for each package (12.5,
+# 12.7), and binaries without symbols (10.1) and the compiler's remark.
 
 set(source ${CMAKE_CURRENT_LIST_DIR})
 find_program(GZIP gzip REQUIRED)
@@ -21,7 +20,7 @@ function(strip folder)
   endforeach()
 endfunction()
 
-# Debian's form of a changelog; the day is that of the source, not of the packaging.
+# Debian's form of a changelog, with one entry, which is about the packages themselves; its day is that of the first.
 function(write_changelog file)
   file(WRITE ${file}
        "psplat (${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) unstable; urgency=medium\n\n"

@@ -71,7 +71,7 @@ check_contents() {
         check_file "$prefix/share/psplat/scenes/$(basename "$scene")"
     done
     for file in psplat/scenes/pictures/plate.png psplat/psd.schema.json mime/packages/psplat.xml \
-        bash-completion/completions/psplat zsh/site-functions/_psplat fish/vendor_completions.d/psplat.fish \
+        bash-completion/completions/psplat zsh/site-functions/_psplat fish/vendor_completions.d/psplat.fish vim/vimfiles/ftdetect/psplat.vim \
         doc/psplat/README.md doc/psplat/docs/method.md; do
         check_file "$prefix/share/$file"
     done

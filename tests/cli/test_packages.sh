@@ -59,6 +59,7 @@ has psplat usr/share/mime/packages/psplat.xml
 has psplat usr/share/bash-completion/completions/psplat
 has psplat usr/share/zsh/vendor-completions/_psplat
 has psplat usr/share/fish/vendor_completions.d/psplat.fish
+has psplat usr/share/vim/vimfiles/ftdetect/psplat.vim
 for page in "$PSPLAT_SOURCE"/man/*.[157]; do
     has psplat "usr/share/man/man${page##*.}/$(basename "$page").gz"
 done
