@@ -12,17 +12,52 @@
 typedef ps_result (*raster_reader)(const struct raster_source *source, struct raster *raster,
                                    struct error *error);
 
+/* By `length` bytes at `offset`. `read` is NULL for what is not read, in this build or at all. */
 static const struct format {
-    const char *magic;
-    size_t length;
+    const char *name, *magic;
+    size_t offset, length;
     raster_reader read;
 } formats[] = {
-    {"\x89PNG\r\n\x1a\n", 8, raster_read_png},
-    {"\xff\xd8\xff", 3, raster_read_jpeg},
-    {"\x76\x2f\x31\x01", 4, raster_read_exr},
+    {"PNG", "\x89PNG\r\n\x1a\n", 0, 8, raster_read_png},
+    {"JPEG", "\xff\xd8\xff", 0, 3, raster_read_jpeg},
+    {"OpenEXR", "\x76\x2f\x31\x01", 0, 4, raster_read_exr},
+#ifdef PSPLAT_STB
+    {"BMP", "BM", 0, 2, raster_read_bytes},
+    {"Radiance HDR", "#?", 0, 2, raster_read_radiance},
+#else
+    {"BMP", "BM", 0, 2, NULL},
+    {"Radiance HDR", "#?", 0, 2, NULL},
+#endif
+#ifdef PSPLAT_WEBP
+    {"WebP", "WEBP", 8, 4, raster_read_webp},
+#else
+    {"WebP", "WEBP", 8, 4, NULL},
+#endif
+    {"KTX2", "\xabKTX 20\xbb", 0, 8, NULL},
+    {"DDS", "DDS ", 0, 4, NULL},
+    {"GIF", "GIF8", 0, 4, NULL},
+    {"TIFF", "II*", 0, 4, NULL},
+    {"TIFF", "MM\0*", 0, 4, NULL},
+    {"PSD", "8BPS", 0, 4, NULL},
 };
 
 #define FORMAT_COUNT (sizeof formats / sizeof *formats)
+
+static const struct format targa = {
+    .name = "TGA",
+#ifdef PSPLAT_STB
+    .read = raster_read_bytes,
+#endif
+};
+
+const char raster_kinds[] = "PNG, JPEG, OpenEXR"
+#ifdef PSPLAT_STB
+                            ", TGA, BMP, Radiance HDR"
+#endif
+#ifdef PSPLAT_WEBP
+                            ", WebP"
+#endif
+    ;
 
 static size_t bytes_per_pixel(const struct raster *raster)
 {
@@ -90,17 +125,39 @@ ps_result raster_allocate(const char *path, struct raster *raster, struct error 
     return PS_OK;
 }
 
+/* A TGA file starts with its header, of which only some bytes can be. */
+static bool may_be_targa(const unsigned char *bytes, size_t size)
+{
+    if (size < RASTER_MAGIC || bytes[1] > 1)
+        return false;
+    int kind = bytes[2] & ~8; /* 8: in runs */
+    int depth = bytes[16];
+    bool has_size = (bytes[12] || bytes[13]) && (bytes[14] || bytes[15]);
+    return kind >= 1 && kind <= 3 && (kind == 1) == (bytes[1] == 1) && has_size &&
+           (depth == 8 || depth == 15 || depth == 16 || depth == 24 || depth == 32);
+}
+
 static const struct format *find_format(const unsigned char *bytes, size_t size)
 {
-    for (size_t i = 0; i < FORMAT_COUNT; i++)
-        if (size >= formats[i].length && memcmp(bytes, formats[i].magic, formats[i].length) == 0)
-            return &formats[i];
-    return NULL;
+    for (size_t i = 0; i < FORMAT_COUNT; i++) {
+        const struct format *format = &formats[i];
+        if (size >= format->offset + format->length &&
+            memcmp(bytes + format->offset, format->magic, format->length) == 0)
+            return format;
+    }
+    return may_be_targa(bytes, size) ? &targa : NULL;
 }
 
 bool raster_is_known(const unsigned char *bytes, size_t size)
 {
-    return find_format(bytes, size) != NULL;
+    const struct format *format = find_format(bytes, size);
+    return format && format->read;
+}
+
+const char *raster_unread_kind(const unsigned char *bytes, size_t size)
+{
+    const struct format *format = find_format(bytes, size);
+    return format && !format->read ? format->name : NULL;
 }
 
 static ps_result decode(const struct raster_source *source, struct raster *raster,
@@ -109,11 +166,14 @@ static ps_result decode(const struct raster_source *source, struct raster *raste
     if (source->size == 0)
         return error_set(error, PS_ERROR_INVALID, "%s: it is empty", source->path);
     const struct format *format = find_format(source->bytes, source->size);
-    if (format)
+    if (format && format->read)
         return format->read(source, raster, error);
+    if (format)
+        return error_set(error, PS_ERROR_INVALID, "%s: it is %s, which cannot be read (%s can)",
+                         source->path, format->name, raster_kinds);
     return error_set(error, PS_ERROR_INVALID,
-                     "%s: its content is none of a picture that can be read (PNG, JPEG, OpenEXR)",
-                     source->path);
+                     "%s: its content is none of a picture that can be read (%s)", source->path,
+                     raster_kinds);
 }
 
 static ps_result decode_or_release(const struct raster_source *source, struct raster *raster,

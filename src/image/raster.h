@@ -2,8 +2,8 @@
  *
  * A colour of an 8-bit picture takes 3 bytes here and 12 as floats, which decides whether large
  * textures fit in memory; so samples stay as they were stored, and whoever reads them decodes them.
- * PNG through libpng, JPEG through libjpeg, OpenEXR through its C interface; told apart by their
- * first bytes, since names lie.
+ * PNG through libpng, JPEG through libjpeg, OpenEXR through its C interface; TGA, BMP and Radiance HDR through
+ * stb_image, and WebP through libwebp, where the build has these. Told apart by their first bytes, since names lie.
  */
 #ifndef IMAGE_RASTER_H
 #define IMAGE_RASTER_H
@@ -32,7 +32,7 @@ struct raster {
     void *samples; /* row-major, top row first, native byte order */
 };
 
-/* Reads a PNG, JPEG or OpenEXR picture from a file, which lies in `folder` where that is not NULL
+/* Reads a picture from a file, which lies in `folder` where that is not NULL
  * (input_file_open); raster_decode has one from the bytes of a file inside of another.
  *
  * PNG: every colour type and depth, interlaced or not; a palette becomes colours, a transparent
@@ -43,6 +43,8 @@ struct raster {
  * refuses is refused here; the picture is the data window. Colours stay premultiplied by alpha, as
  * the format has them. NaN is read as 0 and infinity as the largest half float, 65504. Samples are
  * half floats where these hold every one.
+ * TGA and BMP: grey, palettes and colours of 15 to 32 bits, TGA also in runs. Radiance: linear floats, as they
+ * stand. WebP: one picture, 8 bits.
  *
  * PS_ERROR_IO: the file cannot be read, is truncated or damaged; PS_ERROR_INVALID: no picture of a
  * known kind or size; PS_ERROR_MEMORY. Messages start with `path`. `raster` is written only on
@@ -53,8 +55,14 @@ ps_result raster_decode(const char *path, const unsigned char *bytes, size_t siz
                         struct raster *raster, struct error *error);
 
 /* Whether a file that starts with these bytes, RASTER_MAGIC of them or the whole file, is of a kind that is read. */
-#define RASTER_MAGIC 16
+#define RASTER_MAGIC 18
 bool raster_is_known(const unsigned char *bytes, size_t size);
+
+/* Of such a file that is not read: "KTX2" and the like, or NULL where its kind has no name here. */
+const char *raster_unread_kind(const unsigned char *bytes, size_t size);
+
+/* The kinds that this build reads: "PNG, JPEG, OpenEXR, ...". */
+extern const char raster_kinds[];
 
 void raster_release(struct raster *raster);
 

@@ -21,6 +21,17 @@ ps_result raster_read_jpeg(const struct raster_source *source, struct raster *ra
 ps_result raster_read_exr(const struct raster_source *source, struct raster *raster,
                           struct error *error);
 
+#ifdef PSPLAT_STB
+ps_result raster_read_bytes(const struct raster_source *source, struct raster *raster,
+                            struct error *error); /* TGA and BMP */
+ps_result raster_read_radiance(const struct raster_source *source, struct raster *raster,
+                               struct error *error);
+#endif
+#ifdef PSPLAT_WEBP
+ps_result raster_read_webp(const struct raster_source *source, struct raster *raster,
+                           struct error *error);
+#endif
+
 /* As image_read_exr, from memory, with the limits of a raster, and with messages that start with
  * the path. Only the channels of the list, which NULL ends, that the file has; maybe none. */
 ps_result exr_read_channels(const struct raster_source *source, const char *const *channels,

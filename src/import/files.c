@@ -6,8 +6,10 @@
 #include "import/files.h"
 
 #include "base/input_file.h"
+#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 static const struct mesh_memory_file *find_in_memory(const struct mesh_files *files,
@@ -120,6 +122,72 @@ bool mesh_files_exist(const struct mesh_files *files, const char *path)
     return files->memory ? find_in_memory(files, path) != NULL
                          : input_file_exists(path, files->folder);
 }
+
+/* --- letter case ------------------------------------------------------------------------------- */
+
+/* Makes `name`, which is in the folder, what the folder calls it. */
+static bool match_entry(const char *folder, char *name)
+{
+    DIR *directory = opendir(folder);
+    char *best = NULL;
+    if (!directory)
+        return false;
+    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory))
+        if (strcasecmp(entry->d_name, name) == 0 && (!best || strcmp(entry->d_name, best) < 0)) {
+            free(best);
+            best = strdup(entry->d_name);
+        }
+    closedir(directory);
+    if (best)
+        memcpy(name, best, strlen(best)); /* as long: only letters differ */
+    free(best);
+    return best != NULL;
+}
+
+static bool match_on_disk(char *path, size_t folder)
+{
+    char *name = path + folder;
+    while (*name) {
+        char *end = name + strcspn(name, "/"), after = *end;
+        *end = '\0';
+        bool is_there = access(path, F_OK) == 0;
+        if (!is_there) {
+            char before = name > path ? name[-1] : '\0';
+            if (name > path)
+                name[-1] = '\0';
+            is_there = match_entry(name == path ? "." : name - 1 == path ? "/" : path, name);
+            if (name > path)
+                name[-1] = before;
+        }
+        *end = after;
+        if (!is_there)
+            return false;
+        name = after ? end + 1 : end;
+    }
+    return true;
+}
+
+static bool match_in_memory(const struct mesh_files *files, char *path)
+{
+    const char *best = NULL;
+    for (size_t i = 0; i < files->memory_count; i++) {
+        const char *candidate = files->memory[i].path;
+        if (strcasecmp(candidate, path) == 0 && (!best || strcmp(candidate, best) < 0))
+            best = candidate;
+    }
+    if (best)
+        memcpy(path, best, strlen(best));
+    return best != NULL;
+}
+
+bool mesh_files_match_case(const struct mesh_files *files, char *path, size_t folder)
+{
+    if (files->memory)
+        return match_in_memory(files, path);
+    return match_on_disk(path, folder) && mesh_files_exist(files, path);
+}
+
+/* --- the first bytes --------------------------------------------------------------------------- */
 
 static size_t peek_on_disk(const char *path, const char *folder, unsigned char *bytes, size_t size)
 {

@@ -29,6 +29,10 @@ ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mes
 /* Whether there is a regular file of that path. */
 bool mesh_files_exist(const struct mesh_files *files, const char *path);
 
+/* Whether there is one whose path has other letter case beyond the first `folder` bytes; `path` becomes that: of several
+ * the first by strcmp. */
+bool mesh_files_match_case(const struct mesh_files *files, char *path, size_t folder);
+
 /* The first bytes of such a file, at most `size`: how many. */
 size_t mesh_files_peek(const struct mesh_files *files, const char *path, unsigned char *bytes,
                        size_t size);

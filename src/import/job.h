@@ -48,10 +48,14 @@ struct mesh_job {
     size_t *materials;      /* in the fragment, for each of assimp's; or NO_INDEX */
     struct mesh_omission omissions[MESH_OMISSIONS];
     struct mesh_color_faults colors;
-    char **lost; /* names of textures that are missing or unknown, each once */
+    char *
+        *lost; /* names of textures that are missing, unknown or of other letter case, each once */
     size_t lost_count;
-    size_t unknown_textures;                    /* pictures of a kind that is not read */
-    char unknown_name[MESH_MISSING_LENGTH + 1]; /* the first */
+    size_t unknown_textures;                       /* pictures of a kind that is not read */
+    char unknown_name[MESH_MISSING_LENGTH + 1];    /* the first */
+    const char *unknown_kind;                      /* of the first, or NULL */
+    size_t other_case_textures;                    /* found by another letter case */
+    char other_case_name[MESH_MISSING_LENGTH + 1]; /* of the first, as the file says */
     bool third_uv; /* some texture is laid by a further set of coordinates than the second */
     /* While assimp asked for a file, which it takes for one that is not there. */
     bool out_of_memory;

@@ -1,7 +1,8 @@
 /* texture.c: pictures that materials name, beside the mesh or inside of it.
  *
  * A path is tried as it stands, from the mesh file's folder; then with %20 and the like decoded, as
- * glTF's are; then by its last part alone, since many exporters write paths of their own machine.
+ * glTF's are; then by its last part alone, since many exporters write paths of their own machine; then both without
+ * regard to letter case, which counts for nothing where many exporters run.
  */
 #include "import/material.h"
 
@@ -47,15 +48,32 @@ bool mesh_texture_is_named(const struct aiMaterial *source, enum aiTextureType t
     return read_name(source, type, &name);
 }
 
-static bool try_path(const struct mesh_job *job, const char *name, char *path)
+/* From the mesh file's folder, whose length `folder` becomes. */
+static bool make_path(const struct mesh_job *job, const char *name, char *path, size_t *folder)
 {
     const char *mesh = job->request->path;
-    size_t folder = name[0] == '/' ? 0 : (size_t)(path_name(mesh) - mesh);
-    int length = snprintf(path, LONGEST_PATH, "%.*s%s", (int)folder, mesh, name);
-    return length > 0 && length < LONGEST_PATH && mesh_files_exist(&job->files, path);
+    *folder = name[0] == '/' ? 0 : (size_t)(path_name(mesh) - mesh);
+    int length = snprintf(path, LONGEST_PATH, "%.*s%s", (int)*folder, mesh, name);
+    return length > 0 && length < LONGEST_PATH;
 }
 
-static bool find_path(const struct mesh_job *job, char *name, char *path)
+static bool try_path(const struct mesh_job *job, const char *name, char *path)
+{
+    size_t folder;
+    return make_path(job, name, path, &folder) && mesh_files_exist(&job->files, path);
+}
+
+/* Of absolute paths only the last part is looked for. */
+static bool try_other_case(const struct mesh_job *job, const char *name, char *path)
+{
+    size_t folder;
+    return name[0] != '/' && make_path(job, name, path, &folder) &&
+           mesh_files_match_case(&job->files, path, folder);
+}
+
+enum found { FOUND_NOTHING, FOUND, FOUND_IN_OTHER_CASE };
+
+static enum found find_path(const struct mesh_job *job, char *name, char *path)
 {
     for (char *c = name; *c; c++)
         if (*c == '\\')
@@ -63,9 +81,13 @@ static bool find_path(const struct mesh_job *job, char *name, char *path)
     while (strncmp(name, "./", 2) == 0)
         name += 2;
     if (try_path(job, name, path))
-        return true;
+        return FOUND;
     mesh_decode_percent(name);
-    return try_path(job, name, path) || try_path(job, path_name(name), path);
+    if (try_path(job, name, path) || try_path(job, path_name(name), path))
+        return FOUND;
+    if (try_other_case(job, name, path) || try_other_case(job, path_name(name), path))
+        return FOUND_IN_OTHER_CASE;
+    return FOUND_NOTHING;
 }
 
 /* "*3" is the third of those inside of the file; some formats name them by their file's name. */
@@ -163,7 +185,7 @@ static ps_result copy_embedded(struct mesh_job *job, const struct aiTexture *emb
     return PS_OK;
 }
 
-/* Whether it is the first time that the texture is left out. */
+/* Whether it is the first time that the texture is left out, or found in another case. */
 static ps_result remember(struct mesh_job *job, const char *name, bool *is_new)
 {
     size_t bytes = (job->lost_count + 1) * sizeof *job->lost;
@@ -196,24 +218,31 @@ static ps_result count_missing(struct mesh_job *job, const char *name)
     return result;
 }
 
-static ps_result count_unknown(struct mesh_job *job, const char *name)
+static ps_result count_unknown(struct mesh_job *job, const char *name, const unsigned char *start,
+                               size_t size)
 {
     bool is_new;
     ps_result result = remember(job, name, &is_new);
-    if (is_new && job->unknown_textures++ == 0)
+    if (is_new && job->unknown_textures++ == 0) {
         snprintf(job->unknown_name, sizeof job->unknown_name, "%.*s", MESH_MISSING_LENGTH, name);
+        job->unknown_kind = raster_unread_kind(start, size);
+    }
     return result;
 }
 
 void mesh_note_textures(struct mesh_job *job)
 {
+    const char *kind = job->unknown_kind ? job->unknown_kind : "of an unknown kind";
     if (job->unknown_textures == 1)
-        mesh_note(job, "texture %s is left out: it is neither PNG, JPEG nor OpenEXR",
-                  job->unknown_name);
+        mesh_note(job, "texture %s is left out: it is %s (%s are read)", job->unknown_name, kind,
+                  raster_kinds);
     else if (job->unknown_textures > 1)
-        mesh_note(job,
-                  "texture %s and %zu more are left out: they are neither PNG, JPEG nor OpenEXR",
-                  job->unknown_name, job->unknown_textures - 1);
+        mesh_note(job, "texture %s, which is %s, and %zu more are left out (%s are read)",
+                  job->unknown_name, kind, job->unknown_textures - 1, raster_kinds);
+    if (job->other_case_textures > 0)
+        mesh_note(job, "%zu texture%s found under a name of other letter case (%s)",
+                  job->other_case_textures, job->other_case_textures > 1 ? "s are" : " is",
+                  job->other_case_name);
 }
 
 static ps_result locate_inside(struct mesh_job *job, const struct aiTexture *embedded,
@@ -223,8 +252,18 @@ static ps_result locate_inside(struct mesh_job *job, const struct aiTexture *emb
     if (!is_file)
         return count_missing(job, name);
     if (!raster_is_known((const unsigned char *)embedded->pcData, embedded->mWidth))
-        return count_unknown(job, name);
+        return count_unknown(job, name, (const unsigned char *)embedded->pcData, embedded->mWidth);
     return copy_embedded(job, embedded, name, texture);
+}
+
+static ps_result count_other_case(struct mesh_job *job, const char *name)
+{
+    bool is_new;
+    ps_result result = remember(job, name, &is_new);
+    if (is_new && job->other_case_textures++ == 0)
+        snprintf(job->other_case_name, sizeof job->other_case_name, "%.*s", MESH_MISSING_LENGTH,
+                 name);
+    return result;
 }
 
 static ps_result locate(struct mesh_job *job, char *name, struct texture_description *texture)
@@ -234,10 +273,14 @@ static ps_result locate(struct mesh_job *job, char *name, struct texture_descrip
     unsigned char start[RASTER_MAGIC];
     if (embedded)
         return locate_inside(job, embedded, name, texture);
-    if (name[0] == '*' || !find_path(job, name, path))
+    enum found found = name[0] == '*' ? FOUND_NOTHING : find_path(job, name, path);
+    if (found == FOUND_NOTHING)
         return count_missing(job, name);
-    if (!raster_is_known(start, mesh_files_peek(&job->files, path, start, sizeof start)))
-        return count_unknown(job, name);
+    if (found == FOUND_IN_OTHER_CASE && count_other_case(job, name) != PS_OK)
+        return PS_ERROR_MEMORY;
+    size_t size = mesh_files_peek(&job->files, path, start, sizeof start);
+    if (!raster_is_known(start, size))
+        return count_unknown(job, name, start, size);
     texture->path = strdup(path);
     return texture->path ? PS_OK : mesh_out_of_memory(job, strlen(path));
 }

@@ -3,16 +3,17 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const double one[3] = {1, 1, 1}, half[3] = {0.5, 0.5, 0.5};
 
 static bool is_readable(const char *name)
 {
     static const char *const suffixes[] = {".png", ".jpg", ".jpeg", ".exr",
-                                           ".PNG", ".JPG", ".JPEG", ".EXR"};
+                                           ".tga", ".bmp", ".hdr",  ".webp"};
     const char *dot = strrchr(name, '.');
     for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0] && dot; i++)
-        if (strcmp(dot, suffixes[i]) == 0)
+        if (strcasecmp(dot, suffixes[i]) == 0)
             return true;
     return false;
 }
@@ -23,8 +24,8 @@ struct pattern texture_image(struct importer *importer, const struct place *plac
     char *path = importer_file_path(importer, name), *shown = importer_file_name(importer, name);
     if (!is_readable(name)) {
         importer_warn(importer, place->origin, place->width,
-                      "'%.200s' is no PNG, JPEG or OpenEXR picture, which psplat reads; grey "
-                      "stands in for it",
+                      "'%.200s' is no picture of a kind that psplat reads; grey stands in "
+                      "for it",
                       name);
         pattern = pattern_constant(half);
     } else if (path && shown) {

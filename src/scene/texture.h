@@ -25,8 +25,8 @@ struct texture {
     bool clipped;               /* some material's reflectances are taken from it, and leave 0..1 */
 };
 
-/* Loads what raster_read can read. The encoding "auto" takes the colours of PNG and JPEG for sRGB
- * (IEC 61966-2-1) and those of OpenEXR for linear; pictures that hold no colours, such as normal
+/* Loads what raster_read can read. The encoding "auto" takes the colours of OpenEXR and Radiance
+ * files for linear, and others for sRGB (IEC 61966-2-1); pictures that hold no colours, such as normal
  * maps, want ENCODING_LINEAR. Alpha is linear, and colours are not divided by it: those of OpenEXR
  * are premultiplied. `folder`: the only one to read from (input_file.h), or NULL. Messages start with the description's path; codes are raster_read's. `texture`
  * is written only on success, and what it held is not released. */

@@ -1,5 +1,7 @@
 /* test_mesh_mtl.c: what MTL's statements become. */
+#include "image/raster.h"
 #include "mesh_fixture.h"
+#include "scratch.h"
 
 static const char triangle[] = "mtllib m.mtl\n"
                                "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
@@ -14,7 +16,7 @@ static struct imported import_mtl_of(const struct mesh_request *request, const c
                                              text_file("d/m.mtl", text),
                                              text_file("d/a.png", PNG_START),
                                              text_file("d/sub/b c.png", PNG_START),
-                                             text_file("d/a.webp", "RIFF....WEBPVP8 ...."),
+                                             text_file("d/a.ktx2", "\xabKTX 20\xbb\r\n\x1a\n...."),
                                              text_file("d/b.webp", "RIFF")};
     struct imported imported = import_files(request, files, 6);
     expect_success(&imported);
@@ -214,17 +216,63 @@ static void missing_texture_is_reported(void **state)
 
 static void pictures_of_unknown_kinds_are_left_out(void **state)
 {
+    char expected[256];
     (void)state;
-    struct imported imported = import_mtl("map_Kd a.webp\nbump a.webp");
+    struct imported imported = import_mtl("map_Kd a.ktx2\nbump a.ktx2");
     assert_int_equal(imported.report.missing_textures, 0);
     assert_int_equal(imported.fragment.texture_count, 0);
-    assert_string_equal(imported.report.notes,
-                        "texture a.webp is left out: it is neither PNG, JPEG nor OpenEXR");
+    snprintf(expected, sizeof expected, "texture a.ktx2 is left out: it is KTX2 (%s are read)",
+             raster_kinds);
+    assert_string_equal(imported.report.notes, expected);
     release_imported(&imported);
-    imported = import_mtl("map_Kd a.webp\nbump b.webp");
-    assert_string_equal(
-        imported.report.notes,
-        "texture a.webp and 1 more are left out: they are neither PNG, JPEG nor OpenEXR");
+    imported = import_mtl("map_Kd b.webp\nbump a.ktx2");
+    snprintf(expected, sizeof expected,
+             "texture b.webp, which is of an unknown kind, and 1 more are left out (%s are read)",
+             raster_kinds);
+    assert_string_equal(imported.report.notes, expected);
+    release_imported(&imported);
+}
+
+static void letter_case_of_pictures_is_forgiven(void **state)
+{
+    (void)state;
+    struct imported imported = import_mtl("map_Kd A.PNG\nbump Sub/B C.png\nmap_d A.PNG");
+    assert_int_equal(imported.report.missing_textures, 0);
+    assert_int_equal(imported.fragment.texture_count, 3); /* a.png as colours and as numbers */
+    for (size_t i = 0; i < 3; i++)
+        assert_true(strcmp(imported.fragment.textures[i].path, "d/a.png") == 0 ||
+                    strcmp(imported.fragment.textures[i].path, "d/sub/b c.png") == 0);
+    assert_non_null(
+        strstr(imported.report.notes, "2 textures are found under a name of other letter case ("));
+    release_imported(&imported);
+}
+
+static void make_file(const char *folder, const char *name, const char *text)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+static void letter_case_is_forgiven_on_disk(void **state)
+{
+    const char *folder = ((struct scratch *)*state)->directory;
+    char path[4096], expected[4200];
+    snprintf(path, sizeof path, "%s/m.obj", folder);
+    snprintf(expected, sizeof expected, "%s/Wall.Png", folder);
+    make_file(folder, "m.obj", triangle);
+    make_file(folder, "m.mtl", "newmtl m\nmap_Kd WALL.PNG\nbump nowhere.png\n");
+    make_file(folder, "Wall.Png", PNG_START);
+    struct mesh_request request = request_all(path);
+    struct imported imported = import_disk(&request);
+    expect_success(&imported);
+    assert_string_equal(imported.report.missing_names, "nowhere.png");
+    assert_string_equal(imported.fragment.textures[0].path, expected);
+    assert_string_equal(imported.report.notes,
+                        "1 texture is found under a name of other letter case (WALL.PNG)");
     release_imported(&imported);
 }
 
@@ -304,6 +352,8 @@ int main(void)
         cmocka_unit_test(bump_grows_with_the_unit),
         cmocka_unit_test(missing_texture_is_reported),
         cmocka_unit_test(pictures_of_unknown_kinds_are_left_out),
+        cmocka_unit_test(letter_case_of_pictures_is_forgiven),
+        SCRATCH_TEST(letter_case_is_forgiven_on_disk),
         cmocka_unit_test(all_missing_textures_are_named),
         cmocka_unit_test(absent_material_has_but_a_name),
         cmocka_unit_test(statements_before_the_first_material_are_harmless),
