@@ -1,7 +1,8 @@
 /* json_reader.h: reads JSON (RFC 8259) into a tree that refers to the text.
  *
  * Strict: no comments, no trailing commas. Nesting up to JSON_DEPTH, values up to JSON_VALUES. Strings and keys stay as
- * they are in the text, escapes included, and point into it.
+ * they are in the text, escapes included, and point into it. A tree can be written anew, with parts left out, replaced or
+ * added.
  */
 #ifndef BASE_JSON_READER_H
 #define BASE_JSON_READER_H
@@ -28,12 +29,19 @@ struct json {
     struct json *items, *next; /* of an array, an object: the first; what follows in it */
     struct json **table;       /* of an array: all */
     size_t count;
+    /* For json_rewrite alone. */
+    bool hidden;             /* of an object's member: left out */
+    const char *replacement; /* JSON in the place of the value, or NULL */
+    const char *appended;    /* JSON after the last item, without a comma before it, or NULL */
 };
 
 /* The tree lives as long as the arena and the text. PS_ERROR_INVALID with line and column, or
  * PS_ERROR_MEMORY. */
 ps_result json_read(struct arena *arena, char *text, size_t length, struct json **root,
                     struct error *error);
+
+/* The tree as text with a zero after it, to be freed; NULL: out of memory. */
+char *json_rewrite(const struct json *root, size_t *length);
 
 /* The first member of that name; NULL where there is none, or `object` is NULL or no object. */
 struct json *json_member(const struct json *object, const char *name);

@@ -117,6 +117,22 @@ ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mes
     return PS_OK;
 }
 
+ps_result mesh_files_add(struct mesh_files *files, const char *path, char *bytes, size_t length,
+                         struct error *error)
+{
+    struct mesh_file *file = calloc(1, sizeof *file);
+    char *copy = strdup(path);
+    if (!file || !copy) {
+        free(file);
+        free(copy);
+        free(bytes);
+        return error_memory(error, length, "a mesh file");
+    }
+    *file = (struct mesh_file){files->read, copy, bytes, length};
+    files->read = file;
+    return PS_OK;
+}
+
 bool mesh_files_exist(const struct mesh_files *files, const char *path)
 {
     return files->memory ? find_in_memory(files, path) != NULL

@@ -26,6 +26,11 @@ struct mesh_files {
 ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mesh_file **file,
                           struct error *error);
 
+/* Adds one of that path, which hides one that may be there; `bytes` come from malloc, with a zero after them, and are
+ * taken over in any case. */
+ps_result mesh_files_add(struct mesh_files *files, const char *path, char *bytes, size_t length,
+                         struct error *error);
+
 /* Whether there is a regular file of that path. */
 bool mesh_files_exist(const struct mesh_files *files, const char *path);
 

@@ -1,11 +1,13 @@
-/* gltf.c: from the bytes to the tree, and through the scene's nodes. */
-#include "import/gltf.h"
+/* gltf.c: from the bytes to the tree, through the scene's nodes, and to the bytes that assimp gets. */
+#include "import/gltf_data.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #define GLB_HEADER 12
 #define CHUNK_HEADER 8
 #define CHUNK_JSON 0x4e4f534au
+#define CHUNK_BINARY 0x004e4942u
 
 static uint32_t little_endian(const char *bytes)
 {
@@ -38,6 +40,23 @@ static ps_result find_json(const struct mesh_file *file, struct json_text *text,
     return PS_OK;
 }
 
+bool gltf_binary_chunk(const struct gltf *gltf, struct gltf_bytes *bytes)
+{
+    const struct mesh_file *file = gltf->file;
+    struct json_text text = {0};
+    struct error ignored;
+    if (!gltf->binary || find_json(file, &text, &ignored) != PS_OK)
+        return false;
+    size_t at = (size_t)(text.start - file->bytes) + text.length;
+    if (file->length - at < CHUNK_HEADER || little_endian(file->bytes + at + 4) != CHUNK_BINARY)
+        return false;
+    size_t length = little_endian(file->bytes + at);
+    bytes->bytes = (const unsigned char *)file->bytes + at + CHUNK_HEADER;
+    bytes->length = file->length - at - CHUNK_HEADER;
+    bytes->length = length < bytes->length ? length : bytes->length;
+    return true;
+}
+
 static ps_result complain(struct error *error, const char *what)
 {
     return error_set(error, PS_ERROR_INVALID, "glTF: %s", what);
@@ -46,11 +65,14 @@ static ps_result complain(struct error *error, const char *what)
 /* --- the document ------------------------------------------------------------------------------ */
 
 static const char *const known_extensions[] = {
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",      "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular", "KHR_materials_transmission",
-    "KHR_materials_unlit",    "KHR_materials_volume",
-    "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
+    "EXT_texture_webp",        "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",     "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",  "KHR_materials_transmission",
+    "KHR_materials_unlit",     "KHR_materials_variants",
+    "KHR_materials_volume",    "KHR_mesh_quantization",
+    "KHR_texture_basisu",      "KHR_texture_transform",
 };
 
 static bool is_known_extension(const struct json *name)
@@ -88,6 +110,15 @@ static ps_result check_document(const struct gltf *gltf, struct error *error)
     return check_required_extensions(gltf, error);
 }
 
+/* --- what meshes are made of --------------------------------------------------------------------- */
+
+#define DRACO "KHR_draco_mesh_compression"
+
+bool gltf_is_draco(const struct json *primitive)
+{
+    return json_member(json_member(primitive, "extensions"), DRACO) != NULL;
+}
+
 /* --- the walk ---------------------------------------------------------------------------------- */
 
 /* A walk through the nodes in assimp's order. */
@@ -118,24 +149,6 @@ static size_t count_triangles(const struct gltf *gltf, const struct json *primit
     return mode == 4 ? corners / 3 : corners > 2 ? corners - 2 : 0;
 }
 
-#define COMPONENT_FLOAT 5126
-
-static bool is_float(const struct gltf *gltf, const struct json *attributes, const char *name)
-{
-    size_t accessor, type;
-    return json_size(attributes, name, SIZE_MAX, &accessor) &&
-           json_size(json_element(json_member(gltf->root, "accessors"), accessor), "componentType",
-                     COMPONENT_FLOAT, &type) &&
-           type == COMPONENT_FLOAT;
-}
-
-static bool has_float_vertices(const struct gltf *gltf, const struct json *primitive)
-{
-    const struct json *attributes = json_member(primitive, "attributes");
-    return (!json_member(attributes, "POSITION") || is_float(gltf, attributes, "POSITION")) &&
-           (!json_member(attributes, "NORMAL") || is_float(gltf, attributes, "NORMAL"));
-}
-
 static ps_result meet_materials(struct walk *walk, const struct json *mesh)
 {
     struct gltf *gltf = walk->gltf;
@@ -144,8 +157,7 @@ static ps_result meet_materials(struct walk *walk, const struct json *mesh)
         const struct json *primitive = json_element(primitives, i);
         size_t index;
         gltf->primitives[gltf->primitive_count++] = primitive;
-        if (!has_float_vertices(gltf, primitive))
-            return complain(walk->error, "vertices are integers (KHR_mesh_quantization)");
+        gltf->draco |= gltf_is_draco(primitive);
         gltf->triangle_count += count_triangles(gltf, primitive);
         if (!json_member(primitive, "material"))
             continue;
@@ -241,22 +253,19 @@ static ps_result walk_scene(struct gltf *gltf, struct error *error)
 
 /* --- hidden from assimp ---------------------------------------------------------------------- */
 
-/* Only the text changes: the tree still knows the members by their names. */
-static void hide(const struct gltf *gltf, const struct json *object, const char *name)
+/* json_rewrite leaves it out; the tree still has it. */
+static void hide(const struct json *object, const char *name)
 {
     if (!object || object->kind != JSON_OBJECT)
         return;
     for (struct json *item = object->items; item; item = item->next)
-        if (json_is(&item->key, name)) {
-            gltf->text[item->key.start - gltf->text] = '_';
-            item->key.start = name;
-        }
+        item->hidden |= json_is(&item->key, name);
 }
 
-static void hide_all(const struct gltf *gltf, const struct json *object, const char *const names[])
+static void hide_all(const struct json *object, const char *const names[])
 {
     for (size_t i = 0; names[i]; i++)
-        hide(gltf, object, names[i]);
+        hide(object, names[i]);
 }
 
 static bool is_used_attribute(const struct json_text *name)
@@ -268,39 +277,38 @@ static bool is_used_attribute(const struct json_text *name)
     return false;
 }
 
-/* assimp copies integers into floats bit by bit. */
-static void hide_integers(struct gltf *gltf, const struct json *attributes)
-{
-    static const char *const names[] = {"TEXCOORD_0", "TEXCOORD_1"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (json_member(attributes, names[i]) && !is_float(gltf, attributes, names[i])) {
-            hide(gltf, attributes, names[i]);
-            gltf->integer_uv = true;
-        }
-}
-
-static void hide_attributes(struct gltf *gltf, const struct json *attributes)
+static void hide_attributes(const struct json *attributes)
 {
     if (!attributes || attributes->kind != JSON_OBJECT)
         return;
     for (struct json *item = attributes->items; item; item = item->next)
-        if (item->key.length > 0 && !is_used_attribute(&item->key))
-            gltf->text[item->key.start - gltf->text] = '_';
-    hide_integers(gltf, attributes);
+        item->hidden |= !is_used_attribute(&item->key);
 }
 
-static void hide_in_mesh(struct gltf *gltf, const struct json *mesh)
+/* Its list of attributes says the same as the primitive's. */
+static void hide_all_but_draco(const struct json *extensions)
 {
-    static const char *const names[] = {"targets", "extensions", "extras", NULL};
+    for (struct json *item = extensions->items; item; item = item->next)
+        item->hidden |= !json_is(&item->key, DRACO);
+    hide_attributes(json_member(json_member(extensions, DRACO), "attributes"));
+}
+
+static void hide_in_mesh(const struct json *mesh)
+{
+    static const char *const names[] = {"targets", "extras", NULL};
     const struct json *primitives = json_member(mesh, "primitives");
     for (size_t i = 0; primitives && i < primitives->count; i++) {
         const struct json *primitive = json_element(primitives, i);
-        hide_all(gltf, primitive, names);
-        hide_attributes(gltf, json_member(primitive, "attributes"));
+        hide_all(primitive, names);
+        if (gltf_is_draco(primitive))
+            hide_all_but_draco(json_member(primitive, "extensions"));
+        else
+            hide(primitive, "extensions");
+        hide_attributes(json_member(primitive, "attributes"));
     }
 }
 
-static void hide_rest(struct gltf *gltf)
+static void hide_rest(const struct gltf *gltf)
 {
     static const char *const of_root[] = {"animations", "skins", "cameras", "extensions", NULL};
     static const char *const of_node[] = {"skin", "camera", "extensions", "extras", NULL};
@@ -308,32 +316,109 @@ static void hide_rest(struct gltf *gltf)
     const struct json *nodes = json_member(gltf->root, "nodes");
     const struct json *meshes = json_member(gltf->root, "meshes");
     for (size_t i = 0; nodes && i < nodes->count; i++)
-        hide_all(gltf, json_element(nodes, i), of_node);
+        hide_all(json_element(nodes, i), of_node);
     for (size_t i = 0; meshes && i < meshes->count; i++) {
-        hide_all(gltf, json_element(meshes, i), of_mesh);
-        hide_in_mesh(gltf, json_element(meshes, i));
+        hide_all(json_element(meshes, i), of_mesh);
+        hide_in_mesh(json_element(meshes, i));
     }
-    hide_all(gltf, gltf->root, of_root);
+    hide_all(gltf->root, of_root);
 }
 
-/* --- both ---------------------------------------------------------------------------------------- */
+/* --- what assimp gets -------------------------------------------------------------------------- */
 
-ps_result gltf_open(struct gltf *gltf, struct mesh_file *file, bool binary, struct error *error)
+static void put_little_endian(char *bytes, size_t value)
+{
+    for (int i = 0; i < 4; i++)
+        bytes[i] = (char)(value >> 8 * i & 0xff);
+}
+
+/* In the place of the old JSON, with blanks after it; in a file that is made longer where it needs to be. */
+static ps_result replace_chunk(struct mesh_file *file, const struct json_text *old,
+                               const char *text, size_t length, struct error *error)
+{
+    const size_t before = GLB_HEADER + CHUNK_HEADER, after = file->length - before - old->length;
+    size_t room = old->length > length ? old->length : (length + 3) / 4 * 4;
+    if (room > old->length) {
+        char *bytes = malloc(before + room + after + 1);
+        if (!bytes)
+            return error_memory(error, before + room + after, "a mesh file");
+        memcpy(bytes, file->bytes, before);
+        memcpy(bytes + before + room, file->bytes + before + old->length, after + 1);
+        free(file->bytes);
+        file->bytes = bytes;
+        file->length = before + room + after;
+        put_little_endian(bytes + 8, file->length);
+        put_little_endian(bytes + GLB_HEADER, room);
+    }
+    memset(file->bytes + before, ' ', room);
+    memcpy(file->bytes + before, text, length);
+    return PS_OK;
+}
+
+static ps_result rewrite(struct gltf *gltf, const struct json_text *old, struct error *error)
+{
+    size_t length;
+    char *text = json_rewrite(gltf->root, &length);
+    if (!text)
+        return error_memory(error, old->length, "a mesh file");
+    if (!gltf->binary) {
+        free(gltf->file->bytes);
+        gltf->file->bytes = text;
+        gltf->file->length = length;
+        return PS_OK;
+    }
+    ps_result result = replace_chunk(gltf->file, old, text, length, error);
+    free(text);
+    return result;
+}
+
+/* --- all ----------------------------------------------------------------------------------------- */
+
+static ps_result prepare(struct gltf *gltf, struct error *error)
+{
+    gltf->buffer_count = count_of(gltf, "buffers");
+    gltf->view_count = count_of(gltf, "bufferViews");
+    gltf->accessor_count = count_of(gltf, "accessors");
+    gltf->buffers = arena_allocate(&gltf->arena, (gltf->buffer_count + 1) * sizeof *gltf->buffers);
+    gltf->views = arena_allocate(&gltf->arena, (gltf->view_count + 1) * sizeof *gltf->views);
+    return gltf->buffers && gltf->views
+               ? PS_OK
+               : error_memory(error, gltf->view_count * sizeof *gltf->views, "a mesh file");
+}
+
+static ps_result read_document(struct gltf *gltf, const struct json_text *text, struct error *error)
+{
+    char *copy = arena_copy(&gltf->arena, text->start, text->length);
+    if (!copy)
+        return error_memory(error, text->length, "a mesh file");
+    ps_result result = json_read(&gltf->arena, copy, text->length, &gltf->root, error);
+    if (result == PS_OK)
+        result = check_document(gltf, error);
+    if (result == PS_OK)
+        result = prepare(gltf, error);
+    if (result == PS_OK)
+        result = walk_scene(gltf, error);
+    if (result != PS_OK)
+        return result;
+    hide_rest(gltf);
+    return gltf_unpack(gltf, error);
+}
+
+ps_result gltf_open(struct gltf *gltf, struct mesh_file *file, struct mesh_files *files,
+                    bool binary, struct error *error)
 {
     struct json_text text = {file->bytes, file->length};
     struct error inner;
+    gltf->file = file;
+    gltf->files = files;
+    gltf->binary = binary;
     ps_result result = binary ? find_json(file, &text, error) : PS_OK;
     if (result != PS_OK)
         return result;
-    gltf->text = file->bytes + (text.start - file->bytes);
-    result = json_read(&gltf->arena, gltf->text, text.length, &gltf->root, &inner);
+    result = read_document(gltf, &text, &inner);
     if (result == PS_OK)
-        result = check_document(gltf, &inner);
-    if (result == PS_OK)
-        result = walk_scene(gltf, &inner);
-    if (result == PS_OK)
-        hide_rest(gltf);
-    else
+        result = rewrite(gltf, &text, &inner);
+    if (result != PS_OK)
         error_set(error, result, "%s: %.3000s", file->path, inner.text);
     return result;
 }
@@ -343,8 +428,6 @@ void gltf_release(struct gltf *gltf)
     arena_release(&gltf->arena);
     *gltf = (struct gltf){0};
 }
-
-/* --- what meshes are made of --------------------------------------------------------------------- */
 
 const struct json *gltf_primitive(const struct gltf *gltf, size_t index, size_t mesh_count)
 {

@@ -4,6 +4,7 @@
  * (3.7.4, "negative determinant").
  */
 #include "import/geometry.h"
+#include "import/instances.h"
 #include "import/material.h"
 #include "import/steps.h"
 #include <stdlib.h>
@@ -18,6 +19,7 @@ struct builder {
     size_t *meshes;    /* of the fragment, for each of assimp's; NO_INDEX: not yet; EMPTY */
     size_t *dropped;   /* triangles of each of assimp's meshes */
     uint32_t *scratch; /* room for a number for each vertex of any mesh */
+    size_t object_capacity;
 };
 
 static const struct aiMesh *source_mesh(const struct builder *builder, size_t index)
@@ -80,11 +82,29 @@ static ps_result want_mesh(struct builder *builder, size_t index, size_t *mesh)
     return result;
 }
 
-static void add_object(const struct builder *builder, const struct aiMesh *source, size_t mesh,
-                       const struct affine *placement)
+static ps_result reserve_object(struct builder *builder)
+{
+    struct scene_description *fragment = builder->job->fragment;
+    if (fragment->object_count < builder->object_capacity)
+        return PS_OK;
+    size_t capacity = 2 * builder->object_capacity + 16;
+    size_t bytes = capacity * sizeof *fragment->objects;
+    struct object_description *objects = realloc(fragment->objects, bytes);
+    if (!objects)
+        return mesh_out_of_memory(builder->job, bytes);
+    fragment->objects = objects;
+    builder->object_capacity = capacity;
+    return PS_OK;
+}
+
+static ps_result add_object(struct builder *builder, const struct aiMesh *source, size_t mesh,
+                            const struct affine *placement)
 {
     struct mesh_job *job = builder->job;
     const size_t *material = material_of(builder, source);
+    ps_result result = reserve_object(builder);
+    if (result != PS_OK)
+        return result;
     struct object_description *object = &job->fragment->objects[job->fragment->object_count++];
     *object = (struct object_description){
         .kind = OBJECT_MESH,
@@ -95,6 +115,7 @@ static void add_object(const struct builder *builder, const struct aiMesh *sourc
         .group = NO_INDEX,
         .origin = job->request->origin,
     };
+    return PS_OK;
 }
 
 static size_t count_triangles(const struct aiMesh *mesh)
@@ -117,7 +138,38 @@ static ps_result place_mesh(struct builder *builder, size_t index, const struct 
     }
     ps_result result = want_mesh(builder, index, &mesh);
     if (result == PS_OK && mesh != EMPTY)
-        add_object(builder, source, mesh, placement);
+        result = add_object(builder, source, mesh, placement);
+    return result;
+}
+
+static ps_result place_node(struct builder *builder, const struct mesh_node *node,
+                            const struct affine *placement)
+{
+    ps_result result = PS_OK;
+    for (unsigned j = 0; result == PS_OK && j < node->node->mNumMeshes; j++)
+        result = place_mesh(builder, node->node->mMeshes[j], placement);
+    return result;
+}
+
+/* Its JSON has the instances of a node. */
+static ps_result place_instances(struct builder *builder, size_t index)
+{
+    struct mesh_job *job = builder->job;
+    const struct mesh_node *node = &job->nodes[index];
+    const struct affine placement = mesh_node_placement(job, node);
+    struct mesh_instances instances = {0};
+    struct error reason;
+    ps_result result = PS_OK;
+    if (job->gltf.root && node->node->mNumMeshes > 0)
+        result = mesh_read_instances(&job->gltf, mesh_gltf_node(job, index), &instances, &reason);
+    if (result != PS_OK)
+        return error_set(job->error, result, "%s: %.1000s", job->request->path, reason.text);
+    if (!instances.present)
+        return place_node(builder, node, &placement);
+    for (size_t i = 0; result == PS_OK && i < instances.count; i++) {
+        struct affine placed = affine_compose(&placement, &instances.placements[i]);
+        result = place_node(builder, node, &placed);
+    }
     return result;
 }
 
@@ -125,23 +177,11 @@ static ps_result place_all(struct builder *builder)
 {
     const struct mesh_job *job = builder->job;
     ps_result result = PS_OK;
-    for (size_t i = 0; i < job->node_count; i++) {
-        const struct aiNode *node = job->nodes[i].node;
-        struct affine placement = mesh_node_placement(job, &job->nodes[i]);
-        for (unsigned j = 0; result == PS_OK && j < node->mNumMeshes; j++)
-            result = place_mesh(builder, node->mMeshes[j], &placement);
-    }
+    for (size_t i = 0; result == PS_OK && i < job->node_count; i++)
+        result = place_instances(builder, i);
     for (unsigned i = 0; i < job->scene->mNumMeshes; i++)
         job->report->dropped_triangles += builder->dropped[i];
     return result;
-}
-
-static size_t count_pairs(const struct mesh_job *job)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < job->node_count; i++)
-        count += job->nodes[i].node->mNumMeshes;
-    return count;
 }
 
 static size_t largest_mesh(const struct mesh_job *job)
@@ -156,15 +196,13 @@ static size_t largest_mesh(const struct mesh_job *job)
 static ps_result prepare(struct builder *builder)
 {
     struct scene_description *fragment = builder->job->fragment;
-    size_t meshes = builder->job->scene->mNumMeshes, pairs = count_pairs(builder->job);
+    size_t meshes = builder->job->scene->mNumMeshes;
     fragment->meshes = calloc(meshes + 1, sizeof *fragment->meshes);
-    fragment->objects = calloc(pairs + 1, sizeof *fragment->objects);
     builder->meshes = malloc((meshes + 1) * sizeof *builder->meshes);
     builder->dropped = calloc(meshes + 1, sizeof *builder->dropped);
     builder->scratch = malloc((largest_mesh(builder->job) + 1) * sizeof(uint32_t));
-    if (!fragment->meshes || !fragment->objects || !builder->meshes || !builder->dropped ||
-        !builder->scratch)
-        return mesh_out_of_memory(builder->job, pairs * sizeof *fragment->objects);
+    if (!fragment->meshes || !builder->meshes || !builder->dropped || !builder->scratch)
+        return mesh_out_of_memory(builder->job, meshes * sizeof *fragment->meshes);
     for (size_t i = 0; i < meshes; i++)
         builder->meshes[i] = NO_INDEX;
     return mesh_smooth_normals(builder->job, &builder->smooth);
@@ -179,8 +217,9 @@ ps_result mesh_read_objects(struct mesh_job *job)
         result = place_all(&builder);
     mesh_note_colors(job);
     if (result == PS_OK && job->fragment->object_count == 0)
-        result = error_set(job->error, PS_ERROR_INVALID, "%s: the file has no triangles",
-                           job->request->path);
+        result = error_set(job->error, PS_ERROR_INVALID, "%s: the file has no triangles%s",
+                           job->request->path,
+                           job->gltf.draco ? ", or this assimp does not unpack Draco" : "");
     mesh_smooth_release(job, builder.smooth);
     free(builder.meshes);
     free(builder.dropped);

@@ -197,11 +197,10 @@ ps_result mesh_source_open(struct mesh_job *job)
         result =
             error_set(job->error, PS_ERROR_INVALID, "%s: the file is empty", job->request->path);
     if (result == PS_OK && (job->format == FORMAT_GLTF || job->format == FORMAT_GLB))
-        result = gltf_open(&job->gltf, job->main_file, job->format == FORMAT_GLB, job->error);
+        result = gltf_open(&job->gltf, job->main_file, &job->files, job->format == FORMAT_GLB,
+                           job->error);
     if (result != PS_OK)
         return result;
-    if (job->gltf.integer_uv)
-        mesh_note(job, "texture coordinates that are integers are left out");
     job->scene = aiImportFileEx(job->request->path, 0, &io);
     if (job->out_of_memory)
         return mesh_out_of_memory(job, sizeof(struct stream));

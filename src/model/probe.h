@@ -11,6 +11,8 @@ struct probe {
     bool nearest_faces, farthest_faces; /* whether they turn their front to the origin */
 };
 
+#define PROBES_AT_MOST 256
+
 /* Sends them through the triangles of all objects that are meshes. */
 void probe_all(const struct scene_description *fragment, struct probe *probes, size_t count);
 

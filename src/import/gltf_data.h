@@ -1,0 +1,50 @@
+/* gltf_data.h: the numbers of a glTF file: buffers, views of them, accessors.
+ *
+ * assimp reads most of them. Read here is what it takes for something else: integers that stand for fractions
+ * (KHR_mesh_quantization), views that are compressed (EXT_meshopt_compression), and what instances are placed by.
+ */
+#ifndef IMPORT_GLTF_DATA_H
+#define IMPORT_GLTF_DATA_H
+
+#include "import/gltf.h"
+
+enum gltf_component {
+    GLTF_BYTE = 5120,
+    GLTF_UNSIGNED_BYTE,
+    GLTF_SHORT,
+    GLTF_UNSIGNED_SHORT,
+    GLTF_UNSIGNED_INT = 5125,
+    GLTF_FLOAT
+};
+
+/* All elements are within the bytes, which are the file's own, or unpacked into its arena. */
+struct gltf_accessor {
+    const unsigned char *bytes;
+    size_t count, stride;
+    unsigned components; /* 1 to 4 */
+    enum gltf_component type;
+    bool normalized;
+};
+
+/* PS_ERROR_INVALID where it is not within its view, has a matrix for elements, or is sparse. */
+ps_result gltf_accessor_open(struct gltf *gltf, size_t index, struct gltf_accessor *accessor,
+                             struct error *error);
+
+/* As a float; integers that are normalized lie in -1..1. */
+float gltf_accessor_value(const struct gltf_accessor *accessor, size_t element, unsigned component);
+
+/* Unpacks the view if it is compressed; no-op if not. */
+ps_result gltf_unpack_view(struct gltf *gltf, size_t index, struct error *error);
+
+/* --- meshopt.c ----------------------------------------------------------------------------------- */
+
+/* Whether this build can. */
+bool meshopt_is_built(void);
+
+/* Unpacks `source` as the extension's members say into `count` elements of `stride` bytes, which may be 0 or too
+ * many. PS_ERROR_INVALID or _MEMORY. */
+ps_result meshopt_unpack(struct arena *arena, const struct json *extension,
+                         const struct gltf_bytes *source, struct gltf_bytes *unpacked,
+                         struct error *error);
+
+#endif
