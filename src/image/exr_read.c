@@ -1,10 +1,11 @@
-/* exr_read.c: a flat, single-part OpenEXR file to a picture, through the library's C interface.
+/* exr_read.c: a flat OpenEXR file to a picture, through the library's C interface.
  *
  * The picture is the data window, wherever that lies; the image says where. Chunks (groups of lines, or tiles) are
  * decoded straight into the planes, which the library converts to float on the way. It could also
  * search a damaged file for chunks that its table does not list; that is switched off, because half
  * a picture that looks whole is worse than an error. The first of the library's messages is the one
- * shown: the later ones follow from it. Rasters are read from memory, others from their file.
+ * shown: the later ones follow from it. Rasters are read from memory, others from their file. Of tiles in several levels
+ * the largest is read; of several parts, for rasters alone, the first with colours.
  */
 #include "image/raster_decode.h"
 
@@ -17,7 +18,6 @@
 
 #define PIXEL_LIMIT (INT64_C(1) << 31)
 #define CHANNEL_LIMIT INT16_MAX /* the library's decoder counts them in 16 bits */
-#define PART 0                  /* the file's only part */
 #define SAMPLE_SIZE ((int32_t)sizeof(float))
 
 /* At most so many bytes come out of one: what deflate can do, by the quarter that PXR24 drops of a
@@ -27,6 +27,7 @@
 
 struct exr_source {
     exr_context_t context;
+    int part;
     const char *path;
     const struct raster_source *memory; /* NULL: from the file */
     const char *const *channels;        /* those wanted; NULL: all */
@@ -36,6 +37,7 @@ struct exr_source {
     exr_decode_pipeline_t decoder;
     bool decoding; /* the decoder has been initialised */
     exr_attr_box2i_t window;
+    struct exr_facts facts;
     float
         *spare; /* where channels go that are not wanted: the library crashes if told to skip one */
     size_t spare_count;
@@ -83,7 +85,7 @@ static ps_result refuse(const struct exr_source *source, const char *why)
 static ps_result check_compression(const struct exr_source *source)
 {
     exr_compression_t compression = EXR_COMPRESSION_NONE;
-    exr_result_t code = exr_get_compression(source->context, PART, &compression);
+    exr_result_t code = exr_get_compression(source->context, source->part, &compression);
     if (code == EXR_ERR_SUCCESS &&
         (compression == EXR_COMPRESSION_B44 || compression == EXR_COMPRESSION_B44A)) {
         return refuse(source, "B44 compression cannot be read (convert the file to ZIP)");
@@ -109,9 +111,9 @@ static ps_result check_expansion(const struct exr_source *source)
 {
     exr_compression_t compression = EXR_COMPRESSION_NONE;
     const exr_attr_chlist_t *list = NULL;
-    exr_result_t code = exr_get_compression(source->context, PART, &compression);
+    exr_result_t code = exr_get_compression(source->context, source->part, &compression);
     if (code == EXR_ERR_SUCCESS)
-        code = exr_get_channels(source->context, PART, &list);
+        code = exr_get_channels(source->context, source->part, &list);
     if (code != EXR_ERR_SUCCESS)
         return explain(source, code);
     uint64_t pixel_bytes = 0;
@@ -125,14 +127,41 @@ static ps_result check_expansion(const struct exr_source *source)
                : check_expansion_of_file(source, decoded, expansion);
 }
 
-static ps_result check_form(const struct exr_source *source, exr_storage_t *storage)
+static bool is_wanted(const struct exr_source *source, const char *name)
+{
+    const char *const *wanted = source->channels;
+    while (wanted && *wanted && strcmp(*wanted, name) != 0)
+        wanted++;
+    return !wanted || *wanted;
+}
+
+/* Whether a part has more of the channels that are wanted than alpha, and flat pixels. */
+static bool has_wanted(const struct exr_source *source, int part)
+{
+    const exr_attr_chlist_t *list = NULL;
+    exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
+    if (exr_get_storage(source->context, part, &storage) != EXR_ERR_SUCCESS ||
+        (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED) ||
+        exr_get_channels(source->context, part, &list) != EXR_ERR_SUCCESS)
+        return false;
+    for (int i = 0; i < list->num_channels; i++)
+        if (is_wanted(source, list->entries[i].name.str) &&
+            strcmp(list->entries[i].name.str, "A") != 0)
+            return true;
+    return false;
+}
+
+static ps_result check_form(struct exr_source *source, exr_storage_t *storage)
 {
     int parts = 0;
     exr_result_t code = exr_get_count(source->context, &parts);
-    if (code == EXR_ERR_SUCCESS && parts != 1)
+    if (code == EXR_ERR_SUCCESS && parts != 1 && !source->memory)
         return refuse(source, "it has several parts (only one can be read)");
+    for (int i = parts; i-- > 0;)
+        if (has_wanted(source, i))
+            source->part = i;
     if (code == EXR_ERR_SUCCESS)
-        code = exr_get_storage(source->context, PART, storage);
+        code = exr_get_storage(source->context, source->part, storage);
     if (code != EXR_ERR_SUCCESS)
         return explain(source, code);
     if (*storage != EXR_STORAGE_SCANLINE && *storage != EXR_STORAGE_TILED)
@@ -140,11 +169,35 @@ static ps_result check_form(const struct exr_source *source, exr_storage_t *stor
     return check_compression(source);
 }
 
+/* Where the data window lies in the display window, and by which primaries colours are stated. */
+static exr_result_t read_facts(struct exr_source *source)
+{
+    exr_attr_box2i_t display, data = source->window;
+    exr_attr_chromaticities_t c;
+    exr_result_t code = exr_get_display_window(source->context, source->part, &display);
+    if (code != EXR_ERR_SUCCESS)
+        return code;
+    source->facts.left = (int64_t)data.min.x - display.min.x;
+    source->facts.top = (int64_t)data.min.y - display.min.y;
+    source->facts.width = (int64_t)display.max.x - display.min.x + 1;
+    source->facts.height = (int64_t)display.max.y - display.min.y + 1;
+    source->facts.has_chromaticities =
+        exr_attr_get_chromaticities(source->context, source->part, "chromaticities", &c) ==
+        EXR_ERR_SUCCESS;
+    if (source->facts.has_chromaticities)
+        source->facts.chromaticities = (struct chromaticities){{c.red_x, c.red_y},
+                                                               {c.green_x, c.green_y},
+                                                               {c.blue_x, c.blue_y},
+                                                               {c.white_x, c.white_y}};
+    source->message[0] = '\0'; /* that there are none */
+    return code;
+}
+
 /* Where the picture lies in the display window, if it does and that begins at (0, 0). */
 static exr_result_t read_place(struct exr_source *source)
 {
     exr_attr_box2i_t display, data = source->window;
-    exr_result_t code = exr_get_display_window(source->context, PART, &display);
+    exr_result_t code = exr_get_display_window(source->context, source->part, &display);
     if (code == EXR_ERR_SUCCESS && display.min.x == 0 && display.min.y == 0 && data.min.x >= 0 &&
         data.min.y >= 0 && display.max.x >= data.max.x && display.max.y >= data.max.y)
         source->image.window =
@@ -155,7 +208,7 @@ static exr_result_t read_place(struct exr_source *source)
 
 static ps_result read_size(struct exr_source *source)
 {
-    exr_result_t code = exr_get_data_window(source->context, PART, &source->window);
+    exr_result_t code = exr_get_data_window(source->context, source->part, &source->window);
     if (code != EXR_ERR_SUCCESS)
         return explain(source, code);
     const exr_attr_box2i_t *window = &source->window;
@@ -175,21 +228,14 @@ static ps_result read_size(struct exr_source *source)
     }
     source->image.width = (size_t)width;
     source->image.height = (size_t)height;
-    return explain(source, read_place(source));
-}
-
-static bool is_wanted(const struct exr_source *source, const char *name)
-{
-    const char *const *wanted = source->channels;
-    while (wanted && *wanted && strcmp(*wanted, name) != 0)
-        wanted++;
-    return !wanted || *wanted;
+    exr_result_t place = read_place(source);
+    return explain(source, place == EXR_ERR_SUCCESS ? read_facts(source) : place);
 }
 
 static ps_result add_channels(struct exr_source *source)
 {
     const exr_attr_chlist_t *list = NULL;
-    exr_result_t code = exr_get_channels(source->context, PART, &list);
+    exr_result_t code = exr_get_channels(source->context, source->part, &list);
     if (code != EXR_ERR_SUCCESS)
         return explain(source, code);
     if (list->num_channels <= 0 || list->num_channels > CHANNEL_LIMIT)
@@ -216,11 +262,11 @@ static ps_result add_channels(struct exr_source *source)
 static ps_result add_attributes(struct exr_source *source)
 {
     int32_t count = 0;
-    exr_result_t code = exr_get_attribute_count(source->context, PART, &count);
+    exr_result_t code = exr_get_attribute_count(source->context, source->part, &count);
     for (int32_t i = 0; i < count && code == EXR_ERR_SUCCESS; i++) {
         const exr_attribute_t *attribute = NULL;
-        code = exr_get_attribute_by_index(source->context, PART, EXR_ATTR_LIST_FILE_ORDER, i,
-                                          &attribute);
+        code = exr_get_attribute_by_index(source->context, source->part, EXR_ATTR_LIST_FILE_ORDER,
+                                          i, &attribute);
         if (code != EXR_ERR_SUCCESS || attribute->type != EXR_ATTR_STRING ||
             strcmp(attribute->name, "type") == 0) {
             continue;
@@ -281,8 +327,9 @@ static exr_result_t decode_chunk(struct exr_source *source, const exr_chunk_info
         return EXR_ERR_CORRUPT_CHUNK;
     }
     bool first = !source->decoding;
-    exr_result_t code = first ? exr_decoding_initialize(source->context, PART, chunk, decoder)
-                              : exr_decoding_update(source->context, PART, chunk, decoder);
+    exr_result_t code = first
+                            ? exr_decoding_initialize(source->context, source->part, chunk, decoder)
+                            : exr_decoding_update(source->context, source->part, chunk, decoder);
     if (code == EXR_ERR_SUCCESS) {
         source->decoding = true;
         code = provide_spare(source, chunk);
@@ -291,19 +338,21 @@ static exr_result_t decode_chunk(struct exr_source *source, const exr_chunk_info
         return code;
     direct_channels(source, chunk, column, line);
     if (first)
-        code = exr_decoding_choose_default_routines(source->context, PART, decoder);
-    return code == EXR_ERR_SUCCESS ? exr_decoding_run(source->context, PART, decoder) : code;
+        code = exr_decoding_choose_default_routines(source->context, source->part, decoder);
+    return code == EXR_ERR_SUCCESS ? exr_decoding_run(source->context, source->part, decoder)
+                                   : code;
 }
 
 static ps_result read_lines(struct exr_source *source)
 {
     int32_t lines_per_chunk = 0;
-    exr_result_t code = exr_get_scanlines_per_chunk(source->context, PART, &lines_per_chunk);
+    exr_result_t code =
+        exr_get_scanlines_per_chunk(source->context, source->part, &lines_per_chunk);
     for (size_t line = 0; line < source->image.height && code == EXR_ERR_SUCCESS;
          line += (size_t)lines_per_chunk) {
         exr_chunk_info_t chunk;
         int row = (int)(source->window.min.y + (int64_t)line);
-        code = exr_read_scanline_chunk_info(source->context, PART, row, &chunk);
+        code = exr_read_scanline_chunk_info(source->context, source->part, row, &chunk);
         if (code == EXR_ERR_SUCCESS)
             code = decode_chunk(source, &chunk, 0, line);
     }
@@ -316,16 +365,14 @@ static ps_result read_tiles(struct exr_source *source)
     exr_tile_level_mode_t levels = EXR_TILE_ONE_LEVEL;
     exr_tile_round_mode_t rounding;
     exr_result_t code =
-        exr_get_tile_descriptor(source->context, PART, &width, &height, &levels, &rounding);
-    if (code == EXR_ERR_SUCCESS && levels != EXR_TILE_ONE_LEVEL)
-        return refuse(source, "it is mip-mapped (only one level can be read)");
+        exr_get_tile_descriptor(source->context, source->part, &width, &height, &levels, &rounding);
     if (code == EXR_ERR_SUCCESS && (width == 0 || height == 0))
         return refuse(source, "its tiles have no size");
     for (size_t line = 0; line < source->image.height && code == EXR_ERR_SUCCESS; line += height) {
         for (size_t column = 0; column < source->image.width && code == EXR_ERR_SUCCESS;
              column += width) {
             exr_chunk_info_t chunk;
-            code = exr_read_tile_chunk_info(source->context, PART, (int)(column / width),
+            code = exr_read_tile_chunk_info(source->context, source->part, (int)(column / width),
                                             (int)(line / height), 0, 0, &chunk);
             if (code == EXR_ERR_SUCCESS)
                 code = decode_chunk(source, &chunk, column, line);
@@ -406,9 +453,11 @@ ps_result image_read_exr(const char *path, struct image *image, struct error *er
 }
 
 ps_result exr_read_channels(const struct raster_source *memory, const char *const *channels,
-                            struct image *image, struct error *error)
+                            struct image *image, struct exr_facts *facts, struct error *error)
 {
     struct exr_source source = {
         .path = memory->path, .memory = memory, .channels = channels, .error = error};
-    return read_source(&source, image);
+    ps_result result = read_source(&source, image);
+    *facts = source.facts;
+    return result;
 }

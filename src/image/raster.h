@@ -39,8 +39,10 @@ struct raster {
  * colour alpha, 1 to 4 bits become 8. Gamma and colour profiles are ignored.
  * JPEG: grey, YCbCr and RGB, 8 bits; CMYK is refused. Colour profiles and the orientation that EXIF
  * states are ignored.
- * OpenEXR: R, G, B or Y, with A where there is one, other channels are skipped; what image_read_exr
- * refuses is refused here; the picture is the data window. Colours stay premultiplied by alpha, as
+ * OpenEXR: R, G, B or Y, with A where there is one, other channels are skipped; of several parts
+ * the first with colours, of several levels the largest; what else image_read_exr refuses is refused here. The picture
+ * is the display window, 0 outside of the data; it must not be 256 times as large as these. Colours of other primaries
+ * (chromaticities) become Rec.709's, with Bradford's adaptation. Colours stay premultiplied by alpha, as
  * the format has them. NaN is read as 0 and infinity as the largest half float, 65504. Samples are
  * half floats where these hold every one.
  * TGA and BMP: grey, palettes and colours of 15 to 32 bits, TGA also in runs. Radiance: linear floats, as they

@@ -32,10 +32,30 @@ ps_result raster_read_webp(const struct raster_source *source, struct raster *ra
                            struct error *error);
 #endif
 
+/* CIE 1931 x and y. */
+struct chromaticities {
+    float red[2], green[2], blue[2], white[2];
+};
+
+/* Of a file that was read. */
+struct exr_facts {
+    int64_t left,
+        top; /* of the display window's upper left corner to that of the data window, in pixels */
+    int64_t width, height; /* of the display window, as stated */
+    bool has_chromaticities;
+    struct chromaticities chromaticities;
+};
+
 /* As image_read_exr, from memory, with the limits of a raster, and with messages that start with
- * the path. Only the channels of the list, which NULL ends, that the file has; maybe none. */
+ * the path. Only the channels of the list, which NULL ends, that the file has; maybe none. Of several parts the first
+ * that has some beside alpha. */
 ps_result exr_read_channels(const struct raster_source *source, const char *const *channels,
-                            struct image *image, struct error *error);
+                            struct image *image, struct exr_facts *facts, struct error *error);
+
+/* chromaticities.c: makes the colours in planes of red, green and blue Rec.709's. No-op where the primaries are
+ * those, or cannot be. */
+void chromaticities_to_rec709(const struct chromaticities *from, float *const planes[3],
+                              size_t pixels);
 
 /* Refuses pictures without a size and those beyond the limits. */
 ps_result raster_check_size(const char *path, int64_t width, int64_t height, size_t bytes_per_pixel,

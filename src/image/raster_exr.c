@@ -1,34 +1,43 @@
 /* raster_exr.c: an OpenEXR picture's colours.
  *
  * Layers are left out: "R" is read, "diffuse.R" is not. Most files hold half floats, which the
- * reader widens; they are stored as half floats again where that loses nothing.
+ * reader widens; they are stored as half floats again where that loses nothing. The picture is the display window, as
+ * viewers show it, and its colours are made Rec.709's.
  */
 #include "image/half.h"
 #include "image/raster_decode.h"
 
 #include <math.h>
+#include <string.h>
 
 #define CHANNELS_AT_MOST 4
+#define DISPLAY_TO_DATA 256
 
 static const char *const wanted_channels[] = {"A", "B", "G", "R", "Y", NULL};
 
 /* The planes that make up the picture, in the raster's order. */
 struct planes {
-    const float *samples[CHANNELS_AT_MOST];
+    float *samples[CHANNELS_AT_MOST];
     uint32_t count;
 };
 
-static void add_plane(struct planes *planes, const float *samples)
+static void add_plane(struct planes *planes, float *samples)
 {
     if (samples)
         planes->samples[planes->count++] = samples;
 }
 
+static float *plane_of(const struct image *image, const char *name)
+{
+    for (size_t i = 0; i < image->channel_count; i++)
+        if (strcmp(image->channels[i].name, name) == 0)
+            return image->channels[i].samples;
+    return NULL;
+}
+
 static bool choose_planes(const struct image *image, struct planes *planes)
 {
-    const float *red = image_channel(image, "R");
-    const float *green = image_channel(image, "G");
-    const float *blue = image_channel(image, "B");
+    float *red = plane_of(image, "R"), *green = plane_of(image, "G"), *blue = plane_of(image, "B");
     bool colored = red && green && blue;
     *planes = (struct planes){.count = 0};
     if (colored) {
@@ -36,18 +45,26 @@ static bool choose_planes(const struct image *image, struct planes *planes)
         add_plane(planes, green);
         add_plane(planes, blue);
     } else {
-        add_plane(planes, image_channel(image, "Y"));
+        add_plane(planes, plane_of(image, "Y"));
     }
     bool visible = planes->count > 0;
-    add_plane(planes, image_channel(image, "A"));
+    add_plane(planes, plane_of(image, "A"));
     return visible;
 }
 
-static float finite_sample(float sample)
+/* Returns how many samples were not finite. */
+static size_t mend(const struct planes *planes, size_t pixels)
 {
-    if (isnan(sample))
-        return 0.0f;
-    return isinf(sample) ? copysignf(HALF_LARGEST, sample) : sample;
+    size_t mended = 0;
+    for (uint32_t channel = 0; channel < planes->count; channel++)
+        for (size_t i = 0; i < pixels; i++) {
+            float *sample = &planes->samples[channel][i];
+            if (isfinite(*sample))
+                continue;
+            *sample = isnan(*sample) ? 0.0f : copysignf(HALF_LARGEST, *sample);
+            mended++;
+        }
+    return mended;
 }
 
 static bool fits_halves(const struct planes *planes, size_t pixels)
@@ -55,41 +72,54 @@ static bool fits_halves(const struct planes *planes, size_t pixels)
     for (uint32_t channel = 0; channel < planes->count; channel++) {
         for (size_t i = 0; i < pixels; i++) {
             uint16_t half;
-            if (!half_from_exact(finite_sample(planes->samples[channel][i]), &half))
+            if (!half_from_exact(planes->samples[channel][i], &half))
                 return false;
         }
     }
     return true;
 }
 
-/* These return how many samples were not finite. */
-static size_t store_halves(const struct planes *planes, size_t pixels, uint16_t *halves)
+/* Outside of the data window there is nothing: 0, which is transparent where there is alpha. */
+static void store(const struct planes *planes, const struct image *image,
+                  const struct exr_facts *facts, struct raster *raster)
 {
-    size_t mended = 0;
-    for (uint32_t channel = 0; channel < planes->count; channel++) {
-        for (size_t i = 0; i < pixels; i++) {
-            float sample = planes->samples[channel][i];
-            half_from_exact(finite_sample(sample), &halves[i * planes->count + channel]);
-            mended += !isfinite(sample);
+    memset(raster->samples, 0, raster_bytes(raster));
+    for (int64_t line = 0; line < (int64_t)image->height; line++) {
+        int64_t row = line + facts->top;
+        if (row < 0 || row >= (int64_t)raster->height)
+            continue;
+        for (int64_t i = 0; i < (int64_t)image->width; i++) {
+            int64_t column = i + facts->left;
+            if (column < 0 || column >= (int64_t)raster->width)
+                continue;
+            size_t from = (size_t)line * image->width + (size_t)i;
+            size_t to = ((size_t)row * raster->width + (size_t)column) * planes->count;
+            for (uint32_t k = 0; k < planes->count; k++) {
+                if (raster->sample == RASTER_HALF)
+                    half_from_exact(planes->samples[k][from], (uint16_t *)raster->samples + to + k);
+                else
+                    ((float *)raster->samples)[to + k] = planes->samples[k][from];
+            }
         }
     }
-    return mended;
 }
 
-static size_t store_floats(const struct planes *planes, size_t pixels, float *floats)
+/* A display window may be of any size: one that is much larger than the data takes memory that no data fill. */
+static ps_result check_display(const char *path, const struct image *image,
+                               const struct exr_facts *facts, struct error *error)
 {
-    size_t mended = 0;
-    for (uint32_t channel = 0; channel < planes->count; channel++) {
-        for (size_t i = 0; i < pixels; i++) {
-            float sample = planes->samples[channel][i];
-            floats[i * planes->count + channel] = finite_sample(sample);
-            mended += !isfinite(sample);
-        }
-    }
-    return mended;
+    ps_result result =
+        raster_check_size(path, facts->width, facts->height, 4 * sizeof(float), error);
+    if (result == PS_OK && (uint64_t)facts->width * (uint64_t)facts->height / DISPLAY_TO_DATA >
+                               image->width * image->height)
+        return error_set(error, PS_ERROR_INVALID,
+                         "%s: of its display window of %lld x %lld pixels less than 1/%d is there",
+                         path, (long long)facts->width, (long long)facts->height, DISPLAY_TO_DATA);
+    return result;
 }
 
-static ps_result interleave(const char *path, const struct image *image, struct raster *raster,
+static ps_result interleave(const char *path, const struct image *image,
+                            const struct exr_facts *facts, struct raster *raster,
                             struct error *error)
 {
     struct planes planes;
@@ -97,26 +127,32 @@ static ps_result interleave(const char *path, const struct image *image, struct 
         return error_set(error, PS_ERROR_INVALID,
                          "%s: it has no colours (channels R, G and B, or Y)", path);
     }
-    size_t pixels = image->width * image->height;
-    raster->width = (uint32_t)image->width;
-    raster->height = (uint32_t)image->height;
-    raster->channels = planes.count;
-    raster->sample = fits_halves(&planes, pixels) ? RASTER_HALF : RASTER_FLOAT;
-    ps_result result = raster_allocate(path, raster, error);
+    ps_result result = check_display(path, image, facts, error);
     if (result != PS_OK)
         return result;
-    raster->mended = raster->sample == RASTER_HALF ? store_halves(&planes, pixels, raster->samples)
-                                                   : store_floats(&planes, pixels, raster->samples);
-    return PS_OK;
+    size_t pixels = image->width * image->height;
+    size_t mended = mend(&planes, pixels);
+    if (planes.count >= 3 && facts->has_chromaticities)
+        chromaticities_to_rec709(&facts->chromaticities, planes.samples, pixels);
+    raster->width = (uint32_t)facts->width;
+    raster->height = (uint32_t)facts->height;
+    raster->channels = planes.count;
+    raster->sample = fits_halves(&planes, pixels) ? RASTER_HALF : RASTER_FLOAT;
+    raster->mended = mended;
+    result = raster_allocate(path, raster, error);
+    if (result == PS_OK)
+        store(&planes, image, facts, raster);
+    return result;
 }
 
 ps_result raster_read_exr(const struct raster_source *source, struct raster *raster,
                           struct error *error)
 {
     struct image image = {0};
-    ps_result result = exr_read_channels(source, wanted_channels, &image, error);
+    struct exr_facts facts;
+    ps_result result = exr_read_channels(source, wanted_channels, &image, &facts, error);
     if (result == PS_OK) {
-        result = interleave(source->path, &image, raster, error);
+        result = interleave(source->path, &image, &facts, raster, error);
         image_release(&image);
     }
     return result;

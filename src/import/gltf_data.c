@@ -138,7 +138,7 @@ static const struct json *packing_of(const struct gltf *gltf, const struct json 
 
 ps_result gltf_unpack_view(struct gltf *gltf, size_t index, struct error *error)
 {
-    struct gltf_bytes packed, *unpacked;
+    struct gltf_bytes packed = {0}, *unpacked;
     const struct json *view = view_of(gltf, index), *packing = packing_of(gltf, view);
     if (!packing || gltf->views[index].bytes)
         return PS_OK;
@@ -210,14 +210,14 @@ ps_result gltf_accessor_open(struct gltf *gltf, size_t index, struct gltf_access
                              struct error *error)
 {
     const struct json *source = json_element(json_member(gltf->root, "accessors"), index);
-    struct gltf_bytes bytes;
+    struct gltf_bytes bytes = {0};
     size_t view, offset;
     *accessor = (struct gltf_accessor){0};
     ps_result result = read_form(source, accessor, error);
     if (result != PS_OK)
         return result;
     size_t element = accessor->components * component_size(accessor->type);
-    if (!json_size(source, "bufferView", SIZE_MAX, &view) ||
+    if (element == 0 || !json_size(source, "bufferView", SIZE_MAX, &view) ||
         !json_size(source, "byteOffset", 0, &offset) ||
         !json_size(view_of(gltf, view), "byteStride", 0, &accessor->stride))
         return complain(error, "an accessor has no view");

@@ -77,9 +77,6 @@ static void test_refused_forms(void **state)
     form.width_claimed = 8; /* the library itself refuses odd ones */
     assert_refused(state, &form, "subsampled");
     form = plain;
-    form.tiled = form.level_mode = 1;
-    assert_refused(state, &form, "mip-mapped");
-    form = plain;
     form.compression = 6;
     assert_refused(state, &form, "B44");
     form = plain;

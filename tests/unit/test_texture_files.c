@@ -215,7 +215,8 @@ static void test_exr_wanted_channels(void **state)
     size_t size;
     unsigned char *bytes = scratch_load(write_exr(state, names, samples), &size);
     const struct raster_source source = {"some.exr", bytes, size};
-    assert_int_equal(exr_read_channels(&source, wanted, &image, &error), PS_OK);
+    struct exr_facts facts;
+    assert_int_equal(exr_read_channels(&source, wanted, &image, &facts, &error), PS_OK);
     assert_int_equal(image.channel_count, 2);
     assert_memory_equal(image_channel(&image, "G"), samples[2], sizeof samples[2]);
     assert_memory_equal(image_channel(&image, "Z"), samples[4], sizeof samples[4]);
@@ -263,6 +264,87 @@ static void test_exr_without_numbers(void **state)
     texture_texel(&texture, 0, 0, rgba);
     assert_color(rgba, -65504, 65504, 0, 1, 0);
     texture_release(&texture);
+}
+
+static void assert_is_half_exr(const struct texture *texture)
+{
+    assert_int_equal(texture->width, 3);
+    assert_int_equal(texture->height, 2);
+    for (int i = 0; i < 6; i++) {
+        float rgba[4];
+        read_pixel(texture, i, rgba);
+        assert_color(rgba, (float)colors[i][0] / 255.0f, (float)colors[i][1] / 255.0f,
+                     (float)colors[i][2] / 255.0f, 1.0f, 2e-4f);
+    }
+}
+
+/* The largest of several levels (exrmaketiled -m); of two parts the one with colours (exrmultipart -combine). */
+static void test_exr_levels_and_parts(void **state)
+{
+    (void)state;
+    struct texture texture = load_data("levels.exr", ENCODING_AUTO);
+    assert_is_half_exr(&texture);
+    texture_release(&texture);
+    texture = load_data("parts.exr", ENCODING_AUTO);
+    assert_is_half_exr(&texture);
+    texture_release(&texture);
+}
+
+/* Of ACES 2065-1 (exrstdattr -chromaticities). Its matrix to Rec.709, by Bradford's adaptation, as published. */
+static void test_exr_chromaticities(void **state)
+{
+    static const double matrix[3][3] = {{2.52168619, -1.13413099, -0.38755521},
+                                        {-0.27647991, 1.37271909, -0.09623918},
+                                        {-0.01537806, -0.15297534, 1.16835340}};
+    (void)state;
+    struct texture texture = load_data("aces.exr", ENCODING_AUTO);
+    for (int i = 0; i < 6; i++) {
+        float rgba[4], expected[3];
+        for (int k = 0; k < 3; k++)
+            expected[k] = (float)((matrix[k][0] * colors[i][0] + matrix[k][1] * colors[i][1] +
+                                   matrix[k][2] * colors[i][2]) /
+                                  255);
+        read_pixel(&texture, i, rgba);
+        assert_color(rgba, expected[0], expected[1], expected[2], 1.0f, 1e-3f);
+    }
+    texture_release(&texture);
+}
+
+static unsigned char *find_window(unsigned char *bytes, size_t size, const char *name)
+{
+    size_t length = strlen(name) + 1;
+    for (size_t i = 0; i + length + 26 <= size; i++)
+        if (memcmp(bytes + i, name, length) == 0)
+            return bytes + i + length + 6 + 4;
+    fail_msg("no %s", name);
+    return NULL;
+}
+
+/* The display window is the picture: here without the first column and line of the data, and beyond them. */
+static void test_exr_display_window(void **state)
+{
+    static const int32_t window[] = {1, 1, 4, 2}, large[] = {0, 0, 60000, 10000};
+    struct texture texture;
+    struct error error;
+    size_t size;
+    float rgba[4];
+    (void)state;
+    unsigned char *bytes = scratch_load(data_path("half.exr"), &size);
+    memcpy(find_window(bytes, size, "displayWindow"), window, sizeof window);
+    assert_int_equal(load_bytes(bytes, size, &texture, &error), PS_OK);
+    assert_int_equal(texture.width, 4);
+    assert_int_equal(texture.height, 2);
+    read_pixel(&texture, 0, rgba);
+    assert_color(rgba, 128 / 255.0f, 64 / 255.0f, 32 / 255.0f, 1, 2e-4f);
+    read_pixel(&texture, 2, rgba);
+    assert_color(rgba, 0, 0, 0, 1, 0);
+    read_pixel(&texture, 5, rgba);
+    assert_color(rgba, 0, 0, 0, 1, 0);
+    texture_release(&texture);
+    memcpy(find_window(bytes, size, "displayWindow"), large, sizeof large);
+    assert_int_equal(load_bytes(bytes, size, &texture, &error), PS_ERROR_INVALID);
+    assert_non_null(strstr(error.text, "display window"));
+    free(bytes);
 }
 
 /* --- refused --------------------------------------------------------------------------------- */
@@ -333,7 +415,7 @@ static void test_refused_kinds(void **state)
 
 static const char *const pictures[] = {"rgb8.png",     "palette.png", "interlaced.png",
                                        "baseline.jpg", "grey.jpg",    "progressive.jpg",
-                                       "half.exr"};
+                                       "half.exr",     "parts.exr"};
 #define PICTURE_COUNT (sizeof pictures / sizeof *pictures)
 
 static void test_every_truncation(void **state)
@@ -496,6 +578,9 @@ int main(void)
         SCRATCH_TEST(test_exr_precision),
         SCRATCH_TEST(test_exr_brightness),
         SCRATCH_TEST(test_exr_without_numbers),
+        cmocka_unit_test(test_exr_levels_and_parts),
+        cmocka_unit_test(test_exr_chromaticities),
+        cmocka_unit_test(test_exr_display_window),
         SCRATCH_TEST(test_no_pictures),
         SCRATCH_TEST(test_content_decides),
         SCRATCH_TEST(test_arithmetic_coding),
