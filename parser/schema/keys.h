@@ -102,6 +102,8 @@ struct object_keys {
     double unit;
     int32_t up;
     int32_t diffuse_only;
+    int32_t colors; /* 0 linear, 1 srgb */
+    double bump_scale;
 };
 
 #endif

@@ -119,6 +119,7 @@ static const struct schema_row height_field_rows[] = {
 };
 
 static const char *const mesh_parts[] = {"geometry", "materials", "camera", "lights", NULL};
+static const char *const mtl_colors[] = {"linear", "srgb", NULL};
 static const char *const axes[] = {"x", "y", "z", NULL};
 
 static const struct schema_row mesh_rows[] = {
@@ -133,6 +134,10 @@ static const struct schema_row mesh_rows[] = {
         "surfaces for some of the file's materials, by their names there", ANY, .absent = "none"),
     BOOL("diffuse_only", KEYS(diffuse_only), "no",
          "whether the gloss of the file's materials is left out"),
+    VALUE(PS_CHOICE(struct object_keys, colors, "linear", mtl_colors,
+                    "what numbers for reflectance in MTL mean")),
+    VALUE(PS_NUMBER(struct object_keys, bump_scale, "1", 0, INFINITY, 0, "",
+                    "factor on the heights of MTL's bump maps; 0: none")),
     PLACED_ROWS,
 };
 

@@ -158,6 +158,8 @@ void object_mesh_read(struct reader *reader, const struct item *item,
         .unit = keys->unit,
         .up = keys->up,
         .diffuse_only = keys->diffuse_only != 0,
+        .srgb_colors = keys->colors != 0,
+        .bump_scale = keys->bump_scale,
         .placement = placed.placement,
         .origin = reader_origin(reader, item->key),
     };

@@ -22,6 +22,8 @@ struct mesh_request {
     double unit;                              /* scene units for each unit of the file */
     int32_t up;              /* which axis of the file points upwards: 0 x, 1 y, 2 z */
     bool diffuse_only;       /* leave out the gloss of the file's materials */
+    bool srgb_colors;        /* MTL's Kd, Ks and Tf are codes of sRGB; else they are linear */
+    double bump_scale;       /* times the heights of MTL's bump maps; 0: none */
     struct affine placement; /* applied last */
     unsigned
         seconds; /* of processor time beyond what the files' size allows; 0: as many as usual */

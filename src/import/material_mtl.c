@@ -10,8 +10,10 @@
  *
  * The coat's roughness is that of the GGX lobe as wide as Phong's: alpha = sqrt(2 / (Ns + 2))
  * (Walter et al. 2007, "Microfacet models for refraction", for Beckmann; near enough for GGX), and
- * roughness = sqrt(alpha). Colours are taken as linear: MTL does not say.
+ * roughness = sqrt(alpha). Colours are linear, or codes of sRGB where the scene says so: MTL does not say. Ke is
+ * radiance, and linear in any case.
  */
+#include "image/tonemap.h"
 #include "import/material.h"
 
 #include <string.h>
@@ -36,13 +38,24 @@ static int read_illumination(const struct mesh_job *job, const struct aiMaterial
     return mtl->exponent > 0 ? 2 : 1;
 }
 
+static ps_rgb read_reflectance(const struct mesh_job *job, const struct aiMaterial *source,
+                               const char *key, double fallback)
+{
+    ps_rgb color = mesh_material_color(source, key, mesh_grey(fallback));
+    if (job->request->srgb_colors)
+        color =
+            (ps_rgb){(float)tonemap_linear((double)color.r), (float)tonemap_linear((double)color.g),
+                     (float)tonemap_linear((double)color.b)};
+    return color;
+}
+
 static struct mtl read_mtl(const struct mesh_job *job, const struct aiMaterial *source)
 {
     struct mtl mtl = {
-        .diffuse = mesh_material_color(source, "$clr.diffuse", mesh_grey(0.6)),
-        .specular = mesh_material_color(source, "$clr.specular", mesh_grey(0)),
+        .diffuse = read_reflectance(job, source, "$clr.diffuse", 0.6),
+        .specular = read_reflectance(job, source, "$clr.specular", 0),
         .emission = mesh_material_color(source, "$clr.emissive", mesh_grey(0)),
-        .filter = mesh_material_color(source, "$clr.transparent", mesh_grey(1)),
+        .filter = read_reflectance(job, source, "$clr.transparent", 1),
         .exponent = fmax(0, mesh_material_number(source, "$mat.shininess", 0)),
         .ior = mesh_material_number(source, "$mat.refracti", 1),
         .opacity = mesh_material_number(source, "$mat.opacity", 1),
@@ -121,8 +134,11 @@ static ps_result read_bump(struct mesh_job *job, const struct aiMaterial *source
                                 &count) != aiReturn_SUCCESS ||
         !isfinite(factor))
         factor = 1;
-    struct pigment_description bump = mesh_pigment(mesh_grey(factor * job->scale));
-    ps_result result = mesh_pigment_texture(job, source, height, &bump);
+    struct pigment_description bump =
+        mesh_pigment(mesh_grey(factor * job->scale * job->request->bump_scale));
+    ps_result result = PS_OK;
+    if (job->request->bump_scale > 0)
+        result = mesh_pigment_texture(job, source, height, &bump);
     if (result == PS_OK && bump.kind == PIGMENT_IMAGE)
         material->bump = bump;
     if (result == PS_OK)

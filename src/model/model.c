@@ -60,6 +60,7 @@ ps_result model_read(const char *path, const char *folder, struct model *model, 
         .camera = true,
         .lights = true,
         .unit = 1,
+        .bump_scale = 1,
         .up = mesh_file_up(path),
         .placement = AFFINE_IDENTITY,
     };

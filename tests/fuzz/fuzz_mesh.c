@@ -125,6 +125,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         .camera = true,
         .lights = true,
         .unit = 0.5,
+        .bump_scale = 1,
         .up = 2,
         .placement = AFFINE_IDENTITY,
         .seconds = 1,

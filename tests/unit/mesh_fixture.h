@@ -31,6 +31,7 @@ static inline struct mesh_request request_all(const char *path)
         .camera = true,
         .lights = true,
         .unit = 1,
+        .bump_scale = 1,
         .up = 1,
         .placement = AFFINE_IDENTITY,
         .origin = {"scene.psd", 3, 5},

@@ -83,6 +83,37 @@ static void ks_with_illum_2_is_a_coat(void **state)
     release_imported(&imported);
 }
 
+static void colors_may_be_srgb(void **state)
+{
+    (void)state;
+    struct mesh_request request = request_all("d/m.obj");
+    request.srgb_colors = true;
+    struct imported imported = import_mtl_of(&request, "Kd 0.5 0.02 1\nKs 0.5 0.5 0.5\nNs 40\n"
+                                                       "Ke 3 0.5 0\nillum 2");
+    const struct material_description *m = material_named(&imported, "m");
+    expect_color(m->color.colors[0], 0.2140411, 0.02 / 12.92, 1);
+    expect_color(m->specular.colors[0], 0.2140411, 0.2140411, 0.2140411);
+    expect_color(m->emission.colors[0], 3, 0.5, 0);
+    release_imported(&imported);
+}
+
+static void bumps_are_scaled(void **state)
+{
+    (void)state;
+    struct mesh_request request = request_all("d/m.obj");
+    request.bump_scale = 0.25;
+    struct imported imported = import_mtl_of(&request, "bump -bm 2 a.png");
+    const struct material_description *m = material_named(&imported, "m");
+    assert_int_equal(m->bump.kind, PIGMENT_IMAGE);
+    expect_color(m->bump.colors[0], 0.5, 0.5, 0.5);
+    release_imported(&imported);
+    request.bump_scale = 0;
+    imported = import_mtl_of(&request, "bump -bm 2 a.png");
+    assert_int_equal(material_named(&imported, "m")->bump.kind, PIGMENT_COLOR);
+    assert_int_equal(imported.fragment.texture_count, 0);
+    release_imported(&imported);
+}
+
 static void almost_black_kd_under_a_mirror_is_black(void **state)
 {
     (void)state;
@@ -343,6 +374,8 @@ int main(void)
         cmocka_unit_test(reflectances_above_1_are_told),
         cmocka_unit_test(ke_is_radiance),
         cmocka_unit_test(ks_with_illum_2_is_a_coat),
+        cmocka_unit_test(colors_may_be_srgb),
+        cmocka_unit_test(bumps_are_scaled),
         cmocka_unit_test(almost_black_kd_under_a_mirror_is_black),
         cmocka_unit_test(mirror_over_kd_is_a_mix),
         cmocka_unit_test(refracting_illum_is_glass),

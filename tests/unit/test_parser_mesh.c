@@ -63,6 +63,14 @@ static void test_materials(void **state)
     scene_description_release(&d);
 }
 
+static void test_options_of_mtl(void **state)
+{
+    struct scene_description d =
+        parse_good(scene(state, "objects: [mesh: {file: @, colors: srgb, bump_scale: 0.5}]\n"));
+    assert_float_equal(material_of(&d, &d.objects[0])->color.colors[0].r, 0.2140411, 1e-6);
+    scene_description_release(&d);
+}
+
 static void test_in_groups(void **state)
 {
     struct scene_description d = parse_good(
@@ -121,6 +129,10 @@ static void test_errors(void **state)
            "'geometri'; did you mean 'geometry'?\n"
            "5:49: error: unit in mesh: expected number > 0, got '0'\n"
            "5:56: error: up in mesh: expected x | y | z, got 'w'\n");
+    expect(state, "objects: [mesh: {file: @, colors: rgb, bump_scale: -1}]",
+           "error: colors in mesh: expected linear | srgb, got 'rgb'");
+    expect(state, "objects: [mesh: {file: @, bump_scale: -1}]",
+           "error: bump_scale in mesh: expected number >= 0, got '-1'");
     expect(state, "groups: {g: [mesh: {use: [lights], file: @}]}",
            "5:26: error: use in mesh: a group holds no cameras and no lights\n");
     expect(state, "objects: [mesh: {file: /nonexistent.obj}]", "5:24: error: ");
@@ -129,9 +141,8 @@ static void test_errors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        SCRATCH_TEST(test_materials),
-        SCRATCH_TEST(test_in_groups),
-        SCRATCH_TEST(test_parts_without_a_material),
+        SCRATCH_TEST(test_materials), SCRATCH_TEST(test_options_of_mtl),
+        SCRATCH_TEST(test_in_groups), SCRATCH_TEST(test_parts_without_a_material),
         SCRATCH_TEST(test_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
