@@ -36,6 +36,14 @@ float gltf_accessor_value(const struct gltf_accessor *accessor, size_t element, 
 /* Unpacks the view if it is compressed; no-op if not. */
 ps_result gltf_unpack_view(struct gltf *gltf, size_t index, struct error *error);
 
+/* --- gltf_container.c ------------------------------------------------------------------------------ */
+
+/* Where the JSON lies in a binary file. PS_ERROR_INVALID where it is none, or cut short. */
+ps_result gltf_find_json(const struct mesh_file *file, struct json_text *text, struct error *error);
+
+/* Writes the tree into the file, in the place of the text `old`. */
+ps_result gltf_rewrite(struct gltf *gltf, const struct json_text *old, struct error *error);
+
 /* --- meshopt.c ----------------------------------------------------------------------------------- */
 
 /* Whether this build can. */
