@@ -88,7 +88,7 @@ static ps_result replace_chunk(struct mesh_file *file, const struct json_text *o
 ps_result gltf_rewrite(struct gltf *gltf, const struct json_text *old, struct error *error)
 {
     size_t length;
-    char *text = json_write(gltf->root, &length);
+    char *text = json_rewrite(gltf->root, &length);
     if (!text)
         return error_memory(error, old->length, "a mesh file");
     if (!gltf->binary) {
