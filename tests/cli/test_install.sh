@@ -78,6 +78,7 @@ check_contents() {
     for example in "$PSPLAT_SOURCE"/examples/*; do
         check_file "$prefix/share/psplat/examples/$(basename "$example")"
     done
+    check_file "$prefix/share/psplat/blender/psplat_render.py"
     for page in "$PSPLAT_SOURCE"/man/*.[1357]; do
         [ -f "$page" ] || continue
         check_file "$prefix/share/man/man${page##*.}/$(basename "$page")"
