@@ -29,12 +29,11 @@ import os
 import re
 import selectors
 import shlex
-import shutil
 import signal
 import struct
 import subprocess
 import tempfile
-import time
+import urllib.parse
 import zlib
 
 import bpy
@@ -44,8 +43,20 @@ import numpy
 # --- files ---------------------------------------------------------------------------------------
 
 
+def color_layer(mesh, name):
+    """A color attribute of a mesh, by its name or, where that is empty, the one for renders; or None."""
+    if name is None or not len(mesh.color_attributes):
+        return None
+    return mesh.color_attributes.get(name) if name else mesh.color_attributes[mesh.color_attributes.render_color_index]
+
+
 def write_glb(path, mesh, normals, materials):
-    """Writes an evaluated mesh as binary glTF 2, its triangles grouped by material; `materials`: names, of each slot."""
+    """Writes an evaluated mesh as binary glTF 2, its triangles grouped by material.
+
+    `materials`: for each slot glTF's material, with a "colors" that names the color attribute of the mesh that it is multiplied
+    with, or None. A dict with a "file" is a texture of it, with its sampler and its transform. Returns False where no triangle
+    has an area, and writes nothing then.
+    """
     mesh.calc_loop_triangles()
     corner_count, triangle_count = len(mesh.loops), len(mesh.loop_triangles)
     places = numpy.empty(len(mesh.vertices) * 3, numpy.float32)
@@ -63,7 +74,7 @@ def write_glb(path, mesh, normals, materials):
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}],
-        "materials": [{"name": name} for name in materials],
+        "materials": [],
         "accessors": [],
         "bufferViews": [],
     }
@@ -78,10 +89,39 @@ def write_glb(path, mesh, normals, materials):
         parts.append(data)
         return len(parts) - 1
 
+    def with_textures(value):
+        if not isinstance(value, dict):
+            return value
+        if "file" not in value:
+            return {key: with_textures(part) for key, part in value.items() if key != "colors"}
+        textures = document.setdefault("textures", [])
+        document.setdefault("images", []).append({"uri": value["file"]})
+        document.setdefault("samplers", []).append(value["sampler"])
+        textures.append({"source": len(textures), "sampler": len(textures)})
+        return {"index": len(textures) - 1, "extensions": {"KHR_texture_transform": value["transform"]}}
+
+    def attributes_of(slot):
+        attribute = color_layer(mesh, materials[slot]["colors"])
+        if not attribute:
+            return attributes
+        colors = numpy.empty(len(attribute.data) * 4, numpy.float32)
+        attribute.data.foreach_get("color", colors)
+        colors = colors.reshape(-1, 4)
+        colors[:, 3] = 1
+        colors = colors if attribute.domain == 'CORNER' else colors[vertices]
+        return {**attributes, "COLOR_0": accessor(colors, 5126, "VEC4")}
+
     def upright(array):
         array = array.reshape(-1, 3)
         return numpy.stack([array[:, 0], array[:, 2], -array[:, 1]], axis=1)
 
+    triangles = triangles.reshape(-1, 3).astype(numpy.uint32)
+    corners = places.reshape(-1, 3)[vertices][triangles].astype(float)
+    areas = numpy.linalg.norm(numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    triangles, slots = triangles[areas > 0], slots[areas > 0]
+    if not len(triangles):
+        return False
+    document["materials"] = [with_textures(material) for material in materials]
     positions = upright(places)[vertices]
     attributes = {
         "POSITION": accessor(positions, 5126, "VEC3", min=positions.min(axis=0).tolist(),
@@ -93,9 +133,8 @@ def write_glb(path, mesh, normals, materials):
         mesh.uv_layers.active.data.foreach_get("uv", uv)
         uv = uv.reshape(-1, 2)
         attributes["TEXCOORD_0"] = accessor(numpy.stack([uv[:, 0], 1 - uv[:, 1]], axis=1), 5126, "VEC2")
-    triangles = triangles.reshape(-1, 3).astype(numpy.uint32)
     document["meshes"] = [{"primitives": [
-        {"attributes": attributes, "material": int(slot),
+        {"attributes": attributes_of(slot), "material": int(slot),
          "indices": accessor(triangles[slots == slot].reshape(-1), 5125, "SCALAR")}
         for slot in numpy.unique(slots)]}]
     binary = b"".join(parts)
@@ -106,6 +145,7 @@ def write_glb(path, mesh, normals, materials):
         file.write(struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + len(binary)))
         file.write(struct.pack("<I4s", len(text), b"JSON") + text)
         file.write(struct.pack("<I4s", len(binary), b"BIN\0") + binary)
+    return True
 
 
 def write_png(path, pixels):
@@ -236,7 +276,9 @@ class Exporter:
         self.said, self.warn_user = set(), warn
         self.owner = ""  # the material, light or world whose nodes are read, for warnings
         self.materials, self.images, self.meshes, self.lights = {}, {}, {}, []
-        self.parts = {}  # names of materials in the file, of Blender's
+        self.sources = {}  # pictures of Blender, by the files
+        self.names = {}  # names of materials in the scene, by Blender's
+        self.gltf = {}  # materials that glTF says and psd(5) does not, by the names
         self.digest = hashlib.sha256()
 
     def warn(self, text):
@@ -245,7 +287,7 @@ class Exporter:
             self.warn_user(text)
 
     def write(self, view):
-        """Writes scene.psd and the files that it names. Returns a digest of all."""
+        """Writes scene.psd and the files that it names, and makes `digest` that of all."""
         if self.scene.render.use_motion_blur:
             self.warn("psplat has no motion blur")
         self.take_objects()
@@ -258,7 +300,6 @@ class Exporter:
         with open(os.path.join(self.folder, "scene.psd"), "w", encoding="utf-8") as file:
             file.write(text + "\n")
         self.digest.update(text.encode())
-        return self.digest.hexdigest()
 
     # --- objects ---
 
@@ -276,28 +317,37 @@ class Exporter:
 
     def take_mesh(self, found, matrix):
         slots = [slot.material for slot in found.material_slots] or [None]
+        # What is flattened has no inverse, and psplat wants one of each placement.
+        flat = matrix.copy() if abs(matrix.determinant()) <= 1e-6 * matrix.median_scale ** 3 else None
         key = (found.data.as_pointer(), found.type == 'MESH' or found.name_full, found.visible_camera,
-               tuple(material.name_full if material else "" for material in slots))
+               tuple(material.name_full if material else "" for material in slots), flat and tuple(upright_matrix(flat)))
         if key not in self.meshes:
-            self.meshes[key] = {"entry": self.write_mesh(found, [self.take_material(slot) for slot in slots]),
-                                "places": []}
-        self.meshes[key]["places"].append(upright_matrix(matrix))
+            names = [self.take_material(slot) for slot in slots]
+            self.meshes[key] = {"entry": self.write_mesh(found, names, flat), "places": []}
+        self.meshes[key]["places"].append(upright_matrix(mathutils.Matrix() if flat else matrix))
 
-    def write_mesh(self, found, materials):
+    def write_mesh(self, found, names, flat):
         """Writes an object's mesh. Returns what a scene says of it, or None where it has no triangles."""
         mesh = found.to_mesh()
         try:
             if mesh is None or not mesh.polygons:
                 return None
+            if flat:
+                mesh.transform(flat)
             mesh.calc_normals_split()
             normals = numpy.empty(len(mesh.loops) * 3, numpy.float32)
             mesh.loops.foreach_get("normal", normals)
-            name = f"mesh-{len(self.meshes)}.glb"
-            write_glb(os.path.join(self.folder, name), mesh, normals, materials)
+            file = f"mesh-{len(self.meshes)}.glb"
+            materials = [self.gltf.get(name, {"name": name, "colors": None}) for name in names]
+            for material in materials:
+                if material["colors"] is not None and not color_layer(mesh, material["colors"]):
+                    self.warn(f"{found.name}: no color attribute '{material['colors']}' for {material['name']}: it is white")
+            if not write_glb(os.path.join(self.folder, file), mesh, normals, materials):
+                return None
         finally:
             found.to_mesh_clear()
-        self.take_file(name)
-        entry = {"file": name, "materials": {material: material for material in materials}}
+        self.take_file(file)
+        entry = {"file": file, "materials": {name: name for name in names if name not in self.gltf}}
         return entry if found.visible_camera else {**entry, "camera": False}
 
     def place_meshes(self):
@@ -418,7 +468,7 @@ class Exporter:
                 self.warn(f"{world.name}: the picture of the world turns about z alone")
         # The middle of the picture lies towards x in Blender, and towards -z in psplat, which is y in Blender. A mapping
         # turns directions before they are looked up, so that the picture turns the other way.
-        return {"radiance": max(strength, 0.0), "file": self.image_file(node.image, linear=True),
+        return {"radiance": max(strength, 0.0), "file": self.image_file(node.image),
                 "rotate": -90 - math.degrees(turn)}
 
     # --- values and pictures ---
@@ -478,29 +528,38 @@ class Exporter:
             return "linear"
         return "srgb"
 
-    def image_file(self, image, linear=False):
+    def image_file(self, image):
         """The file of a picture: its own where psplat reads it, or a copy in the folder."""
         if image.name_full not in self.images:
             path = bpy.path.abspath(image.filepath_raw, library=image.library)
             plain = image.source == 'FILE' and not image.packed_file and not image.is_dirty
-            if plain and os.path.isfile(path) and path.lower().endswith((".png", ".jpg", ".jpeg")) and not linear:
+            if plain and os.path.isfile(path) and path.lower().endswith((".png", ".jpg", ".jpeg")):
                 self.images[image.name_full] = path
                 status = os.stat(path)
                 self.digest.update(f"{path} {status.st_size} {status.st_mtime_ns}".encode())
             else:
                 self.images[image.name_full] = self.copy_image(image)
+            self.sources[self.images[image.name_full]] = image
         return self.images[image.name_full]
 
-    def copy_image(self, image):
+    def pixels(self, image):
+        """Those of a picture of Blender, of shape (height, width, 4), the lowest row first."""
         width, height = image.size
         if not width or not height:
             self.warn(f"{image.name}: the picture can't be read; it counts as white")
-            pixels, width, height = numpy.ones(4, numpy.float32), 1, 1
-        else:
-            pixels = numpy.empty(width * height * image.channels, numpy.float32)
-            image.pixels.foreach_get(pixels)
-        name = f"image-{len(self.images)}" + (".exr" if image.is_float else ".png")
+            return numpy.ones((1, 1, 4), numpy.float32)
+        pixels = numpy.empty(width * height * image.channels, numpy.float32)
+        image.pixels.foreach_get(pixels)
         pixels = pixels.reshape(height, width, -1)
+        if image.channels == 4:
+            return pixels
+        full = numpy.ones((height, width, 4), numpy.float32)
+        full[:, :, :3] = pixels[:, :, :min(image.channels, 3)]
+        return full
+
+    def copy_image(self, image):
+        pixels = self.pixels(image)
+        name = f"image-{len(self.images)}" + (".exr" if image.is_float else ".png")
         if image.is_float:
             write_exr(os.path.join(self.folder, name), dict(zip("RGBA", numpy.moveaxis(pixels, -1, 0))))
         else:
@@ -513,14 +572,16 @@ class Exporter:
     def take_material(self, material):
         """The name that a material of Blender has in the scene."""
         key = material.name_full if material else ""
-        if key not in self.parts:
+        if key not in self.names:
             name = key.lstrip("=") or "default"
-            while name in self.materials:
+            while name in self.materials or name in self.gltf:
                 name += "'"
-            self.parts[key] = name
+            self.names[key] = name
             self.materials[name] = {}  # taken, before mixes add theirs
             self.materials[name] = self.description(material, name)
-        return self.parts[key]
+            if name in self.gltf:
+                del self.materials[name]
+        return self.names[key]
 
     def description(self, material, name):
         if not material:
@@ -534,6 +595,10 @@ class Exporter:
         for socket in ("Volume", "Displacement"):
             if output.inputs[socket].is_linked:
                 self.warn(f"{material.name}: {socket.lower()} is left out")
+        found = node_of(output.inputs["Surface"])
+        if found and found[0].type == 'BSDF_PRINCIPLED' and self.is_gltf(found[0]):
+            self.gltf[name] = self.gltf_material(found[0], name)
+            return {}
         surface = self.surface(output.inputs["Surface"], name)
         if not is_black(surface.get("emission", 0)):
             surface["emission_both"] = True
@@ -580,11 +645,14 @@ class Exporter:
             return 0
         return within(scaled(self.value(color), strength), math.inf)
 
+    def warn_of_layers(self, node):
+        for unknown in ("Subsurface", "Sheen", "Clearcoat", "Anisotropic"):
+            if node.inputs[unknown].is_linked or node.inputs[unknown].default_value > 0:
+                self.warn(f"{self.owner}: {unknown} of {node.name} is left out")
+
     def principled(self, node, name):
         inputs = node.inputs
-        for unknown in ("Subsurface", "Sheen", "Clearcoat", "Anisotropic"):
-            if inputs[unknown].is_linked or inputs[unknown].default_value > 0:
-                self.warn(f"{self.owner}: {unknown} of {node.name} is left out")
+        self.warn_of_layers(node)
         base = within(self.value(inputs["Base Color"]))
         metallic, transmission = (within(self.constant(inputs[key])) for key in ("Metallic", "Transmission"))
         weights = (metallic, (1 - metallic) * (1 - transmission), (1 - metallic) * transmission)
@@ -597,10 +665,97 @@ class Exporter:
             result["emission"] = shine
         opacity = within(self.value(inputs["Alpha"]))
         if opacity != 1:
-            result["opacity"] = opacity
-            if not isinstance(opacity, dict):
-                self.warn(f"{self.owner}: an alpha below 1/2 is a hole, and one above is opaque")
+            result = self.with_holes(result, opacity)
         return {**result, **self.relief(node)}
+
+    def with_holes(self, surface, opacity):
+        if not isinstance(opacity, dict) and 0 < opacity < 1:
+            self.warn(f"{self.owner}: a share of transparency above 1/2 is a hole, and one below is none")
+        return {**surface, "opacity": opacity}
+
+    @staticmethod
+    def color_attribute(node):
+        """The color attribute that a Principled BSDF takes its base color from, or None."""
+        found = node_of(node.inputs["Base Color"])
+        if found and found[0].type == 'VERTEX_COLOR':
+            return found[0].layer_name
+        return found[0].attribute_name if found and found[0].type == 'ATTRIBUTE' else None
+
+    def is_gltf(self, node):
+        """Whether a Principled BSDF wants what in psplat only materials of glTF have: metalness from a picture, opacity by chance,
+        or colors of the mesh. Those have no glass, and shine from the front alone."""
+        inputs = node.inputs
+        shines = inputs["Emission Strength"].default_value > 0 and any(inputs["Emission"].default_value[:3])
+        if inputs["Emission"].is_linked or shines or inputs["Transmission"].is_linked or inputs["Transmission"].default_value > 0:
+            return False
+        return (self.color_attribute(node) is not None or isinstance(self.value(inputs["Metallic"]), dict)
+                or not inputs["Alpha"].is_linked and inputs["Alpha"].default_value < 1)
+
+    def gltf_material(self, node, name):
+        """A Principled BSDF as glTF has it."""
+        self.warn_of_layers(node)
+        inputs, colors = node.inputs, self.color_attribute(node)
+        metallic, roughness, alpha = (within(self.value(inputs[key])) for key in ("Metallic", "Roughness", "Alpha"))
+        base = 1.0 if colors is not None else within(self.value(inputs["Base Color"]))
+        root = math.sqrt(within(self.constant(inputs["Specular"])) * 0.08)
+        shading = {"baseColorFactor": [1, 1, 1, 1]}
+        result = {"name": name, "colors": colors, "pbrMetallicRoughness": shading,
+                  "extensions": {"KHR_materials_ior": {"ior": (1 + root) / (1 - root)}}}
+        if isinstance(base, dict):
+            shading["baseColorTexture"] = self.texture(base["image"])
+        else:
+            shading["baseColorFactor"][:3] = three(base)
+        if isinstance(alpha, dict):
+            self.warn(f"{self.owner}: alpha from a picture is left out beside metalness from one, or color attributes")
+        elif alpha < 1:
+            shading["baseColorFactor"][3], result["alphaMode"] = alpha, "BLEND"
+        if isinstance(metallic, dict) or isinstance(roughness, dict):
+            shading["metallicRoughnessTexture"] = self.packed(metallic, roughness)
+        else:
+            shading["metallicFactor"], shading["roughnessFactor"] = metallic, roughness
+        relief = self.relief(node)
+        if "normal_map" in relief:
+            result["normalTexture"] = self.texture(relief["normal_map"])
+        elif relief:
+            self.warn(f"{self.owner}: bumps are left out beside metalness from a picture, color attributes, or an alpha below 1")
+        return result
+
+    def texture(self, image):
+        """glTF's texture of a picture of psd(5). glTF counts v from above."""
+        wrap = {"repeat": 10497, "clamp": 33071, "mirror": 33648}[image["wrap"]]
+        filtering = 9728 if image.get("interpolate") == "nearest" else 9729
+        (across, up), (right, above) = image.get("repeat", (1, 1)), image.get("offset", (0, 0))
+        path = os.path.relpath(os.path.join(self.folder, image["file"]), self.folder)
+        return {"file": urllib.parse.quote(path),
+                "sampler": {"wrapS": wrap, "wrapT": wrap, "magFilter": filtering},
+                "transform": {"scale": [across, up], "offset": [right, 1 - up - above]}}
+
+    def packed(self, metallic, roughness):
+        """The texture of metalness and roughness, which glTF has in blue and green of one picture; it lies as the first does."""
+        pictures = [value["image"] for value in (metallic, roughness) if isinstance(value, dict)]
+        if len({json.dumps([picture.get(key) for key in ("repeat", "offset", "wrap")]) for picture in pictures}) > 1:
+            self.warn(f"{self.owner}: metalness and roughness from pictures lie alike")
+        planes = [self.numbers(value["image"]) if isinstance(value, dict) else numpy.full((1, 1), value)
+                  for value in (roughness, metallic)]
+        height, width = (max(plane.shape[axis] for plane in planes) for axis in (0, 1))
+        pixels = numpy.ones((height, width, 4))
+        for channel, plane in zip((1, 2), planes):
+            rows, columns = (numpy.arange(size) * plane.shape[axis] // size for axis, size in ((0, height), (1, width)))
+            pixels[:, :, channel] = plane[rows][:, columns]
+        name = f"packed-{len(self.gltf)}.png"
+        write_png(os.path.join(self.folder, name), pixels)
+        self.take_file(name)
+        return self.texture({**pictures[0], "file": name})
+
+    def numbers(self, picture):
+        """The pixels of a picture where a number is wanted."""
+        pixels = self.pixels(self.sources[picture["file"]])
+        if picture["encoding"] == "srgb":
+            rgb = pixels[:, :, :3]
+            pixels[:, :, :3] = numpy.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+        if picture.get("channel"):
+            return pixels[:, :, "rgba".index(picture["channel"])]
+        return pixels[:, :, :3].mean(axis=2)
 
     def plastic(self, node, base):
         """A coat over a diffuse base. Cycles adds the coat's light, and takes nothing from the base's; psplat's coat lets pass
@@ -649,13 +804,15 @@ class Exporter:
         share = within(self.value(node.inputs["Fac"]))
         sockets = node.inputs[1:3]
         holes = [bool(found and found[0].type == 'BSDF_TRANSPARENT') for found in map(node_of, sockets)]
-        if holes[0] and not holes[1]:
-            return {**self.surface(sockets[1], name), "opacity": share}
+        if all(holes):
+            return self.surface(sockets[0], name)
+        if holes[0]:
+            return self.with_holes(self.surface(sockets[1], name), share)
         if isinstance(share, dict):
             self.warn(f"{self.owner}: {node.name}: shaders mix by a number alone; half of each counts")
             share = 0.5
-        if holes[1] and not holes[0]:
-            return {**self.surface(sockets[0], name), "opacity": 1 - share}
+        if holes[1]:
+            return self.with_holes(self.surface(sockets[0], name), 1 - share)
         return self.mixed(name, [(1 - share, self.surface(sockets[0], name + " / A")),
                                  (share, self.surface(sockets[1], name + " / B"))])
 

@@ -147,14 +147,18 @@ def check_frames():
 
 
 def check_unknown():
-    """Warnings go to Blender's console; the shell looks for them."""
+    """Warnings of shaders go to Blender's console; the shell looks for them."""
     def build():
         scenes.point()
         scenes.add("Velvet", scenes.cube("Velvet", 0.2, scenes.material("Velvet", "ShaderNodeBsdfVelvet")))
         # A name that would be a formula, and one that others have.
         for name in ("=1+", "1+", "White / 1"):
             scenes.add(name, scenes.cube(name, 0.2, scenes.diffuse(name, 0.5, 0.5, 0.5)))
-    expect(error_of(prepare(build)) == "", "what psplat does not know is left out")
+        bpy.data.objects["Box"].scale.z = 0
+        scenes.add("Line", scenes.mesh("Line", [(0, 0, 1), (1, 0, 1), (2, 0, 1)], [(0, 1, 2)], None))
+        scenes.add("Nothing", bpy.data.meshes.new("Nothing"))
+        scenes.light('AREA', (0, 0, 2)).scale.x = 0
+    expect(error_of(prepare(build)) == "", "what psplat does not know, or has no extent, is left out")
 
 
 for check in (check_passes, check_transparency_and_region, check_errors, check_strategies, check_frames, check_unknown):

@@ -1,7 +1,7 @@
 """Renders scenes.py in Blender, with Cycles and with psplat, and compares the pictures.
 
-blender -b --factory-startup --python-exit-code 1 --python compare.py -- FOLDER [--samples N] [--options TEXT] [--limit PERCENT] [--blocks PERCENT]
-    [SCENE]...
+blender -b --factory-startup --python-exit-code 1 --python compare.py -- FOLDER [--samples N] [--options TEXT]
+    [--limit PERCENT] [--blocks PERCENT] [SCENE]...
 
 Writes NAME-cycles.exr and NAME-psplat.exr to FOLDER and prints a line for each scene: its means, how far psplat's is from Cycles',
 and how far blocks of 8x8 pixels are from Cycles', as the root of the mean square over the mean. Fails where a mean is farther off

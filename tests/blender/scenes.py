@@ -224,6 +224,48 @@ def texture():
     light('POINT', (0.5, -0.8, 2.2), energy=100, shadow_soft_size=0.1)
 
 
+def picture_node(tree, pixels, socket, colors='Non-Color'):
+    image = bpy.data.images.new("Map", *pixels.shape[1::-1])
+    image.colorspace_settings.name = colors
+    image.pixels.foreach_set(pixels.reshape(-1))
+    picture, mapping, place = (tree.nodes.new(name) for name in
+                               ("ShaderNodeTexImage", "ShaderNodeMapping", "ShaderNodeTexCoord"))
+    picture.image = image
+    mapping.inputs["Scale"].default_value, mapping.inputs["Location"].default_value = (1.5, 1.2, 1), (0.1, 0.3, 0)
+    tree.links.new(place.outputs["UV"], mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs["Vector"], picture.inputs["Vector"])
+    tree.links.new(picture.outputs["Color"], socket)
+
+
+def maps():
+    """Metalness and roughness from pictures of different sizes, a color attribute, and a pane of alpha 0.4."""
+    white = room(ceiling=False)
+    world((0.5, 0.5, 0.5))
+    shader = "ShaderNodeBsdfPrincipled"
+    plate = material("Plate", shader, Base_Color=(0.9, 0.6, 0.3), Specular=0.0)
+    inputs = plate.node_tree.nodes["Principled BSDF"].inputs
+    letter = numpy.ones((32, 32, 4), numpy.float32)
+    letter[:, :, :3] = (picture_pixels()[:, :, 1:2] > 0.5)
+    picture_node(plate.node_tree, letter, inputs["Metallic"])
+    rough = numpy.ones((2, 8, 4), numpy.float32)
+    rough[:, :, :3] = numpy.linspace(0.2, 0.6, 8)[None, :, None]
+    picture_node(plate.node_tree, rough, inputs["Roughness"])
+    add("Plate", quad("Plate", [(-1, 0, 0), (1, 0, 0), (1, 0, 1.5), (-1, 0, 1.5)], plate, uv=True), (-0.6, 1.5, 0.8), (-15, 0, 0))
+    painted = material("Painted", shader, Specular=0.0)
+    node = painted.node_tree.nodes.new("ShaderNodeVertexColor")
+    node.layer_name = "Paint"
+    painted.node_tree.links.new(node.outputs["Color"], painted.node_tree.nodes["Principled BSDF"].inputs["Base Color"])
+    data = cube("Box", 1, painted)
+    paint = data.color_attributes.new("Paint", 'FLOAT_COLOR', 'POINT')
+    paint.data.foreach_set("color", [value for vertex in data.vertices
+                                     for value in (*(0.2 + 0.6 * (number > 0) for number in vertex.co), 1)])
+    add("Box", data, (-0.9, 0.3, 0.5), (0, 0, 25))
+    pane = material("Pane", shader, Base_Color=(0.2, 0.3, 0.8), Specular=0.0, Alpha=0.4)
+    add("Pane", quad("Pane", [(-0.6, 0, 0), (0.6, 0, 0), (0.6, 0, 1.2), (-0.6, 0, 1.2)], pane), (1, -0.5, 0.2))
+    add("Ball", ball("Ball", 0.4, white), (1, 0.4, 0.4))
+    light('SUN', (0, 0, 5), (20, 25, 10), energy=3, angle=0.05)
+
+
 def emission():
     white = room()
     world()
@@ -291,5 +333,5 @@ def shifted():
     data.shift_x, data.shift_y, data.sensor_fit, data.sensor_height, data.lens = 0.15, -0.1, 'VERTICAL', 20, 30
 
 
-SCENES = (point, sun, spot, area, world_color, world_picture, principled, texture, emission, glass, instances, orthographic,
+SCENES = (point, sun, spot, area, world_color, world_picture, principled, texture, emission, glass, maps, instances, orthographic,
           shifted)
