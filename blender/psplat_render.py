@@ -1293,7 +1293,7 @@ class PsplatLayersPanel(bpy.types.Panel):
         self.layout.use_property_split = True
         for key in SWITCHES.values():
             self.layout.prop(context.view_layer, key)
-        self.layout.prop(context.scene.psplat, "layers")
+        self.layout.column().prop(context.scene.psplat, "layers", expand=True)
 
 
 CLASSES = (PsplatPreferences, PsplatSettings, PsplatEngine, PsplatPanel, PsplatLayersPanel)
