@@ -111,7 +111,7 @@ def write_glb(path, mesh, normals, materials):
         colors = colors if attribute.domain == 'CORNER' else colors[vertices]
         return {**attributes, "COLOR_0": accessor(colors, 5126, "VEC4")}
 
-    def upright(array):
+    def upright_rows(array):
         array = array.reshape(-1, 3)
         return numpy.stack([array[:, 0], array[:, 2], -array[:, 1]], axis=1)
 
@@ -122,11 +122,11 @@ def write_glb(path, mesh, normals, materials):
     if not len(triangles):
         return False
     document["materials"] = [with_textures(material) for material in materials]
-    positions = upright(places)[vertices]
+    positions = upright_rows(places)[vertices]
     attributes = {
         "POSITION": accessor(positions, 5126, "VEC3", min=positions.min(axis=0).tolist(),
                              max=positions.max(axis=0).tolist()),
-        "NORMAL": accessor(upright(normals), 5126, "VEC3"),
+        "NORMAL": accessor(upright_rows(normals), 5126, "VEC3"),
     }
     if mesh.uv_layers.active:
         uv = numpy.empty(corner_count * 2, numpy.float32)
