@@ -63,7 +63,7 @@ static char *default_output(const char *scene)
 static int import(const struct request *request, const char *output, const char *folder)
 {
     const struct pbrt_options pbrt = {.version = (int)request->version, .folder = folder};
-    struct diagnostics *sink = diagnostics_create_for(PBRT_WARNINGS);
+    struct diagnostics *sink = diagnostics_create_for(WARNINGS_KEPT);
     struct error error = {.text = ""};
     if (!sink) {
         print_error("out of memory");

@@ -32,34 +32,14 @@ bool importer_grow(struct importer *importer, void **items, size_t *capacity, si
     return scene_text_grow(items, capacity, wanted, size) || importer_no_memory(importer);
 }
 
-/* Whether the warning is new, which it then no longer is. After very many they are counted by the sink alone. */
-static bool is_new(struct importer *importer, const char *text)
-{
-    for (size_t i = 0; i < importer->said_count; i++)
-        if (strcmp(importer->said[i], text) == 0)
-            return false;
-    if (importer->said_count == PBRT_WARNINGS)
-        return true;
-    char *copy = strdup(text);
-    if (!copy || !importer_grow(importer, (void **)&importer->said, &importer->said_capacity,
-                                importer->said_count + 1, sizeof *importer->said)) {
-        free(copy);
-        return importer_no_memory(importer);
-    }
-    importer->said[importer->said_count++] = copy;
-    return true;
-}
-
 void importer_warn(struct importer *importer, const struct origin *origin, int width,
                    const char *format, ...)
 {
-    char text[512];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    if (!warnings_report(&importer->warnings, importer->sink, origin, width, format, arguments))
+        importer_report_memory(importer);
     va_end(arguments);
-    if (is_new(importer, text))
-        diagnostics_report(importer->sink, SEVERITY_WARNING, origin, width, "%s", text);
 }
 
 const struct statement *importer_keep(struct importer *importer, struct statement *statement)

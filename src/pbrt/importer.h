@@ -7,11 +7,11 @@
 
 #include "base/arena.h"
 #include "parser/yaml/diagnostic.h"
-#include "pbrt/name_index.h"
+#include "writer/name_index.h"
 #include "pbrt/pbrt.h"
-#include "pbrt/scene_text.h"
+#include "writer/scene_text.h"
 #include "pbrt/statement.h"
-#include "pbrt/transform.h"
+#include "writer/transform.h"
 #include <stdio.h>
 
 enum attribute_target {
@@ -96,10 +96,7 @@ struct importer {
 
     struct statement **kept; /* statements that the state refers to */
     size_t kept_count, kept_capacity;
-    char **said; /* warnings that were given */
-    size_t said_count, said_capacity;
-
-    size_t inline_numbers; /* of meshes, in the scene's text */
+    struct warnings warnings;
 
     struct arena arena; /* of names and patterns, which stay */
     struct scene_text scene;

@@ -63,8 +63,8 @@ static bool add_patch(struct importer *importer, const struct patches *from, siz
     size_t pieces = is_flat(corners) ? 1 : PIECES;
     const struct surface_function surface = {patch_point, corners, pieces, pieces};
     struct mesh piece;
-    if (!mesh_from_surface(importer, &surface, &piece))
-        return false;
+    if (!mesh_from_surface(&surface, &piece))
+        return importer_no_memory(importer);
     for (size_t i = 0; i < piece.vertex_count; i++) {
         double u = piece.uv[i][0], v = piece.uv[i][1], *uv = mesh->uv[mesh->vertex_count + i];
         mesh->points[mesh->vertex_count + i] = piece.points[i];
@@ -123,14 +123,16 @@ void bilinear_mesh_add(struct importer *importer, const struct statement *statem
     statement_ignore(statement, unused, 1);
     if (!read_patches(importer, statement, &patches))
         return;
-    if (mesh_allocate(importer, patches.count * PATCH_VERTICES, true, true,
-                      patches.count * 2 * PIECES * PIECES, &mesh)) {
+    if (mesh_allocate(&mesh, patches.count * PATCH_VERTICES, true, true,
+                      patches.count * 2 * PIECES * PIECES)) {
         bool good = true;
         mesh.vertex_count = mesh.triangle_count = 0;
         for (size_t i = 0; i < patches.count && good; i++)
             good = add_patch(importer, &patches, i, &mesh);
         if (good)
             mesh_add(importer, statement, &mesh);
+    } else {
+        importer_report_memory(importer);
     }
     mesh_release(&mesh);
 }
@@ -148,8 +150,10 @@ void height_field_add(struct importer *importer, const struct statement *stateme
                        "nu nv floats \"Pz\"");
         return;
     }
-    if (!mesh_allocate(importer, points, false, true, 2 * (across - 1) * ((size_t)nv - 1), &mesh))
+    if (!mesh_allocate(&mesh, points, false, true, 2 * (across - 1) * ((size_t)nv - 1))) {
+        importer_report_memory(importer);
         return;
+    }
     size_t triangle = 0;
     for (size_t i = 0; i < points; i++) {
         size_t column = i % across, row = i / across;

@@ -4,16 +4,13 @@
  */
 #include "pbrt/pbrt.h"
 
-#include "base/file.h"
-#include "base/path.h"
 #include "base/version.h"
 #include "parser/yaml/builder.h"
-#include "parser/yaml/encoding.h"
 #include "pbrt/camera.h"
 #include "pbrt/parser.h"
-#include "pbrt/scene_files.h"
 #include "pbrt/state.h"
 #include "pbrt/version.h"
+#include "writer/import_file.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,10 +20,8 @@ static void release(struct importer *importer)
         statement_release(importer->kept[i]);
         free(importer->kept[i]);
     }
-    for (size_t i = 0; i < importer->said_count; i++)
-        free(importer->said[i]);
     free(importer->kept);
-    free(importer->said);
+    warnings_release(&importer->warnings);
     free(importer->stack);
     free(importer->coordinates);
     free(importer->materials);
@@ -79,10 +74,10 @@ static void report_attributes(struct importer *importer)
 
 ps_result pbrt_convert(const char *name, const char *text, size_t length,
                        const struct pbrt_options *options, struct diagnostics *sink,
-                       struct pbrt_scene *scene)
+                       struct written_scene *scene)
 {
     struct importer importer = {.options = options, .sink = sink, .mirror = -1.0};
-    *scene = (struct pbrt_scene){0};
+    *scene = (struct written_scene){0};
     importer.state.ctm = importer.camera = transform_identity;
     const char *shown = diagnostics_add_source(sink, name, text, length);
     if (!shown || !scene_text_open(&importer.scene)) {
@@ -108,97 +103,33 @@ ps_result pbrt_convert(const char *name, const char *text, size_t length,
     release(&importer);
     if (diagnostics_error_count(sink) == 0)
         return PS_OK;
-    pbrt_scene_release(scene);
+    written_scene_release(scene);
     return importer.no_memory ? PS_ERROR_MEMORY : PS_ERROR_INVALID;
 }
 
 /* --- files ------------------------------------------------------------------------------------------ */
 
-/* "FOLDER/" of a path, or ""; to be freed. */
-static char *folder_of(const char *path)
-{
-    return strndup(path, (size_t)(path_name(path) - path));
-}
+struct request {
+    const struct pbrt_options *options;
+    struct diagnostics *sink;
+};
 
-static char *resolved(const char *folder)
+static ps_result convert(void *user, const char *name, const struct file_text *text,
+                         const struct import_paths *paths, struct written_scene *scene)
 {
-    return realpath(*folder ? folder : ".", NULL);
-}
-
-/* How one folder is reached from another, which ends in a slash or is ""; to be freed. NULL: out of memory, or there
- * is no such folder. */
-static char *path_between(const char *from, const char *to)
-{
-    char *a = resolved(from), *b = resolved(to), *path = NULL;
-    if (a && b) {
-        size_t common = path_common_length(a, b), ups = 0;
-        for (const char *c = a + common; *c; c++)
-            ups += *c == '/' && c[1];
-        const char *rest = b[common] == '/' ? b + common + 1 : b + common;
-        size_t size = 3 * ups + strlen(rest) + 2;
-        path = calloc(1, size);
-        for (size_t i = 0; i < ups && path; i++)
-            strcat(path, "../");
-        if (path && *rest)
-            strcat(strcat(path, rest), "/");
-    }
-    free(a);
-    free(b);
-    return path;
-}
-
-/* Reads and converts; errors of reading go to `error`. */
-static ps_result convert_file(const char *path, const struct pbrt_options *options,
-                              struct diagnostics *sink, struct pbrt_scene *scene,
-                              struct error *error)
-{
-    struct file_text text = {0};
-    struct pbrt_options whole = *options;
-    ps_result result = file_read(path, &text, error);
-    if (result == PS_OK) {
-        whole.device = text.device;
-        whole.serial = text.serial;
-        result = pbrt_convert(path, text.bytes, text.length, &whole, sink, scene);
-    } else {
-        struct error reason = *error;
-        error_set(error, result, "%s: %.2000s", path, reason.text);
-    }
-    file_release(&text);
-    return result;
+    const struct request *request = user;
+    struct pbrt_options options = *request->options;
+    options.base = paths->base;
+    options.scene_folder = paths->scene_folder;
+    options.from_output = paths->from_output;
+    options.device = text->device;
+    options.serial = text->serial;
+    return pbrt_convert(name, text->bytes, text->length, &options, request->sink, scene);
 }
 
 ps_result pbrt_import(const char *path, const char *output, const struct pbrt_options *options,
                       struct diagnostics *sink, struct error *error)
 {
-    char *scene_folder = folder_of(path), *output_folder = folder_of(output), *base = NULL,
-         *between = NULL;
-    struct pbrt_scene scene = {0};
-    ps_result result = PS_OK;
-    error->text[0] = '\0';
-    if (scene_folder && output_folder) {
-        base = strdup(output + strlen(output_folder));
-        between = path_between(output_folder, scene_folder);
-    }
-    if (!base || !between) {
-        result =
-            error_set(error, PS_ERROR_IO, "%s: can't find its folder, or that of %s", output, path);
-    } else if (!utf8_is_valid(base, strlen(base)) || !utf8_is_valid(between, strlen(between))) {
-        result = error_set(error, PS_ERROR_INVALID,
-                           "%s: its name, and the way from it to %s, must be UTF-8", output, path);
-    } else {
-        struct pbrt_options whole = *options;
-        base[strlen(base) - strlen(".psd")] = '\0';
-        whole.base = base;
-        whole.scene_folder = scene_folder;
-        whole.from_output = between;
-        result = convert_file(path, &whole, sink, &scene, error);
-        if (result == PS_OK)
-            result = scene_files_write(&scene, path, output, output_folder, error);
-    }
-    pbrt_scene_release(&scene);
-    free(scene_folder);
-    free(output_folder);
-    free(base);
-    free(between);
-    return result;
+    struct request request = {options, sink};
+    return import_file(path, output, convert, &request, error);
 }

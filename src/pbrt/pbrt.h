@@ -12,9 +12,8 @@
 
 #include "base/error.h"
 #include "parser/yaml/diagnostic.h"
-
-/* Kinds of warnings that are told apart; a sink should keep as many. */
-#define PBRT_WARNINGS ((size_t)1000)
+#include "writer/warnings.h"
+#include "writer/written_scene.h"
 
 struct pbrt_options {
     int version;              /* 3 or 4; 0: as the words of the scene tell */
@@ -26,30 +25,11 @@ struct pbrt_options {
     size_t most_triangles;    /* that subdivision may make; 0: as many as usual */
 };
 
-/* A file beside the scene. */
-struct pbrt_side_file {
-    char *name;  /* owned */
-    void *bytes; /* owned; NULL where it is a picture */
-    size_t size;
-    struct image *picture; /* owned; or NULL */
-};
-
-/* Zeroed: empty. */
-struct pbrt_scene {
-    char *text; /* owned; the .psd */
-    size_t length;
-    struct pbrt_side_file *files; /* owned */
-    size_t file_count;
-    char **named; /* owned, each too; paths of files that the pbrt scene names */
-    size_t named_count;
-};
-
 /* Converts a text; `name` stands in messages. Errors and warnings go to the sink. Not PS_OK: there is an error in the
  * sink, and `scene` is empty. */
 ps_result pbrt_convert(const char *name, const char *text, size_t length,
                        const struct pbrt_options *options, struct diagnostics *sink,
-                       struct pbrt_scene *scene);
-void pbrt_scene_release(struct pbrt_scene *scene);
+                       struct written_scene *scene);
 
 /* Converts the file at `path` and writes `output`, which ends in ".psd", and the files beside it (scene_files.h). What is
  * wrong with the scene goes to the sink (PS_ERROR_INVALID), what is wrong with writing to `error`, whose text is empty

@@ -234,8 +234,10 @@ static void add(struct importer *importer, const struct statement *statement,
     if (is_whole && !importer->state.area_light && add_own(importer, statement, kind, &q, 0.0))
         return;
     const struct surface_function surface = {kind->point, &q, COLUMNS, kind->rows};
-    if (!mesh_from_surface(importer, &surface, &mesh))
+    if (!mesh_from_surface(&surface, &mesh)) {
+        importer_report_memory(importer);
         return;
+    }
     double area = mesh_area(&mesh, &importer->state.ctm);
     if (!is_whole || !importer->state.area_light || !add_own(importer, statement, kind, &q, area))
         mesh_add(importer, statement, &mesh);

@@ -124,7 +124,7 @@ static const char *convert(struct importer *importer, const struct statement *st
     struct image *sky = make_sky(importer, texture, &to_light, square, illuminance);
     if (!sky)
         return NULL;
-    struct pbrt_side_file *file =
+    struct side_file *file =
         scene_text_file(&importer->scene, importer->options->base, "sky", "exr");
     if (!file) {
         image_release(sky);

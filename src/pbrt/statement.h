@@ -11,7 +11,7 @@
 #define PBRT_STATEMENT_H
 
 #include "pbrt/lexer.h"
-#include "pbrt/transform.h"
+#include "writer/transform.h"
 #include <stddef.h>
 
 enum value_kind { VALUE_NUMBER, VALUE_STRING, VALUE_BOOL };

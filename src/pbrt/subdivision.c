@@ -163,7 +163,8 @@ static bool divide(struct importer *importer, struct mesh *mesh)
     if (!find_edges(importer, mesh, &edges))
         return false;
     size_t vertices = mesh->vertex_count + edges.count;
-    bool good = mesh_allocate(importer, vertices, false, false, 4 * mesh->triangle_count, &finer);
+    bool good = mesh_allocate(&finer, vertices, false, false, 4 * mesh->triangle_count) ||
+                importer_no_memory(importer);
     if (good && move_vertices(importer, mesh, &edges, false, finer.points)) {
         for (size_t i = 0; i < edges.count; i++)
             finer.points[mesh->vertex_count + i] = edge_point(mesh, &edges.edges[i]);

@@ -145,7 +145,7 @@ static void place_pattern(struct importer *importer, const struct statement *sta
 /* A picture of 2 x 2 texels, which repeats: on u and v the first colour lies where floor(u) + floor(v) is even. */
 static void draw_checker(struct importer *importer, struct pattern *pattern)
 {
-    struct pbrt_side_file *file =
+    struct side_file *file =
         scene_text_file(&importer->scene, importer->options->base, "checker", "exr");
     struct image *picture = calloc(1, sizeof *picture);
     if (!file || !picture) {

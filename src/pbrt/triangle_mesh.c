@@ -79,8 +79,8 @@ static bool read_mesh(struct importer *importer, const struct statement *stateme
         uv = read_for_points(importer, statement, "uv", 2, points);
         uv = uv ? uv : read_for_points(importer, statement, "st", 2, points);
     }
-    if (!mesh_allocate(importer, points, n != NULL, uv != NULL, count / 3, mesh))
-        return false;
+    if (!mesh_allocate(mesh, points, n != NULL, uv != NULL, count / 3))
+        return importer_no_memory(importer);
     copy_vectors(p, points, mesh->points);
     if (n)
         copy_vectors(n, points, mesh->normals);

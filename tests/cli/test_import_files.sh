@@ -47,7 +47,7 @@ printf '%s\n' "$triangle" >own-mesh-0.ply
 cp own-mesh-0.ply kept.ply
 echo "Shape \"plymesh\" \"string filename\" \"own-mesh-0.ply\" $half_sphere" | scene own
 run 2 import own.pbrt
-expect_text err "cannot write 'own-mesh-0.ply': the pbrt scene reads it; choose another name with --output"
+expect_text err "cannot write 'own-mesh-0.ply': the imported scene reads it; choose another name with --output"
 [ ! -e own.psd ] || fail "own.psd was written"
 expect_same own-mesh-0.ply kept.ply
 run 0 import own.pbrt -o other.psd

@@ -20,12 +20,12 @@ static void require(bool condition)
 }
 
 /* Meshes are read with the scene: those of files would be missed. */
-static bool needs_files(const struct pbrt_scene *scene)
+static bool needs_files(const struct written_scene *scene)
 {
     return scene->file_count > 0 || strstr(scene->text, "{file: ") != NULL;
 }
 
-static void check_scene(const struct pbrt_scene *scene)
+static void check_scene(const struct written_scene *scene)
 {
     struct diagnostics *sink = diagnostics_create();
     struct scene_description description;
@@ -55,14 +55,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                                          .scene_folder = "",
                                          .from_output = "",
                                          .most_triangles = 10000};
-    struct pbrt_scene scene;
+    struct written_scene scene;
     ps_result result =
         pbrt_convert("fuzz.pbrt", (const char *)data + 1, size - 1, &options, sink, &scene);
     require((result == PS_OK) == (diagnostics_error_count(sink) == 0));
     require((result == PS_OK) == (scene.text != NULL));
     if (result == PS_OK && !needs_files(&scene))
         check_scene(&scene);
-    pbrt_scene_release(&scene);
+    written_scene_release(&scene);
     diagnostics_destroy(sink);
     return 0;
 }

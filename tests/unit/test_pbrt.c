@@ -1,7 +1,7 @@
 /* test_pbrt.c: tokens, transforms, spectra, roughness and subdivision of pbrt scenes. */
 #include "pbrt/importer.h"
 #include "pbrt/lexer.h"
-#include "pbrt/name_index.h"
+#include "writer/name_index.h"
 #include "pbrt/roughness.h"
 #include "pbrt/shape.h"
 #include "pbrt/spectrum.h"
@@ -234,7 +234,7 @@ static void test_subdivides_an_octahedron(void **state)
     const struct statement statement = {.kind = "loopsubdiv"};
     struct mesh mesh;
     assert_non_null(importer.sink);
-    assert_true(mesh_allocate(&importer, 6, false, false, 8, &mesh));
+    assert_true(mesh_allocate(&mesh, 6, false, false, 8));
     memcpy(mesh.points, points, sizeof points);
     memcpy(mesh.triangles, triangles, sizeof triangles);
     assert_true(subdivision_refine(&importer, &statement, &mesh, 2));

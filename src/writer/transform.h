@@ -1,10 +1,10 @@
-/* transform.h: the transforms of pbrt scenes: 4x4 matrices in doubles, of which the last row is 0 0 0 1.
+/* transform.h: the transforms of imported scenes: 4x4 matrices in doubles, of which the last row is 0 0 0 1.
  *
  * A column vector is multiplied from the right, p' = M p; pbrt's text lists matrices by columns (pbrt-v4 file format,
  * "Transformations"). Angles are in degrees. Scenes chain many transforms, so doubles.
  */
-#ifndef PBRT_TRANSFORM_H
-#define PBRT_TRANSFORM_H
+#ifndef WRITER_TRANSFORM_H
+#define WRITER_TRANSFORM_H
 
 #include "scene/vector.h"
 #include <stdbool.h>

@@ -1,5 +1,5 @@
 /* ply.c: a mesh as a PLY file; see mesh.h. */
-#include "pbrt/mesh.h"
+#include "writer/mesh.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* transform.c: see transform.h. */
-#include "pbrt/transform.h"
+#include "writer/transform.h"
 
 #include <math.h>
 

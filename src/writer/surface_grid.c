@@ -1,5 +1,5 @@
 /* surface_grid.c: a surface by two parameters as a mesh; see mesh.h. */
-#include "pbrt/mesh.h"
+#include "writer/mesh.h"
 
 #include <math.h>
 
@@ -28,12 +28,10 @@ static bool has_area(const struct mesh *mesh, const uint32_t corners[3])
     return vector_length(vector_cross(a, b)) > 1e-9 * longest;
 }
 
-bool mesh_from_surface(struct importer *importer, const struct surface_function *surface,
-                       struct mesh *mesh)
+bool mesh_from_surface(const struct surface_function *surface, struct mesh *mesh)
 {
     size_t across = surface->columns + 1, down = surface->rows + 1;
-    if (!mesh_allocate(importer, across * down, true, true, 2 * surface->columns * surface->rows,
-                       mesh))
+    if (!mesh_allocate(mesh, across * down, true, true, 2 * surface->columns * surface->rows))
         return false;
     for (size_t j = 0; j < down; j++)
         for (size_t i = 0; i < across; i++) {

@@ -3,12 +3,13 @@
  * The files beside the scene are made in a folder that goes away again, and moved out of it when all are whole, and the
  * scene's text is written too: an import that fails leaves the files of an earlier one as they are.
  */
-#include "pbrt/scene_files.h"
+#include "writer/scene_files.h"
 
 #include "base/output_file.h"
 #include "base/path.h"
 #include "image/image.h"
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -61,7 +62,7 @@ static ps_result check_target(const char *path, char *const *inputs, size_t coun
     free(target);
     if (is_input)
         return error_set(error, PS_ERROR_INVALID,
-                         "cannot write '%.1000s': the pbrt scene reads it; choose another name "
+                         "cannot write '%.1000s': the imported scene reads it; choose another name "
                          "with --output",
                          path);
     return PS_OK;
@@ -78,7 +79,7 @@ static ps_result check_side_file(const char *path, char *const *inputs, size_t c
     return check_target(path, inputs, count, error);
 }
 
-static ps_result check_targets(const struct pbrt_scene *scene, const char *input,
+static ps_result check_targets(const struct written_scene *scene, const char *input,
                                const char *output, const char *folder, struct error *error)
 {
     ps_result result = PS_OK;
@@ -120,7 +121,7 @@ static ps_result start_file(struct output_file *file, const char *path, const vo
     return result;
 }
 
-static ps_result write_side_file(const char *folder, const struct pbrt_side_file *file,
+static ps_result write_side_file(const char *folder, const struct side_file *file,
                                  struct error *error)
 {
     struct output_file out;
@@ -135,7 +136,7 @@ static ps_result write_side_file(const char *folder, const struct pbrt_side_file
     return result;
 }
 
-static ps_result move_side_file(const char *from, const char *to, const struct pbrt_side_file *file,
+static ps_result move_side_file(const char *from, const char *to, const struct side_file *file,
                                 struct error *error)
 {
     char *source = path_in(from, file->name), *target = path_in(to, file->name);
@@ -150,7 +151,7 @@ static ps_result move_side_file(const char *from, const char *to, const struct p
     return result;
 }
 
-static void remove_folder(const struct pbrt_scene *scene, const char *folder)
+static void remove_folder(const struct written_scene *scene, const char *folder)
 {
     for (size_t i = 0; i < scene->file_count; i++) {
         char *path = path_in(folder, scene->files[i].name);
@@ -162,8 +163,8 @@ static void remove_folder(const struct pbrt_scene *scene, const char *folder)
 }
 
 /* The scene last: what it names is there when it is. `made` is the folder of the side files. */
-static ps_result write_through(const struct pbrt_scene *scene, const char *made, const char *output,
-                               const char *folder, struct error *error)
+static ps_result write_through(const struct written_scene *scene, const char *made,
+                               const char *output, const char *folder, struct error *error)
 {
     struct output_file text;
     ps_result result = PS_OK;
@@ -181,8 +182,8 @@ static ps_result write_through(const struct pbrt_scene *scene, const char *made,
     return result;
 }
 
-ps_result scene_files_write(const struct pbrt_scene *scene, const char *input, const char *output,
-                            const char *folder, struct error *error)
+ps_result scene_files_write(const struct written_scene *scene, const char *input,
+                            const char *output, const char *folder, struct error *error)
 {
     ps_result result = check_targets(scene, input, output, folder, error);
     if (result != PS_OK || scene->file_count == 0)

@@ -1,7 +1,7 @@
 /* scene_values.c: numbers, texts and transforms of the .psd text; see scene_text.h. */
 #include "base/text.h"
 #include "parser/yaml/encoding.h"
-#include "pbrt/scene_text.h"
+#include "writer/scene_text.h"
 #include <string.h>
 
 void put_number(FILE *out, double value)

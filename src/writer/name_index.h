@@ -2,8 +2,8 @@
  *
  * The list is the caller's, who compares what is found. Entries are added and removed at the end. One thread at a time.
  */
-#ifndef PBRT_NAME_INDEX_H
-#define PBRT_NAME_INDEX_H
+#ifndef WRITER_NAME_INDEX_H
+#define WRITER_NAME_INDEX_H
 
 #include <stdbool.h>
 #include <stddef.h>

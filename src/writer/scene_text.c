@@ -1,5 +1,5 @@
 /* scene_text.c: see scene_text.h. */
-#include "pbrt/scene_text.h"
+#include "writer/scene_text.h"
 
 #include "image/image.h"
 #include <stdlib.h>
@@ -53,7 +53,7 @@ bool scene_text_open(struct scene_text *scene)
     return true;
 }
 
-static void release_file(struct pbrt_side_file *file)
+static void release_file(struct side_file *file)
 {
     free(file->name);
     free(file->bytes);
@@ -62,8 +62,7 @@ static void release_file(struct pbrt_side_file *file)
     free(file->picture);
 }
 
-static void release_files(struct pbrt_side_file *files, size_t count, char **named,
-                          size_t named_count)
+static void release_files(struct side_file *files, size_t count, char **named, size_t named_count)
 {
     for (size_t i = 0; i < count; i++)
         release_file(&files[i]);
@@ -73,11 +72,11 @@ static void release_files(struct pbrt_side_file *files, size_t count, char **nam
     free(named);
 }
 
-void pbrt_scene_release(struct pbrt_scene *scene)
+void written_scene_release(struct written_scene *scene)
 {
     release_files(scene->files, scene->file_count, scene->named, scene->named_count);
     free(scene->text);
-    *scene = (struct pbrt_scene){0};
+    *scene = (struct written_scene){0};
 }
 
 void scene_text_release(struct scene_text *scene)
@@ -124,7 +123,7 @@ size_t scene_text_values(const char *text)
     return count;
 }
 
-bool scene_text_finish(struct scene_text *scene, const char *comment, struct pbrt_scene *result)
+bool scene_text_finish(struct scene_text *scene, const char *comment, struct written_scene *result)
 {
     struct text_buffer whole;
     bool good = !scene->failed && text_buffer_open(&whole);
@@ -144,7 +143,7 @@ bool scene_text_finish(struct scene_text *scene, const char *comment, struct pbr
         free(text);
         return false;
     }
-    *result = (struct pbrt_scene){
+    *result = (struct written_scene){
         text, length, scene->files, scene->file_count, scene->named, scene->named_count};
     scene->files = NULL;
     scene->named = NULL;
@@ -223,8 +222,8 @@ const char *scene_text_material(struct scene_text *scene, const char *wanted, co
     return name;
 }
 
-struct pbrt_side_file *scene_text_file(struct scene_text *scene, const char *base, const char *what,
-                                       const char *suffix)
+struct side_file *scene_text_file(struct scene_text *scene, const char *base, const char *what,
+                                  const char *suffix)
 {
     size_t size = strlen(base) + strlen(what) + strlen(suffix) + 32;
     char *name = malloc(size);
@@ -235,8 +234,8 @@ struct pbrt_side_file *scene_text_file(struct scene_text *scene, const char *bas
         return NULL;
     }
     snprintf(name, size, "%s-%s-%zu.%s", base, what, scene->file_count, suffix);
-    struct pbrt_side_file *file = &scene->files[scene->file_count++];
-    *file = (struct pbrt_side_file){.name = name};
+    struct side_file *file = &scene->files[scene->file_count++];
+    *file = (struct side_file){.name = name};
     return file;
 }
 

@@ -1,14 +1,14 @@
 /* scene_text.h: the .psd text that is made, section by section (psd(5)).
  *
- * Sections are streams in memory, put together at the end, since a pbrt scene states them in any order. The first
- * failure, of memory, shows in scene_text_finish. Owned by the importer; one thread.
+ * Sections are streams in memory, put together at the end, since scenes of other renderers state them in any order. The first
+ * failure, of memory, shows in scene_text_finish. Owned by a converter; one thread.
  */
-#ifndef PBRT_SCENE_TEXT_H
-#define PBRT_SCENE_TEXT_H
+#ifndef WRITER_SCENE_TEXT_H
+#define WRITER_SCENE_TEXT_H
 
-#include "pbrt/name_index.h"
-#include "pbrt/pbrt.h"
-#include "pbrt/transform.h"
+#include "writer/name_index.h"
+#include "writer/transform.h"
+#include "writer/written_scene.h"
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -45,10 +45,11 @@ struct scene_text {
     struct scene_name *names;  /* unique in the scene */
     size_t name_count, name_capacity;
     struct name_index by_name;
-    struct pbrt_side_file *files;
+    struct side_file *files;
     size_t file_count, file_capacity;
-    char **named; /* paths of files that the pbrt scene names */
+    char **named; /* paths of files that the scene that was read names */
     size_t named_count, named_capacity;
+    size_t inline_numbers; /* of meshes (mesh.h) */
     bool failed;
 };
 
@@ -56,7 +57,7 @@ bool scene_text_open(struct scene_text *scene);
 void scene_text_release(struct scene_text *scene);
 
 /* Puts the sections together. False: out of memory. */
-bool scene_text_finish(struct scene_text *scene, const char *comment, struct pbrt_scene *result);
+bool scene_text_finish(struct scene_text *scene, const char *comment, struct written_scene *result);
 
 /* How many values YAML finds in a text of this form: one for each opening, comma and colon, and two for a line. */
 size_t scene_text_values(const char *text);
@@ -69,10 +70,10 @@ const char *scene_text_material(struct scene_text *scene, const char *wanted, co
 
 /* A new file beside the scene, named BASE-WHAT-NUMBER.SUFFIX; its contents are for the caller to put in. NULL: out of
  * memory. */
-struct pbrt_side_file *scene_text_file(struct scene_text *scene, const char *base, const char *what,
-                                       const char *suffix);
+struct side_file *scene_text_file(struct scene_text *scene, const char *base, const char *what,
+                                  const char *suffix);
 
-/* Notes that the pbrt scene names the file of that path. False: out of memory. */
+/* Notes that the scene that was read names the file of that path. False: out of memory. */
 bool scene_text_note(struct scene_text *scene, const char *path);
 
 /* Values, as YAML, in the precision of floats, as psplat has them. */
