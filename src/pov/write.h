@@ -1,0 +1,79 @@
+/* write.h: the scene that was read becomes sections of a .psd text (psd(5)).
+ *
+ * POV-Ray's coordinates are left-handed: z is mirrored, unless the camera's axes are right-handed already. Then the
+ * scene stays as it is, and the picture comes out as POV-Ray's.
+ */
+#ifndef POV_WRITE_H
+#define POV_WRITE_H
+
+#include "pov/object.h"
+
+/* As many as psd(5) has. */
+#define POV_MOST_OBJECTS 1000000
+
+/* A mesh that several objects have is one file. */
+struct pov_mesh_file {
+    const struct mesh *mesh;
+    const char *name; /* of the file */
+};
+
+struct pov_writer {
+    struct pov_reader *reader;
+    struct transform mirror;  /* from POV-Ray's coordinates to those of the scene */
+    struct vector middle;     /* what the camera looks at, in POV-Ray's coordinates */
+    double extent;            /* half the side of planes */
+    struct name_index meshes; /* the ones below, by their addresses */
+    struct pov_mesh_file *mesh_files;
+    size_t mesh_file_count, mesh_file_capacity;
+    int written, depth; /* objects, and in how many others the present one is */
+};
+
+/* An object's surroundings on the way down: what it gets from what it is in. */
+struct pov_above {
+    struct transform place;
+    const struct pov_texture *texture; /* NULL: none yet */
+    struct transform texture_place;    /* of the texture, in POV-Ray's coordinates */
+    const struct pov_interior *interior;
+    bool is_uv, no_image;
+};
+
+/* Camera and image, and what the writer has to know of them (write_camera.c). */
+void pov_write_camera(struct pov_writer *writer);
+/* background and sky_sphere (write_sky.c). */
+void pov_write_sky(struct pov_writer *writer);
+void pov_write_light(struct pov_writer *writer, const struct pov_object *object,
+                     const struct transform *place);
+/* An object and what is in it. */
+void pov_write_object(struct pov_writer *writer, const struct pov_object *object,
+                      const struct pov_above *above);
+
+/* The name of the material that stands for what is above; NULL: reported (write_material.c). */
+const char *pov_write_material(struct pov_writer *writer, const struct pov_above *above);
+/* A colour of the scene's gamma as a linear one. */
+void pov_linear(const struct pov_reader *reader, const double color[3], double linear[3]);
+
+/* From an object's space to the scene's. False, warned: it has no inverse, or too large numbers. */
+bool pov_placement(struct pov_writer *writer, const struct pov_object *object,
+                   const struct transform *place, struct transform *placement);
+/* A mesh whose points are in the space that `place` maps to POV-Ray's world. */
+void pov_write_mesh(struct pov_writer *writer, const struct pov_object *object,
+                    const struct mesh *mesh, const struct transform *place,
+                    const struct pov_above *above);
+/* The path by which the scene names a file that the POV-Ray scene names; to be freed. NULL: reported, or the file is
+ * not there, with a warning. */
+char *pov_write_file_name(struct pov_writer *writer, const char *file,
+                          const struct pov_token *token, const char *name);
+
+/* What is above the children of an object. */
+struct pov_above pov_below(const struct pov_object *object, const struct pov_above *above);
+/* Whether a shape has an extent, in the precision of floats. */
+bool pov_has_extent(const struct pov_object *object);
+
+/* Solids by boolean operations (csg.c). */
+void pov_write_intersection(struct pov_writer *writer, const struct pov_object *object,
+                            const struct pov_above *above);
+
+/* A shape as a closed mesh in its own space, to be released; NULL where it is none. False: reported (tessellate.c). */
+bool pov_tessellate(struct pov_writer *writer, const struct pov_object *object, struct mesh *mesh);
+
+#endif

@@ -1,0 +1,435 @@
+/* write_object.c: POV-Ray's objects as psplat's; see write.h.
+ *
+ * Groups are taken apart: each object in them is placed in the world by itself, and has its own texture, or that of
+ * the nearest group that has one. Shapes that psplat has are written as such, others as meshes.
+ */
+#include "pov/write.h"
+
+#include "base/input_file.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LARGEST 1e15 /* coordinates, whose squares floats still hold */
+#define SMALLEST_DETERMINANT 1e-30
+
+/* --- placing -------------------------------------------------------------------------------------- */
+
+bool pov_placement(struct pov_writer *writer, const struct pov_object *object,
+                   const struct transform *place, struct transform *placement)
+{
+    struct transform inverse;
+    double largest = 0.0;
+    *placement = transform_compose(&writer->mirror, place);
+    for (int i = 0; i < 12; i++) {
+        double value = fabs(placement->m[i / 4][i % 4]);
+        largest = value <= LARGEST ? fmax(largest, value) : INFINITY;
+    }
+    if (largest <= LARGEST && fabs(transform_determinant(placement)) >= SMALLEST_DETERMINANT &&
+        transform_invert(placement, &inverse))
+        return true;
+    pov_warn_at(writer->reader, object->file, &object->token,
+                "an object whose transform has no inverse, or too large numbers, is left out");
+    return false;
+}
+
+static bool is_mirror_alone(const struct pov_writer *writer, const struct transform *placement)
+{
+    return memcmp(placement, &writer->mirror, sizeof *placement) == 0;
+}
+
+/* What an object has that its surroundings have not said, and the transform down to it. */
+struct pov_above pov_below(const struct pov_object *object, const struct pov_above *above)
+{
+    struct pov_above inner = *above;
+    inner.place = transform_compose(&above->place, &object->place);
+    inner.no_image = above->no_image || object->no_image;
+    inner.is_uv = above->is_uv || object->is_uv;
+    if (object->texture) {
+        inner.texture = object->texture;
+        inner.texture_place = transform_compose(&above->place, &object->texture_place);
+    }
+    if (object->interior)
+        inner.interior = object->interior;
+    return inner;
+}
+
+/* The end of an object's map. */
+static void finish(struct pov_writer *writer, const struct pov_above *look,
+                   const struct transform *placement)
+{
+    FILE *out = writer->reader->scene.objects.stream;
+    const char *material = pov_write_material(writer, look);
+    if (!material)
+        return;
+    fputs(", material: ", out);
+    put_text(out, material);
+    if (look->no_image)
+        fputs(", camera: no", out);
+    if (placement)
+        put_placement(out, placement);
+    fputs("}\n", out);
+}
+
+/* --- files ---------------------------------------------------------------------------------------- */
+
+/* Pictures of the system's folder are named by their absolute path; others from the new scene's folder. */
+char *pov_write_file_name(struct pov_writer *writer, const char *file,
+                          const struct pov_token *token, const char *name)
+{
+    struct pov_reader *reader = writer->reader;
+    const struct pov_options *options = reader->options;
+    bool is_system = false;
+    char *path = pov_find(reader, name, &is_system), *shown = NULL;
+    if (!path) {
+        pov_warn_at(reader, file, token, "%.200s: there is no readable file of that name: left out",
+                    name);
+        return NULL;
+    }
+    size_t folder = strlen(options->scene_folder),
+           size = strlen(options->from_output) + strlen(path) + 1;
+    bool beside = *path != '/' && strncmp(path, options->scene_folder, folder) == 0;
+    shown = malloc(size);
+    if (shown)
+        snprintf(shown, size, "%s%s", beside ? options->from_output : "",
+                 beside ? path + folder : path);
+    if (!shown || !scene_text_note(&reader->scene, path))
+        pov_no_memory(reader);
+    free(path);
+    return shown;
+}
+
+/* --- psplat's own shapes ---------------------------------------------------------------------------- */
+
+static void put_key_vector(FILE *out, const char *key, struct vector a)
+{
+    fprintf(out, "%s: ", key);
+    put_vector(out, a);
+}
+
+static void put_key_number(FILE *out, const char *key, double a)
+{
+    fprintf(out, "%s: ", key);
+    put_number(out, a);
+}
+
+static bool is_within(struct vector a)
+{
+    return fabs(a.x) <= LARGEST && fabs(a.y) <= LARGEST && fabs(a.z) <= LARGEST;
+}
+
+/* Whether the shape has an extent, in the precision of floats. */
+bool pov_has_extent(const struct pov_object *o)
+{
+    struct vector d = vector_subtract(o->p[1], o->p[0]);
+    double size = fmax(vector_length(o->p[0]), vector_length(o->p[1])), r = fmax(o->r[0], o->r[1]);
+    bool apart = vector_length(d) > 1e-6 * size && vector_length(d) > 1e-30;
+    if (!is_within(o->p[0]) || !is_within(o->p[1]) || !(fmax(r, 0.0) <= LARGEST))
+        return false;
+    switch (o->shape) {
+    case POV_SHAPE_SPHERE:
+        return o->r[0] > 1e-30;
+    case POV_SHAPE_BOX:
+        return fmin(fabs(d.x), fmin(fabs(d.y), fabs(d.z))) > fmax(1e-6 * size, 1e-30);
+    case POV_SHAPE_CYLINDER:
+    case POV_SHAPE_CONE:
+        return apart && r > 1e-30;
+    case POV_SHAPE_TORUS:
+        return o->r[1] > 1e-30 && o->r[1] < o->r[0] && (float)o->r[1] < (float)o->r[0];
+    case POV_SHAPE_DISC:
+        return o->r[0] > 1e-30 && vector_length(o->p[1]) > 1e-15 && (float)o->r[1] < (float)o->r[0];
+    default:
+        return true;
+    }
+}
+
+static void put_shape(FILE *out, const struct pov_object *o, const struct vector p[2])
+{
+    switch (o->shape) {
+    case POV_SHAPE_SPHERE:
+        put_key_vector(out, "  - sphere: {center", p[0]);
+        put_key_number(out, ", radius", o->r[0]);
+        break;
+    case POV_SHAPE_BOX:
+        fputs("  - box: {corners: [", out);
+        put_vector(out, p[0]);
+        fputs(", ", out);
+        put_vector(out, p[1]);
+        fputc(']', out);
+        break;
+    case POV_SHAPE_CYLINDER:
+        put_key_vector(out, "  - cylinder: {from", p[0]);
+        put_key_vector(out, ", to", p[1]);
+        put_key_number(out, ", radius", o->r[0]);
+        break;
+    case POV_SHAPE_CONE:
+        put_key_vector(out, "  - cone: {from", p[0]);
+        put_key_number(out, ", from_radius", o->r[0]);
+        put_key_vector(out, ", to", p[1]);
+        put_key_number(out, ", to_radius", o->r[1]);
+        break;
+    case POV_SHAPE_TORUS:
+        put_key_number(out, "  - torus: {radius", o->r[0]);
+        put_key_number(out, ", minor_radius", o->r[1]);
+        break;
+    default: /* POV_SHAPE_DISC */
+        put_key_vector(out, "  - disc: {center", p[0]);
+        put_key_vector(out, ", normal", p[1]);
+        put_key_number(out, ", radius", o->r[0]);
+        if (o->r[1] > 0.0)
+            put_key_number(out, ", hole", o->r[1]);
+    }
+    if (o->open)
+        fputs(", open: yes", out);
+}
+
+/* Numbers that only the mirror changes are written mirrored: no matrix is to be read then. */
+static void write_shape(struct pov_writer *writer, const struct pov_object *object,
+                        const struct pov_above *look)
+{
+    struct transform placement;
+    struct vector p[2] = {object->p[0], object->p[1]};
+    if (!pov_placement(writer, object, &look->place, &placement))
+        return;
+    if (!pov_has_extent(object)) {
+        pov_warn_at(writer->reader, object->file, &object->token,
+                    "%s without an extent is left out",
+                    pov_text(writer->reader, object->token.word));
+        return;
+    }
+    bool plain = is_mirror_alone(writer, &placement);
+    for (int i = 0; i < 2 && plain; i++)
+        p[i] = transform_point(&writer->mirror, p[i]);
+    put_shape(writer->reader->scene.objects.stream, object, p);
+    finish(writer, look, plain ? NULL : &placement);
+}
+
+/* In the world's coordinates, by the normal and a point of it. */
+static void write_plane(struct pov_writer *writer, const struct pov_object *object,
+                        const struct pov_above *look)
+{
+    FILE *out = writer->reader->scene.objects.stream;
+    struct transform placement;
+    struct vector n = object->p[0];
+    if (!pov_placement(writer, object, &look->place, &placement))
+        return;
+    struct vector point = transform_point(
+        &placement, (struct vector){n.x * object->r[0], n.y * object->r[0], n.z * object->r[0]});
+    n = transform_normal(&placement, n);
+    double length = vector_length(n);
+    n = (struct vector){n.x / length, n.y / length, n.z / length};
+    double distance = vector_dot(n, point);
+    if (!is_within(n) || !(fabs(distance) <= 1e12)) {
+        pov_warn_at(writer->reader, object->file, &object->token, "a plane far away is left out");
+        return;
+    }
+    put_key_vector(out, "  - plane: {normal", n);
+    put_key_number(out, ", distance", distance);
+    put_key_number(out, ", extent", writer->extent);
+    finish(writer, look, NULL);
+}
+
+static void write_height_field(struct pov_writer *writer, const struct pov_object *object,
+                               const struct pov_above *look)
+{
+    FILE *out = writer->reader->scene.objects.stream;
+    struct transform placement;
+    char *name = pov_write_file_name(writer, object->file, &object->token, object->image);
+    if (name && pov_placement(writer, object, &look->place, &placement)) {
+        fputs("  - height_field: {file: ", out);
+        put_path(out, name);
+        fputs(object->smooth ? ", smooth: yes" : ", smooth: no", out);
+        finish(writer, look, &placement);
+    }
+    free(name);
+}
+
+/* --- meshes --------------------------------------------------------------------------------------- */
+
+static uint64_t hash_of(const struct mesh *mesh)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%p", (const void *)mesh);
+    return name_index_hash(text);
+}
+
+/* The name of the file that has the mesh already; NULL: none. */
+static const char *file_of(const struct pov_writer *writer, const struct mesh *mesh)
+{
+    size_t i = name_index_find(&writer->meshes, hash_of(mesh));
+    for (; i != NAME_INDEX_NONE; i = name_index_before(&writer->meshes, i))
+        if (writer->mesh_files[i].mesh == mesh)
+            return writer->mesh_files[i].name;
+    return NULL;
+}
+
+static void note_file(struct pov_writer *writer, const struct mesh *mesh)
+{
+    const struct scene_text *scene = &writer->reader->scene;
+    if (!pov_grow(writer->reader, (void **)&writer->mesh_files, &writer->mesh_file_capacity,
+                  writer->mesh_file_count + 1, sizeof *writer->mesh_files))
+        return;
+    writer->mesh_files[writer->mesh_file_count++] =
+        (struct pov_mesh_file){mesh, scene->files[scene->file_count - 1].name};
+    if (!name_index_add(&writer->meshes, hash_of(mesh)))
+        pov_no_memory(writer->reader);
+}
+
+/* The beginning of an object; false: reported. */
+static bool put_mesh(struct pov_writer *writer, const struct pov_object *object,
+                     const struct mesh *mesh)
+{
+    struct pov_reader *reader = writer->reader;
+    FILE *out = reader->scene.objects.stream;
+    bool is_shared = mesh == object->mesh;
+    const char *known = is_shared ? file_of(writer, mesh) : NULL;
+    size_t files = reader->scene.file_count;
+    if (known) {
+        fputs("  - mesh: {file: ", out);
+        put_path(out, known);
+        fputs(", use: [geometry]", out);
+        return true;
+    }
+    if (!pov_charge(reader, mesh->vertex_count, 32) ||
+        !pov_charge(reader, mesh->triangle_count, 13))
+        return false;
+    if (!mesh_put(&reader->scene, reader->options->base, out, mesh)) {
+        pov_no_memory(reader);
+        return false;
+    }
+    if (is_shared && reader->scene.file_count > files)
+        note_file(writer, mesh);
+    return true;
+}
+
+void pov_write_mesh(struct pov_writer *writer, const struct pov_object *object,
+                    const struct mesh *mesh, const struct transform *place,
+                    const struct pov_above *above)
+{
+    struct transform placement;
+    if (mesh->triangle_count > 0 && pov_placement(writer, object, place, &placement) &&
+        put_mesh(writer, object, mesh))
+        finish(writer, above, &placement);
+}
+
+/* A picture that lies over x and y is laid over the mesh by its u and v. */
+static bool is_planar(const struct pov_above *look)
+{
+    const struct pov_pigment *p = look->texture ? &look->texture->pigment : NULL;
+    return p && p->pattern == POV_PATTERN_IMAGE && !p->is_uv && !look->is_uv && p->map_type == 0;
+}
+
+static void warn_of_map(struct pov_writer *writer, const struct pov_above *look)
+{
+    const struct pov_pigment *p = look->texture ? &look->texture->pigment : NULL;
+    if (p && p->pattern == POV_PATTERN_IMAGE && (p->map_type != 0 || p->is_uv || look->is_uv))
+        pov_warn_at(writer->reader, p->file, &p->token,
+                    "image_map: it lies by psplat's own u and v of the shape");
+}
+
+static void write_planar(struct pov_writer *writer, const struct pov_object *object,
+                         const struct mesh *from, const struct pov_above *look)
+{
+    struct mesh mesh = *from;
+    struct transform picture =
+        transform_compose(&look->texture_place, &look->texture->pigment.place);
+    struct transform inverse;
+    mesh.uv = transform_invert(&picture, &inverse)
+                  ? malloc((mesh.vertex_count + 1) * sizeof *mesh.uv)
+                  : NULL;
+    if (!mesh.uv) {
+        pov_write_mesh(writer, object, from, &look->place, look);
+        return;
+    }
+    struct transform map = transform_compose(&inverse, &look->place);
+    for (size_t i = 0; i < mesh.vertex_count; i++) {
+        struct vector p = transform_point(&map, mesh.points[i]);
+        mesh.uv[i][0] = fmin(fmax(p.x, -1e6), 1e6);
+        mesh.uv[i][1] = fmin(fmax(p.y, -1e6), 1e6);
+    }
+    pov_write_mesh(writer, object, &mesh, &look->place, look);
+    free(mesh.uv);
+}
+
+/* Shapes under a planar picture become meshes. False: there is no mesh of it. */
+static bool write_pictured(struct pov_writer *writer, const struct pov_object *object,
+                           const struct pov_above *look)
+{
+    struct mesh mesh = {0};
+    if (!pov_has_extent(object) || !pov_tessellate(writer, object, &mesh))
+        return false;
+    write_planar(writer, object, &mesh, look);
+    mesh_release(&mesh);
+    return true;
+}
+
+/* --- all ------------------------------------------------------------------------------------------ */
+
+static void write_children(struct pov_writer *writer, const struct pov_object *object,
+                           const struct pov_above *look)
+{
+    writer->depth++;
+    for (size_t i = 0; i < object->child_count && !writer->reader->stopped; i++)
+        pov_write_object(writer, object->children[i], look);
+    writer->depth--;
+}
+
+void pov_write_object(struct pov_writer *writer, const struct pov_object *object,
+                      const struct pov_above *above)
+{
+    struct pov_above look = pov_below(object, above);
+    if (writer->depth == POV_DEEPEST) {
+        pov_error(writer->reader, &object->token, "objects are in each other more than %d deep",
+                  POV_DEEPEST);
+        return;
+    }
+    if (++writer->written > POV_MOST_OBJECTS)
+        pov_error(writer->reader, &object->token,
+                  "the scene has more than %d objects, those of groups each time",
+                  POV_MOST_OBJECTS);
+    if (object->note.text)
+        pov_warn_at(writer->reader, object->note.file, &object->note.token, "%s %s",
+                    pov_text(writer->reader, object->note.token.word), object->note.text);
+    if (writer->reader->stopped || object->shape == POV_SHAPE_NOTHING)
+        return;
+    if (object->clip_count > 0 && object->shape != POV_SHAPE_UNION &&
+        object->shape != POV_SHAPE_INTERSECTION) {
+        pov_write_intersection(writer, object, above);
+        return;
+    }
+    if (object->clip_count > 0)
+        pov_warn_at(writer->reader, object->file, &object->token,
+                    "clipped_by of a group is left out");
+    warn_of_map(writer, &look);
+    switch (object->shape) {
+    case POV_SHAPE_LIGHT: {
+        struct transform at = transform_translate(object->p[0].x, object->p[0].y, object->p[0].z);
+        pov_write_light(writer, object, &look.place);
+        look.place = transform_compose(&look.place, &at);
+        write_children(writer, object, &look);
+        break;
+    }
+    case POV_SHAPE_UNION:
+        write_children(writer, object, &look);
+        break;
+    case POV_SHAPE_INTERSECTION:
+        pov_write_intersection(writer, object, above);
+        break;
+    case POV_SHAPE_HEIGHT_FIELD:
+        write_height_field(writer, object, &look);
+        break;
+    case POV_SHAPE_MESH:
+        if (is_planar(&look))
+            write_planar(writer, object, object->mesh, &look);
+        else
+            pov_write_mesh(writer, object, object->mesh, &look.place, &look);
+        break;
+    case POV_SHAPE_PLANE:
+        if (!is_planar(&look) || !write_pictured(writer, object, &look))
+            write_plane(writer, object, &look);
+        break;
+    default:
+        if (!is_planar(&look) || !write_pictured(writer, object, &look))
+            write_shape(writer, object, &look);
+    }
+}
