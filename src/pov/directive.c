@@ -292,6 +292,7 @@ static void declare(struct pov_reader *reader, const struct pov_token *token)
         return;
     if (element) {
         *element = value;
+        place->array->held = value.kind;
     } else {
         bool known = place && (!local || pov_is_own(reader, name.word));
         place = known ? pov_lookup(reader, name.word) : pov_bind(reader, name.word, local, NULL);

@@ -184,6 +184,7 @@ static bool is_constant(const struct pov_reader *reader, uint32_t word, double *
     case POV_off:
     case POV_false:
     case POV_clock:
+    case POV_clock_on:
     case POV_initial_clock:
     case POV_clock_delta:
     case POV_now:
@@ -223,9 +224,8 @@ bool pov_begins_number(const struct pov_reader *reader, const struct pov_token *
         return false;
     const struct pov_value *value = pov_lookup(reader, token->word);
     if (value && value->kind == POV_VALUE_ARRAY)
-        return value->array->elements[0].kind == POV_VALUE_NUMBER ||
-               value->array->elements[0].kind == POV_VALUE_NONE ||
-               value->array->elements[0].kind == POV_VALUE_ARRAY;
+        return value->array->held == POV_VALUE_NUMBER || value->array->held == POV_VALUE_NONE ||
+               value->array->held == POV_VALUE_FUNCTION || value->array->held == POV_VALUE_ARRAY;
     if (value)
         return value->kind == POV_VALUE_NUMBER || value->kind == POV_VALUE_FUNCTION;
     return is_axis(token->word, &axis) || is_constant(reader, token->word, &constant) ||
@@ -236,7 +236,8 @@ bool pov_begins_number(const struct pov_reader *reader, const struct pov_token *
 struct pov_value *pov_element(struct pov_reader *reader, const struct pov_token *name,
                               struct pov_value *value)
 {
-    while (value && value->kind == POV_VALUE_ARRAY && pov_accept(reader, '[')) {
+    while (value && value->kind == POV_VALUE_ARRAY && pov_is(pov_peek(reader), '[') &&
+           pov_accept(reader, '[')) {
         const struct pov_array *array = value->array;
         size_t at = 0;
         for (int i = 0; i < array->dimensions && !reader->stopped; i++) {

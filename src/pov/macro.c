@@ -10,6 +10,8 @@
 /* "(a, b, ...)" */
 static void read_parameters(struct pov_reader *reader, struct pov_macro *macro)
 {
+    bool raw = reader->raw;
+    reader->raw = true; /* also what names a macro elsewhere */
     pov_expect(reader, '(');
     while (!pov_accept(reader, ')') && !reader->stopped) {
         struct pov_token name = pov_next_raw(reader);
@@ -22,6 +24,7 @@ static void read_parameters(struct pov_reader *reader, struct pov_macro *macro)
         }
         pov_skip_comma(reader);
     }
+    reader->raw = raw;
 }
 
 /* Moves to behind the #end that closes the macro. */

@@ -17,47 +17,27 @@ static const struct {
     uint32_t word;
     enum pov_pattern pattern;
 } patterns[] = {
-    {POV_checker, POV_PATTERN_CHECKER},
-    {POV_gradient, POV_PATTERN_GRADIENT},
-    {POV_marble, POV_PATTERN_GRADIENT},
-    {POV_agate, POV_PATTERN_NOISE},
-    {POV_bozo, POV_PATTERN_NOISE},
-    {POV_bumps, POV_PATTERN_NOISE},
-    {POV_spotted, POV_PATTERN_NOISE},
-    {POV_granite, POV_PATTERN_NOISE},
-    {POV_wrinkles, POV_PATTERN_NOISE},
-    {POV_dents, POV_PATTERN_NOISE},
-    {POV_leopard, POV_PATTERN_NOISE},
-    {POV_crackle, POV_PATTERN_NOISE},
-    {POV_wood, POV_PATTERN_NOISE},
-    {POV_brick, POV_PATTERN_OTHER},
-    {POV_hexagon, POV_PATTERN_OTHER},
-    {POV_square, POV_PATTERN_OTHER},
-    {POV_triangular, POV_PATTERN_OTHER},
-    {POV_boxed, POV_PATTERN_OTHER},
-    {POV_cells, POV_PATTERN_OTHER},
-    {POV_cylindrical, POV_PATTERN_OTHER},
-    {POV_julia, POV_PATTERN_OTHER},
-    {POV_mandel, POV_PATTERN_OTHER},
-    {POV_magnet, POV_PATTERN_OTHER},
-    {POV_onion, POV_PATTERN_OTHER},
-    {POV_planar, POV_PATTERN_OTHER},
-    {POV_quilted, POV_PATTERN_OTHER},
-    {POV_radial, POV_PATTERN_OTHER},
-    {POV_ripples, POV_PATTERN_OTHER},
-    {POV_slope, POV_PATTERN_OTHER},
-    {POV_spherical, POV_PATTERN_OTHER},
-    {POV_spiral1, POV_PATTERN_OTHER},
-    {POV_spiral2, POV_PATTERN_OTHER},
-    {POV_waves, POV_PATTERN_OTHER},
-    {POV_average, POV_PATTERN_OTHER},
-    {POV_facets, POV_PATTERN_OTHER},
-    {POV_cubic, POV_PATTERN_OTHER},
-    {POV_pavement, POV_PATTERN_OTHER},
-    {POV_tiling, POV_PATTERN_OTHER},
-    {POV_function, POV_PATTERN_OTHER},
-    {POV_density_file, POV_PATTERN_OTHER},
-    {POV_pigment_pattern, POV_PATTERN_OTHER},
+    {POV_checker, POV_PATTERN_CHECKER},    {POV_gradient, POV_PATTERN_GRADIENT},
+    {POV_marble, POV_PATTERN_GRADIENT},    {POV_agate, POV_PATTERN_NOISE},
+    {POV_bozo, POV_PATTERN_NOISE},         {POV_bumps, POV_PATTERN_NOISE},
+    {POV_spotted, POV_PATTERN_NOISE},      {POV_granite, POV_PATTERN_NOISE},
+    {POV_wrinkles, POV_PATTERN_NOISE},     {POV_dents, POV_PATTERN_NOISE},
+    {POV_leopard, POV_PATTERN_NOISE},      {POV_crackle, POV_PATTERN_NOISE},
+    {POV_wood, POV_PATTERN_NOISE},         {POV_brick, POV_PATTERN_OTHER},
+    {POV_hexagon, POV_PATTERN_OTHER},      {POV_tiles, POV_PATTERN_OTHER},
+    {POV_square, POV_PATTERN_OTHER},       {POV_triangular, POV_PATTERN_OTHER},
+    {POV_boxed, POV_PATTERN_OTHER},        {POV_cells, POV_PATTERN_OTHER},
+    {POV_cylindrical, POV_PATTERN_OTHER},  {POV_julia, POV_PATTERN_OTHER},
+    {POV_mandel, POV_PATTERN_OTHER},       {POV_magnet, POV_PATTERN_OTHER},
+    {POV_onion, POV_PATTERN_OTHER},        {POV_planar, POV_PATTERN_OTHER},
+    {POV_quilted, POV_PATTERN_OTHER},      {POV_radial, POV_PATTERN_OTHER},
+    {POV_ripples, POV_PATTERN_OTHER},      {POV_slope, POV_PATTERN_OTHER},
+    {POV_spherical, POV_PATTERN_OTHER},    {POV_spiral1, POV_PATTERN_OTHER},
+    {POV_spiral2, POV_PATTERN_OTHER},      {POV_waves, POV_PATTERN_OTHER},
+    {POV_average, POV_PATTERN_OTHER},      {POV_facets, POV_PATTERN_OTHER},
+    {POV_cubic, POV_PATTERN_OTHER},        {POV_pavement, POV_PATTERN_OTHER},
+    {POV_tiling, POV_PATTERN_OTHER},       {POV_function, POV_PATTERN_OTHER},
+    {POV_density_file, POV_PATTERN_OTHER}, {POV_pigment_pattern, POV_PATTERN_OTHER},
 };
 
 /* --- maps --------------------------------------------------------------------------------------- */
@@ -111,7 +91,7 @@ static void usual_colors(const struct pov_pigment *pigment, double colors[POV_LI
 static bool is_listed(const struct pov_pigment *pigment)
 {
     return pigment->word == POV_checker || pigment->word == POV_brick ||
-           pigment->word == POV_hexagon;
+           pigment->word == POV_hexagon || pigment->word == POV_tiles;
 }
 
 void pov_pigment_ends(const struct pov_pigment *pigment, double colors[2][POV_TERMS])
@@ -264,7 +244,8 @@ const struct pov_color_map *pov_read_color_map(struct pov_reader *reader)
         }
         if (!pov_grow(reader, (void **)&list, &capacity, count + added, sizeof *list))
             break;
-        memcpy(list + count, from, added * sizeof *list);
+        if (added > 0)
+            memcpy(list + count, from, added * sizeof *list);
         count += added;
     }
     for (size_t i = 1; i < count; i++) /* those of one place stay in their order */
@@ -295,6 +276,7 @@ static void read_listed(struct pov_reader *reader, struct pov_pigment *pigment)
         }
         pigment->listed_count++;
         pov_skip_comma(reader);
+        pov_accept_word(reader, POV_tile2);
     }
 }
 
@@ -305,6 +287,7 @@ static void read_pattern(struct pov_reader *reader, struct pov_pigment *pigment)
     case POV_checker:
     case POV_brick:
     case POV_hexagon:
+    case POV_tiles:
         read_listed(reader, pigment);
         break;
     case POV_gradient:
@@ -454,7 +437,7 @@ struct pov_pigment pov_read_pigment(struct pov_reader *reader, const struct pov_
             pigment = *value->pigment;
         } else if (value && value->kind == POV_VALUE_COLOR_MAP) {
             pigment.map = value->map;
-        } else if (pov_is_word(&token, POV_quick_color)) {
+        } else if (pov_is_word(&token, POV_quick_color) || pov_is_word(&token, POV_quick_colour)) {
             pov_read_color(reader);
         } else if (pov_begins_number(reader, &token)) {
             pov_unread(reader, token);

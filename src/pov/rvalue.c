@@ -19,7 +19,7 @@ bool pov_begins_string(const struct pov_reader *reader, const struct pov_token *
         return false;
     const struct pov_value *value = pov_lookup(reader, token->word);
     if (value && value->kind == POV_VALUE_ARRAY)
-        return value->array->elements[0].kind == POV_VALUE_STRING;
+        return value->array->held == POV_VALUE_STRING;
     if (value)
         return value->kind == POV_VALUE_STRING;
     switch (token->word) {
@@ -204,7 +204,7 @@ const char *pov_read_string(struct pov_reader *reader)
 /* --- arrays ------------------------------------------------------------------------------------- */
 
 /* "{a, b, ...}" or, where there are more dimensions, lists of those. `left`: elements that there is room for. */
-static void read_elements(struct pov_reader *reader, const struct pov_array *array, int dimension,
+static void read_elements(struct pov_reader *reader, struct pov_array *array, int dimension,
                           struct pov_value *elements, size_t count)
 {
     struct pov_token token = pov_next(reader);
@@ -222,6 +222,8 @@ static void read_elements(struct pov_reader *reader, const struct pov_array *arr
             read_elements(reader, array, dimension + 1, elements + i * step, step);
         else
             elements[i] = pov_read_value(reader);
+        if (dimension + 1 == array->dimensions && i == 0)
+            array->held = elements[0].kind;
         pov_skip_comma(reader);
     }
 }
@@ -244,7 +246,7 @@ static struct pov_value read_list(struct pov_reader *reader, const struct pov_to
     struct pov_value *elements = array ? pov_allocate(reader, count, sizeof *elements) : NULL;
     if (elements) {
         memcpy(elements, list, count * sizeof *elements);
-        *array = (struct pov_array){1, {count}, elements};
+        *array = (struct pov_array){1, {count}, elements, elements[0].kind};
     }
     free(list);
     result.array = array;
@@ -256,7 +258,7 @@ static struct pov_value read_array(struct pov_reader *reader, const struct pov_t
 {
     struct pov_array array = {0};
     size_t count = 1;
-    while (pov_accept(reader, '[')) {
+    while (pov_is(pov_peek(reader), '[') && pov_accept(reader, '[')) { /* no directive in between */
         double size = pov_read_condition(reader).v[0];
         pov_expect(reader, ']');
         if (array.dimensions == POV_DIMENSIONS || !(size >= 1.0 && size <= 1e9) ||
@@ -276,9 +278,7 @@ static struct pov_value read_array(struct pov_reader *reader, const struct pov_t
     struct pov_array *kept = array.elements ? pov_copy(reader, &array, sizeof array) : NULL;
     if (!kept)
         return (struct pov_value){0};
-    struct pov_token next = pov_next(reader);
-    pov_unread(reader, next);
-    if (pov_is(&next, '{'))
+    if (pov_is(pov_peek(reader), '{'))
         read_elements(reader, kept, 0, kept->elements, count);
     return (struct pov_value){.kind = POV_VALUE_ARRAY, .array = kept};
 }
@@ -349,6 +349,7 @@ static struct pov_value read_value(struct pov_reader *reader)
         pov_unread(reader, token);
         return (struct pov_value){.kind = POV_VALUE_NUMBER, .number = pov_read_condition(reader)};
     }
+    reader->declaring = 0; /* within braces, directives are executed */
     if (token.kind == POV_WORD) {
         struct pov_value *named = pov_lookup(reader, token.word);
         if (named)
@@ -367,10 +368,12 @@ struct pov_value pov_read_value(struct pov_reader *reader)
 {
     struct pov_token token = pov_next(reader);
     struct pov_value value = {0};
+    size_t declaring = reader->declaring;
     pov_unread(reader, token);
     if (pov_enter(reader, &token)) {
         value = read_value(reader);
         pov_leave(reader);
     }
+    reader->declaring = declaring;
     return reader->stopped ? (struct pov_value){0} : value;
 }

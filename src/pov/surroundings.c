@@ -127,6 +127,8 @@ void pov_read_scene(struct pov_reader *reader)
             add_object(reader, pov_read_object(reader, &token));
         else if (pov_is_word(&token, POV_camera))
             read_camera(reader, &token);
+        else if (pov_is_word(&token, POV_default)) /* also without # */
+            pov_read_default(reader);
         else if (!pov_read_surroundings(reader, &token) && !pov_is(&token, ';'))
             pov_unexpected(reader, &token, "an object, a light, a camera or a directive");
     }

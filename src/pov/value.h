@@ -63,6 +63,7 @@ struct pov_array {
     int dimensions;
     size_t sizes[POV_DIMENSIONS];
     struct pov_value *elements; /* the last index goes fastest */
+    enum pov_value_kind held;   /* what was put into it last */
 };
 
 #define POV_PARAMETERS 56 /* as POV-Ray has it */

@@ -15,7 +15,7 @@
     X(render) X(statistics) X(switch) X(undef) X(version) X(warning) X(while) X(write)             \
     /* numbers */                                                                                  \
     X(abs) X(acos) X(acosh) X(asc) X(asin) X(asinh) X(atan) X(atan2) X(atanh) X(ceil) X(clock)     \
-    X(clock_delta) X(cos) X(cosh) X(defined) X(degrees) X(dimension_size) X(dimensions) X(div)     \
+    X(clock_delta) X(clock_on) X(cos) X(cosh) X(defined) X(degrees) X(dimension_size) X(dimensions) X(div)     \
     X(exp) X(false) X(file_exists) X(final_clock) X(final_frame) X(floor) X(frame_number)          \
     X(image_height) X(image_width) X(initial_clock) X(initial_frame) X(inside) X(int) X(ln)        \
     X(log) X(max) X(max_extent) X(min) X(min_extent) X(mod) X(no) X(now) X(off) X(on) X(pi)        \
@@ -40,7 +40,7 @@
     X(interior_texture) X(interpolate) X(ior) X(irid) X(julia) X(lambda) X(leopard) X(magnet)      \
     X(mandel) X(map_type) X(marble) X(material) X(material_map) X(metallic) X(mortar) X(normal)    \
     X(normal_map) X(octaves) X(omega) X(once) X(onion) X(pavement) X(phase) X(phong)               \
-    X(phong_size) X(pigment) X(pigment_map) X(pigment_pattern) X(planar) X(quick_color) X(poly_wave) X(quilted)   \
+    X(phong_size) X(pigment) X(pigment_map) X(pigment_pattern) X(planar) X(quick_color) X(quick_colour) X(tiles) X(tile2) X(poly_wave) X(quilted)   \
     X(radial) X(ramp_wave) X(reflection) X(reflection_exponent) X(repeat) X(ripples)               \
     X(roughness) X(scallop_wave) X(sine_wave) X(slope) X(specular) X(spherical) X(spiral1)         \
     X(spiral2) X(spotted) X(square) X(subsurface) X(texture) X(texture_map) X(thickness)           \

@@ -35,6 +35,7 @@ struct pov_above {
     struct transform texture_place;    /* of the texture, in POV-Ray's coordinates */
     const struct pov_interior *interior;
     bool is_uv, no_image;
+    bool is_sphere; /* psplat's shine in one colour alone */
 };
 
 /* Camera and image, and what the writer has to know of them (write_camera.c). */

@@ -28,8 +28,8 @@ struct paint {
     struct pov_writer *writer;
     const struct pov_pigment *pigment;
     struct transform place; /* of the pattern, to the scene */
-    bool is_uv;
-    char *image; /* owned; or NULL */
+    bool shines_in_one;     /* its emission has no pattern */
+    char *image;            /* owned; or NULL */
 };
 
 static void put_scaled(struct paint *paint, FILE *out, const double color[3],
@@ -290,7 +290,7 @@ static void put_emission(struct paint *paint, FILE *out, const struct pov_finish
     if (!(largest_of(factor) > 0.0))
         return;
     fputs(", emission: ", out);
-    put_paint(paint, out, factor, 1e20);
+    (paint->shines_in_one ? put_mean : put_paint)(paint, out, factor, 1e20);
     fputs(", emission_both: yes", out);
 }
 
@@ -428,7 +428,7 @@ const char *pov_write_material(struct pov_writer *writer, const struct pov_above
         return NULL;
     struct transform place = transform_compose(&above->texture_place, &texture->pigment.place);
     struct paint paint = {writer, &texture->pigment, transform_compose(&writer->mirror, &place),
-                          above->is_uv || texture->pigment.is_uv, NULL};
+                          above->is_sphere, NULL};
     if (texture->pigment.pattern == POV_PATTERN_IMAGE)
         paint.image = pov_write_file_name(writer, texture->pigment.file, &texture->pigment.token,
                                           texture->pigment.image);

@@ -5,7 +5,7 @@
  */
 #include "pov/write.h"
 
-#include "base/input_file.h"
+#include "scene/texture.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,6 +81,17 @@ char *pov_write_file_name(struct pov_writer *writer, const char *file,
     const struct pov_options *options = reader->options;
     bool is_system = false;
     char *path = pov_find(reader, name, &is_system), *shown = NULL;
+    struct texture texture;
+    struct error error;
+    const struct texture_description description = {.path = path};
+    if (path && texture_load(&description, is_system ? options->system : options->folder, &texture,
+                             &error) != PS_OK) {
+        pov_warn_at(reader, file, token, "%.200s: %.200s: left out", name, error.text);
+        free(path);
+        return NULL;
+    }
+    if (path)
+        texture_release(&texture);
     if (!path) {
         pov_warn_at(reader, file, token, "%.200s: there is no readable file of that name: left out",
                     name);
@@ -429,6 +440,7 @@ void pov_write_object(struct pov_writer *writer, const struct pov_object *object
             write_plane(writer, object, &look);
         break;
     default:
+        look.is_sphere = object->shape == POV_SHAPE_SPHERE;
         if (!is_planar(&look) || !write_pictured(writer, object, &look))
             write_shape(writer, object, &look);
     }
