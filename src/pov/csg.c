@@ -80,7 +80,7 @@ static bool find_planes(struct node *node)
 {
     const struct mesh *mesh = &node->mesh;
     struct csg_convex *convex = &node->convex;
-    convex->planes = malloc((mesh->triangle_count + 1) * sizeof *convex->planes);
+    convex->planes = calloc(mesh->triangle_count + 1, sizeof *convex->planes);
     for (size_t i = 0; i < mesh->triangle_count && convex->planes; i++) {
         const uint32_t *t = mesh->triangles[i];
         struct vector a = mesh->points[t[0]];

@@ -48,9 +48,8 @@ static struct pov_token skip(struct pov_reader *reader, const struct pov_token *
             continue;
         if (opens_block(token.word))
             levels++;
-        else if (token.word == POV_end && --levels == 0)
-            return token;
-        else if (to_branch && levels == 1 && is_branch(token.word))
+        else if ((token.word == POV_end && --levels == 0) ||
+                 (to_branch && levels == 1 && is_branch(token.word)))
             return token;
     }
 }
@@ -303,8 +302,9 @@ static void declare(struct pov_reader *reader, const struct pov_token *token)
         skip_semicolon(reader);
 }
 
-static void undefine(struct pov_reader *reader)
+static void undefine(struct pov_reader *reader, const struct pov_token *token)
 {
+    (void)token;
     struct pov_token name = pov_next_raw(reader);
     if (name.kind == POV_WORD)
         pov_unbind(reader, name.word);
@@ -321,8 +321,9 @@ static void include(struct pov_reader *reader, const struct pov_token *token)
         pov_include(reader, token, name);
 }
 
-static void set_version(struct pov_reader *reader)
+static void set_version(struct pov_reader *reader, const struct pov_token *token)
 {
+    (void)token;
     double version = pov_read_float(reader);
     if (version > 0.0)
         reader->version = version;
@@ -347,70 +348,40 @@ static void refuse_files(struct pov_reader *reader, const struct pov_token *toke
               pov_text(reader, token->word));
 }
 
+static void read_default(struct pov_reader *reader, const struct pov_token *token)
+{
+    (void)token;
+    pov_read_default(reader);
+}
+
+static const struct {
+    uint32_t word;
+    void (*execute)(struct pov_reader *reader, const struct pov_token *token);
+} directives[] = {
+    {POV_if, begin_if},          {POV_ifdef, begin_if},
+    {POV_ifndef, begin_if},      {POV_switch, begin_switch},
+    {POV_else, meet_branch},     {POV_elseif, meet_branch},
+    {POV_case, meet_branch},     {POV_range, meet_branch},
+    {POV_while, begin_while},    {POV_for, begin_for},
+    {POV_end, end_block},        {POV_break, leave_block},
+    {POV_declare, declare},      {POV_local, declare},
+    {POV_undef, undefine},       {POV_macro, pov_define_macro},
+    {POV_include, include},      {POV_version, set_version},
+    {POV_default, read_default}, {POV_debug, say},
+    {POV_warning, say},          {POV_error, say},
+    {POV_render, say},           {POV_statistics, say},
+    {POV_fopen, refuse_files},   {POV_fclose, refuse_files},
+    {POV_read, refuse_files},    {POV_write, refuse_files},
+};
+
 static void execute(struct pov_reader *reader, const struct pov_token *token)
 {
-    switch (token->word) {
-    case POV_if:
-    case POV_ifdef:
-    case POV_ifndef:
-        begin_if(reader, token);
-        break;
-    case POV_switch:
-        begin_switch(reader, token);
-        break;
-    case POV_else:
-    case POV_elseif:
-    case POV_case:
-    case POV_range:
-        meet_branch(reader, token);
-        break;
-    case POV_while:
-        begin_while(reader, token);
-        break;
-    case POV_for:
-        begin_for(reader, token);
-        break;
-    case POV_end:
-        end_block(reader, token);
-        break;
-    case POV_break:
-        leave_block(reader, token);
-        break;
-    case POV_declare:
-    case POV_local:
-        declare(reader, token);
-        break;
-    case POV_undef:
-        undefine(reader);
-        break;
-    case POV_macro:
-        pov_define_macro(reader, token);
-        break;
-    case POV_include:
-        include(reader, token);
-        break;
-    case POV_version:
-        set_version(reader);
-        break;
-    case POV_default:
-        pov_read_default(reader);
-        break;
-    case POV_debug:
-    case POV_warning:
-    case POV_error:
-    case POV_render:
-    case POV_statistics:
-        say(reader, token);
-        break;
-    case POV_fopen:
-    case POV_fclose:
-    case POV_read:
-    case POV_write:
-        refuse_files(reader, token);
-        break;
-    default:
-        pov_error(reader, token, "there is no directive #%.60s", pov_text(reader, token->word));
-    }
+    for (size_t i = 0; i < sizeof directives / sizeof directives[0]; i++)
+        if (directives[i].word == token->word) {
+            directives[i].execute(reader, token);
+            return;
+        }
+    pov_error(reader, token, "there is no directive #%.60s", pov_text(reader, token->word));
 }
 
 /* Whether a directive ends the value that a #declare of the same level reads. */

@@ -223,7 +223,7 @@ static double read_of_strings(struct pov_reader *reader, const struct pov_token 
         return 0.0;
     switch (token->word) {
     case POV_strcmp:
-        result = strcmp(a, b);
+        result = (strcmp(a, b) > 0) - (strcmp(a, b) < 0);
         break;
     case POV_strlen:
         result = (double)strlen(a);

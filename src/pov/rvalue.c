@@ -244,7 +244,7 @@ static struct pov_value read_list(struct pov_reader *reader, const struct pov_to
     if (count == 0)
         pov_error(reader, token, "an array has one element or more");
     struct pov_value *elements = array ? pov_allocate(reader, count, sizeof *elements) : NULL;
-    if (elements) {
+    if (elements && list) {
         memcpy(elements, list, count * sizeof *elements);
         *array = (struct pov_array){1, {count}, elements, elements[0].kind};
     }

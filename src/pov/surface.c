@@ -112,6 +112,11 @@ static bool is_within(const double p[2], const double a[2], const double b[2], c
            side * turn(c, a, p) >= 0.0;
 }
 
+static bool is_same(const double a[2], const double b[2])
+{
+    return a[0] == b[0] && a[1] == b[1];
+}
+
 static bool is_ear(const double (*points)[2], const uint32_t *ring, size_t count, size_t i,
                    double side)
 {
@@ -121,8 +126,7 @@ static bool is_ear(const double (*points)[2], const uint32_t *ring, size_t count
         return false;
     for (size_t k = 0; k < count; k++) {
         const double *p = points[ring[k]];
-        bool is_corner = k == before || k == i || k == behind || memcmp(p, a, 2 * sizeof *p) == 0 ||
-                         memcmp(p, c, 2 * sizeof *p) == 0;
+        bool is_corner = k == before || k == i || k == behind || is_same(p, a) || is_same(p, c);
         if (!is_corner && is_within(p, a, b, c, side))
             return false;
     }

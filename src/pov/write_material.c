@@ -222,9 +222,7 @@ static void put_opaque(struct paint *paint, FILE *out, const struct pov_finish *
 {
     double least = largest_of(f->reflection[0]), most = largest_of(f->reflection[1]);
     bool shines = f->specular > 0.0 || f->phong > 0.0;
-    if (f->metallic > 0.0 && (shines || most > 0.0))
-        put_metal(paint, out, f);
-    else if (f->reflects_metallic && most > 0.5)
+    if ((f->metallic > 0.0 && (shines || most > 0.0)) || (f->reflects_metallic && most > 0.5))
         put_metal(paint, out, f);
     else if (f->fresnel || (most > 0.0 && least < 0.2 && most > 1.5 * least))
         put_glossy(paint, out, f, f->fresnel ? PLASTIC : fmin(fmax(least, 0.0), 1.0), 0.0);

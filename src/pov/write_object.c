@@ -35,7 +35,10 @@ bool pov_placement(struct pov_writer *writer, const struct pov_object *object,
 
 static bool is_mirror_alone(const struct pov_writer *writer, const struct transform *placement)
 {
-    return memcmp(placement, &writer->mirror, sizeof *placement) == 0;
+    bool same = true;
+    for (int i = 0; i < 12; i++)
+        same = same && placement->m[i / 4][i % 4] == writer->mirror.m[i / 4][i % 4];
+    return same;
 }
 
 /* What an object has that its surroundings have not said, and the transform down to it. */

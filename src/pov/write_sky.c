@@ -49,8 +49,9 @@ static struct image *draw(struct pov_writer *writer, const struct transform *to_
         }
     }
     for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
-        double longitude = 2.0 * PI * (((double)(i % WIDTH) + 0.5) / WIDTH - 0.5);
-        double polar = PI * ((double)(i / WIDTH) + 0.5) / HEIGHT, color[3], linear[3];
+        size_t row = i / WIDTH, column = i % WIDTH;
+        double longitude = 2.0 * PI * (((double)column + 0.5) / WIDTH - 0.5);
+        double polar = PI * ((double)row + 0.5) / HEIGHT, color[3], linear[3];
         struct vector d = {sin(polar) * sin(longitude), cos(polar), -sin(polar) * cos(longitude)};
         d = transform_direction(&writer->mirror, d); /* it is its own inverse */
         color_of(writer->reader->sky, to_pattern, d, color);
