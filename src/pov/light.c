@@ -125,11 +125,21 @@ static bool read_part(struct pov_reader *reader, const struct pov_token *token,
 void pov_read_light(struct pov_reader *reader, struct pov_object *object)
 {
     struct pov_light light = {.radius = 30.0, .falloff = 45.0};
-    struct pov_token token;
+    struct pov_token token = pov_next(reader);
+    const struct pov_value *value = token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
     object->shape = POV_SHAPE_LIGHT;
-    object->p[0] = pov_read_vector(reader);
-    pov_skip_comma(reader);
-    memcpy(light.color, pov_read_color(reader).v, sizeof light.color);
+    if (value && value->kind == POV_VALUE_OBJECT && value->object->light) { /* a declared one */
+        const struct pov_token first = object->token;
+        *object = *value->object;
+        object->token = first;
+        object->file = pov_file(reader);
+        light = *object->light;
+    } else {
+        pov_unread(reader, token);
+        object->p[0] = pov_read_vector(reader);
+        pov_skip_comma(reader);
+        memcpy(light.color, pov_read_color(reader).v, sizeof light.color);
+    }
     while (token = pov_next(reader), !pov_is(&token, '}') && token.kind != POV_END)
         if (!pov_is(&token, ',') && !read_part(reader, &token, object, &light) &&
             !pov_read_modifier(reader, &token, object))

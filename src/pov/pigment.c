@@ -196,7 +196,7 @@ static void read_map_color(struct pov_reader *reader, double color[POV_TERMS])
 static int read_entry(struct pov_reader *reader, struct pov_map_entry entries[2])
 {
     int count = 1;
-    entries[0].at = pov_read_float(reader);
+    entries[0].at = pov_read_optional(reader, 0.0); /* of an average it may be missing */
     pov_skip_comma(reader);
     struct pov_token token = pov_next(reader);
     pov_unread(reader, token);

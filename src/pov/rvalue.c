@@ -203,6 +203,16 @@ const char *pov_read_string(struct pov_reader *reader)
 
 /* --- arrays ------------------------------------------------------------------------------------- */
 
+/* Without comparisons: a comma may be missing before a vector. */
+static struct pov_value read_element(struct pov_reader *reader)
+{
+    struct pov_token token = pov_next(reader);
+    pov_unread(reader, token);
+    if (token.kind != POV_NUMBER && !pov_is(&token, '<') && !pov_is(&token, '-'))
+        return pov_read_value(reader);
+    return (struct pov_value){.kind = POV_VALUE_NUMBER, .number = pov_read_number(reader)};
+}
+
 /* "{a, b, ...}" or, where there are more dimensions, lists of those. `left`: elements that there is room for. */
 static void read_elements(struct pov_reader *reader, struct pov_array *array, int dimension,
                           struct pov_value *elements, size_t count)
@@ -221,7 +231,7 @@ static void read_elements(struct pov_reader *reader, struct pov_array *array, in
         if (dimension + 1 < array->dimensions)
             read_elements(reader, array, dimension + 1, elements + i * step, step);
         else
-            elements[i] = pov_read_value(reader);
+            elements[i] = read_element(reader);
         if (dimension + 1 == array->dimensions && i == 0)
             array->held = elements[0].kind;
         pov_skip_comma(reader);
@@ -238,7 +248,7 @@ static struct pov_value read_list(struct pov_reader *reader, const struct pov_to
     while (!pov_accept(reader, '}') && !reader->stopped) {
         if (!pov_grow(reader, (void **)&list, &capacity, count + 1, sizeof *list))
             break;
-        list[count++] = pov_read_value(reader);
+        list[count++] = read_element(reader);
         pov_skip_comma(reader);
     }
     if (count == 0)
@@ -335,17 +345,14 @@ static struct pov_value read_value(struct pov_reader *reader)
 {
     struct pov_token token = pov_next(reader);
     struct pov_value value = {0};
+    const struct pov_value *whole = token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
+    if (whole && whole->kind == POV_VALUE_ARRAY && !pov_is(pov_peek(reader), '['))
+        return copy_array(reader, whole->array);
     if (pov_begins_string(reader, &token)) {
         pov_unread(reader, token);
         return read_text_value(reader);
     }
     if (pov_begins_number(reader, &token)) {
-        const struct pov_value *named =
-            token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
-        if (named && named->kind == POV_VALUE_ARRAY) {
-            if (!pov_is(pov_peek(reader), '['))
-                return copy_array(reader, named->array);
-        }
         pov_unread(reader, token);
         return (struct pov_value){.kind = POV_VALUE_NUMBER, .number = pov_read_condition(reader)};
     }

@@ -46,7 +46,7 @@ static void put_characters(FILE *out, const char *text)
     for (size_t left = strlen(text); left > 0;) {
         uint32_t code = 0;
         size_t length = utf8_decode(text, left, &code);
-        if (length == 0) { /* pbrt.h: does not happen */
+        if (length == 0) { /* does not happen: converters see to it */
             length = 1;
             code = 0xfffd;
         }

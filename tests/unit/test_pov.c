@@ -151,6 +151,10 @@ static void test_executes_directives(void **state)
     expect("#declare A = array[2][3] {{1, 2, 3}, {4, 5, 6}} #declare A[0][1] = 9;"
            "sphere { <A[1][2], A[0][1], dimension_size(A, 2)>, 1 }",
            "center: [6, 9, -3]");
+    expect("#declare A = array[2] { <1, 2> <3, 4> } sphere { A[1], 1 }", "center: [3, 4, 0]");
+    expect("#declare A = array[1] { \"abc\" } #declare B = A; #declare L = strlen(B[0]); sphere { "
+           "0, L }",
+           "radius: 3,");
     expect("#declare A = 1 #declare B = A + 1 sphere { 0, B }", "radius: 2,");
     expect("#declare U = union { #declare R = 2; sphere { 0, R } #if (R > 1) sphere { x, 3 } #end "
            "} object { U }",
@@ -272,6 +276,9 @@ static void test_carries_lights(void **state)
     expect("light_source { 2*y 1 fade_distance 1 fade_power 2 spotlight radius 10 falloff 20 "
            "tightness 3 }",
            "point_at: [0, 0, 0], radius: 10, falloff: 20, tightness: 3, intensity:");
+    expect("#declare L = light_source { y 1 fade_distance 1 fade_power 2 } light_source { L "
+           "translate x }",
+           "point: {location: [1, 1, 0]");
     expect("light_source { y 1 parallel point_at 0 }",
            "sun: {direction: [0, -1, 0], angle: 0, irradiance: 3.1415927}");
     expect("light_source { y 1 fade_distance 1 fade_power 2 area_light x, z, 4, 4 }",
