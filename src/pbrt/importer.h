@@ -7,10 +7,10 @@
 
 #include "base/arena.h"
 #include "parser/yaml/diagnostic.h"
-#include "writer/name_index.h"
 #include "pbrt/pbrt.h"
-#include "writer/scene_text.h"
 #include "pbrt/statement.h"
+#include "writer/name_index.h"
+#include "writer/scene_text.h"
 #include "writer/transform.h"
 #include <stdio.h>
 
