@@ -9,8 +9,8 @@
 #ifndef IMPORT_GLTF_H
 #define IMPORT_GLTF_H
 
-#include "import/files.h"
 #include "base/json_reader.h"
+#include "import/files.h"
 
 #define GLTF_DEPTH 256
 

@@ -1,11 +1,11 @@
 /* test_pbrt.c: tokens, transforms, spectra, roughness and subdivision of pbrt scenes. */
 #include "pbrt/importer.h"
 #include "pbrt/lexer.h"
-#include "writer/name_index.h"
 #include "pbrt/roughness.h"
 #include "pbrt/shape.h"
 #include "pbrt/spectrum.h"
 #include "pbrt/version.h"
+#include "writer/name_index.h"
 
 #include "unit/scratch.h"
 #include <math.h>
