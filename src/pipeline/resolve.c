@@ -387,6 +387,15 @@ static bool denoises_direct(const struct render *render)
     return film->half || (film->odd->passes > 0 && film->odd->passes < film->passes);
 }
 
+/* Sums of no light are zeros. */
+static bool is_black(struct rgb_planes light, size_t n)
+{
+    bool black = true;
+    for (size_t i = 0; i < n && black; i++)
+        black = light.r[i] == 0.0f && light.g[i] == 0.0f && light.b[i] == 0.0f;
+    return black;
+}
+
 static void replace(float *restrict sum, const float *restrict old, const float *restrict new,
                     size_t n)
 {
@@ -401,6 +410,8 @@ static ps_result denoise_part(struct render *render, int first, struct rgb_plane
     struct film *film = &render->film;
     struct rgb_planes part = planes_of(film, first);
     size_t pixels = pixels_of(render);
+    if (is_black(part, pixels))
+        return PS_OK;
     const struct halves halves = halves_of_direct(film, first, even);
     ps_result result = denoise(render, part, copy, &halves, NULL, error);
     if (result != PS_OK)

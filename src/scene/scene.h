@@ -103,7 +103,7 @@ bool scene_samples_lights(const struct scene *scene);
 /* Whether a light's shadows have edges and no noise to speak of: every point asks it, and it is a point, a spot or a sun. */
 bool scene_light_casts_hard_shadows(const struct scene *scene, size_t light);
 
-/* Whether the scene has such lights, and others, whose noise would let a denoiser blur those edges. */
+/* Whether the scene has such lights, and noise, of others or within a sun's penumbra, that would hide those edges. */
 bool scene_has_hard_shadows_apart(const struct scene *scene);
 
 /* Chooses a light by power with *u in [0,1), which is rescaled so that it can be used again; returns

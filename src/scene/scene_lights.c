@@ -332,10 +332,10 @@ bool scene_light_casts_hard_shadows(const struct scene *scene, size_t light)
 
 bool scene_has_hard_shadows_apart(const struct scene *scene)
 {
-    size_t hard = 0;
-    for (size_t i = 0; i < scene->light_count; i++)
-        hard += scene_light_casts_hard_shadows(scene, i);
-    return hard > 0 && hard < scene->light_count;
+    bool any = false;
+    for (size_t i = 0; i < scene->light_count && !any; i++)
+        any = scene_light_casts_hard_shadows(scene, i);
+    return any && scene_samples_lights(scene);
 }
 
 size_t scene_choose_light(const struct scene *scene, float *u, float *probability)
