@@ -195,15 +195,15 @@ static ps_result resolve_with(struct job *job, struct render_settings *settings,
     struct progress progress;
     struct statistics statistics;
     struct image image;
-    struct camera camera;
+    struct scene scene = {.width = 0};
     struct error reason;
-    ps_result result = facts_camera(&job->facts, &camera, error);
+    ps_result result = facts_view(&job->facts, &scene, error);
     if (result != PS_OK)
         return result;
     progress_start(&progress, PROGRESS_AUTO, job->quiet);
     struct render_callbacks callbacks = progress_callbacks(&progress);
     statistics_init(&statistics);
-    result = render_resolve(&job->film, &camera, settings, &callbacks, &statistics, &image, error);
+    result = render_resolve(&job->film, &scene, settings, &callbacks, &statistics, &image, error);
     progress_clear(&progress);
     if (image.width > 0) {
         ps_result written = describe(job, settings, &image, &reason);

@@ -20,8 +20,8 @@ struct receivers {
     const ps_hit *hits;
     float (*numbers)[4];   /* choose points on lights; NULL: no light has a size */
     const double *choices; /* choose lights; NULL: none is chosen */
-    ps_rgb *
-        hard; /* sums of what lights give that cast hard shadows (scene_light_casts_hard_shadows); NULL: nobody asks */
+    /* Sums of what lights give that cast hard shadows (scene_light_casts_hard_shadows); NULL: nobody asks. */
+    ps_rgb *hard;
     uint64_t *occlusion; /* what rays to the lights met, see gbuffer_occlusion; NULL: nobody asks */
 };
 

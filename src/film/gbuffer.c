@@ -123,8 +123,9 @@ ps_result gbuffer_prepare_direct_half(struct gbuffer *gbuffer, struct error *err
 ps_result gbuffer_prepare_hard(struct gbuffer *gbuffer, struct error *error)
 {
     size_t count = (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
-    gbuffer->hard = calloc(count, sizeof *gbuffer->hard);
-    if (gbuffer->direct_half)
+    if (!gbuffer->hard)
+        gbuffer->hard = calloc(count, sizeof *gbuffer->hard);
+    if (gbuffer->direct_half && !gbuffer->hard_half)
         gbuffer->hard_half = calloc(count, sizeof *gbuffer->hard_half);
     return gbuffer->hard && (gbuffer->hard_half || !gbuffer->direct_half)
                ? PS_OK

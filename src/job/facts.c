@@ -171,32 +171,62 @@ static void camera_numbers(struct camera *camera, float *numbers[CAMERA_NUMBERS]
 }
 
 /* In hexadecimal, which loses nothing. */
+static ps_result set_floats(struct image *image, const char *key, const char *first,
+                            float *const numbers[], int count, struct error *error)
+{
+    char text[1024];
+    int length = snprintf(text, sizeof text, "%s", first);
+    for (int i = 0; i < count; i++)
+        length += snprintf(text + length, sizeof text - (size_t)length, "%s%a",
+                           length > 0 ? " " : "", (double)*numbers[i]);
+    return image_set_attribute(image, key, text, error);
+}
+
+/* Whether `text` begins with so many finite numbers. */
+static bool read_floats(const char *text, float *const numbers[], int count)
+{
+    for (int i = 0; i < count && text; i++) {
+        char *end;
+        *numbers[i] = strtof(text, &end);
+        text = end > text && isfinite(*numbers[i]) ? end : NULL;
+    }
+    return text != NULL;
+}
+
 static ps_result set_camera(struct image *image, const struct camera *camera, struct error *error)
 {
     struct camera copy = *camera;
     float *numbers[CAMERA_NUMBERS];
-    char text[1024];
     camera_numbers(&copy, numbers);
-    int length =
-        snprintf(text, sizeof text, "%s", camera->orthographic ? "orthographic" : "perspective");
-    for (int i = 0; i < CAMERA_NUMBERS; i++)
-        length += snprintf(text + length, sizeof text - (size_t)length, " %a", (double)*numbers[i]);
-    return image_set_attribute(image, "psplat.camera", text, error);
+    return set_floats(image, "psplat.camera",
+                      camera->orthographic ? "orthographic" : "perspective", numbers,
+                      CAMERA_NUMBERS, error);
 }
 
-ps_result facts_camera(const struct image *facts, struct camera *camera, struct error *error)
+static ps_result set_bounds(struct image *image, const struct scene *scene, struct error *error)
 {
-    const char *text = image_attribute(facts, "psplat.camera");
+    ps_vec3 center = scene->center;
+    float radius = scene->radius;
+    float *const numbers[] = {&center.x, &center.y, &center.z, &radius};
+    return set_floats(image, "psplat.bounds", "", numbers, 4, error);
+}
+
+ps_result facts_view(const struct image *facts, struct scene *scene, struct error *error)
+{
+    const char *camera = image_attribute(facts, "psplat.camera");
+    const char *bounds = image_attribute(facts, "psplat.bounds");
     float *numbers[CAMERA_NUMBERS];
-    *camera = (struct camera){.orthographic = text && strncmp(text, "orthographic", 12) == 0};
-    camera_numbers(camera, numbers);
-    const char *rest = text ? strchr(text, ' ') : NULL;
-    for (int i = 0; i < CAMERA_NUMBERS && rest; i++) {
-        char *end;
-        *numbers[i] = strtof(rest, &end);
-        rest = end > rest && isfinite(*numbers[i]) ? end : NULL;
-    }
-    return rest ? PS_OK : error_set(error, PS_ERROR_INVALID, "the film does not tell its camera");
+    float *const of_bounds[] = {&scene->center.x, &scene->center.y, &scene->center.z,
+                                &scene->radius};
+    scene->camera = (struct camera){
+        .orthographic = camera && strncmp(camera, "orthographic", 12) == 0,
+    };
+    camera_numbers(&scene->camera, numbers);
+    if (!read_floats(camera ? strchr(camera, ' ') : NULL, numbers, CAMERA_NUMBERS))
+        return error_set(error, PS_ERROR_INVALID, "the film does not tell its camera");
+    return read_floats(bounds, of_bounds, 4)
+               ? PS_OK
+               : error_set(error, PS_ERROR_INVALID, "the film does not tell its scene's bounds");
 }
 
 ps_result facts_of_job(struct image *image, const struct scene_description *description,
@@ -220,6 +250,8 @@ ps_result facts_of_job(struct image *image, const struct scene_description *desc
         result = set_texts(image, facts, sizeof facts / sizeof facts[0], error);
     if (result == PS_OK)
         result = set_camera(image, &scene->camera, error);
+    if (result == PS_OK)
+        result = set_bounds(image, scene, error);
     if (result == PS_OK)
         result = set_number(image, "psplat.light_samples", scene->light_samples, error);
     if (result == PS_OK)

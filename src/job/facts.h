@@ -18,15 +18,16 @@ ps_result facts_of_settings(struct image *image, const char *scene_path,
 ps_result facts_set_strategy(struct image *image, const struct strategy *strategy,
                              struct error *error);
 
-/* Those of the settings, and what else passes depend on: size, instruction set, what is in the scene. And the camera, and
+/* Those of the settings, and what else passes depend on: size, instruction set, what is in the scene. And the camera, the bounds and
  * the exposure that the scene asks for. PS_ERROR_INVALID where this processor
  * lacks the instruction set. */
 ps_result facts_of_job(struct image *image, const struct scene_description *description,
                        const struct scene *scene, const struct render_settings *settings,
                        struct error *error);
 
-/* The camera of a film's job, which denoisers ask for. PS_ERROR_INVALID where the facts do not tell it. */
-ps_result facts_camera(const struct image *facts, struct camera *camera, struct error *error);
+/* Puts what denoisers ask of a film's scene into one that has nothing else: its camera, and its bounding sphere.
+ * PS_ERROR_INVALID where the facts do not tell it. */
+ps_result facts_view(const struct image *facts, struct scene *scene, struct error *error);
 
 /* A number that two films of one job have in common. */
 uint64_t facts_digest(const struct image *facts);

@@ -156,13 +156,15 @@ static ps_result start_resolving(struct render *render, struct error *error)
     return result;
 }
 
-ps_result render_resolve(struct film_sum *film, const struct camera *camera,
+ps_result render_resolve(struct film_sum *film, const struct scene *seen,
                          struct render_settings *settings, const struct render_callbacks *callbacks,
                          struct statistics *statistics, struct image *image, struct error *error)
 {
     bool whole = film->window.picture_width == 0;
     const struct scene scene = {
-        .camera = *camera,
+        .camera = seen->camera,
+        .center = seen->center,
+        .radius = seen->radius,
         .width = whole ? film->width : film->window.picture_width,
         .height = whole ? film->height : film->window.picture_height,
     };

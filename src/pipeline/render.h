@@ -68,8 +68,8 @@ ps_result render_picture(struct render *render, bool display, struct image *imag
                          struct error *error);
 
 /* The picture of a film, by normalization and denoiser of `settings`, whose strategies it starts. Of the scene they
- * know the camera alone. Results are those of render_run. */
-ps_result render_resolve(struct film_sum *film, const struct camera *camera,
+ * know camera, center and radius alone (facts_view). Results are those of render_run. */
+ps_result render_resolve(struct film_sum *film, const struct scene *seen,
                          struct render_settings *settings, const struct render_callbacks *callbacks,
                          struct statistics *statistics, struct image *image, struct error *error);
 

@@ -72,7 +72,7 @@ static ps_result create_gloss(struct render *render, struct error *error)
     return result == PS_OK ? film_add_gloss(&render->film, error) : result;
 }
 
-/* Halves of the direct light tell its noise from an edge. */
+/* Halves of the direct light tell its noise from an edge, of which hard shadows have some. */
 static ps_result create_edges(struct render *render, struct error *error)
 {
     const struct scene *scene = render->scene;
@@ -80,9 +80,12 @@ static ps_result create_edges(struct render *render, struct error *error)
     render->edges = calloc(count, sizeof *render->edges);
     if (!render->edges)
         return error_memory(error, count * sizeof *render->edges, "edges");
-    return scene_samples_lights(scene) && scene->light_samples > 1
-               ? gbuffer_prepare_direct_half(&render->gbuffer, error)
-               : PS_OK;
+    if (!scene_samples_lights(scene) || scene->light_samples < 2)
+        return PS_OK;
+    ps_result result = gbuffer_prepare_direct_half(&render->gbuffer, error);
+    return result == PS_OK && scene_has_hard_shadows_apart(scene)
+               ? gbuffer_prepare_hard(&render->gbuffer, error)
+               : result;
 }
 
 /* Where a denoiser may smooth the direct light: it has noise, which halves of it tell, and nothing else smooths it.

@@ -100,7 +100,8 @@ bool scene_needs_choices(const struct scene *scene);
 /* Whether asking the lights again gives another answer. */
 bool scene_samples_lights(const struct scene *scene);
 
-/* Whether a light's shadows have edges and no noise to speak of: every point asks it, and it is a point, a spot or a sun. */
+/* Whether a light's shadows have edges and no noise to speak of: every point asks it, and it is a point, a spot or a sun of
+ * at most five degrees. */
 bool scene_light_casts_hard_shadows(const struct scene *scene, size_t light);
 
 /* Whether the scene has such lights, and noise, of others or within a sun's penumbra, that would hide those edges. */

@@ -323,11 +323,15 @@ bool scene_samples_lights(const struct scene *scene)
     return scene->has_area_lights || scene_chooses_lights(scene);
 }
 
+/* 1 - cos of half of five degrees. */
+#define HARD_SUN 9.52e-4f
+
 bool scene_light_casts_hard_shadows(const struct scene *scene, size_t light)
 {
     const struct light *asked = &scene->lights[light];
     bool is_asked = light_is_afar(asked) || !scene_chooses_lights(scene);
-    return is_asked && (light_is_delta(asked) || asked->emitter == EMITTER_SUN);
+    bool is_small_sun = asked->emitter == EMITTER_SUN && asked->sun.versine <= HARD_SUN;
+    return is_asked && (light_is_delta(asked) || is_small_sun);
 }
 
 bool scene_has_hard_shadows_apart(const struct scene *scene)

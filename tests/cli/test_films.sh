@@ -42,7 +42,6 @@ expect_picture resolved.exr resolved.png
 run 0 info resolved.exr
 expect_text out "psplat.passes: 8"
 expect_match out "^psplat.denoiser: regression"
-
 expect_match out '^estimated error of the indirect light: [0-9.]+ %$'
 run 0 info sum.exr
 expect_match out '^estimated error of the indirect light, not denoised: [0-9.]+ %$'
@@ -65,6 +64,27 @@ run 0 $few --passes 4:5 -o part4.exr "$glossy"
 expect_same_pixels part.exr part4.exr
 run 0 info 0.exr
 expect_text out "psplat.pass_set: 0:4"
+
+# --- each denoiser makes of a film what it makes of the render, whose pixels the film does not change ---
+
+cat >sunny.psd <<'END'
+psd: 1
+camera: {location: [0, 2, 6], look_at: [0, 0.5, 0], angle: 40}
+image: {width: 64, height: 48}
+materials: {grey: {diffuse: 0.5}}
+lights: [{sun: {direction: [-1, -1, -0.5], irradiance: 3}}, {sky: {radiance: 0.3}}]
+objects:
+  - box: {corners: [[-4, -0.1, -4], [4, 0, 4]], material: grey}
+  - sphere: {center: [0, 0.6, 0], radius: 0.6, material: grey}
+END
+for denoiser in none gaussian bilateral regression; do
+    run 0 $few -p denoiser=$denoiser --passes 2 -o plain.exr sunny.psd
+    run 0 $few -p denoiser=$denoiser --passes 2 --checkpoint sunny.exr -o kept.exr sunny.psd
+    run 0 resolve -q sunny.exr -p denoiser=$denoiser -o resolved.exr
+    expect_same_pixels plain.exr kept.exr
+    expect_same_pixels plain.exr resolved.exr
+    rm -f sunny.exr
+done
 
 # --- what does not belong together ---
 
