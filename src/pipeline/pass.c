@@ -13,6 +13,7 @@
 #include "view/view.h"
 #include <math.h>
 #include <psplat/tile.h>
+#include <stdatomic.h>
 
 static void report_progress(const struct render *render, const char *stage, double fraction)
 {
@@ -39,6 +40,7 @@ static void set_jitter(struct render *render)
 struct tile_work {
     struct render *render;
     struct view_pass view;
+    atomic_bool skipped; /* a tile was left out, as the render was cancelled */
 };
 
 static struct lighting lighting_of(const struct render *render)
@@ -104,8 +106,12 @@ static void add_tile(void *user, uint64_t index, uint32_t worker)
 static void smooth_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
-    const struct tile_work *work = user;
+    struct tile_work *work = user;
     struct render *render = work->render;
+    if (host_is_cancelled(render)) {
+        atomic_store(&work->skipped, true);
+        return;
+    }
     struct lighting lighting = lighting_of(render);
     struct edge_pass pass = {
         .lighting = &lighting,
@@ -231,12 +237,12 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
     render->splatting = false;
     report_progress(render, "direct light", render_fraction(render, 0.0));
     struct tile_work work = {
-        render,
-        {.scene = render->scene,
-         .trace = render->trace,
-         .maps = render->shadow_maps,
-         .gbuffer = &render->gbuffer,
-         .seed = render->settings->seed},
+        .render = render,
+        .view = {.scene = render->scene,
+                 .trace = render->trace,
+                 .maps = render->shadow_maps,
+                 .gbuffer = &render->gbuffer,
+                 .seed = render->settings->seed},
     };
     set_jitter(render);
     over_tiles(&work, "gbuffer", trace_tile);
@@ -250,17 +256,35 @@ static void find_edges(struct tile_work *work)
     over_tiles(work, "edges", find_edges_of_tile);
 }
 
-static void end_pass(struct tile_work *work, bool smooth)
+static void add_tiles(struct tile_work *work)
 {
-    over_tiles(work, smooth ? "edges" : "film", smooth ? smooth_tile : add_tile);
+    over_tiles(work, "film", add_tile);
     film_end_pass(&work->render->film);
 }
 
-/* Cancelled where nothing else is there: its direct light alone makes a picture. */
-static void keep_direct_light(struct render *render, struct tile_work *work)
+/* PS_CANCELLED, and an empty film, where it was cancelled before all edges were smooth. */
+static ps_result end_pass(struct tile_work *work, struct error *error)
 {
-    gbuffer_clear_indirect(&render->gbuffer);
-    end_pass(work, false);
+    struct render *render = work->render;
+    if (!render->edges) {
+        add_tiles(work);
+        return PS_OK;
+    }
+    over_tiles(work, "edges", smooth_tile);
+    film_end_pass(&render->film);
+    if (!work->skipped)
+        return PS_OK;
+    ps_result result = film_begin_pass(&render->film, render->pass.number, error);
+    return result == PS_OK ? PS_CANCELLED : result;
+}
+
+/* Cancelled where nothing else is there: what there is of the pass makes a picture, its direct light alone or all but
+ * smooth edges. */
+static void keep_unfinished(struct render *render, struct tile_work *work, bool estimated)
+{
+    if (!estimated)
+        gbuffer_clear_indirect(&render->gbuffer);
+    add_tiles(work);
     render->unfinished = true;
 }
 
@@ -288,12 +312,13 @@ ps_result pass_run(struct render *render, uint32_t number, struct error *error)
         result = render_estimate(render, error);
     if (result == PS_OK)
         result = end_estimate(render, error);
-    if (result == PS_OK) {
-        end_pass(&work, render->edges != NULL);
-        result = render->sum ? add_to_sum(render, error) : PS_OK;
-    } else if (result == PS_CANCELLED && render_passes_done(render) == 0) {
-        keep_direct_light(render, &work);
-    }
+    bool estimated = result == PS_OK;
+    if (estimated)
+        result = end_pass(&work, error);
+    if (result == PS_OK && render->sum)
+        result = add_to_sum(render, error);
+    else if (result == PS_CANCELLED && render_passes_done(render) == 0)
+        keep_unfinished(render, &work, estimated);
     return result;
 }
 
@@ -309,6 +334,6 @@ void pass_light_first(struct render *render)
 {
     struct tile_work work = begin_pass(render, 0);
     find_edges(&work);
-    end_pass(&work, false);
+    add_tiles(&work);
     film_average(&render->film);
 }

@@ -5,6 +5,7 @@
  * Pixels off the edges are the same as without, bit for bit.
  */
 #include "support/render_scene.h"
+#include <limits.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -148,12 +149,57 @@ static void test_passes_add_to_it(void **state)
     rendering_release(&sixteen);
 }
 
+/* How often a render asks whether it was cancelled, and when it is told so. */
+struct patience {
+    int asked, most;
+};
+
+static bool is_out(void *user)
+{
+    struct patience *patience = user;
+    return ++patience->asked > patience->most;
+}
+
+static ps_result look_until(struct patience *patience, struct rendering *rendering)
+{
+    static const char *const choices[] = {"estimator=ambient:irradiance=2", NULL};
+    char text[2048];
+    struct prepared prepared;
+    struct error error;
+    const struct render_callbacks callbacks = {.user = patience, .cancelled = is_out};
+    snprintf(text, sizeof text, scene, 1, 64);
+    prepare_text(text, 1, 100, choices, &prepared);
+    statistics_init(&rendering->statistics);
+    ps_result result = render_run(&prepared.scene, &prepared.settings, &callbacks,
+                                  &rendering->statistics, NULL, &rendering->image, &error);
+    prepared_release(&prepared);
+    return result;
+}
+
+/* The last that asks are tiles at the edges. What was found before makes a picture without smooth edges. */
+static void test_cancelled_at_the_edges(void **state)
+{
+    (void)state;
+    struct patience patient = {0, INT_MAX};
+    struct rendering whole, part, without = look(1, 1);
+    assert_int_equal(look_until(&patient, &whole), PS_OK);
+    struct patience impatient = {0, patient.asked - 3};
+    assert_int_equal(look_until(&impatient, &part), PS_CANCELLED);
+    double off = error_of(&part, &without, "R");
+    print_message("cancelled: %.1e off the picture without smooth edges\n", off);
+    assert_true(off < 1e-6 && error_of(&whole, &without, "R") > 0.01);
+    rendering_release(&whole);
+    rendering_release(&part);
+    rendering_release(&without);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_pass_comes_close_to_many),
         SLOW_TEST(test_passes_add_to_it),
         cmocka_unit_test(test_the_mean_stays),
+        cmocka_unit_test(test_cancelled_at_the_edges),
     };
     return RUN_TESTS(tests);
 }
