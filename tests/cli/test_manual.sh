@@ -142,7 +142,7 @@ part "$man/psplat-film.5" ".Ss Attributes" | sed -n 's/^\.It Cm \(psplat\..*\)/\
 agree "attributes of psplat-film(5)"
 sed -n 's/^channels: //p' out | tr ' ' '\n' | sed -n 's/^sum\.//p' | grep -v '^odd\.\|^half\.' >program
 part "$man/psplat-film.5" ".Ss Sums" | sed -n 's/^\.It Cm //p' | tr -d ' ' | tr , '\n' |
-    grep -v '^odd\.\|^half\.\|^reflected\|^gloss' >page
+    grep -v '^odd\.\|^half\.\|^reflected\|^hard\|^gloss' >page
 agree "channels of psplat-film(5)"
 
 # --- examples of scenes are scenes ---

@@ -18,7 +18,7 @@ fi
 # command_of FILE: how it is compiled; the kernel, which is compiled several times, for AVX2, or not at all.
 command_of() {
     sed -n "s|.*\"command\": \"\(.* -c [^ ]*/$1\)\",*\$|\1|p" "$PSPLAT_BUILD/compile_commands.json" |
-        grep -v -e "-DKERNEL_VARIANT=[^ ]*[^2] " | head -n 1
+        grep -v -e "-DKERNEL_VARIANT=[^ ]*[^2] " | sed 's/\\\(["\\]\)/\1/g' | head -n 1
 }
 
 # expect_vectors FILE
