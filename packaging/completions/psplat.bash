@@ -32,7 +32,10 @@ _psplat() {
             [[ $candidate == :folders || ${#files[@]} -gt 0 ]] || files=('')
             ;;
         *)
-            COMPREPLY+=("${candidate#"$break"}")
+            candidate=${candidate#"$break"}
+            # Names of a scene may hold anything, and what stands here is run.
+            [[ $candidate != *[!A-Za-z0-9_.,:=+/@%-]* ]] || printf -v candidate %q "$candidate"
+            COMPREPLY+=("$candidate")
             [[ $more == - ]] || compopt -o nospace
             ;;
         esac

@@ -32,6 +32,9 @@ static ps_result fail_size(struct error *error, size_t most)
 static ps_result read_stream(FILE *stream, size_t most, struct file_text *text, struct error *error)
 {
     size_t capacity = 0;
+    ps_result grown = grow(text, &capacity, error); /* of no bytes, there is a text, too */
+    if (grown != PS_OK)
+        return grown;
     errno = 0;
     while (!feof(stream) && !ferror(stream) && text->length <= most) {
         ps_result result = text->length == capacity ? grow(text, &capacity, error) : PS_OK;

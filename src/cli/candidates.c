@@ -24,8 +24,18 @@ struct line {
     const struct option *pending; /* the option whose value the last word is, or NULL */
 };
 
+static bool has_control_character(const char *word)
+{
+    bool has = false;
+    for (; *word; word++)
+        has |= (unsigned char)*word < 0x20 || *word == 0x7f;
+    return has;
+}
+
 void candidate_print(const struct prefix *prefix, const char *word, const char *help, bool goes_on)
 {
+    if (has_control_character(word))
+        return; /* it would be another line, or column */
     if (strncmp(word, prefix->typed, strlen(prefix->typed)) == 0)
         printf("%s%s\t%s\t%s\n", prefix->before, word, goes_on ? "+" : "-", help);
 }

@@ -1,6 +1,7 @@
 #include "explore/shown_picture.h"
 
 #include "api/handles.h"
+#include "base/input_file.h"
 #include "image/tonemap.h"
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -34,7 +35,10 @@ ps_result shown_picture_read(const char *path, uint64_t number, struct shown_pic
     *read = NULL;
     if (!picture)
         return error_memory(error, sizeof *picture, "a picture");
-    ps_result result = image_read_exr(path, &picture->image, error);
+    /* Nothing that never ends, or waits for whoever writes. */
+    ps_result result = input_file_exists(path, NULL)
+                           ? image_read_exr(path, &picture->image, error)
+                           : error_set(error, PS_ERROR_IO, "cannot read '%s': it is no file", path);
     if (result != PS_OK) {
         psplat_picture_destroy(picture);
         return result;

@@ -6,7 +6,7 @@
 
 /* Both ways of coding need next to nothing for a flat picture. Small ones are let through whatever the size of
  * their file; of larger ones no real file is this much smaller than its samples. */
-#define SMALL_PICTURE (UINT64_C(64) << 20) /* bytes */
+#define SMALL_PICTURE (UINT64_C(4) << 20) /* bytes */
 #define EXPANSION 4096
 
 static ps_result explain(const struct raster_source *source, VP8StatusCode status,

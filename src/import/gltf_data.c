@@ -75,6 +75,8 @@ static ps_result read_buffer_file(struct gltf *gltf, const struct json_text *uri
         mesh_decode_percent(path);
         result = mesh_files_read(gltf->files, path, &file, error);
     }
+    if (result == PS_OK && file == gltf->file) /* whose bytes are written anew */
+        return complain(error, "a buffer names this file itself");
     if (result == PS_OK)
         *bytes = (struct gltf_bytes){(const unsigned char *)file->bytes, file->length};
     return result;

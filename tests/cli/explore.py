@@ -310,11 +310,12 @@ def test_compares(server):
 
 
 def test_reference(server):
+    os.mkfifo("fifo.exr")
     server.put("view/a", SMALL)
     server.finished()
     check_same(server.json("history"), {"a": [], "b": []}, "no history")
     for value in ({}, {"file": "none.exr"}, {"file": 3}, {"view": "b"}, {"view": "c"}, {"path_tracer": {"samples": 0}},
-                  {"view": "a", "file": "again.exr"}):
+                  {"view": "a", "file": "again.exr"}, {"file": "fifo.exr"}):
         server.put("reference", value, 422)
     check_same(server.json("state")["reference"], None, "no reference")
     server.put("reference", {"view": "a"})
@@ -511,11 +512,16 @@ def test_browser():
         check(not os.path.exists("opened"), "--no-browser opens nothing")
     process = subprocess.Popen([PSPLAT, "explore", "scene.psd"], stdout=subprocess.PIPE, text=True)
     address = process.stdout.readline()
+    page = None
     if wait_for(lambda: os.path.exists("opened"), "the browser"):
         with open("opened") as opened:
-            check_same(opened.read(), address, "what is opened")
+            page = opened.read().strip()
+        with open(page) as opened:
+            check(f"url={address.strip()}" in opened.read(), "what is opened leads to the address")
+        check_same(os.stat(page).st_mode & 0o777, 0o600, "who can read it")
     process.send_signal(signal.SIGINT)
     check_same((process.stdout.read(), process.wait(SLOW)), ("", 0), "output and status")
+    check(page and not os.path.exists(page), "it is gone at the end")
     os.environ["PATH"] = path
     del os.environ["DISPLAY"]
 

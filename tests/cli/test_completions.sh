@@ -51,6 +51,13 @@ offers all -- --bounces ''
 offers direct,indirect -- --layers direct,in
 offers none -- --layers no
 offers front side -- scene.psd --camera ''
+cat >hostile.psd <<'END'
+psd: 1
+cameras:
+  "a $(touch ran)": {location: [0, 0, 1], look_at: [0, 0, 0]}
+  "b\n:files": {location: [1, 0, 0], look_at: [0, 0, 0]}
+END
+offers 'a $(touch ran)' -- hostile.psd --camera ''
 offers lamp= lid= -- scene.psd --param l
 offers -- --param l
 offers -- no.psd --camera ''
@@ -162,6 +169,7 @@ try_all() {
     try 'psplat --output=picture.exr #' 'psplat --output=p'
     try 'psplat two\ words.psd #' 'psplat two'
     try 'psplat scene.psd --camera side #' 'psplat scene.psd --camera s'
+    try 'psplat hostile.psd --camera a\ \$\(touch\ ran\) #' 'psplat hostile.psd --camera a'
     try 'psplat --restrict a\ folder/#' 'psplat --restrict a'
 }
 

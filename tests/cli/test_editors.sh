@@ -37,6 +37,7 @@ cp "$cornell" scene.psd
 printf 'psd: 1\nimgae:   {width: 5}\n' >wrong.psd
 printf '8BPS\001\n' >picture.psd
 printf 'a: 1\n# vim: filetype=yaml\n' >modeline.txt
+printf 'psd: 1\nimage: {width:   5\n' >broken.psd
 cat >try.vim <<'END'
 filetype plugin on
 set modeline
@@ -48,13 +49,17 @@ endfor
 edit wrong.psd
 silent make!
 call extend(lines, map(getqflist(), 'v:val.lnum . ":" . v:val.col . v:val.type . " " . v:val.text'))
-silent normal! gggqG
+silent normal! gqq
 call extend(lines, getline(1, '$'))
+edit! broken.psd
+silent! normal! gqq
+call add(lines, 'broken: ' . join(getline(1, '$'), '|'))
 call writefile(lines, 'log')
 qall!
 END
 last=vim
 timeout 60 vim -es -N -u NONE -i NONE --cmd "set runtimepath^=$PSPLAT_SOURCE/packaging/vim" -S try.vim >out 2>&1 </dev/null
+expect_text log 'broken: psd: 1|image: {width:   5'
 expect_match log '^scene.psd yaml$'
 expect_match log '^new.psd yaml$'
 expect_match log '^picture.psd $'

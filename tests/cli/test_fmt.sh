@@ -54,6 +54,8 @@ done
 # From standard input to standard output.
 "$PSPLAT" fmt - <spoilt >out 2>err || fail "standard input"
 expect_same out once
+# The second finds its end at once.
+"$PSPLAT" fmt - - <spoilt >out 2>err || fail "standard input, twice: $(cat err)"
 "$PSPLAT" fmt --check - <once >out 2>err || fail "standard input, checked"
 expect_empty out
 
