@@ -3,6 +3,8 @@
 
 "$PSPLAT" --help | grep -q '^  explore ' || skip "psplat was built without libmicrohttpd"
 ! is_on PSPLAT_SANITIZE || skip "test_explore.sh asks the server for the same without a browser"
+# 127.0.0.1 is reached by no proxy.
+unset http_proxy HTTP_PROXY all_proxy ALL_PROXY
 command -v python3 >/dev/null || skip "no python3"
 command -v chromium >/dev/null && command -v chromedriver >/dev/null || skip "no chromium or chromedriver"
 

@@ -20,6 +20,8 @@ function pairsOf(state) {
     return views.length === 2 ? [{of: "a", against: "b"}] : [];
 }
 
+const nothing_to_measure = "It takes a second view (Compare) or a reference, and a first pass of each.";
+
 function measure({layer, pairs}) {
     return Promise.all(pairs.map(({of, against}) => server.get(
         `compare?layer=${encodeURIComponent(layer)}&of=${of}&against=${against}`)));
@@ -32,7 +34,9 @@ export class Comparison {
     constructor(elements) {
         this.elements = elements;
         this.state = null;
-        this.metrics = new Feed(measure, (answers, {pairs}) => this.showMetrics(answers, pairs));
+        this.metrics = new Feed(measure, (answers, wanted) => this.showMetrics(answers, wanted),
+            (problem, wanted) => this.showMetrics([], wanted, problem.message));
+        this.measured = null; // the layer and pairs that the table is of
         this.history = new Feed(() => server.get("history"), (answer) => this.showHistory(answer));
         this.listen();
         new ResizeObserver(() => this.last_history && this.showHistory(this.last_history)).observe(elements.plot);
@@ -85,17 +89,25 @@ export class Comparison {
         metrics_caption.textContent = `${reference ? "Against the reference" : "A against B"}: ${layer}`;
         const pairs = pairsOf(state), numbers = [a.picture, b?.picture, reference?.picture];
         if (pairs.length > 0)
-            this.metrics.want({layer, pairs, numbers});
+            this.wantMetrics({layer, pairs, numbers});
         else
-            this.showMetrics([], []);
+            this.showMetrics([], {layer, pairs});
         if (reference)
             this.history.want({serial: state.serial});
         else
             this.showHistory({a: [], b: []});
     }
 
-    // One column for each pair.
-    showMetrics(answers, pairs) {
+    // Numbers of another layer, or of other pairs, are gone before the new ones are there.
+    wantMetrics(wanted) {
+        if (this.measured !== JSON.stringify([wanted.layer, wanted.pairs]))
+            this.showMetrics([], wanted, "Measuring.");
+        this.metrics.want(wanted);
+    }
+
+    // One column for each pair; `message` says why there are none.
+    showMetrics(answers, {layer, pairs}, message = nothing_to_measure) {
+        this.measured = JSON.stringify([layer, pairs]);
         const {metrics: table, metrics_empty} = this.elements;
         const head = make("tr", {}, make("td"), ...pairs.map(({of, against}) => make("th", {scope: "col", class: of},
             against === "reference" ? of.toUpperCase() : "A, B")));
@@ -105,6 +117,7 @@ export class Comparison {
             ...answers.map(({metrics}) => metrics[i].value).map(
                 (value) => make("td", {}, value === null ? "–" : short(value)))));
         table.replaceChildren(...rows.length > 0 ? [head, ...rows] : []);
+        metrics_empty.textContent = message;
         metrics_empty.hidden = rows.length > 0;
     }
 

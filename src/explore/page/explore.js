@@ -102,7 +102,7 @@ function showLegend() {
 // What is wrong: a heading and the message, or null.
 function problemOf() {
     if (is_lost)
-        return ["The program does not answer.", "It has ended, or is about to start again. " +
+        return ["The program does not answer.", "It has ended: start it again, and open the address that it prints. " +
             "The command line below has the settings."];
     if (state.scene_error)
         return withPlace("The scene has an error; the picture is from before.", state.scene_error);
@@ -163,8 +163,10 @@ function showCompared() {
 }
 
 function showSettings() {
-    if (look.edited === "b" && !state.views.b)
+    if (look.edited === "b" && !state.views.b) {
+        settings.drop();
         edit("a");
+    }
     const view = state.views[look.edited];
     by_id("settings-title").textContent = state.views.b ? "settings" : "Settings";
     settings.show(view);
@@ -210,6 +212,8 @@ async function readCatalogue() {
 
 async function toggleCompare() {
     const {a, b} = state.views;
+    if (b && look.edited === "b")
+        settings.drop();
     try {
         turns_to_b = !b;
         await (b ? server.remove("view/b") : server.put("view/b", {options: a.options, passes: a.passes_wanted}));

@@ -2,10 +2,12 @@
 // what is wanted meanwhile, the last is fetched next: a slow browser skips pictures, and falls behind by one at most.
 
 export class Feed {
-    // fetch(wanted) returns a promise; arrived(value, wanted) is called with what it gives.
-    constructor(fetch, arrived) {
+    // fetch(wanted) returns a promise; arrived(value, wanted) is called with what it gives, failed(problem, wanted) where it
+    // gives nothing.
+    constructor(fetch, arrived, failed = () => {}) {
         this.fetch = fetch;
         this.arrived = arrived;
+        this.failed = failed;
         this.key = null;
         this.next = null;
         this.busy = false;
@@ -41,6 +43,8 @@ export class Feed {
             } catch (problem) {
                 // The program is gone, or what was asked for is. It is not asked for again; the next state tells more.
                 console.warn(`${JSON.stringify(wanted)}: ${problem.message}`);
+                if (this.key !== null)
+                    this.failed(problem, wanted);
             }
         }
         this.busy = false;

@@ -59,6 +59,11 @@ function stageText(view) {
     return `${view.preview ? "preview, " : ""}${passes} · ${seconds(view.seconds)} · ${seconds(view.cpu_seconds)} CPU`;
 }
 
+// What a map is of, but for the numbers of the pictures.
+function pairText({layer, of, against}) {
+    return [layer, of, against].join(" ");
+}
+
 export class Panes {
     // look: what this page shows, {layer, exposure, mode, split}; told(name) what of it the pointer changes.
     constructor(look, told) {
@@ -74,11 +79,18 @@ export class Panes {
         this.map_feed = new Feed(
             ({layer, of, against}) => server.getPicture(
                 `compare_map?layer=${encodeURIComponent(layer)}&of=${of}&against=${against}&metric=flip`),
-            (map) => {
+            (map, wanted) => {
                 this.map = map;
                 this.map_image = map && canvasOf(paintMap(map), this.map_image);
+                this.map_is = {of: pairText(wanted), refusal: null};
+                this.draw();
+            },
+            (problem, wanted) => {
+                this.map = null;
+                this.map_is = {of: pairText(wanted), refusal: problem.message};
                 this.draw();
             });
+        this.map_is = {of: null, refusal: null};
         this.figures = {};
         this.captions = {};
         this.viewports = {};
@@ -214,12 +226,25 @@ export class Panes {
         const {a, b} = this.shown, mode = this.mode(), exposure = this.look.exposure;
         let images = [];
         if (mode === "difference" || this.showsMap())
-            images = [this.showsMap() ? this.map && this.map_image : this.difference()].filter(Boolean);
+            images = [this.showsMap() ? this.presentMap() : this.difference()].filter(Boolean);
         else if (a.picture)
             images = mode === "slider" && b.picture ? [a.paint(exposure), b.paint(exposure)] : [a.paint(exposure)];
         this.viewports.a.show(images, this.frame(), this.look.split);
         if (mode === "side")
             this.viewports.b.show(b.picture ? [b.paint(exposure)] : [], this.frame("b"), 0.5);
+    }
+
+    // The map of what is compared now; null where it is one of something else.
+    presentMap() {
+        const {of, against, ready} = this.compared();
+        return ready && this.map && this.map_is.of === pairText({layer: this.look.layer, of, against})
+            ? this.map_image : null;
+    }
+
+    flipText() {
+        if (!this.compared().ready)
+            return "FLIP is drawn after the first pass.";
+        return this.map_is.refusal ?? "FLIP: how much an eye notices when it flips between the two";
     }
 
     // The ends of the difference's colours, which the exposure moves.
@@ -241,8 +266,7 @@ export class Panes {
     legend() {
         const mode = this.mode();
         if (this.showsMap())
-            return {table: magma_table, low: "0", high: "1", text: this.compared().ready ?
-                "FLIP: how much an eye notices when it flips between the two" : "FLIP is drawn after the first pass."};
+            return {table: magma_table, low: "0", high: "1", text: this.flipText()};
         if (mode !== "difference")
             return null;
         if (this.frame("a").width !== this.frame("b").width || this.frame("a").height !== this.frame("b").height)

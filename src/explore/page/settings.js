@@ -109,6 +109,7 @@ export class Settings {
         this.view = null;
         this.wanted = null; // what was asked for, until the state has it: {list, passes, control}
         this.timer = null;
+        this.sent = Promise.resolve(); // all that was sent, one after the other
         this.parts = [];
         this.failed = null;
     }
@@ -182,12 +183,27 @@ export class Settings {
         this.timer = setTimeout(() => this.sendNow(), delay);
     }
 
-    async sendNow() {
+    // What is asked for and not yet sent is forgotten: its view is gone.
+    drop() {
         clearTimeout(this.timer);
         this.timer = null;
-        const wanted = this.wanted;
+        this.wanted = null;
+    }
+
+    sendNow() {
+        const wanted = this.wanted, send = this.send;
+        clearTimeout(this.timer);
+        this.timer = null;
+        this.sent = this.sent.then(() => this.sendOne(send, wanted));
+    }
+
+    // Requests that overtake each other would leave an older list; so each waits for the one before, and what a newer list
+    // of the same view holds as well is left out.
+    async sendOne(send, wanted) {
+        if (this.send === send && this.wanted && this.wanted !== wanted && this.timer === null)
+            return;
         try {
-            await this.send(wanted.list, wanted.passes);
+            await send(wanted.list, wanted.passes);
             if (this.wanted !== wanted)
                 return; // changed meanwhile
             this.view = {...this.view, options: wanted.list, passes_wanted: wanted.passes};
