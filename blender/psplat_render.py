@@ -33,6 +33,7 @@ import signal
 import struct
 import subprocess
 import tempfile
+import traceback
 import urllib.parse
 import zlib
 
@@ -286,6 +287,15 @@ class Exporter:
             self.said.add(text)
             self.warn_user(text)
 
+    def is_finite(self, name, numbers):
+        """Whether numbers, in dicts and lists, are finite. Else warns that what has that name is left out."""
+        try:
+            json.dumps(numbers, allow_nan=False)
+        except ValueError:
+            self.warn(f"{name} is left out: it has numbers that are not finite")
+            return False
+        return True
+
     def write(self, view):
         """Writes scene.psd and the files that it names, and makes `digest` that of all."""
         if self.scene.render.use_motion_blur:
@@ -296,7 +306,7 @@ class Exporter:
                        "image": {"width": view.width, "height": view.height},
                        "lights": self.lights, "materials": self.materials}
         description["groups"], description["objects"] = self.place_meshes()
-        text = json.dumps(description, indent=1, ensure_ascii=False)
+        text = json.dumps(description, indent=1, ensure_ascii=False, allow_nan=False)
         with open(os.path.join(self.folder, "scene.psd"), "w", encoding="utf-8") as file:
             file.write(text + "\n")
         self.digest.update(text.encode())
@@ -309,13 +319,15 @@ class Exporter:
             if not instance.show_self:
                 continue
             if found.type == 'LIGHT':
-                self.take_light(found.data, instance.matrix_world, found.visible_camera)
+                self.take_light(found, instance.matrix_world)
             elif found.type in {'MESH', 'CURVE', 'SURFACE', 'META', 'FONT'}:
                 self.take_mesh(found, instance.matrix_world)
             elif found.type in {'CURVES', 'POINTCLOUD', 'VOLUME', 'GPENCIL'}:
                 self.warn(f"{found.name}: psplat does not render objects of the kind {found.type.lower()}")
 
     def take_mesh(self, found, matrix):
+        if not self.is_finite(found.name, upright_matrix(matrix)):
+            return
         slots = [slot.material for slot in found.material_slots] or [None]
         # What is flattened has no inverse, and psplat wants one of each placement.
         flat = matrix.copy() if abs(matrix.determinant()) <= 1e-6 * matrix.median_scale ** 3 else None
@@ -334,6 +346,8 @@ class Exporter:
                 return None
             if flat:
                 mesh.transform(flat)
+            if not self.has_finite_corners(found.name, mesh):
+                return None
             mesh.calc_normals_split()
             normals = numpy.empty(len(mesh.loops) * 3, numpy.float32)
             mesh.loops.foreach_get("normal", normals)
@@ -343,12 +357,21 @@ class Exporter:
                 if material["colors"] is not None and not color_layer(mesh, material["colors"]):
                     self.warn(f"{found.name}: no color attribute '{material['colors']}' for {material['name']}: it is white")
             if not write_glb(os.path.join(self.folder, file), mesh, normals, materials):
+                self.warn(f"{found.name} is left out: none of its faces has an area")
                 return None
         finally:
             found.to_mesh_clear()
         self.take_file(file)
         entry = {"file": file, "materials": {name: name for name in names if name not in self.gltf}}
         return entry if found.visible_camera else {**entry, "camera": False}
+
+    def has_finite_corners(self, name, mesh):
+        vertices = numpy.empty(len(mesh.vertices) * 3, numpy.float32)
+        mesh.vertices.foreach_get("co", vertices)
+        uv = numpy.empty(len(mesh.loops) * 2 if mesh.uv_layers.active else 0, numpy.float32)
+        if len(uv):
+            mesh.uv_layers.active.data.foreach_get("uv", uv)
+        return self.is_finite(name, [float(vertices.sum(dtype=float)), float(uv.sum(dtype=float))])
 
     def place_meshes(self):
         """Groups and objects: a mesh that stands in several places is a group."""
@@ -368,7 +391,16 @@ class Exporter:
 
     # --- lights ---
 
-    def take_light(self, light, matrix, visible):
+    def take_light(self, found, matrix):
+        light, visible, known = found.data, found.visible_camera, len(self.lights)
+        if light.type != 'POINT' and matrix.col[2].xyz.length == 0:
+            self.warn(f"{found.name} is left out: it is scaled to nothing, and shines in no direction")
+            return
+        self.add_light(light, matrix, visible)
+        if not self.is_finite(found.name, self.lights[known:]):
+            del self.lights[known:]
+
+    def add_light(self, light, matrix, visible):
         color = [light.color[i] * light.energy for i in range(3)]
         if light.use_nodes:
             color = scaled(color, self.light_nodes(light))
@@ -417,6 +449,7 @@ class Exporter:
         across, along = matrix.col[0].xyz * (light.size / 2), matrix.col[1].xyz * (height / 2)
         area = 4 * across.cross(along).length
         if area == 0:
+            self.warn(f"{light.name} is left out: it has no area")
             return
         middle, color = matrix.translation, within(scaled(color, math.pi / 4), math.inf)
         if light.shape in {'SQUARE', 'RECTANGLE'} and abs(across.dot(along)) < 1e-5 * area:
@@ -444,7 +477,7 @@ class Exporter:
             sky = self.background(world, node_of(output.inputs["Surface"]))
         if self.scene.render.film_transparent:
             sky["visible"] = False
-        if not is_black(sky["radiance"]):
+        if not is_black(sky["radiance"]) and self.is_finite(world.name, sky):
             self.lights.append({"sky": sky})
 
     def background(self, world, found):
@@ -482,6 +515,9 @@ class Exporter:
         elif found:
             self.warn(f"{self.owner}: {socket.name} of {socket.node.name}: {found[0].name} is left out; "
                       "the value of the socket counts")
+        if not self.is_finite(f"{self.owner}: {socket.name} of {socket.node.name}",
+                              value if isinstance(value, (int, float)) else list(value)):
+            return 0.0
         return float(value) if isinstance(value, (int, float)) else [float(number) for number in value[:3]]
 
     def value(self, socket):
@@ -880,6 +916,8 @@ class View:
     def description(self, camera, warn):
         data, matrix = camera.data, camera.matrix_world.normalized()
         location, forward = matrix.translation, -matrix.col[2].xyz
+        if not math.isfinite(sum(location) + sum(forward)) or forward.length == 0:
+            raise RenderError(f"{camera.name}: its place is not finite, or it is scaled to nothing")
         focus = data.dof.focus_distance
         if data.dof.focus_object:
             focus = (data.dof.focus_object.matrix_world.translation - location).dot(forward)
@@ -915,6 +953,9 @@ PASSES = {
 SWITCHES = {"Depth": "use_pass_z", "Normal": "use_pass_normal", "Position": "use_pass_position"}
 LETTERS = {'COLOR': "RGB", 'VECTOR': "XYZ", 'VALUE': "X"}
 
+# Options of psplat that are not the user's: they say what the add-on reads.
+OWN_OPTIONS = {"--output", "--layers", "--compression", "--progress", "--size", "--crop", "--preview", "--help", "--version"}
+
 
 class RenderError(Exception):
     """What the user is told of a render that failed."""
@@ -938,21 +979,34 @@ def wanted_passes(scene, layer):
             if (getattr(layer, SWITCHES[name]) if name in SWITCHES else name.upper() in scene.psplat.layers)]
 
 
+def progress_of(line):
+    """What a line says of psplat's progress, or None: plugins may print other things."""
+    try:
+        report = json.loads(line)
+    except ValueError:
+        return None
+    return report if isinstance(report, dict) and report.keys() >= {"stage", "fraction", "bytes"} else None
+
+
 class Job:
     """One run of psplat in `folder`, which holds the scene. `tick(report)` is called several times a second, with what psplat
     last said of its progress or None; where it returns True, psplat is to stop with the picture so far."""
 
     def __init__(self, folder, options):
         self.picture = os.path.join(folder, "picture.exr")
-        self.words = [program(), "render", "scene.psd", "--output", "picture.exr", "--compression", "none",
-                      "--progress", "json", *options]
+        self.words = [program(), "render", "scene.psd", *options, "--output", "picture.exr", "--compression", "none",
+                      "--progress", "json"]
         self.folder, self.messages = folder, []
 
     def run(self, tick):
-        """Returns whether the picture is whole, and not that of a render that was stopped."""
+        """Returns whether the picture is whole, and not that of a render that was stopped.
+
+        psplat has a session of its own: ^C in a terminal would reach it beside the signal that `watch` sends, and the second ends
+        it at once. Where Blender is killed, psplat ends at its next line of progress, whose pipe is then broken.
+        """
         try:
             process = subprocess.Popen(self.words, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                       stderr=subprocess.PIPE)
+                                       stderr=subprocess.PIPE, start_new_session=True)
         except OSError as error:
             raise RenderError(f"psplat can't be run: {error}; its path is in the add-on's preferences") from error
         try:
@@ -964,10 +1018,12 @@ class Job:
                 process.wait()
             process.stdout.close()
             process.stderr.close()
-        stopped = stopped or status in (130, 143)  # ^C in a terminal reaches psplat as well
+        stopped = stopped or status in (130, 143)  # by somebody else
         if status != 0 and not stopped:
             errors = [line for line in self.messages if "error:" in line] or self.messages[-3:]
             raise RenderError("\n".join(errors) or f"psplat ended with status {status}")
+        if status == 0 and not os.path.isfile(self.picture):
+            raise RenderError("psplat ended without a picture")
         return status == 0 and not stopped
 
     def watch(self, process, tick):
@@ -984,8 +1040,8 @@ class Job:
                     lines = [line.decode(errors="replace") for line in lines]
                     if key.fileobj is process.stderr:
                         self.messages += lines
-                    elif lines:
-                        report = json.loads(lines[-1])
+                    else:
+                        report = next(filter(None, map(progress_of, reversed(lines))), report)
                     if not data:
                         selector.unregister(key.fileobj)
                 if tick(report) and not stopped:
@@ -1001,15 +1057,29 @@ class Frames:
     def __init__(self, folder):
         self.folder, self.state = folder, os.path.join(folder, "state.json")
 
+    @staticmethod
+    def place(scene, layer):
+        """The folders of a frame: of its scene, its layer, and itself. Names that differ have folders that do."""
+        names = (urllib.parse.quote(name, safe="").replace(".", "%2E") for name in (scene.name_full, layer.name))
+        part = f"{scene.frame_subframe:.4f}"[1:] if scene.frame_subframe else ""
+        return (*names, f"{scene.frame_current:04d}{part}")
+
     def prepare(self, digest):
-        """Returns whether the picture is there. Else what belongs to another digest is removed."""
+        """Returns whether the picture is there. Else what belongs to another digest, or is damaged, is removed."""
         try:
             with open(self.state, encoding="utf-8") as file:
                 state = json.load(file)
         except (OSError, ValueError):
-            state = {}
-        if state.get("digest") == digest:
-            return state.get("whole") is True and os.path.isfile(os.path.join(self.folder, "picture.exr"))
+            state = None
+        if isinstance(state, dict) and state.get("digest") == digest:
+            try:
+                read_exr(os.path.join(self.folder, "picture.exr"))
+                return state.get("whole") is True
+            except FileNotFoundError:
+                self.write(digest, False)
+                return False
+            except (OSError, ValueError, LookupError, struct.error):
+                pass
         for name in ("picture.exr", "film.exr"):
             if os.path.exists(os.path.join(self.folder, name)):
                 os.remove(os.path.join(self.folder, name))
@@ -1047,9 +1117,13 @@ class PsplatEngine(bpy.types.RenderEngine):
     def render(self, depsgraph):
         try:
             self.render_layer(depsgraph)
-        except RenderError as error:
-            self.report({'ERROR'}, str(error))
-            self.error_set(str(error))
+        except Exception as error:  # Blender takes any that leaves here for a render that went well
+            text = str(error)
+            if not isinstance(error, RenderError):
+                traceback.print_exc()
+                text = f"the add-on failed: {type(error).__name__}: {error}; the console has more"
+            self.report({'ERROR'}, text)
+            self.error_set(text)
 
     def render_layer(self, depsgraph):
         scene = depsgraph.scene_eval
@@ -1058,8 +1132,7 @@ class PsplatEngine(bpy.types.RenderEngine):
             with tempfile.TemporaryDirectory(prefix="psplat-") as folder:
                 self.render_in(depsgraph, folder, None)
             return
-        layer = bpy.path.clean_name(depsgraph.view_layer_eval.name)
-        folder = os.path.join(kept, f"{layer}-{scene.frame_current:04d}")
+        folder = os.path.join(kept, *Frames.place(scene, depsgraph.view_layer_eval))
         try:
             os.makedirs(folder, exist_ok=True)
         except OSError as error:
@@ -1072,7 +1145,7 @@ class PsplatEngine(bpy.types.RenderEngine):
         view, exporter = View(scene), Exporter(depsgraph, folder, lambda text: self.report({'WARNING'}, text))
         exporter.write(view)
         passes = wanted_passes(scene, layer)
-        options = view.options() + self.options(scene, passes)
+        options = self.options(scene, passes) + view.options()
         whole, digest = False, None
         if frames:
             exporter.digest.update(json.dumps([options, ask("--version")]).encode())
@@ -1106,7 +1179,7 @@ class PsplatEngine(bpy.types.RenderEngine):
             layers.add("Z")
         if "Depth" in passes:
             layers.add("P")
-        options = ["--layers", ",".join(sorted(layers)) or "none", "--quality", settings.quality.lower()]
+        options = ["--quality", settings.quality.lower()]
         for key in ("passes", "bounces", "seed"):
             if getattr(settings, key):
                 options += [f"--{key}", str(getattr(settings, key))]
@@ -1121,9 +1194,13 @@ class PsplatEngine(bpy.types.RenderEngine):
             options += ["--threads", str(scene.render.threads)]
         options += ["--write-every", "2s"]
         try:
-            return options + shlex.split(settings.options)
+            words = shlex.split(settings.options)
         except ValueError as error:
             raise RenderError(f"Options: {error}") from error
+        for word in words:
+            if word.split("=")[0] in OWN_OPTIONS or re.match("-q*[oh]", word):
+                raise RenderError(f"Options: {word} is set by the add-on")
+        return options + words + ["--layers", ",".join(sorted(layers)) or "none"]
 
     def ticker(self, job, result, view, scene, passes):
         """The function that a job calls: shows progress, and the pictures on the way."""
@@ -1153,6 +1230,8 @@ class PsplatEngine(bpy.types.RenderEngine):
     def show(self, path, result, view, scene, passes):
         """Hands the layers of a picture to Blender."""
         channels = read_exr(path)
+        if channels["R"].shape != tuple(view.part[::-1]):
+            raise RenderError("psplat's picture has another size than Blender's: what sets it among Options?")
         black = numpy.zeros(view.part[::-1], numpy.float32)
         alpha = black + 1
         if scene.render.film_transparent:

@@ -3,8 +3,10 @@
 blender -b --factory-startup --python-exit-code 1 --python check.py -- FOLDER
 """
 
+import math
 import os
 import sys
+from types import SimpleNamespace
 
 import addon_utils
 import bpy
@@ -96,6 +98,9 @@ def check_transparency_and_region():
 
 def check_errors():
     expect("'z'" in error_of(prepare(options="--passes z")), "psplat's errors are told")
+    for options in ("--size 9x9", "--help", "--layers=none", "-qo x.exr"):
+        expect("set by the add-on" in error_of(prepare(options=options)), f"{options} is refused")
+    expect("another size" in error_of(prepare(options=FAST + " --set image.width=20")), "another size is told")
     expect("No closing quotation" in error_of(prepare(options='"')), "a quote that is left open is told")
     scene = prepare()
     scene.camera = None
@@ -103,7 +108,17 @@ def check_errors():
     scene = prepare()
     bpy.context.preferences.addons["psplat_render"].preferences.program = "/nowhere/psplat"
     expect("/nowhere/psplat" in error_of(scene), "a program that is not there is told")
+    bpy.context.preferences.addons["psplat_render"].preferences.program = "/bin/true"
+    expect("without a picture" in error_of(scene), "a program that writes nothing is told")
     bpy.context.preferences.addons["psplat_render"].preferences.program = ""
+    take_world, psplat_render.Exporter.take_world = psplat_render.Exporter.take_world, None
+    expect("NoneType" in error_of(scene), "a fault of the add-on is an error")
+    psplat_render.Exporter.take_world = take_world
+    scene.camera.scale = 0, 0, 0
+    expect(scene.camera.name in error_of(scene), "a camera that looks nowhere is told by its name")
+    scene.camera.scale = 1, 1, 1
+    expect(psplat_render.progress_of("[1]") is None and psplat_render.progress_of("hello") is None,
+           "other lines than progress are passed over")
     expect(error_of(scene) == "", "after errors a render is a render")
 
 
@@ -126,7 +141,7 @@ def check_frames():
     box.location.x = -0.6
     box.keyframe_insert("location", frame=2)
     scene.render.filepath = os.path.join(FOLDER, "animation-")
-    pictures = [os.path.join(kept, f"ViewLayer-{frame:04d}", "picture.exr") for frame in (1, 2)]
+    pictures = [os.path.join(kept, "Scene", "ViewLayer", f"{frame:04d}", "picture.exr") for frame in (1, 2)]
 
     def times():
         bpy.ops.render.render(animation=True)
@@ -144,6 +159,16 @@ def check_frames():
     os.remove(os.path.join(os.path.dirname(pictures[1]), "picture.exr"))
     bpy.ops.render.render(animation=True)
     expect(all(map(os.path.isfile, pictures)), "frames that are not whole are made whole")
+    os.truncate(pictures[0], 5000)
+    with open(os.path.join(os.path.dirname(pictures[1]), "state.json"), "w", encoding="utf-8") as file:
+        file.write("[1]")
+    bpy.ops.render.render(animation=True)
+    expect(len(psplat_render.read_exr(pictures[0])["G"]) == 36, "a damaged picture is made anew")
+    names = [("a", "b"), ("a/b", "c"), ("a:b", "c"), ("..", "c"), ("a", "B/.")]
+    places = [psplat_render.Frames.place(SimpleNamespace(name_full=one, frame_current=1, frame_subframe=part),
+                                         SimpleNamespace(name=other)) for one, other in names for part in (0, 0.5)]
+    expect(len(set(places)) == 10 and places[1] == ("a", "b", "0001.5000"), "frames have folders of their own")
+    expect(all(".." not in place for place in places), "frames stay in their folder")
 
 
 def check_unknown():
@@ -158,6 +183,12 @@ def check_unknown():
         scenes.add("Line", scenes.mesh("Line", [(0, 0, 1), (1, 0, 1), (2, 0, 1)], [(0, 1, 2)], None))
         scenes.add("Nothing", bpy.data.meshes.new("Nothing"))
         scenes.light('AREA', (0, 0, 2)).scale.x = 0
+        scenes.light('SUN', (0, 0, 2)).scale = 0, 0, 0
+        scenes.light('POINT', (math.nan, 0, 2)).name = "Nowhere"
+        scenes.add("Far", scenes.cube("Far", 0.2, None), (0, 0, math.nan))
+        hole = scenes.cube("Hole", 0.2, None)
+        hole.vertices[0].co.x = math.nan
+        scenes.add("Hole", hole)
     expect(error_of(prepare(build)) == "", "what psplat does not know, or has no extent, is left out")
 
 

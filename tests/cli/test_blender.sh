@@ -5,7 +5,12 @@
 command -v blender >blender_path || skip "no blender"
 # The leak checker would look through each of many runs, and Blender is not ours.
 is_on PSPLAT_SANITIZE && skip "Blender runs psplat as others do, without sanitizers"
-ln -s "$PSPLAT" psplat
+cat >psplat <<END
+#!/bin/sh
+echo \$\$ >'$PWD/psplat_process'
+exec '$PSPLAT' "\$@"
+END
+chmod +x psplat
 PATH=$PWD:$PATH
 mkdir -p scripts/addons pictures
 cp "$PSPLAT_SOURCE/blender/psplat_render.py" scripts/addons
@@ -35,6 +40,10 @@ grep -q '^Blender 3\.4' out || skip "$(head -n 1 out), and not Blender 3.4"
 
 blender_python check.py pictures
 expect_text out "Warning: Velvet: Velvet BSDF: psplat does not know this shader; it counts as grey"
+for name in Nowhere Far Hole; do
+    expect_text out "Warning: $name is left out: it has numbers that are not finite"
+done
+expect_text out "Warning: Line is left out: none of its faces has an area"
 
 # --- the scenes ---
 
@@ -46,29 +55,44 @@ grep '^SCENE' out
 
 # --- interrupts ---
 
+frame=kept/Scene/ViewLayer/0001
+
 # passes_of FILE KEY: how many passes a picture or a film says that it has, or 0.
 passes_of() {
-    "$PSPLAT" info "kept/ViewLayer-0001/$1" 2>/dev/null | sed -n "s/^psplat.$2//p" | grep . || echo 0
+    "$PSPLAT" info "$frame/$1" 2>/dev/null | sed -n "s/^psplat.$2//p" | grep . || echo 0
 }
 
-# interrupt PASSES: starts Blender, lets it write a picture of more than so many passes, and presses ^C.
+# interrupt SIGNAL PASSES: starts Blender in a session of its own, as a terminal does, lets it write a picture of more than so
+# many passes, and sends the signal to all of the session. ^C is INT.
 interrupt() {
-    blender -b --factory-startup --python "$PSPLAT_SOURCE/tests/blender/stop.py" -- "$PWD/kept" >log 2>&1 </dev/null &
+    setsid blender -b --factory-startup --python "$PSPLAT_SOURCE/tests/blender/stop.py" -- "$PWD/kept" >log 2>&1 </dev/null &
     blender=$!
     for _ in $(seq 1200); do
-        [ "$(passes_of picture.exr 'passes: ')" -le "$1" ] || break
+        [ "$(passes_of picture.exr 'passes: ')" -le "$2" ] || break
         sleep 0.1
     done
-    kill -INT $blender
-    wait $blender
-    expect_picture kept/ViewLayer-0001/picture.exr kept/ViewLayer-0001/film.exr
-    expect_text kept/ViewLayer-0001/state.json '"whole": false'
+    kill -s "$1" -- -$blender
+    wait $blender 2>/dev/null
 }
 
-interrupt 0
+# stop PASSES: ^C leaves a picture, and a film to go on with.
+stop() {
+    interrupt INT "$1"
+    expect_picture $frame/picture.exr $frame/film.exr
+    expect_text $frame/state.json '"whole": false'
+}
+
+stop 0
 first=$(passes_of film.exr 'pass_set: 0:')
-interrupt "$first"
+stop "$first"
 second=$(passes_of film.exr 'pass_set: 0:')
 [ "$first" -ge 1 ] && [ "$second" -gt "$first" ] || fail "a film of $first passes went on to $second"
+
+interrupt KILL "$second"
+for _ in $(seq 200); do
+    kill -0 "$(cat psplat_process)" 2>/dev/null || break
+    sleep 0.1
+done
+kill -KILL "$(cat psplat_process)" 2>/dev/null && fail "psplat goes on where Blender was killed"
 
 finish
