@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define CHANNELS_AT_MOST 4
-#define DISPLAY_TO_DATA 256
+#define DISPLAY_TO_DATA 16
 
 static const char *const wanted_channels[] = {"A", "B", "G", "R", "Y", NULL};
 

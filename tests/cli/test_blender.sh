@@ -84,6 +84,7 @@ stop() {
 
 stop 0
 first=$(passes_of film.exr 'pass_set: 0:')
+[ "${first:-0}" -ge 1 ] || { fail "no film after the first stop"; finish; }
 stop "$first"
 second=$(passes_of film.exr 'pass_set: 0:')
 [ "$first" -ge 1 ] && [ "$second" -gt "$first" ] || fail "a film of $first passes went on to $second"
