@@ -198,9 +198,8 @@ static ps_result set_camera(struct image *image, const struct camera *camera, st
     struct camera copy = *camera;
     float *numbers[CAMERA_NUMBERS];
     camera_numbers(&copy, numbers);
-    return set_floats(image, "psplat.camera",
-                      camera->orthographic ? "orthographic" : "perspective", numbers,
-                      CAMERA_NUMBERS, error);
+    return set_floats(image, "psplat.camera", camera->orthographic ? "orthographic" : "perspective",
+                      numbers, CAMERA_NUMBERS, error);
 }
 
 static ps_result set_bounds(struct image *image, const struct scene *scene, struct error *error)
