@@ -44,6 +44,13 @@ static struct view *paths_of(struct explorer *explorer)
     return &explorer->views[VIEW_REFERENCE];
 }
 
+/* Nothing is measured by a reference that is not there. */
+static void forget_errors(struct explorer *explorer)
+{
+    for (size_t i = 0; i < VIEW_COUNT; i++)
+        history_forget_errors(&explorer->views[i].history);
+}
+
 /* False when out of memory. */
 static bool start_paths(struct explorer *explorer, uint32_t samples)
 {
@@ -59,6 +66,7 @@ static bool start_paths(struct explorer *explorer, uint32_t samples)
     view->is_present = true;
     view_clear(view);
     view_change(view);
+    forget_errors(explorer);
     return true;
 }
 
@@ -75,13 +83,6 @@ void reference_follow(struct explorer *explorer)
 }
 
 /* --- putting and deleting ---------------------------------------------------------------------------- */
-
-/* Nothing is measured by a reference that is not there. */
-static void forget_errors(struct explorer *explorer)
-{
-    for (size_t i = 0; i < VIEW_COUNT; i++)
-        history_forget_errors(&explorer->views[i].history);
-}
 
 /* Without a reference. */
 static void drop(struct explorer *explorer)

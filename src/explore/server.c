@@ -85,6 +85,8 @@ static unsigned body_refusal(struct MHD_Connection *connection, size_t *length)
     if (errno != 0 || *end != '\0' || bytes > MOST_BODY_BYTES)
         return MHD_HTTP_CONTENT_TOO_LARGE;
     *length = (size_t)bytes;
+    if (bytes == 0)
+        return 0;
     return is_json(header(connection, "Content-Type")) ? 0 : MHD_HTTP_UNSUPPORTED_MEDIA_TYPE;
 }
 
