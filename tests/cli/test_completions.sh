@@ -116,6 +116,10 @@ command -v python3 >/dev/null || {
     echo "no python3: the shells are not tried"
     finish
 }
+python3 -c 'import pty; pty.openpty()' 2>/dev/null || {
+    echo "no pseudo-terminals: the shells are not tried"
+    finish
+}
 cat >type.py <<'END'
 """type.py TEXT SHELL...: types TEXT and a tab into an interactive shell, and prints the line that this makes."""
 import os, pty, re, select, sys, time
