@@ -285,13 +285,15 @@ static void declare(struct pov_reader *reader, const struct pov_token *token)
         element = pov_element(reader, &name, place);
         element = element == place ? NULL : element;
     }
+    struct pov_array *array =
+        element ? place->array : NULL; /* a macro in the value may make the name another thing */
     pov_expect(reader, '=');
     struct pov_value value = read_declared_value(reader);
     if (reader->stopped || value.kind == POV_VALUE_NONE)
         return;
     if (element) {
         *element = value;
-        place->array->held = value.kind;
+        array->held = value.kind;
     } else {
         bool known = place && (!local || pov_is_own(reader, name.word));
         place = known ? pov_lookup(reader, name.word) : pov_bind(reader, name.word, local, NULL);

@@ -195,14 +195,16 @@ static double read_dimensions(struct pov_reader *reader, const struct pov_token 
         pov_unexpected(reader, &name, "the name of an array");
         return 0.0;
     }
-    result = value->array->dimensions;
+    const struct pov_array *array =
+        value->array; /* as it is now: a macro in what follows may make the name another thing */
+    result = array->dimensions;
     if (token->word == POV_dimension_size) {
         pov_expect(reader, ',');
         double i = pov_read_float(reader);
         if (!(i >= 1.0 && i <= result))
             pov_error(reader, token, "dimension_size: the array has %g dimensions", result);
         else
-            result = (double)value->array->sizes[(int)i - 1];
+            result = (double)array->sizes[(int)i - 1];
     }
     pov_expect(reader, ')');
     return result;
