@@ -50,7 +50,7 @@ struct render {
     struct film_sum
         *sum; /* of the passes; NULL where there is one pass, which the film itself holds */
     struct film_sum own_sum; /* where the caller has none; owned */
-    bool unfinished;    /* the film holds a pass without its indirect light, or without smooth edges */
+    bool unfinished; /* the film holds a pass without its indirect light, or without smooth edges */
     double dark_pixels; /* of the last picture: without weight */
     bool *edges;        /* pixels that take several samples (edges.h), owned; NULL: none does */
     struct photon_stream photons;
