@@ -24,20 +24,21 @@ struct line {
     const struct option *pending; /* the option whose value the last word is, or NULL */
 };
 
-static bool has_control_character(const char *word)
+/* The length up to the first control character, which would end a line or a column. */
+static size_t printable_length(const char *text)
 {
-    bool has = false;
-    for (; *word; word++)
-        has |= (unsigned char)*word < 0x20 || *word == 0x7f;
-    return has;
+    size_t length = 0;
+    while ((unsigned char)text[length] >= 0x20 && text[length] != 0x7f)
+        length++;
+    return length;
 }
 
 void candidate_print(const struct prefix *prefix, const char *word, const char *help, bool goes_on)
 {
-    if (has_control_character(word))
-        return; /* it would be another line, or column */
-    if (strncmp(word, prefix->typed, strlen(prefix->typed)) == 0)
-        printf("%s%s\t%s\t%s\n", prefix->before, word, goes_on ? "+" : "-", help);
+    if (word[printable_length(word)] == '\0' &&
+        strncmp(word, prefix->typed, strlen(prefix->typed)) == 0)
+        printf("%s%s\t%s\t%.*s\n", prefix->before, word, goes_on ? "+" : "-",
+               (int)printable_length(help), help);
 }
 
 /* --- values by their form ----------------------------------------------------------------------------- */

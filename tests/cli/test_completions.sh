@@ -56,8 +56,11 @@ psd: 1
 cameras:
   "a $(touch ran)": {location: [0, 0, 1], look_at: [0, 0, 0]}
   "b\n:files": {location: [1, 0, 0], look_at: [0, 0, 0]}
+parameters:
+  p: {default: 1, help: "two\nq=\t+\tlines"}
 END
 offers 'a $(touch ran)' -- hostile.psd --camera ''
+offers p= -- hostile.psd --param ''
 offers lamp= lid= -- scene.psd --param l
 offers -- --param l
 offers -- no.psd --camera ''
