@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static const struct option options[] = {
     {0, "check", NULL, "write nothing; name the files that would change, and exit with 1"},
@@ -15,17 +16,28 @@ static const struct option options[] = {
 
 enum outcome { UNCHANGED, CHANGED, FAULTY, FAILED };
 
-/* Another text in the same file, as its owner sees it: with its permissions, as far as the system lets. */
+/* The new file gets the owner and the permissions of the old one; a change of owner takes bits of the permissions away. */
+static void keep_owner_and_permissions(int descriptor, const char *path)
+{
+    struct stat status;
+    if (stat(path, &status) != 0)
+        return;
+    bool kept = fchown(descriptor, status.st_uid, status.st_gid) == 0;
+    if (!kept && fchown(descriptor, (uid_t)-1, status.st_gid) != 0)
+        status.st_mode &= ~(mode_t)S_IRWXG; /* that was for another group */
+    if (fchmod(descriptor, status.st_mode & 07777) != 0 || !kept)
+        print_warning("fmt: the owner or the permissions of a file could not be kept");
+}
+
+/* Another text in the same file, as its owner sees it. */
 static ps_result replace(const char *path, const char *text, size_t length, struct error *error)
 {
     struct output_file file;
-    struct stat status;
     ps_result result = output_file_open(&file, path, error);
     if (result != PS_OK)
         return result;
-    if (file.temporary && stat(path, &status) == 0 &&
-        fchmod(file.descriptor, status.st_mode & 07777) != 0)
-        print_warning("fmt: the permissions of a file could not be kept");
+    if (file.temporary)
+        keep_owner_and_permissions(file.descriptor, path);
     result = output_file_write(&file, 0, text, length, error);
     if (result == PS_OK)
         return output_file_commit(&file, error);

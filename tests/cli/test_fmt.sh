@@ -87,5 +87,12 @@ chmod 640 target.psd
 printf 'a:   1\n' >target.psd
 run 0 fmt target.psd
 [ "$(stat -c %a target.psd)" = 640 ] || fail "its permissions are $(stat -c %a target.psd)"
+# As root alone, who may give files away.
+if chown 1:2 target.psd 2>chown; then
+    printf 'a:   1\n' >target.psd
+    run 0 fmt target.psd
+    expect_empty err
+    [ "$(stat -c %u:%g:%a target.psd)" = 1:2:640 ] || fail "it is now $(stat -c %u:%g:%a target.psd)"
+fi
 
 finish
