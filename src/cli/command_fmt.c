@@ -24,7 +24,7 @@ static void keep_owner_and_permissions(int descriptor, const char *path)
         return;
     bool kept = fchown(descriptor, status.st_uid, status.st_gid) == 0;
     if (!kept && fchown(descriptor, (uid_t)-1, status.st_gid) != 0)
-        status.st_mode &= ~(mode_t)S_IRWXG; /* that was for another group */
+        status.st_mode &= ~(mode_t)S_IRWXG | (status.st_mode & S_IRWXO) << 3; /* of another group */
     if (fchmod(descriptor, status.st_mode & 07777) != 0 || !kept)
         print_warning("fmt: the owner or the permissions of a file could not be kept");
 }
