@@ -8,6 +8,7 @@
 #include "parser/yaml/builder.h"
 #include "parser/yaml/encoding.h"
 #include "parser/yaml/tokens.h"
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,16 +115,20 @@ static size_t column_in_flow(const struct layout *layout, size_t column)
                  column);
 }
 
-/* A comment goes with the line below it if it stands in the same column, or else with those above. */
+/* A comment goes with the line below it if it stands in the same column, or else with those above. Between the columns of
+ * two of them it stays there, or gets that of the deeper one. */
 static size_t comment_column(const struct layout *layout, size_t column, const struct move *next)
 {
     if (layout->flow_depth > 0)
         return column_in_flow(layout, column);
     if (next && column == next->from)
         return next->to;
-    for (size_t i = layout->seen_count; i-- > 0;)
-        if (layout->seen[i].from <= column)
-            return moved(layout->seen[i], column);
+    size_t deepest = SIZE_MAX;
+    for (size_t i = layout->seen_count; i-- > 0; deepest = layout->seen[i].to)
+        if (layout->seen[i].from <= column) {
+            size_t to = moved(layout->seen[i], column);
+            return to < deepest ? to : deepest;
+        }
     return column;
 }
 

@@ -96,6 +96,8 @@ static void test_comments(void **state)
            "a:\n  # of b\n  b: 1\n  # of the end\n# of c\nc: 2\n");
     expect("a:\n- b: 1\n  # inside\n# below\n- c\n",
            "a:\n  - b: 1\n    # inside\n  # below\n  - c\n");
+    expect("a:\n        b: 1\n    # of a\n        # of b\nc: 2\n",
+           "a:\n  b: 1\n  # of a\n  # of b\nc: 2\n");
     /* In columns, where there is more than one blank. */
     expect("a: 1     # one\nbc: [1,2] # two\nd: 3     # three\n",
            "a: 1     # one\nbc: [1, 2] # two\nd: 3     # three\n");
