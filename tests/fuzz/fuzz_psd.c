@@ -6,9 +6,13 @@
  * the next what it finds in every file that it includes, and any further ones what --set is given;
  * --param is given the scene's own parameters n and s.
  * Beyond crashes and leaks it checks the parser's promise: a failure has an error in the sink, a
- * success has none and holds what a scene needs.
+ * success has none and holds what a scene needs; and the formatter's: what is laid out means the same,
+ * and stays as it is when it is laid out again.
  */
+#include "parser/format.h"
 #include "parser/psd.h"
+#include "parser/yaml/encoding.h"
+#include "parser/yaml/tokens.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -133,6 +137,34 @@ static size_t copy_texts(const struct piece *pieces, size_t first, size_t count,
     return copied;
 }
 
+/* Whether the text can be laid out; if so, what becomes of it is to be freed. */
+static bool format(const struct piece *piece, struct piece *formatted)
+{
+    struct diagnostics *sink = diagnostics_create();
+    char *text = NULL;
+    if (!sink)
+        return false;
+    ps_result result =
+        psd_format_text("fuzz.psd", piece->text, piece->length, sink, &text, &formatted->length);
+    require((result == PS_OK) == (diagnostics_error_count(sink) == 0));
+    diagnostics_destroy(sink);
+    formatted->text = text;
+    return result == PS_OK;
+}
+
+static void check_format(const struct piece *piece)
+{
+    struct piece once, twice;
+    if (!format(piece, &once))
+        return;
+    size_t mark = byte_order_mark_length(piece->text, piece->length);
+    require(tokens_same_meaning(piece->text + mark, piece->length - mark, once.text, once.length));
+    require(format(&once, &twice));
+    require(once.length == twice.length && memcmp(once.text, twice.text, once.length) == 0);
+    free((char *)once.text);
+    free((char *)twice.text);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static const char *const parameters[] = {"n=2", "s=white"};
@@ -161,5 +193,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     scene_description_release(&description);
     discard_printed(sink);
     diagnostics_destroy(sink);
+    check_format(&pieces[0]);
     return 0;
 }
