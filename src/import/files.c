@@ -128,7 +128,7 @@ ps_result mesh_files_add(struct mesh_files *files, const char *path, char *bytes
         free(bytes);
         return error_memory(error, length, "a mesh file");
     }
-    *file = (struct mesh_file){files->read, copy, bytes, length};
+    *file = (struct mesh_file){files->read, copy, bytes, length, true};
     files->read = file;
     return PS_OK;
 }

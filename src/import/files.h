@@ -11,6 +11,7 @@ struct mesh_file {
     char *path;
     char *bytes; /* a zero follows; may be changed */
     size_t length;
+    bool made; /* by mesh_files_add */
 };
 
 /* Zeroed but for `memory`: files on the disk. */

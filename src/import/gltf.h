@@ -28,6 +28,8 @@ struct gltf {
     struct gltf_bytes *buffers; /* those that were read */
     struct gltf_bytes *views;   /* those that were packed, once they are unpacked */
     size_t buffer_count, view_count, accessor_count;
+    size_t unpacked;           /* bytes of views and accessors so far */
+    size_t placed;             /* objects of instances so far */
     const struct json **nodes; /* of the scene, each before its children, as assimp keeps them */
     size_t node_count;
     const struct json **materials; /* in the order in which assimp meets them */

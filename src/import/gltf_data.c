@@ -120,6 +120,22 @@ static ps_result read_part(struct gltf *gltf, const struct json *part, struct gl
     return PS_OK;
 }
 
+/* --- room ---------------------------------------------------------------------------------------- */
+
+ps_result gltf_take_room(struct gltf *gltf, size_t bytes, void **room, struct error *error)
+{
+    size_t held = 0;
+    for (const struct mesh_file *file = gltf->files->read; file; file = file->next)
+        held += file->made ? 0 : file->length;
+    if (bytes > held * GLTF_EXPANSION || gltf->unpacked > held * GLTF_EXPANSION - bytes)
+        return error_set(error, PS_ERROR_INVALID,
+                         "glTF: unpacked it would be more than %d times as large as its files",
+                         GLTF_EXPANSION);
+    gltf->unpacked += bytes;
+    *room = arena_allocate(&gltf->arena, bytes);
+    return *room ? PS_OK : error_memory(error, bytes, "the numbers of a mesh file");
+}
+
 /* --- views --------------------------------------------------------------------------------------- */
 
 static const struct json *view_of(const struct gltf *gltf, size_t index)
@@ -146,8 +162,7 @@ ps_result gltf_unpack_view(struct gltf *gltf, size_t index, struct error *error)
         return PS_OK;
     unpacked = &gltf->views[index];
     ps_result result = read_part(gltf, packing, &packed, error);
-    return result == PS_OK ? meshopt_unpack(&gltf->arena, packing, &packed, unpacked, error)
-                           : result;
+    return result == PS_OK ? meshopt_unpack(gltf, packing, &packed, unpacked, error) : result;
 }
 
 static ps_result read_view(struct gltf *gltf, size_t index, struct gltf_bytes *bytes,
@@ -205,6 +220,8 @@ static ps_result read_form(const struct json *source, struct gltf_accessor *acce
         normalized && normalized->kind == JSON_BOOLEAN && json_is(&normalized->text, "true");
     if (json_member(source, "sparse"))
         return complain(error, "an accessor of integers or instances is sparse");
+    if (accessor->count == 0)
+        return complain(error, "an accessor has no elements");
     return accessor->components ? PS_OK : complain(error, "an accessor is of no known type");
 }
 
@@ -222,15 +239,16 @@ ps_result gltf_accessor_open(struct gltf *gltf, size_t index, struct gltf_access
     if (element == 0 || !json_size(source, "bufferView", SIZE_MAX, &view) ||
         !json_size(source, "byteOffset", 0, &offset) ||
         !json_size(view_of(gltf, view), "byteStride", 0, &accessor->stride))
-        return complain(error, "an accessor has no view");
+        return complain(error, "an accessor's place is no number");
+    if (view == SIZE_MAX)
+        return complain(error, "an accessor of integers or instances has no view (zeros)");
     result = read_view(gltf, view, &bytes, error);
     if (result != PS_OK)
         return result;
     if (accessor->stride == 0)
         accessor->stride = element;
-    if (accessor->count > 0 &&
-        (accessor->stride < element || offset > bytes.length || element > bytes.length - offset ||
-         accessor->count - 1 > (bytes.length - offset - element) / accessor->stride))
+    if (accessor->stride < element || offset > bytes.length || element > bytes.length - offset ||
+        accessor->count - 1 > (bytes.length - offset - element) / accessor->stride)
         return complain(error, "an accessor goes beyond its view");
     accessor->bytes = bytes.bytes + offset;
     return PS_OK;

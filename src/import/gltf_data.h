@@ -26,12 +26,17 @@ struct gltf_accessor {
     bool normalized;
 };
 
-/* PS_ERROR_INVALID where it is not within its view, has a matrix for elements, or is sparse. */
+/* PS_ERROR_INVALID where it is not within its view, has no elements or matrices for elements, or is sparse. */
 ps_result gltf_accessor_open(struct gltf *gltf, size_t index, struct gltf_accessor *accessor,
                              struct error *error);
 
 /* As a float; integers that are normalized lie in -1..1. */
 float gltf_accessor_value(const struct gltf_accessor *accessor, size_t element, unsigned component);
+
+/* Room in the arena for what is unpacked, of which there is at most GLTF_EXPANSION times what the files hold.
+ * PS_ERROR_INVALID or _MEMORY. */
+#define GLTF_EXPANSION 64
+ps_result gltf_take_room(struct gltf *gltf, size_t bytes, void **room, struct error *error);
 
 /* Unpacks the view if it is compressed; no-op if not. */
 ps_result gltf_unpack_view(struct gltf *gltf, size_t index, struct error *error);
@@ -51,7 +56,7 @@ bool meshopt_is_built(void);
 
 /* Unpacks `source` as the extension's members say into `count` elements of `stride` bytes, which may be 0 or too
  * many. PS_ERROR_INVALID or _MEMORY. */
-ps_result meshopt_unpack(struct arena *arena, const struct json *extension,
+ps_result meshopt_unpack(struct gltf *gltf, const struct json *extension,
                          const struct gltf_bytes *source, struct gltf_bytes *unpacked,
                          struct error *error);
 

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define UNPACKED_NAME "psplat-unpacked.bin"
+#define LONGEST_PATH 4096
 
 struct piece {
     struct piece *next;
@@ -56,14 +56,13 @@ static struct json *array_of(const struct gltf *gltf, const char *name)
 
 /* --- views that are packed --------------------------------------------------------------------- */
 
-static ps_result unpack_view_of(struct unpacking *unpacking, size_t accessor)
+/* Of an accessor, or a part of one that is sparse. */
+static ps_result unpack_view_of(struct unpacking *unpacking, const struct json *user)
 {
     struct gltf *gltf = unpacking->gltf;
     char text[256], stride_text[48] = "";
     size_t index, stride;
-    if (!json_size(json_element(array_of(gltf, "accessors"), accessor), "bufferView", SIZE_MAX,
-                   &index) ||
-        index >= gltf->view_count)
+    if (!json_size(user, "bufferView", SIZE_MAX, &index) || index >= gltf->view_count)
         return PS_OK;
     struct json *view = json_element(array_of(gltf, "bufferViews"), index);
     ps_result result = gltf_unpack_view(gltf, index, unpacking->error);
@@ -82,6 +81,18 @@ static ps_result unpack_view_of(struct unpacking *unpacking, size_t accessor)
     return view->replacement ? PS_OK : no_memory(unpacking);
 }
 
+static ps_result unpack_views_of(struct unpacking *unpacking, size_t index)
+{
+    const struct json *accessor = json_element(array_of(unpacking->gltf, "accessors"), index);
+    const struct json *sparse = json_member(accessor, "sparse");
+    ps_result result = unpack_view_of(unpacking, accessor);
+    if (result == PS_OK)
+        result = unpack_view_of(unpacking, json_member(sparse, "indices"));
+    if (result == PS_OK)
+        result = unpack_view_of(unpacking, json_member(sparse, "values"));
+    return result;
+}
+
 /* --- integers ---------------------------------------------------------------------------------- */
 
 static bool is_integer(const struct gltf *gltf, size_t accessor)
@@ -96,9 +107,12 @@ static ps_result append_floats(struct unpacking *unpacking, const struct gltf_ac
 {
     struct gltf *gltf = unpacking->gltf;
     size_t count = source->count * source->components;
-    float *floats = arena_allocate(&gltf->arena, count * sizeof *floats);
-    const struct piece *piece =
-        floats ? add_piece(unpacking, floats, count * sizeof *floats) : NULL;
+    void *room;
+    ps_result result = gltf_take_room(gltf, count * sizeof(float), &room, unpacking->error);
+    if (result != PS_OK)
+        return result;
+    float *floats = room;
+    const struct piece *piece = add_piece(unpacking, floats, count * sizeof *floats);
     if (!piece)
         return no_memory(unpacking);
     for (size_t i = 0; i < count; i++)
@@ -158,7 +172,7 @@ static ps_result unpack_attribute(struct unpacking *unpacking, const struct json
         accessor >= unpacking->gltf->accessor_count)
         return PS_OK;
     if (attribute->components == 0 || !is_integer(unpacking->gltf, accessor))
-        return unpack_view_of(unpacking, accessor);
+        return unpack_views_of(unpacking, accessor);
     if (gltf_is_draco(primitive))
         return error_set(unpacking->error, PS_ERROR_INVALID,
                          "glTF: integers that Draco compressed cannot be read");
@@ -172,7 +186,7 @@ static ps_result unpack_primitive(struct unpacking *unpacking, const struct json
     for (size_t i = 0; result == PS_OK && i < ATTRIBUTE_COUNT; i++)
         result = unpack_attribute(unpacking, primitive, &attributes[i]);
     if (result == PS_OK && json_size(primitive, "indices", SIZE_MAX, &indices))
-        result = unpack_view_of(unpacking, indices);
+        result = unpack_views_of(unpacking, indices);
     return result;
 }
 
@@ -207,18 +221,26 @@ static ps_result replace_texture(struct unpacking *unpacking, struct json *textu
 
 /* --- the document -------------------------------------------------------------------------------- */
 
-static ps_result store_buffer(const struct unpacking *unpacking)
+/* A file beside the mesh that is not there: one that is would be hidden. */
+static bool choose_path(const struct gltf *gltf, char path[LONGEST_PATH])
+{
+    const char *own = gltf->file->path;
+    for (unsigned i = 0;; i++) {
+        int length = snprintf(path, LONGEST_PATH, "%.*spsplat-unpacked-%u.bin",
+                              (int)(path_name(own) - own), own, i);
+        if (length < 0 || length >= LONGEST_PATH)
+            return false;
+        if (!mesh_files_exist(gltf->files, path))
+            return true;
+    }
+}
+
+static ps_result store_buffer(const struct unpacking *unpacking, const char *path)
 {
     struct gltf *gltf = unpacking->gltf;
-    char path[4096];
-    const char *own = gltf->file->path;
-    int length =
-        snprintf(path, sizeof path, "%.*s" UNPACKED_NAME, (int)(path_name(own) - own), own);
     char *bytes = calloc(unpacking->length + 1, 1);
-    if (!bytes || length < 0 || (size_t)length >= sizeof path) {
-        free(bytes);
+    if (!bytes)
         return no_memory(unpacking);
-    }
     for (const struct piece *piece = unpacking->first; piece; piece = piece->next)
         if (piece->length > 0)
             memcpy(bytes + piece->offset, piece->bytes, piece->length);
@@ -237,13 +259,15 @@ static ps_result append(struct unpacking *unpacking, const char *name, const cha
 
 static ps_result append_buffer(struct unpacking *unpacking)
 {
-    char text[96];
+    char path[LONGEST_PATH], text[128];
     if (!unpacking->first)
         return PS_OK;
-    int length = snprintf(text, sizeof text, "{\"uri\":\"" UNPACKED_NAME "\",\"byteLength\":%zu}",
+    if (!choose_path(unpacking->gltf, path))
+        return error_set(unpacking->error, PS_ERROR_INVALID, "the file's path is too long");
+    int length = snprintf(text, sizeof text, "{\"uri\":\"%s\",\"byteLength\":%zu}", path_name(path),
                           unpacking->length);
     ps_result result = append(unpacking, "buffers", text, (size_t)length);
-    return result == PS_OK ? store_buffer(unpacking) : result;
+    return result == PS_OK ? store_buffer(unpacking, path) : result;
 }
 
 static ps_result unpack_all(struct unpacking *unpacking)

@@ -35,15 +35,13 @@ static ps_result open_one(struct gltf *gltf, const struct json *attributes, cons
 static ps_result open_all(struct gltf *gltf, const struct json *attributes,
                           struct accessors *accessors, struct error *error)
 {
-    *accessors = (struct accessors){.count = SIZE_MAX};
+    *accessors = (struct accessors){.count = SIZE_MAX}; /* none yet */
     ps_result result =
         open_one(gltf, attributes, "TRANSLATION", 3, accessors, &accessors->translation, error);
     if (result == PS_OK)
         result = open_one(gltf, attributes, "ROTATION", 4, accessors, &accessors->rotation, error);
     if (result == PS_OK)
         result = open_one(gltf, attributes, "SCALE", 3, accessors, &accessors->scale, error);
-    if (accessors->count == SIZE_MAX)
-        accessors->count = 0;
     return result;
 }
 
@@ -78,18 +76,22 @@ static struct affine read_placement(const struct accessors *accessors, size_t el
     };
 }
 
-ps_result mesh_read_instances(struct gltf *gltf, const struct json *node,
+ps_result mesh_read_instances(struct gltf *gltf, const struct json *node, size_t meshes,
                               struct mesh_instances *instances, struct error *error)
 {
     const struct json *extension =
         json_member(json_member(node, "extensions"), "EXT_mesh_gpu_instancing");
     struct accessors accessors;
-    *instances = (struct mesh_instances){.present = extension != NULL};
+    *instances = (struct mesh_instances){0};
     if (!extension)
         return PS_OK;
     ps_result result = open_all(gltf, json_member(extension, "attributes"), &accessors, error);
-    if (result != PS_OK)
+    instances->present = accessors.count != SIZE_MAX;
+    if (result != PS_OK || !instances->present)
         return result;
+    if (accessors.count > (MESH_INSTANCES - gltf->placed) / meshes)
+        return complain(error, "instances make more than 1000000 objects");
+    gltf->placed += accessors.count * meshes;
     size_t bytes = accessors.count * sizeof *instances->placements;
     instances->placements = arena_allocate(&gltf->arena, bytes);
     if (!instances->placements)

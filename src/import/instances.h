@@ -5,14 +5,17 @@
 #include "import/gltf_data.h"
 #include "scene/affine.h"
 
-/* Placements within the node's space, in the arena of `gltf`; none where it has no instances, or none that count.
- * `node`: its JSON, or NULL. PS_ERROR_INVALID, _IO or _MEMORY. */
+/* All instances of a file together place at most as many objects. */
+#define MESH_INSTANCES 1000000
+
+/* Placements within the node's space, in the arena of `gltf`, each of `meshes`, at least one; not present where no
+ * attribute places. `node`: its JSON, or NULL. PS_ERROR_INVALID, _IO or _MEMORY. */
 struct mesh_instances {
     bool present;
     struct affine *placements;
     size_t count;
 };
-ps_result mesh_read_instances(struct gltf *gltf, const struct json *node,
+ps_result mesh_read_instances(struct gltf *gltf, const struct json *node, size_t meshes,
                               struct mesh_instances *instances, struct error *error);
 
 #endif

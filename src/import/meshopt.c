@@ -22,11 +22,11 @@ bool meshopt_is_built(void)
     return false;
 }
 
-ps_result meshopt_unpack(struct arena *arena, const struct json *extension,
+ps_result meshopt_unpack(struct gltf *gltf, const struct json *extension,
                          const struct gltf_bytes *source, struct gltf_bytes *unpacked,
                          struct error *error)
 {
-    (void)arena;
+    (void)gltf;
     (void)extension;
     (void)source;
     (void)unpacked;
@@ -34,8 +34,6 @@ ps_result meshopt_unpack(struct arena *arena, const struct json *extension,
 }
 
 #else
-
-#define EXPANSION 64
 
 bool meshopt_is_built(void)
 {
@@ -97,7 +95,7 @@ static bool filter(const struct packing *packing, void *target)
     return false;
 }
 
-ps_result meshopt_unpack(struct arena *arena, const struct json *extension,
+ps_result meshopt_unpack(struct gltf *gltf, const struct json *extension,
                          const struct gltf_bytes *source, struct gltf_bytes *unpacked,
                          struct error *error)
 {
@@ -106,12 +104,13 @@ ps_result meshopt_unpack(struct arena *arena, const struct json *extension,
     if (!json_size(extension, "count", 0, &packing.count) ||
         !json_size(extension, "byteStride", 0, &packing.stride) || packing.count == 0 ||
         packing.stride == 0 || packing.stride > 256 ||
-        packing.count > source->length * EXPANSION / packing.stride)
+        packing.count > source->length * GLTF_EXPANSION / packing.stride)
         return complain(error, "a view's size cannot be");
     size_t length = packing.count * packing.stride;
-    unsigned char *target = arena_allocate(arena, length);
-    if (!target)
-        return error_memory(error, length, "a packed mesh");
+    void *target;
+    ps_result result = gltf_take_room(gltf, length, &target, error);
+    if (result != PS_OK)
+        return result;
     bool attributes = has_text(extension, "mode", "ATTRIBUTES");
     int code = attributes ? unpack_attributes(&packing, target) : unpack_indices(&packing, target);
     if (code != 0 || (attributes && !filter(&packing, target)))

@@ -161,7 +161,8 @@ static ps_result place_instances(struct builder *builder, size_t index)
     struct error reason;
     ps_result result = PS_OK;
     if (job->gltf.root && node->node->mNumMeshes > 0)
-        result = mesh_read_instances(&job->gltf, mesh_gltf_node(job, index), &instances, &reason);
+        result = mesh_read_instances(&job->gltf, mesh_gltf_node(job, index), node->node->mNumMeshes,
+                                     &instances, &reason);
     if (result != PS_OK)
         return error_set(job->error, result, "%s: %.1000s", job->request->path, reason.text);
     if (!instances.present)

@@ -11,22 +11,26 @@ struct document {
     const char *nodes, *primitive, *accessors, *views, *extra;
     const void *bytes;
     size_t size;
+    const char *buffer; /* its name, or NULL: m.bin */
 };
 
 static struct imported import_document(const struct document *document)
 {
     static char text[8192];
+    const char *buffer = document->buffer ? document->buffer : "m.bin";
+    char path[64];
     snprintf(text, sizeof text,
              "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[%s],\"extensionsUsed\":[%s],"
              "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[%s],"
              "\"meshes\":[{\"primitives\":[%s]}],\"accessors\":[%s],\"bufferViews\":[%s],"
-             "\"buffers\":[{\"uri\":\"m.bin\",\"byteLength\":%zu}]%s}",
+             "\"buffers\":[{\"uri\":\"%s\",\"byteLength\":%zu}]%s}",
              document->extensions, document->extensions,
              document->nodes ? document->nodes : "{\"mesh\":0}", document->primitive,
-             document->accessors, document->views, document->size,
+             document->accessors, document->views, buffer, document->size,
              document->extra ? document->extra : "");
+    snprintf(path, sizeof path, "d/%s", buffer);
     const struct mesh_memory_file files[] = {text_file("d/m.gltf", text),
-                                             {"d/m.bin", document->bytes, document->size},
+                                             {path, document->bytes, document->size},
                                              text_file("d/a.webp", "RIFF....WEBPVP8 ......"),
                                              text_file("d/a.png", PNG_START)};
     struct mesh_request request = request_all("d/m.gltf");
@@ -126,7 +130,51 @@ static void bad_integers_are_refused(void **state)
     refuse_document(&document, "cut short");
     document = of_integers;
     document.accessors = "{\"componentType\":5122,\"count\":400000000,\"type\":\"VEC3\"}";
+    refuse_document(&document, "has no view");
+    document.accessors = "{\"bufferView\":77,\"componentType\":5122,\"count\":4,\"type\":\"VEC3\"}";
     refuse_document(&document, "a view that the file lacks");
+    document.accessors = "{\"bufferView\":0,\"componentType\":5122,\"count\":0,\"type\":\"VEC3\"}";
+    refuse_document(&document, "no elements");
+    document = of_integers;
+    document.buffer = "m.gltf";
+    refuse_document(&document, "names this file itself");
+}
+
+/* What is unpacked must not hide what lies beside the mesh. */
+static void names_of_unpacked_files_are_free(void **state)
+{
+    (void)state;
+    struct document document = of_integers;
+    document.buffer = "psplat-unpacked-0.bin";
+    expect_document(&document, 0);
+}
+
+/* Many accessors of one view, each of which is unpacked. */
+static void unpacking_is_bounded(void **state)
+{
+    static const char primitive[] = "{\"attributes\":{\"POSITION\":%d}}";
+    static const char accessor[] =
+        "{\"bufferView\":0,\"componentType\":5120,\"count\":10000,\"type\":\"VEC3\"}";
+    static const char bytes[30000];
+    char primitives[4096] = "", accessors[6000] = "";
+    (void)state;
+    for (int i = 0; i < 50; i++) {
+        size_t used = strlen(primitives), used_too = strlen(accessors);
+        if (i > 0) {
+            primitives[used++] = ',';
+            accessors[used_too++] = ',';
+        }
+        snprintf(primitives + used, sizeof primitives - used, primitive, i);
+        snprintf(accessors + used_too, sizeof accessors - used_too, accessor);
+    }
+    struct document document = of_integers;
+    document.primitive = primitives;
+    document.accessors = accessors;
+    document.views = "{\"buffer\":0,\"byteLength\":30000}";
+    document.extra = "";
+    document.bytes = bytes;
+    document.size = sizeof bytes;
+    refuse_document(&document, "64 times as large");
 }
 
 /* --- meshopt, from its own encoder --------------------------------------------------------------- */
@@ -186,6 +234,13 @@ static void meshopt_is_unpacked(void **state)
     document = of_meshopt(
         PACKED(103, 80, 4, 12, "ATTRIBUTES", ",\"filter\":\"EXPONENTIAL\"") "," TRIANGLES);
     expect_document(&document, 1e-3);
+    document = of_meshopt(FLOATS "," TRIANGLES "," TRIANGLES "," FLOATS);
+    document.accessors =
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\",\"sparse\":{"
+        "\"count\":1,\"indices\":{\"bufferView\":2,\"byteOffset\":2,\"componentType\":5123},"
+        "\"values\":{\"bufferView\":3,\"byteOffset\":12}}},"
+        "{\"bufferView\":1,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"}";
+    expect_document(&document, 0);
 }
 
 static void damaged_meshopt_is_refused(void **state)
@@ -304,8 +359,44 @@ static void bad_instances_are_refused(void **state)
     document.nodes = "{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{"
                      "\"TRANSLATION\":77}}}}";
     refuse_document(&document, "accessor");
-    document.nodes = "{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{}}}";
-    refuse_document(&document, "no triangles");
+}
+
+static void instances_without_a_place_stand_as_the_node(void **state)
+{
+    struct document document = of_instances;
+    document.nodes = "{\"mesh\":0,\"translation\":[0,0,100],\"extensions\":{"
+                     "\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"_ID\":2}}}}";
+    (void)state;
+    struct imported imported = import_document(&document);
+    expect_success(&imported);
+    assert_int_equal(imported.fragment.object_count, 1);
+    expect_vector(affine_point(&imported.fragment.objects[0].placement, (ps_vec3){1, 2, 3}), 1, 2,
+                  103);
+    release_imported(&imported);
+}
+
+/* All nodes have the same translations. */
+static void instances_are_bounded(void **state)
+{
+    static const float translations[90000][3];
+    char nodes[4096];
+    (void)state;
+    size_t length =
+        (size_t)snprintf(nodes, sizeof nodes, "{\"children\":[1,2,3,4,5,6,7,8,9,10,11,12]}");
+    for (int i = 0; i < 12; i++)
+        length += (size_t)snprintf(nodes + length, sizeof nodes - length,
+                                   ",{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{"
+                                   "\"attributes\":{\"TRANSLATION\":1}}}}");
+    struct document document = of_instances;
+    document.nodes = nodes;
+    document.primitive = "{\"attributes\":{\"POSITION\":0}}";
+    document.accessors =
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":90000,\"type\":\"VEC3\"}";
+    document.views = "{\"buffer\":0,\"byteLength\":1080000}";
+    document.bytes = translations;
+    document.size = sizeof translations;
+    refuse_document(&document, "1000000 objects");
 }
 
 /* --- pictures ------------------------------------------------------------------------------------- */
@@ -348,11 +439,15 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(integers_stand_for_numbers),
         cmocka_unit_test(bad_integers_are_refused),
+        cmocka_unit_test(names_of_unpacked_files_are_free),
+        cmocka_unit_test(unpacking_is_bounded),
         cmocka_unit_test(meshopt_is_unpacked),
         cmocka_unit_test(damaged_meshopt_is_refused),
         cmocka_unit_test(draco_is_unpacked),
         cmocka_unit_test(instances_are_placed),
         cmocka_unit_test(bad_instances_are_refused),
+        cmocka_unit_test(instances_without_a_place_stand_as_the_node),
+        cmocka_unit_test(instances_are_bounded),
         cmocka_unit_test(webp_is_preferred_where_it_is_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
