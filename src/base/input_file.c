@@ -106,6 +106,16 @@ bool input_file_exists(const char *path, const char *folder)
     return true;
 }
 
+bool input_folder_has(const char *folder, const char *path)
+{
+    if (!folder)
+        return true;
+    char *resolved = realpath(path, NULL);
+    bool has = resolved && (strcmp(resolved, folder) == 0 || path_below(resolved, folder));
+    free(resolved);
+    return has;
+}
+
 char *input_folder_resolve(const char *path, struct error *error)
 {
     struct stat status;

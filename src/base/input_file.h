@@ -34,6 +34,9 @@ ps_result input_file_read(const struct input_file *file, void *bytes, size_t *si
 /* Whether input_file_open would find a regular file there. */
 bool input_file_exists(const char *path, const char *folder);
 
+/* Whether `path` is the folder, or lies in it, links resolved; `folder` as above, and any path does where it is NULL. */
+bool input_folder_has(const char *folder, const char *path);
+
 /* The folder's absolute path without symbolic links, to be freed; NULL, with PS_ERROR_IO's message, where
  * there is no such folder. */
 char *input_folder_resolve(const char *path, struct error *error);

@@ -160,7 +160,7 @@ static bool match_entry(const char *folder, char *name)
     return best != NULL;
 }
 
-static bool match_on_disk(char *path, size_t folder)
+static bool match_on_disk(char *path, size_t folder, const char *restricted)
 {
     char *name = path + folder;
     while (*name) {
@@ -171,7 +171,8 @@ static bool match_on_disk(char *path, size_t folder)
             char before = name > path ? name[-1] : '\0';
             if (name > path)
                 name[-1] = '\0';
-            is_there = match_entry(name == path ? "." : name - 1 == path ? "/" : path, name);
+            const char *parent = name == path ? "." : name - 1 == path ? "/" : path;
+            is_there = input_folder_has(restricted, parent) && match_entry(parent, name);
             if (name > path)
                 name[-1] = before;
         }
@@ -200,7 +201,7 @@ bool mesh_files_match_case(const struct mesh_files *files, char *path, size_t fo
 {
     if (files->memory)
         return match_in_memory(files, path);
-    return match_on_disk(path, folder) && mesh_files_exist(files, path);
+    return match_on_disk(path, folder, files->folder) && mesh_files_exist(files, path);
 }
 
 /* --- the first bytes --------------------------------------------------------------------------- */

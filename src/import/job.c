@@ -117,6 +117,13 @@ static ps_result convert(struct mesh_job *job)
     return result;
 }
 
+static void release_names(struct mesh_names *names)
+{
+    for (size_t i = 0; i < names->count; i++)
+        free(names->names[i]);
+    free(names->names);
+}
+
 static void release(struct mesh_job *job)
 {
     if (job->scene)
@@ -126,9 +133,8 @@ static void release(struct mesh_job *job)
     free(job->nodes);
     free(job->materials);
     free(job->missing_library);
-    for (size_t i = 0; i < job->lost_count; i++)
-        free(job->lost[i]);
-    free(job->lost);
+    release_names(&job->lost);
+    release_names(&job->other_case);
 }
 
 ps_result mesh_job_run(struct mesh_job *job)

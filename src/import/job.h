@@ -21,6 +21,12 @@ struct mesh_color_faults {
     bool rejected, clamped, alpha_lost;
 };
 
+/* Each once. */
+struct mesh_names {
+    char **names;
+    size_t count;
+};
+
 #define MESH_TRIANGLES ((size_t)200 * 1000 * 1000) /* and vertices */
 
 /* A node of assimp's tree, with its way to the root of the file. */
@@ -48,14 +54,11 @@ struct mesh_job {
     size_t *materials;      /* in the fragment, for each of assimp's; or NO_INDEX */
     struct mesh_omission omissions[MESH_OMISSIONS];
     struct mesh_color_faults colors;
-    char *
-        *lost; /* names of textures that are missing, unknown or of other letter case, each once */
-    size_t lost_count;
-    size_t unknown_textures;                       /* pictures of a kind that is not read */
-    char unknown_name[MESH_MISSING_LENGTH + 1];    /* the first */
-    const char *unknown_kind;                      /* of the first, or NULL */
-    size_t other_case_textures;                    /* found by another letter case */
-    char other_case_name[MESH_MISSING_LENGTH + 1]; /* of the first, as the file says */
+    struct mesh_names lost;       /* textures that are missing, or of an unknown kind */
+    struct mesh_names other_case; /* those that are found by another letter case */
+    size_t unknown_textures;      /* pictures of a kind that is not read */
+    char unknown_name[MESH_MISSING_LENGTH + 1]; /* the first */
+    const char *unknown_kind;                   /* of the first, or NULL */
     bool third_uv; /* some texture is laid by a further set of coordinates than the second */
     /* While assimp asked for a file, which it takes for one that is not there. */
     bool out_of_memory;

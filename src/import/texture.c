@@ -185,22 +185,23 @@ static ps_result copy_embedded(struct mesh_job *job, const struct aiTexture *emb
     return PS_OK;
 }
 
-/* Whether it is the first time that the texture is left out, or found in another case. */
-static ps_result remember(struct mesh_job *job, const char *name, bool *is_new)
+/* Whether the name is new among these, to which it is added. */
+static ps_result remember(struct mesh_job *job, struct mesh_names *names, const char *name,
+                          bool *is_new)
 {
-    size_t bytes = (job->lost_count + 1) * sizeof *job->lost;
+    size_t bytes = (names->count + 1) * sizeof *names->names;
     *is_new = false;
-    for (size_t i = 0; i < job->lost_count; i++)
-        if (strcmp(job->lost[i], name) == 0)
+    for (size_t i = 0; i < names->count; i++)
+        if (strcmp(names->names[i], name) == 0)
             return PS_OK;
-    char **lost = realloc(job->lost, bytes);
-    if (!lost)
+    char **longer = realloc(names->names, bytes);
+    if (!longer)
         return mesh_out_of_memory(job, bytes);
-    job->lost = lost;
-    lost[job->lost_count] = strdup(name);
-    if (!lost[job->lost_count])
+    names->names = longer;
+    longer[names->count] = strdup(name);
+    if (!longer[names->count])
         return mesh_out_of_memory(job, strlen(name));
-    job->lost_count++;
+    names->count++;
     *is_new = true;
     return PS_OK;
 }
@@ -211,7 +212,7 @@ static ps_result count_missing(struct mesh_job *job, const char *name)
     char *end = report->missing_names + strlen(report->missing_names);
     size_t room = sizeof report->missing_names - (size_t)(end - report->missing_names);
     bool is_new;
-    ps_result result = remember(job, name, &is_new);
+    ps_result result = remember(job, &job->lost, name, &is_new);
     if (is_new && report->missing_textures++ < MESH_MISSING_NAMES)
         snprintf(end, room, "%s%.*s", *report->missing_names ? ", " : "", MESH_MISSING_LENGTH,
                  name);
@@ -222,7 +223,7 @@ static ps_result count_unknown(struct mesh_job *job, const char *name, const uns
                                size_t size)
 {
     bool is_new;
-    ps_result result = remember(job, name, &is_new);
+    ps_result result = remember(job, &job->lost, name, &is_new);
     if (is_new && job->unknown_textures++ == 0) {
         snprintf(job->unknown_name, sizeof job->unknown_name, "%.*s", MESH_MISSING_LENGTH, name);
         job->unknown_kind = raster_unread_kind(start, size);
@@ -239,10 +240,10 @@ void mesh_note_textures(struct mesh_job *job)
     else if (job->unknown_textures > 1)
         mesh_note(job, "texture %s, which is %s, and %zu more are left out (%s are read)",
                   job->unknown_name, kind, job->unknown_textures - 1, raster_kinds);
-    if (job->other_case_textures > 0)
-        mesh_note(job, "%zu texture%s found under a name of other letter case (%s)",
-                  job->other_case_textures, job->other_case_textures > 1 ? "s are" : " is",
-                  job->other_case_name);
+    const struct mesh_names *other = &job->other_case;
+    if (other->count > 0)
+        mesh_note(job, "%zu texture%s found under a name of other letter case (%.*s)", other->count,
+                  other->count > 1 ? "s are" : " is", MESH_MISSING_LENGTH, other->names[0]);
 }
 
 static ps_result locate_inside(struct mesh_job *job, const struct aiTexture *embedded,
@@ -256,16 +257,6 @@ static ps_result locate_inside(struct mesh_job *job, const struct aiTexture *emb
     return copy_embedded(job, embedded, name, texture);
 }
 
-static ps_result count_other_case(struct mesh_job *job, const char *name)
-{
-    bool is_new;
-    ps_result result = remember(job, name, &is_new);
-    if (is_new && job->other_case_textures++ == 0)
-        snprintf(job->other_case_name, sizeof job->other_case_name, "%.*s", MESH_MISSING_LENGTH,
-                 name);
-    return result;
-}
-
 static ps_result locate(struct mesh_job *job, char *name, struct texture_description *texture)
 {
     const struct aiTexture *embedded = find_embedded(job->scene, name);
@@ -273,10 +264,11 @@ static ps_result locate(struct mesh_job *job, char *name, struct texture_descrip
     unsigned char start[RASTER_MAGIC];
     if (embedded)
         return locate_inside(job, embedded, name, texture);
+    bool is_new;
     enum found found = name[0] == '*' ? FOUND_NOTHING : find_path(job, name, path);
     if (found == FOUND_NOTHING)
         return count_missing(job, name);
-    if (found == FOUND_IN_OTHER_CASE && count_other_case(job, name) != PS_OK)
+    if (found == FOUND_IN_OTHER_CASE && remember(job, &job->other_case, name, &is_new) != PS_OK)
         return PS_ERROR_MEMORY;
     size_t size = mesh_files_peek(&job->files, path, start, sizeof start);
     if (!raster_is_known(start, size))

@@ -276,6 +276,10 @@ static void letter_case_of_pictures_is_forgiven(void **state)
     assert_non_null(
         strstr(imported.report.notes, "2 textures are found under a name of other letter case ("));
     release_imported(&imported);
+    imported = import_mtl("map_Kd A.KTX2");
+    assert_non_null(strstr(imported.report.notes, "texture A.KTX2 is left out: it is KTX2"));
+    assert_non_null(strstr(imported.report.notes, "other letter case (A.KTX2)"));
+    release_imported(&imported);
 }
 
 static void make_file(const char *folder, const char *name, const char *text)
