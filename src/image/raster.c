@@ -185,6 +185,7 @@ static ps_result decode_or_release(const struct raster_source *source, struct ra
         raster_release(&decoded);
         return result;
     }
+    decoded.file_size = source->size;
     *raster = decoded;
     return PS_OK;
 }

@@ -28,8 +28,9 @@ struct raster {
     uint32_t channels; /* 1: grey; 2: grey, alpha; 3: red, green, blue; 4: with alpha */
     enum raster_sample sample;
     bool srgb; /* colours carry the sRGB transfer function, by their type of file; alpha never */
-    size_t mended; /* samples that were NaN or infinite */
-    void *samples; /* row-major, top row first, native byte order */
+    size_t mended;    /* samples that were NaN or infinite */
+    size_t file_size; /* bytes that it was decoded from */
+    void *samples;    /* row-major, top row first, native byte order */
 };
 
 /* Reads a picture from a file, which lies in `folder` where that is not NULL
@@ -41,12 +42,12 @@ struct raster {
  * states are ignored.
  * OpenEXR: R, G, B or Y, with A where there is one, other channels are skipped; of several parts
  * the first with colours, of several levels the largest; what else image_read_exr refuses is refused here. The picture
- * is the display window, 0 outside of the data; it must not be 256 times as large as these. Colours of other primaries
+ * is the display window, 0 outside of the data; it must not be more than 16 times as large as these. Colours of other primaries
  * (chromaticities) become Rec.709's, with Bradford's adaptation. Colours stay premultiplied by alpha, as
  * the format has them. NaN is read as 0 and infinity as the largest half float, 65504. Samples are
  * half floats where these hold every one.
- * TGA and BMP: grey, palettes and colours of 15 to 32 bits, TGA also in runs. Radiance: linear floats, as they
- * stand. WebP: one picture, 8 bits.
+ * TGA and BMP: grey, palettes and colours of 15 to 32 bits, TGA also in runs; an alpha that is 0 everywhere, of which
+ * the header of a TGA says that it is none, is left out. Radiance: linear floats, as they stand. WebP: one picture, 8 bits.
  *
  * PS_ERROR_IO: the file cannot be read, is truncated or damaged; PS_ERROR_INVALID: no picture of a
  * known kind or size; PS_ERROR_MEMORY. Messages start with `path`. `raster` is written only on

@@ -69,16 +69,30 @@ static ps_result end_too_early(const struct raster_source *source, struct error 
                      source->path);
 }
 
+/* By a byte that is 0 or 1 in a TGA, '?' in a Radiance file. */
+static bool is_bmp(const struct raster_source *source)
+{
+    return source->bytes[1] == 'M';
+}
+
 static ps_result explain(const struct reading *reading, struct error *error)
 {
     const char *reason = stbi_failure_reason();
+    const struct raster_source *source = reading->source;
     if (reading->beyond)
-        return end_too_early(reading->source, error);
+        return end_too_early(source, error);
     if (reason && strcmp(reason, "outofmem") == 0)
-        return error_set(error, PS_ERROR_MEMORY, "%s: out of memory for its pixels",
-                         reading->source->path);
+        return error_set(error, PS_ERROR_MEMORY, "%s: out of memory for its pixels", source->path);
+    if (is_bmp(source))
+        return error_set(error, PS_ERROR_INVALID,
+                         "%s: a BMP of a kind that cannot be read, as in runs", source->path);
+    if (source->bytes[1] == '?')
+        return error_set(error, PS_ERROR_INVALID,
+                         "%s: a Radiance file of a kind that cannot be read, as of XYZE or of "
+                         "another order of lines",
+                         source->path);
     return error_set(error, PS_ERROR_INVALID, "%s: this kind of picture cannot be read: %s",
-                     reading->source->path, reason ? reason : "unknown");
+                     source->path, reason ? reason : "unknown");
 }
 
 static ps_result read_size(const struct raster_source *source, size_t sample_bytes,
@@ -94,6 +108,22 @@ static ps_result read_size(const struct raster_source *source, size_t sample_byt
         return result;
     return raster_check_expansion(source, (uint64_t)width * (uint64_t)height * pixel_bytes,
                                   EXPANSION, error);
+}
+
+/* Some programs leave 0 in the byte that would be alpha, and say in the header that it is none; others say so of one
+ * that counts. */
+static void mend_alpha(const struct raster_source *source, struct raster *raster)
+{
+    unsigned char *samples = raster->samples;
+    size_t pixels = (size_t)raster->width * raster->height;
+    if (is_bmp(source) || /* where stb_image does the same */
+        raster->channels != 4 || (source->bytes[17] & 15) != 0)
+        return;
+    for (size_t i = 0; i < pixels; i++)
+        if (samples[4 * i + 3] != 0)
+            return;
+    for (size_t i = 0; i < pixels; i++)
+        samples[4 * i + 3] = 255;
 }
 
 static ps_result read_samples(const struct raster_source *source, bool floats,
@@ -121,7 +151,11 @@ ps_result raster_read_bytes(const struct raster_source *source, struct raster *r
                             struct error *error)
 {
     ps_result result = read_size(source, 1, error);
-    return result == PS_OK ? read_samples(source, false, raster, error) : result;
+    if (result == PS_OK)
+        result = read_samples(source, false, raster, error);
+    if (result == PS_OK)
+        mend_alpha(source, raster);
+    return result;
 }
 
 ps_result raster_read_radiance(const struct raster_source *source, struct raster *raster,

@@ -4,6 +4,21 @@
 #include <psplat/math.h>
 #include <stdlib.h>
 
+/* Of what a file of its size would hardly hold, as a flat WebP: many small files must not take all memory. */
+#define EXPANSION 4096
+#define EXCESS_LIMIT ((size_t)1 << 30)
+
+static ps_result count_excess(struct assembly *assembly, const struct raster *raster,
+                              size_t *excess)
+{
+    size_t bytes = raster_bytes(raster), expected = raster->file_size * EXPANSION;
+    *excess += bytes > expected ? bytes - expected : 0;
+    if (*excess <= EXCESS_LIMIT)
+        return PS_OK;
+    return error_set(assembly->error, PS_ERROR_INVALID,
+                     "the scene's textures take 1 GiB more than %d times their files", EXPANSION);
+}
+
 static ps_result load_textures(struct assembly *assembly)
 {
     const struct scene_description *description = assembly->description;
@@ -12,6 +27,7 @@ static ps_result load_textures(struct assembly *assembly)
         assembly_allocate(assembly, description->texture_count, sizeof *scene->textures);
     if (!scene->textures)
         return PS_ERROR_MEMORY;
+    size_t excess = 0;
     for (size_t i = 0; i < description->texture_count; i++) {
         assembly->where = description->textures[i].origin;
         ps_result result = texture_load(&description->textures[i], description->folder,
@@ -19,6 +35,9 @@ static ps_result load_textures(struct assembly *assembly)
         if (result != PS_OK)
             return result;
         scene->texture_count++;
+        result = count_excess(assembly, &scene->textures[i].raster, &excess);
+        if (result != PS_OK)
+            return result;
     }
     return PS_OK;
 }

@@ -140,6 +140,16 @@ static void targa(void **state)
     struct texture texture = load(BYTES(targa_alpha), ENCODING_LINEAR);
     assert_pixel(&texture, 0, colors[4], 0.2f);
     texture_release(&texture);
+    unsigned char changed[sizeof targa_alpha];
+    memcpy(changed, targa_alpha, sizeof changed);
+    changed[17] = LINE_AT_TOP; /* the header says that there is none */
+    texture = load(BYTES(changed), ENCODING_LINEAR);
+    assert_pixel(&texture, 0, colors[4], 0.2f);
+    texture_release(&texture);
+    changed[21] = 0;
+    texture = load(BYTES(changed), ENCODING_LINEAR);
+    assert_pixel(&texture, 0, colors[4], 1);
+    texture_release(&texture);
 }
 
 static void bmp(void **state)
@@ -278,6 +288,20 @@ static void unread_kinds_are_named(void **state)
     assert_refused(TEXT("plain text of no picture"), PS_ERROR_INVALID, "PNG, JPEG, OpenEXR");
 }
 
+static void unread_ways_of_coding_are_named(void **state)
+{
+    unsigned char changed[sizeof bitmap];
+    (void)state;
+    need("BMP");
+    memcpy(changed, bitmap, sizeof changed);
+    changed[30] = 1;
+    assert_refused(BYTES(changed), PS_ERROR_INVALID, "as in runs");
+    assert_refused(TEXT(RADIANCE "+Y 1 +X 2\n\x80\x40\x20\x81\xc0\x00\x00\x87"), PS_ERROR_INVALID,
+                   "order of lines");
+    assert_refused(TEXT("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 2\n12345678"),
+                   PS_ERROR_INVALID, "XYZE");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -289,6 +313,7 @@ int main(void)
         cmocka_unit_test(large_claims_are_refused),
         cmocka_unit_test(large_webp_is_refused),
         cmocka_unit_test(unread_kinds_are_named),
+        cmocka_unit_test(unread_ways_of_coding_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
