@@ -39,6 +39,8 @@ struct gltf {
     bool single_root;      /* else assimp puts a node above all */
     size_t triangle_count; /* of all meshes, each once */
     bool draco;            /* some are compressed by it */
+    bool
+        draco_integers; /* of some, normals or texture coordinates are, which are hidden from assimp */
 };
 
 /* Reads the file's JSON, and changes the file into what assimp is to read. PS_ERROR_INVALID, _IO or _MEMORY with a

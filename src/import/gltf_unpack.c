@@ -162,6 +162,23 @@ static const struct attribute {
 
 #define ATTRIBUTE_COUNT (sizeof attributes / sizeof *attributes)
 
+/* Here nothing unpacks it, and assimp takes its integers for floats. */
+static ps_result leave_out_draco(const struct unpacking *unpacking, const struct json *primitive,
+                                 const char *name)
+{
+    const struct json *draco =
+        json_member(json_member(primitive, "extensions"), "KHR_draco_mesh_compression");
+    struct json *compressed = json_member(json_member(draco, "attributes"), name);
+    if (strcmp(name, "POSITION") == 0)
+        return error_set(unpacking->error, PS_ERROR_INVALID,
+                         "glTF: positions that are integers compressed by Draco cannot be read");
+    json_member(json_member(primitive, "attributes"), name)->hidden = true;
+    if (compressed)
+        compressed->hidden = true;
+    unpacking->gltf->draco_integers = true;
+    return PS_OK;
+}
+
 static ps_result unpack_attribute(struct unpacking *unpacking, const struct json *primitive,
                                   const struct attribute *attribute)
 {
@@ -174,8 +191,7 @@ static ps_result unpack_attribute(struct unpacking *unpacking, const struct json
     if (attribute->components == 0 || !is_integer(unpacking->gltf, accessor))
         return unpack_views_of(unpacking, accessor);
     if (gltf_is_draco(primitive))
-        return error_set(unpacking->error, PS_ERROR_INVALID,
-                         "glTF: integers that Draco compressed cannot be read");
+        return leave_out_draco(unpacking, primitive, attribute->name);
     return convert_attribute(unpacking, reference, accessor, attribute->components);
 }
 

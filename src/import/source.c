@@ -204,6 +204,10 @@ ps_result mesh_source_open(struct mesh_job *job)
     job->scene = aiImportFileEx(job->request->path, 0, &io);
     if (job->out_of_memory)
         return mesh_out_of_memory(job, sizeof(struct stream));
+    if (job->scene && job->gltf.draco_integers)
+        mesh_note(
+            job,
+            "normals or texture coordinates that are integers compressed by Draco are left out");
     if (job->scene && job->missing_library && !job->library && job->request->materials)
         mesh_note(job, "cannot read its library %.1000s", job->missing_library);
     return job->scene ? PS_OK : report_assimp(job);

@@ -296,6 +296,18 @@ static void draco_is_unpacked(void **state)
     expect_success(&imported);
     expect_corners(&imported, 1e-3);
     release_imported(&imported);
+    document.primitive =
+        "{\"attributes\":{\"POSITION\":0,\"NORMAL\":2},\"indices\":1,\"extensions\":{"
+        "\"KHR_draco_mesh_compression\":{\"bufferView\":0,"
+        "\"attributes\":{\"POSITION\":0,\"NORMAL\":9}}}}";
+    document.accessors = "{\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+                         "{\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"},"
+                         "{\"componentType\":5120,\"count\":4,\"type\":\"VEC3\"}";
+    imported = import_document(&document);
+    expect_success(&imported);
+    expect_corners(&imported, 1e-3);
+    assert_non_null(strstr(imported.report.notes, "compressed by Draco are left out"));
+    release_imported(&imported);
     document.size = 50;
     document.views = "{\"buffer\":0,\"byteLength\":50}";
     refuse_document(&document, "d/m.gltf: ");
