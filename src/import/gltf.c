@@ -3,11 +3,6 @@
 
 #include <string.h>
 
-static ps_result complain(struct error *error, const char *what)
-{
-    return error_set(error, PS_ERROR_INVALID, "glTF: %s", what);
-}
-
 /* --- the document ------------------------------------------------------------------------------ */
 
 static const char *const known_extensions[] = {
@@ -37,7 +32,7 @@ static ps_result check_required_extensions(const struct gltf *gltf, struct error
     for (size_t i = 0; required && i < required->count; i++) {
         const struct json *name = json_element(required, i);
         if (!name)
-            return complain(error, "extensionsRequired is no array");
+            return gltf_refuse(error, "extensionsRequired is no array");
         if (!is_known_extension(name))
             return error_set(error, PS_ERROR_INVALID,
                              "glTF: the file requires the extension %.*s, which psplat lacks",
@@ -52,7 +47,7 @@ static ps_result check_document(const struct gltf *gltf, struct error *error)
     const struct json *version = json_member(json_member(gltf->root, "asset"), "version");
     if (!version || version->kind != JSON_STRING || version->text.length < 2 ||
         memcmp(version->text.start, "2.", 2) != 0)
-        return complain(error, "the file does not say that it is of version 2");
+        return gltf_refuse(error, "the file does not say that it is of version 2");
     return check_required_extensions(gltf, error);
 }
 
@@ -108,7 +103,7 @@ static ps_result meet_materials(struct walk *walk, const struct json *mesh)
         if (!json_member(primitive, "material"))
             continue;
         if (!json_size(primitive, "material", 0, &index) || index >= count_of(gltf, "materials"))
-            return complain(walk->error, "a mesh has a material that the file lacks");
+            return gltf_refuse(walk->error, "a mesh has a material that the file lacks");
         if (!walk->seen_materials[index])
             gltf->materials[gltf->material_count++] =
                 json_element(json_member(gltf->root, "materials"), index);
@@ -123,7 +118,7 @@ static ps_result visit_mesh(struct walk *walk, const struct json *node)
     if (!json_member(node, "mesh"))
         return PS_OK;
     if (!json_size(node, "mesh", 0, &index) || index >= count_of(walk->gltf, "meshes"))
-        return complain(walk->error, "a node has a mesh that the file lacks");
+        return gltf_refuse(walk->error, "a node has a mesh that the file lacks");
     if (walk->seen_meshes[index])
         return PS_OK;
     walk->seen_meshes[index] = true;
@@ -138,12 +133,12 @@ static ps_result visit_node(struct walk *walk, const struct json *reference, int
     if (reference->kind != JSON_NUMBER || reference->number < 0 ||
         reference->number >= (double)count_of(gltf, "nodes") ||
         reference->number != (double)(size_t)reference->number)
-        return complain(walk->error, "a node that the file lacks is named");
+        return gltf_refuse(walk->error, "a node that the file lacks is named");
     size_t index = (size_t)reference->number;
     if (walk->seen_nodes[index])
-        return complain(walk->error, "a node has two parents, or is its own");
+        return gltf_refuse(walk->error, "a node has two parents, or is its own");
     if (depth > GLTF_DEPTH)
-        return complain(walk->error, "nodes are nested more than 256 deep");
+        return gltf_refuse(walk->error, "nodes are nested more than 256 deep");
     walk->seen_nodes[index] = true;
     const struct json *node = json_element(json_member(gltf->root, "nodes"), index);
     gltf->nodes[gltf->node_count++] = node;
@@ -157,7 +152,7 @@ static ps_result visit_nodes(struct walk *walk, const struct json *indices, int 
     for (size_t i = 0; result == PS_OK && indices && i < indices->count; i++) {
         const struct json *reference = json_element(indices, i);
         result = reference ? visit_node(walk, reference, depth)
-                           : complain(walk->error, "a list of nodes is no array");
+                           : gltf_refuse(walk->error, "a list of nodes is no array");
     }
     return result;
 }
@@ -190,7 +185,7 @@ static ps_result walk_scene(struct gltf *gltf, struct error *error)
         !gltf->materials || !gltf->primitives)
         return error_memory(error, nodes, "the nodes of a mesh file");
     if (!json_size(gltf->root, "scene", 0, &scene) || scene >= count_of(gltf, "scenes"))
-        return complain(error, "there is no scene");
+        return gltf_refuse(error, "there is no scene");
     const struct json *roots =
         json_member(json_element(json_member(gltf->root, "scenes"), scene), "nodes");
     gltf->single_root = roots && roots->count == 1;

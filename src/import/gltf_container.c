@@ -9,31 +9,25 @@
 #define CHUNK_JSON 0x4e4f534au
 #define CHUNK_BINARY 0x004e4942u
 
-static uint32_t little_endian(const char *bytes)
-{
-    const unsigned char *b = (const unsigned char *)bytes;
-    return (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
-}
-
 /* Where the JSON lies in a .glb file. */
 ps_result gltf_find_json(const struct mesh_file *file, struct json_text *text, struct error *error)
 {
     if (file->length < GLB_HEADER || memcmp(file->bytes, "glTF", 4) != 0)
         return error_set(error, PS_ERROR_INVALID, "%s: not binary glTF", file->path);
-    if (little_endian(file->bytes + 4) != 2)
+    if (gltf_little_endian(file->bytes + 4, 4) != 2)
         return error_set(error, PS_ERROR_INVALID, "%s: binary glTF of a version other than 2",
                          file->path);
-    size_t length = little_endian(file->bytes + 8);
+    size_t length = gltf_little_endian(file->bytes + 8, 4);
     if (length > file->length)
         return error_set(error, PS_ERROR_INVALID,
                          "%s: the file is cut short: %zu bytes of %zu are there", file->path,
                          file->length, length);
     if (file->length < GLB_HEADER + CHUNK_HEADER ||
-        little_endian(file->bytes + GLB_HEADER + 4) != CHUNK_JSON)
+        gltf_little_endian(file->bytes + GLB_HEADER + 4, 4) != CHUNK_JSON)
         return error_set(error, PS_ERROR_INVALID, "%s: binary glTF that does not start with JSON",
                          file->path);
     text->start = file->bytes + GLB_HEADER + CHUNK_HEADER;
-    text->length = little_endian(file->bytes + GLB_HEADER);
+    text->length = gltf_little_endian(file->bytes + GLB_HEADER, 4);
     if (text->length > file->length - GLB_HEADER - CHUNK_HEADER)
         return error_set(error, PS_ERROR_INVALID, "%s: the file is cut short", file->path);
     return PS_OK;
@@ -47,9 +41,10 @@ bool gltf_binary_chunk(const struct gltf *gltf, struct gltf_bytes *bytes)
     if (!gltf->binary || gltf_find_json(file, &text, &ignored) != PS_OK)
         return false;
     size_t at = (size_t)(text.start - file->bytes) + text.length;
-    if (file->length - at < CHUNK_HEADER || little_endian(file->bytes + at + 4) != CHUNK_BINARY)
+    if (file->length - at < CHUNK_HEADER ||
+        gltf_little_endian(file->bytes + at + 4, 4) != CHUNK_BINARY)
         return false;
-    size_t length = little_endian(file->bytes + at);
+    size_t length = gltf_little_endian(file->bytes + at, 4);
     bytes->bytes = (const unsigned char *)file->bytes + at + CHUNK_HEADER;
     bytes->length = file->length - at - CHUNK_HEADER;
     bytes->length = length < bytes->length ? length : bytes->length;

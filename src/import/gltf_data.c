@@ -13,7 +13,7 @@
 
 #define LONGEST_PATH 4096
 
-static ps_result complain(struct error *error, const char *what)
+ps_result gltf_refuse(struct error *error, const char *what)
 {
     return error_set(error, PS_ERROR_INVALID, "glTF: %s", what);
 }
@@ -57,7 +57,7 @@ static ps_result read_data_uri(struct gltf *gltf, const struct json_text *uri,
         if (memcmp(uri->start + i, mark, length) == 0)
             return decode_base64(gltf, uri->start + i + length, uri->length - i - length, bytes,
                                  error);
-    return complain(error, "a buffer's data are not in base64");
+    return gltf_refuse(error, "a buffer's data are not in base64");
 }
 
 static ps_result read_buffer_file(struct gltf *gltf, const struct json_text *uri,
@@ -69,14 +69,14 @@ static ps_result read_buffer_file(struct gltf *gltf, const struct json_text *uri
     int length = snprintf(path, sizeof path, "%.*s%.*s", (int)(path_name(own) - own), own,
                           uri->length < LONGEST_PATH ? (int)uri->length : LONGEST_PATH, uri->start);
     if (length < 0 || (size_t)length >= sizeof path || memchr(uri->start, '\\', uri->length))
-        return complain(error, "a buffer's name is too long, or escaped");
+        return gltf_refuse(error, "a buffer's name is too long, or escaped");
     ps_result result = mesh_files_read(gltf->files, path, &file, error);
     if (result != PS_OK) {
         mesh_decode_percent(path);
         result = mesh_files_read(gltf->files, path, &file, error);
     }
     if (result == PS_OK && file == gltf->file) /* whose bytes are written anew */
-        return complain(error, "a buffer names this file itself");
+        return gltf_refuse(error, "a buffer names this file itself");
     if (result == PS_OK)
         *bytes = (struct gltf_bytes){(const unsigned char *)file->bytes, file->length};
     return result;
@@ -90,7 +90,7 @@ static ps_result read_buffer(struct gltf *gltf, size_t index, struct gltf_bytes 
     if (!uri && index == 0 && gltf_binary_chunk(gltf, bytes))
         return PS_OK;
     if (!uri || uri->kind != JSON_STRING)
-        return complain(error, "a buffer that is not there is used");
+        return gltf_refuse(error, "a buffer that is not there is used");
     if (gltf->buffers[index].bytes) {
         *bytes = gltf->buffers[index];
         return PS_OK;
@@ -109,12 +109,12 @@ static ps_result read_part(struct gltf *gltf, const struct json *part, struct gl
     size_t buffer, offset, length;
     if (!json_size(part, "buffer", SIZE_MAX, &buffer) || buffer >= gltf->buffer_count ||
         !json_size(part, "byteOffset", 0, &offset) || !json_size(part, "byteLength", 0, &length))
-        return complain(error, "a view of a buffer is none");
+        return gltf_refuse(error, "a view of a buffer is none");
     ps_result result = read_buffer(gltf, buffer, bytes, error);
     if (result != PS_OK)
         return result;
     if (offset > bytes->length || length > bytes->length - offset)
-        return complain(error, "a buffer is cut short");
+        return gltf_refuse(error, "a buffer is cut short");
     bytes->bytes += offset;
     bytes->length = length;
     return PS_OK;
@@ -170,7 +170,7 @@ static ps_result read_view(struct gltf *gltf, size_t index, struct gltf_bytes *b
 {
     const struct json *view = view_of(gltf, index);
     if (!view)
-        return complain(error, "an accessor has a view that the file lacks");
+        return gltf_refuse(error, "an accessor has a view that the file lacks");
     ps_result result = gltf_unpack_view(gltf, index, error);
     if (result != PS_OK)
         return result;
@@ -213,16 +213,16 @@ static ps_result read_form(const struct json *source, struct gltf_accessor *acce
     if (!json_size(source, "componentType", 0, &type) || type > GLTF_FLOAT ||
         component_size((enum gltf_component)type) == 0 ||
         !json_size(source, "count", 0, &accessor->count))
-        return complain(error, "an accessor has no kind of numbers");
+        return gltf_refuse(error, "an accessor has no kind of numbers");
     accessor->type = (enum gltf_component)type;
     accessor->components = component_count(json_member(source, "type"));
     accessor->normalized =
         normalized && normalized->kind == JSON_BOOLEAN && json_is(&normalized->text, "true");
     if (json_member(source, "sparse"))
-        return complain(error, "an accessor of integers or instances is sparse");
+        return gltf_refuse(error, "an accessor of integers or instances is sparse");
     if (accessor->count == 0)
-        return complain(error, "an accessor has no elements");
-    return accessor->components ? PS_OK : complain(error, "an accessor is of no known type");
+        return gltf_refuse(error, "an accessor has no elements");
+    return accessor->components ? PS_OK : gltf_refuse(error, "an accessor is of no known type");
 }
 
 ps_result gltf_accessor_open(struct gltf *gltf, size_t index, struct gltf_accessor *accessor,
@@ -239,9 +239,9 @@ ps_result gltf_accessor_open(struct gltf *gltf, size_t index, struct gltf_access
     if (element == 0 || !json_size(source, "bufferView", SIZE_MAX, &view) ||
         !json_size(source, "byteOffset", 0, &offset) ||
         !json_size(view_of(gltf, view), "byteStride", 0, &accessor->stride))
-        return complain(error, "an accessor's place is no number");
+        return gltf_refuse(error, "an accessor's place is no number");
     if (view == SIZE_MAX)
-        return complain(error, "an accessor of integers or instances has no view (zeros)");
+        return gltf_refuse(error, "an accessor of integers or instances has no view (zeros)");
     result = read_view(gltf, view, &bytes, error);
     if (result != PS_OK)
         return result;
@@ -249,13 +249,14 @@ ps_result gltf_accessor_open(struct gltf *gltf, size_t index, struct gltf_access
         accessor->stride = element;
     if (accessor->stride < element || offset > bytes.length || element > bytes.length - offset ||
         accessor->count - 1 > (bytes.length - offset - element) / accessor->stride)
-        return complain(error, "an accessor goes beyond its view");
+        return gltf_refuse(error, "an accessor goes beyond its view");
     accessor->bytes = bytes.bytes + offset;
     return PS_OK;
 }
 
-static uint32_t little_endian(const unsigned char *bytes, size_t size)
+uint32_t gltf_little_endian(const void *source, size_t size)
 {
+    const unsigned char *bytes = source;
     uint32_t value = 0;
     for (size_t i = size; i-- > 0;)
         value = value << 8 | bytes[i];
@@ -266,7 +267,7 @@ float gltf_accessor_value(const struct gltf_accessor *accessor, size_t element, 
 {
     size_t size = component_size(accessor->type);
     uint32_t bits =
-        little_endian(accessor->bytes + element * accessor->stride + component * size, size);
+        gltf_little_endian(accessor->bytes + element * accessor->stride + component * size, size);
     double value = bits, largest = size == 1 ? 255 : size == 2 ? 65535 : 4294967295.0;
     if (accessor->type == GLTF_FLOAT) {
         float number;

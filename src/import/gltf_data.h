@@ -7,6 +7,7 @@
 #define IMPORT_GLTF_DATA_H
 
 #include "import/gltf.h"
+#include <stdint.h>
 
 enum gltf_component {
     GLTF_BYTE = 5120,
@@ -32,6 +33,12 @@ ps_result gltf_accessor_open(struct gltf *gltf, size_t index, struct gltf_access
 
 /* As a float; integers that are normalized lie in -1..1. */
 float gltf_accessor_value(const struct gltf_accessor *accessor, size_t element, unsigned component);
+
+/* PS_ERROR_INVALID, with what is wrong. */
+ps_result gltf_refuse(struct error *error, const char *what);
+
+/* A number of at most four bytes. */
+uint32_t gltf_little_endian(const void *source, size_t size);
 
 /* Room in the arena for what is unpacked, of which there is at most GLTF_EXPANSION times what the files hold.
  * PS_ERROR_INVALID or _MEMORY. */
