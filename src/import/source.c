@@ -199,6 +199,8 @@ ps_result mesh_source_open(struct mesh_job *job)
     if (result == PS_OK && (job->format == FORMAT_GLTF || job->format == FORMAT_GLB))
         result = gltf_open(&job->gltf, job->main_file, &job->files, job->format == FORMAT_GLB,
                            job->error);
+    if (result == PS_OK && job->format == FORMAT_PLY)
+        result = ply_guard_data(job->main_file, job->error);
     if (result != PS_OK)
         return result;
     job->scene = aiImportFileEx(job->request->path, 0, &io);

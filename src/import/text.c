@@ -90,3 +90,49 @@ bool mtl_has_material(const struct mesh_file *file, const char *name)
             return true;
     return false;
 }
+
+/* --- PLY -------------------------------------------------------------------------------------------- */
+
+/* Of a name that assimp knows: it does not skip the data of others. */
+#define GUARD "element edge 1\nproperty uchar guard\n"
+
+/* Where the elements of a binary file's header start, and its data; false for others. */
+static bool find_ply_data(const struct mesh_file *file, size_t *elements, size_t *data)
+{
+    const char *at = file->bytes, *start = at, *end = at + file->length;
+    struct text_line line, rest, kind;
+    bool binary = false;
+    *elements = 0;
+    for (; text_next_line(&at, end, &line); start = at) {
+        if (text_line_starts(&line, "format", &rest))
+            binary = !text_line_starts(&rest, "ascii", &kind);
+        else if (*elements == 0 && text_line_starts(&line, "element", &rest))
+            *elements = (size_t)(start - file->bytes);
+        if (text_line_starts(&line, "end_header", &rest)) {
+            *data = (size_t)(at - file->bytes);
+            return binary && *elements > 0;
+        }
+    }
+    return false;
+}
+
+ps_result ply_guard_data(struct mesh_file *file, struct error *error)
+{
+    const size_t guard = sizeof GUARD - 1;
+    size_t elements, data;
+    if (!find_ply_data(file, &elements, &data) ||
+        (file->bytes[data] != '\n' && file->bytes[data] != '\r'))
+        return PS_OK;
+    char *bytes = malloc(file->length + guard + 2);
+    if (!bytes)
+        return error_memory(error, file->length, "a mesh file");
+    memcpy(bytes, file->bytes, elements);
+    memcpy(bytes + elements, GUARD, guard);
+    memcpy(bytes + elements + guard, file->bytes + elements, data - elements);
+    bytes[data + guard] = 'g';
+    memcpy(bytes + data + guard + 1, file->bytes + data, file->length - data + 1);
+    free(file->bytes);
+    file->bytes = bytes;
+    file->length += guard + 1;
+    return PS_OK;
+}

@@ -197,6 +197,34 @@ static void smoothing_that_cannot_be_followed_is_reported(void **state)
 
 /* --- other formats ---------------------------------------------------------------------------- */
 
+/* The first number begins like the end of a line. */
+static void data_of_ply_are_no_header(void **state)
+{
+    static const char header[] =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float "
+        "y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    static const unsigned char ends[] = {'\n', '\r'};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        char file[sizeof header - 1 + 36 + 13] = {0};
+        char *data = file + sizeof header - 1;
+        memcpy(file, header, sizeof header - 1);
+        memcpy(data, (unsigned char[]){ends[i], 0, 0x80, 0x3f}, 4); /* 1.000001 */
+        memcpy(data + 16, (unsigned char[]){0, 0, 0, 0x40}, 4);     /* 2 */
+        memcpy(data + 36, (unsigned char[]){3, 0, 0, 0, 0, 1, 0, 0, 0, 2}, 10);
+        const struct mesh_memory_file files[] = {{"m.ply", file, sizeof file}};
+        struct mesh_request request = request_all("m.ply");
+        struct imported imported = import_files(&request, files, 1);
+        expect_success(&imported);
+        const struct mesh_description *mesh = mesh_of(&imported, 0);
+        assert_int_equal(mesh->triangle_count, 1);
+        expect_vector(mesh->vertices[mesh->triangles[0][0]], 1, 0, 0);
+        expect_vector(mesh->vertices[mesh->triangles[0][1]], 0, 2, 0);
+        release_imported(&imported);
+    }
+}
+
 static void ply_is_read(void **state)
 {
     (void)state;
@@ -253,6 +281,7 @@ int main(void)
         cmocka_unit_test(smoothing_goes_across_materials_and_relative_indices),
         cmocka_unit_test(smoothing_that_cannot_be_followed_is_reported),
         cmocka_unit_test(ply_is_read),
+        cmocka_unit_test(data_of_ply_are_no_header),
         cmocka_unit_test(stl_is_flat),
         cmocka_unit_test(import_is_repeatable),
     };
