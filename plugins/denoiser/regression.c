@@ -5,13 +5,19 @@
  * each band is added as far as it is signal, neighbourhood by neighbourhood (shrinkage: James and Stein 1961;
  * Donoho and Johnstone 1994):
  *
- *     E' = F_48 + sum over R = 24, 12, 6, 3 of max(0, 1 - (2 <N^2> / <B^2>)^2) B,   B = F_R - F_2R
+ *     E' = F_48 + sum over R = 24, 12, 6, 3 of k_R B,   B = F_R - F_2R,   k_R = max(0, 1 - (c <N^2> / <B^2>)^2)
  *
- * N is the band of a picture of the noise alone, and <> a mean over a square around. Where two halves of the
- * light are known, of passes or of shadow rays, their difference is the noise, and the pixels themselves are a last
- * band: light without noise stays as it is, with its hard shadows. Of a single pass of indirect light the noise is
- * what pixels differ from a first fit, with signs drawn by lot (the wild bootstrap, Wu 1986). That needs noise that
- * is independent from pixel to pixel, as that of paths is and that of splats is not.
+ * N is the band of a picture of the noise alone, and <> a mean over a square around. So few blobs of noise fit into
+ * such a square that now and then they seem to be signal. But edges of light show in all bands, and chance in one: the
+ * caution c is 2 where the band before was kept, 4 where none of it was, and in proportion between (bivariate
+ * shrinkage does the same to wavelets: Sendur and Selesnick 2002).
+ *
+ * Where two halves of the light are known, of passes or of shadow rays, their difference is the noise, and the pixels
+ * themselves are a last band: light without noise stays as it is, with its hard shadows. Of a single pass of indirect
+ * light the noise is what pixels differ from a first fit, with signs drawn by lot (the wild bootstrap, Wu 1986). That
+ * needs noise that is independent from pixel to pixel, as that of paths is and that of splats is not. In gloss, and
+ * behind a lens, where samples of a pixel share the light of those around it (src/view/edges.h), blocks of pixels take
+ * one sign (the dependent wild bootstrap, Shao 2010).
  *
  * Bright samples that few pixels found would leave speckles in narrow bands. So what exceeds twice the first fit, and
  * may be noise, is left out of the bands. At last the rest, E - E', gets a fit as wide as possible, and is added: with
@@ -29,15 +35,16 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define DARKEST 1e-3f      /* albedo below which light is not judged by */
-#define FIRST 24           /* bandwidth of the first fit */
-#define FAR_ABOVE 2.0f     /* of the first fit: what is brighter may be left out of the bands */
-#define OUTLIER_NOISE 1.5f /* times the noise near by, by which outliers may be too bright */
-#define NEAR 3             /* pixels to each side are near by */
-#define CAUTION 2.0f       /* times the noise that a band must exceed */
-#define PIXELS_WINDOW 4    /* R of the window of the last band, of the pixels themselves */
-#define PIXELS_CAUTION                                                                             \
-    2.0f /* for that band: so few pixels may seem to have less noise than they have */
+#define DARKEST 1e-3f       /* albedo below which light is not judged by */
+#define FIRST 24            /* bandwidth of the first fit */
+#define FAR_ABOVE 2.0f      /* of the first fit: what is brighter may be left out of the bands */
+#define OUTLIER_NOISE 1.5f  /* times the noise near by, by which outliers may be too bright */
+#define NEAR 3              /* pixels to each side are near by */
+#define CAUTION 2.0f        /* times the noise that a band must exceed */
+#define ALONE 4.0f          /* the same, where nothing of the band before was kept */
+#define PIXELS_CAUTION 1.5f /* in place of CAUTION for the last band, of the pixels themselves */
+#define PIXELS_WINDOW 4     /* R of the window of that band */
+#define SHARED 4            /* pixels along a block whose noise may be one */
 /* Errors of the bands are not independent, and what is finer than the narrowest fit is none of them: against path-traced
  * references of seven scenes errors are larger than the sum over bands by so much. */
 #define UNSEEN 1.4f
@@ -68,6 +75,7 @@ struct work {
     float *fine[VALUES], *coarse[VALUES], *sum[REGRESSION_COLOURS];
     float *scale, *signal, *noise, *room;
     float *around;   /* pixels of the class in a square */
+    float *kept;     /* k of the band before */
     float *averaged; /* the plane under way */
     float *error;    /* where it is asked for: its square, times `scale` */
     float caution;   /* with the band under way */
@@ -170,11 +178,19 @@ static float noise_of_halves(const ps_image_view *image, size_t pixel)
     return sqrtf(share * (1.0f - share)) * (brightness(a) - brightness(b));
 }
 
-static float sign_by_lot(uint32_t pixel)
+static float sign_by_lot(uint32_t number)
 {
-    uint32_t x = (pixel ^ (pixel >> 16)) * 0x7feb352du;
+    uint32_t x = (number ^ (number >> 16)) * 0x7feb352du;
     x = (x ^ (x >> 15)) * 0x846ca68bu;
     return (x ^ (x >> 16)) & 1u ? 1.0f : -1.0f;
+}
+
+static float sign_of_noise(const struct work *work, size_t x, size_t y)
+{
+    const float *gloss = work->image->gloss;
+    bool shared = work->camera.aperture > 0.0f || (gloss && gloss[y * work->width + x] > 0.0f);
+    size_t side = shared ? SHARED : 1;
+    return sign_by_lot((uint32_t)(y / side * side * work->width + x / side * side));
 }
 
 /* Where halves tell it. And the largest near by along the row, into `room`. */
@@ -217,7 +233,7 @@ static void make_body(const struct work *work, size_t x, size_t y, size_t at)
     for (int c = 0; c < REGRESSION_COLOURS; c++)
         work->body[c][at] = keep * work->light[c][at];
     work->body[NOISE][at] =
-        known ? keep * work->noise[pixel] : sign_by_lot((uint32_t)pixel) * (keep * bright - first);
+        known ? keep * work->noise[pixel] : sign_of_noise(work, x, y) * (keep * bright - first);
 }
 
 static void make_body_of_row(void *user, uint64_t row, uint32_t worker)
@@ -241,6 +257,7 @@ static void begin_row(void *user, uint64_t row, uint32_t worker)
     for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
         float bright = brightness_at(work->coarse, i);
         work->scale[i] = 1.0f / (bright * bright + work->least * work->least);
+        work->kept[i] = 1.0f;
         if (work->error)
             work->error[i] = work->coarse[NOISE][i] * work->coarse[NOISE][i] * work->scale[i];
         for (int c = 0; c < REGRESSION_COLOURS; c++)
@@ -289,7 +306,6 @@ static void divide_row(void *user, uint64_t row, uint32_t worker)
         work->averaged[i] *= work->around[i] > 0.0f ? 1.0f / work->around[i] : 0.0f;
 }
 
-/* Replaces values by their sums over a square around. */
 static void sum_around(struct work *work, int radius, float *plane)
 {
     const struct regression_box box = {work->width, work->height, (size_t)radius, plane,
@@ -297,25 +313,22 @@ static void sum_around(struct work *work, int radius, float *plane)
     regression_box_sums(work->host, &box);
 }
 
-static void count_around(struct work *work, int radius)
+/* Replaces values of the class by their means over its pixels in a square around. */
+static void average_around(struct work *work, int radius, float *plane)
 {
+    sum_around(work, radius, plane);
     work->host->parallel_for(work->host, work->height, count_row, work);
     sum_around(work, radius, work->around);
-}
-
-/* Sums of values of the class become means over its pixels, which were counted. */
-static void divide_by_count(struct work *work, float *plane)
-{
     work->averaged = plane;
     work->host->parallel_for(work->host, work->height, divide_row, work);
 }
 
 /* Of a band of mean square S of which N is noise, and of which the share k is kept: k^2 N + (1 - k)^2 (S - N), Stein's
  * estimate of the risk. Of what S exceeds N by, as much as half of the caution is taken for chance. */
-static float risk_of_band(const struct work *work, size_t i, float keep)
+static float risk_of_band(const struct work *work, size_t i, float caution, float keep)
 {
     float noise = work->noise[i];
-    float lost = ps_max(work->signal[i] - 0.5f * work->caution * noise, 0.0f);
+    float lost = ps_max(work->signal[i] - 0.5f * caution * noise, 0.0f);
     return keep * keep * noise + (1.0f - keep) * (1.0f - keep) * lost;
 }
 
@@ -326,32 +339,25 @@ static void add_row(void *user, uint64_t row, uint32_t worker)
     for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
         if (!is_in_class(work, i))
             continue;
-        float noise = work->caution * work->noise[i], signal = work->signal[i];
+        float caution = ALONE + (work->caution - ALONE) * work->kept[i];
+        float noise = caution * work->noise[i], signal = work->signal[i];
         float share = signal > noise ? noise / signal : 1.0f, keep = 1.0f - share * share;
+        work->kept[i] = keep;
         for (int c = 0; c < REGRESSION_COLOURS; c++)
             work->sum[c][i] += keep * (work->fine[c][i] - work->coarse[c][i]);
         if (work->error)
-            work->error[i] += risk_of_band(work, i, keep);
+            work->error[i] += risk_of_band(work, i, caution, keep);
     }
 }
 
 /* The difference of `fine` and `coarse`, to the pixels of one class: what gloss mirrors has noise of its own, which
- * says nothing about the walls around. Signs by lot cancel now and then, where the noise that is there does not: of
- * those, more pixels are asked. Sums over the same square, which are only compared, need not be means. */
+ * says nothing about the walls around. One picture of the noise may have less of it than there is: of that, more
+ * pixels are asked. */
 static void add_band_of_class(struct work *work, int radius)
 {
-    bool known = work->image->even_r != NULL;
-    int wide = known ? radius : 2 * radius;
     work->host->parallel_for(work->host, work->height, measure_row, work);
-    sum_around(work, radius, work->signal);
-    sum_around(work, wide, work->noise);
-    if (!known || work->error) {
-        count_around(work, radius);
-        divide_by_count(work, work->signal);
-        if (wide != radius)
-            count_around(work, wide);
-        divide_by_count(work, work->noise);
-    }
+    average_around(work, radius, work->signal);
+    average_around(work, 2 * radius, work->noise);
     work->host->parallel_for(work->host, work->height, add_row, work);
 }
 
@@ -475,7 +481,7 @@ static float *lay_out(float *memory, size_t size, int count, float *planes[])
     return memory + (size_t)count * size;
 }
 
-enum { PLANES_WITH_MARGIN = 8 + 2 * VALUES, PLANES = 2 * VALUES + REGRESSION_COLOURS + 5 };
+enum { PLANES_WITH_MARGIN = 8 + 2 * VALUES, PLANES = 2 * VALUES + REGRESSION_COLOURS + 6 };
 
 static void lay_out_all(struct work *work, float *next, size_t with_margin, size_t pixels)
 {
@@ -493,6 +499,7 @@ static void lay_out_all(struct work *work, float *next, size_t with_margin, size
     next = lay_out(next, pixels, 1, &work->noise);
     next = lay_out(next, pixels, 1, &work->room);
     next = lay_out(next, pixels, 1, &work->around);
+    next = lay_out(next, pixels, 1, &work->kept);
     if (work->image->error)
         lay_out(next, pixels, 1, &work->error);
 }

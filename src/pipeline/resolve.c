@@ -290,12 +290,13 @@ static ps_image_view image_of(const struct render *render, struct rgb_planes ind
 
 /* Where a pixel saw a surface in a part of its samples only, its light is the mean over all of them, but its albedo and
  * normal are those of the surface. A denoiser compares pixels by these, so it gets the light of that part alone: of what
- * is covered (`of_part`), or back to the mean. */
+ * is visible (`of_part`), or back to the mean. Of gloss that is all: whether a path goes on to a surface or to the sky is
+ * a matter of chance there, and so is a share of FILM_COVERAGE. */
 static void scale_light(const struct film *film, bool of_part, float *light)
 {
-    const float *coverage = film->planes[FILM_COVERAGE];
+    const float *visible = film->planes[FILM_VISIBLE];
     for (size_t i = 0; light && i < film->width * film->height; i++) {
-        float share = coverage[i] / (float)film->passes;
+        float share = visible[i] / (float)film->passes;
         if (share > 0.0f && share < 1.0f)
             light[i] *= of_part ? 1.0f / share : share;
     }

@@ -96,6 +96,7 @@ static void denoise_or_stop(struct picture *picture, const char *choice, uint32_
         .position_y = picture->position[1],
         .position_z = picture->position[2],
         .depth = picture->depth,
+        .gloss = picture->gloss,
         .even_r = picture->halves ? picture->halves[0][0] : NULL,
         .even_g = picture->halves ? picture->halves[0][1] : NULL,
         .even_b = picture->halves ? picture->halves[0][2] : NULL,

@@ -170,6 +170,77 @@ static void test_noise_falls_and_the_mean_stays(void **state)
     expect_noise_to_fall(true);
 }
 
+/* What is finer than a few pixels: the deviation of light from the mean of its neighbours two pixels off. */
+static double grain_of(const struct picture *picture)
+{
+    double sum = 0;
+    int count = 0;
+    for (int y = 2; y < HEIGHT - 2; y++)
+        for (int x = 2; x < WIDTH - 2; x++, count++) {
+            const float *at = &picture->light[1][y * WIDTH + x];
+            double off =
+                (double)(at[0] - 0.25f * (at[-2] + at[2] + at[-2 * WIDTH] + at[2 * WIDTH]));
+            sum += off * off;
+        }
+    return sqrt(sum / count);
+}
+
+/* Of even light with independent noise, a mean over seeds: what chance lets pass for a narrow band of signal. */
+static double mean_grain(bool halves)
+{
+    static float room[2][3][PIXELS];
+    double sum = 0;
+    for (uint64_t seed = 0; seed < 8; seed++) {
+        struct picture *picture = level_floor();
+        picture->halves = halves ? room : NULL;
+        add_noise(picture, 100 + seed);
+        denoise(picture, CHOICE, 2);
+        sum += grain_of(picture) / 8;
+        free(picture);
+    }
+    return sum;
+}
+
+static void test_chance_leaves_no_grain(void **state)
+{
+    (void)state;
+    double one = mean_grain(false), halves = mean_grain(true);
+    print_message("grain of one pass %.5f, of halves %.5f\n", one, halves);
+    assert_true(one < 0.01);
+    assert_true(halves < 0.01);
+}
+
+/* Where samples of gloss take the mean light of 5x5 pixels, noise is as wide. */
+static void test_shared_noise_of_gloss_is_noise(void **state)
+{
+    (void)state;
+    static float noise[PIXELS], gloss[PIXELS];
+    struct picture *picture = level_floor();
+    struct random random = {5};
+    for (int i = 0; i < PIXELS; i++) {
+        noise[i] = random_between(&random, -1, 1);
+        gloss[i] = 0.5f;
+    }
+    for (int i = 0; i < PIXELS; i++) {
+        float sum = 0, count = 0;
+        for (int y = i / WIDTH - 2; y <= i / WIDTH + 2; y++)
+            for (int x = i % WIDTH - 2; x <= i % WIDTH + 2; x++)
+                if (x >= 0 && y >= 0 && x < WIDTH && y < HEIGHT) {
+                    sum += noise[y * WIDTH + x];
+                    count++;
+                }
+        for (int c = 0; c < 3; c++)
+            picture->light[c][i] = 1 + sum / count;
+    }
+    picture->gloss = gloss;
+    double before = grain_of(picture);
+    denoise(picture, CHOICE, 2);
+    double after = grain_of(picture);
+    print_message("grain of shared noise %.4f -> %.4f\n", before, after);
+    assert_true(after < 0.1 * before);
+    free(picture);
+}
+
 /* A disc of light ten pixels wide, as a caustic is: halves tell that it is no noise, a single pass cannot know. */
 static double lost_of_disc(float (*halves)[3][PIXELS])
 {
@@ -286,6 +357,8 @@ int main(void)
         cmocka_unit_test(test_edges_stop_it),
         cmocka_unit_test(test_thin_things_keep_their_light),
         cmocka_unit_test(test_noise_falls_and_the_mean_stays),
+        cmocka_unit_test(test_chance_leaves_no_grain),
+        cmocka_unit_test(test_shared_noise_of_gloss_is_noise),
         cmocka_unit_test(test_what_is_no_noise_stays),
         cmocka_unit_test(test_outliers_spread),
         cmocka_unit_test(test_what_is_no_surface_stays),

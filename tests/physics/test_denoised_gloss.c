@@ -1,0 +1,68 @@
+/* test_denoised_gloss.c: the indirect light of gloss in which the sky is mirrored, of one pass through a denoiser.
+ *
+ * A path from a pixel of the floor goes on to the wall or past it to the sky, by chance, and has no indirect light
+ * there. Light is even (estimator `ambient`), so that all that pixels differ by is this chance.
+ */
+#include "support/render_scene.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+#define WIDTH 96
+#define HEIGHT 64
+
+static const char scene[] =
+    "psd: 1\n"
+    "camera: {location: [0, 2, 5], look_at: [0, 0, 0], angle: 40}\n"
+    "image: {width: 96, height: 64}\n"
+    "materials: {floor: {glossy: {diffuse: 0.3, specular: 0.3, roughness: 0.5}}, wall: {diffuse: "
+    "0.6}}\n"
+    "lights: [sky: {radiance: 1}]\n"
+    "objects:\n"
+    "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: floor}\n"
+    "  - quad: {corners: [[-9, 0, -9], [9, 0, -9], [9, 4, -9], [-9, 4, -9]], material: wall}\n"
+    "render: {passes: 1, aa_samples: 8, seed: 3}\n";
+
+/* Of the middle of the floor: the deviation of pixels from the mean of the four beside them, over the light. */
+static double grain_of(const struct image *image)
+{
+    const float *light = image_channel(image, "indirect.G");
+    double squares = 0, sum = 0;
+    int count = 0;
+    for (int y = HEIGHT / 2; y < HEIGHT - 8; y++)
+        for (int x = 8; x < WIDTH - 8; x++, count++) {
+            const float *at = &light[y * WIDTH + x];
+            double off = (double)(at[0] - 0.25f * (at[-1] + at[1] + at[-WIDTH] + at[WIDTH]));
+            squares += off * off;
+            sum += (double)at[0];
+        }
+    return sqrt(squares * count) / sum;
+}
+
+static void test_chance_to_mirror_the_sky_leaves_no_specks(void **state)
+{
+    (void)state;
+    static const char *const raw[] = {"estimator=ambient:irradiance=1", "denoiser=none", NULL};
+    static const char *const smooth[] = {"estimator=ambient:irradiance=1", "denoiser=regression",
+                                         NULL};
+    struct rendering before = render_text(scene, 2, raw), after = render_text(scene, 2, smooth);
+    double was = grain_of(&before.image), is = grain_of(&after.image);
+    double mean =
+        mean_of_all(&after.image, "indirect.G") / mean_of_all(&before.image, "indirect.G");
+    print_message("grain %.4f -> %.4f, mean %.4f\n", was, is, mean);
+    assert_true(was > 0.02);
+    assert_true(is < 0.2 * was);
+    assert_true(fabs(mean - 1) < 5e-3);
+    rendering_release(&before);
+    rendering_release(&after);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_chance_to_mirror_the_sky_leaves_no_specks),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
