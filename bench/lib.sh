@@ -1,5 +1,19 @@
 # lib.sh: what the measurements in bench/ share; sourced, not run. POSIX sh.
 
+# no_options "$@": a script that knows arguments alone prints its head for --help, and refuses what else begins with "-".
+no_options() {
+    case ${1-} in
+    -h | --help)
+        awk 'NR > 1 && !/^#/ { exit } NR > 1 { sub(/^# ?/, ""); print }' "$0"
+        exit 0
+        ;;
+    -*)
+        echo "$(basename "$0"): there is no option $1; --help says what there is" >&2
+        exit 2
+        ;;
+    esac
+}
+
 # statistic SECTION NAME FILE: a number of a --stats file. The section is seconds, counters or bytes: a counter
 # may have the name of a purpose of memory. Prints nothing where there is no such number.
 statistic() {

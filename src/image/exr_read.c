@@ -193,14 +193,16 @@ static exr_result_t read_facts(struct exr_source *source)
     return code;
 }
 
-/* Where the picture lies in the display window, if it does and that begins at (0, 0). */
+/* Where the picture lies in the display window, if it does and that begins at (0, 0); else it is all there is. */
 static exr_result_t read_place(struct exr_source *source)
 {
     exr_attr_box2i_t display, data = source->window;
+    struct image *image = &source->image;
+    image->window = (struct picture_window){0, 0, image->width, image->height};
     exr_result_t code = exr_get_display_window(source->context, source->part, &display);
     if (code == EXR_ERR_SUCCESS && display.min.x == 0 && display.min.y == 0 && data.min.x >= 0 &&
         data.min.y >= 0 && display.max.x >= data.max.x && display.max.y >= data.max.y)
-        source->image.window =
+        image->window =
             (struct picture_window){(size_t)data.min.x, (size_t)data.min.y,
                                     (size_t)display.max.x + 1, (size_t)display.max.y + 1};
     return code;

@@ -73,7 +73,7 @@ ps_result image_write_exr(const struct image *image, const char *path,
 
 /* Reads a single-part scan-line or tiled (one level) OpenEXR, half, float or uint channels, into
  * floats; the picture is the data window, and `window` says where it lies in a display window that begins at (0, 0) and
- * holds it. Refuses B44, deep, multi-part, mip-mapped and subsampled
+ * holds it; elsewhere the data window is all there is. Refuses B44, deep, multi-part, mip-mapped and subsampled
  * files, and sizes that can't be, each with a clear message. `image` is written only on success,
  * and what it held is not released: pass an empty one. */
 ps_result image_read_exr(const char *path, struct image *image, struct error *error);

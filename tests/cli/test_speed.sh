@@ -240,4 +240,30 @@ for estimator in $(sed -n 's/^  \([a-z_]*\) .*/\1/p' out); do
     expect_text "$methods" "-p estimator=$estimator"
 done
 
+# --- bench/pictures: those that README.md and docs/ show; the LBNL conference room's mesh is not shipped ---
+
+last="bench/pictures"
+if command -v montage >/dev/null; then
+    "$bench/pictures" sheets '' 8 >out 2>err
+    check_status $? 0
+    expect_empty err
+    for picture in cornell.png plate.png corridor.png columns.png lanterns.jpg; do
+        [ -s "sheets/$picture" ] || fail "no $picture"
+        grep -q "pictures/$picture" "$PSPLAT_SOURCE/README.md" "$PSPLAT_SOURCE"/docs/*.md || fail "nobody shows $picture"
+    done
+fi
+
+# --- scripts that know arguments alone ---
+
+for script in compare methods occlusion pictures throughput; do
+    last="bench/$script"
+    "$bench/$script" --help >out 2>err
+    check_status $? 0
+    expect_empty err
+    grep -q "^$script: " out || fail "its help does not begin with its name"
+    "$bench/$script" --frob >out 2>err
+    check_status $? 2
+    expect_empty out
+done
+
 finish
