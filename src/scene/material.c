@@ -367,6 +367,14 @@ static const struct lobe *choose_lobe(const struct lobe *lobes, size_t count, fl
     return &lobes[i];
 }
 
+bool material_refracts(const struct material *material)
+{
+    bool found = false;
+    for (uint32_t i = 0; i < material->component_count; i++)
+        found |= material->components[i].kind == COMPONENT_DIELECTRIC;
+    return found;
+}
+
 /* --- scattering ------------------------------------------------------------------------------ */
 
 static ps_vec3 to_frame(const ps_vec3 frame[3], ps_vec3 w)
@@ -440,6 +448,17 @@ static ps_rgb transmittance(ps_rgb absorption, float distance)
                     expf(-absorption.b * distance)};
 }
 
+/* Chance by which glass mirrors, of the share that it does. Of eight samples of a pixel, which are stratified, camera
+ * paths send at least one either way, so that what is rare is seen in all pixels and not in some. Photons
+ * keep their power. */
+static float chance_to_mirror(float reflectance, ps_direction direction)
+{
+    const float least = 0.125f;
+    if (direction == PS_FROM_LIGHT || reflectance <= 0.0f || reflectance >= 1.0f)
+        return reflectance;
+    return fminf(fmaxf(reflectance, least), 1.0f - least);
+}
+
 /* Mirrors or refracts, by chance. Radiance is squeezed into a smaller solid angle on the denser side;
  * power is not. */
 static ps_bsdf_sample pass_surface(const struct lobe *lobe, const struct view *view,
@@ -454,10 +473,13 @@ static ps_bsdf_sample pass_surface(const struct lobe *lobe, const struct view *v
     if (inside)
         weight = ps_rgb_multiply(weight, transmittance(component->absorption, view->hit->distance));
     ps_bsdf_sample scattered = {.lobe = PS_SPECULAR, .weight = weight};
-    if (number < reflectance) {
+    float chance = chance_to_mirror(reflectance, direction);
+    if (number < chance) {
+        scattered.weight = ps_rgb_scale(weight, reflectance / chance);
         scattered.direction =
             ps_add_scaled(ps_scale(view->out, -1.0f), 2.0f * ps_dot(view->out, n), n);
     } else {
+        weight = ps_rgb_scale(weight, (1.0f - reflectance) / (1.0f - chance));
         ps_vec3 along = ps_scale(view->out, -1.0f / eta);
         scattered.direction = ps_add_scaled(along, view->cosine / eta - far_cosine, n);
         scattered.weight = ps_rgb_multiply(weight, color_at(&component->specular, view->hit));

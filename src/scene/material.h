@@ -116,6 +116,9 @@ ps_rgb material_reflectance(const struct material *material, const struct microf
 /* Radiance that the surface emits along the ray, towards its origin. */
 ps_rgb material_emission(const struct material *material, const ps_hit *hit);
 
+/* Whether it holds glass, which mirrors or lets through by chance. */
+bool material_refracts(const struct material *material);
+
 /* See ps_host.sample_bsdf. */
 ps_bsdf_sample material_scatter(const struct material *material,
                                 const struct microfacet_table *table, ps_direction direction,

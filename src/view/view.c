@@ -127,14 +127,13 @@ static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t 
                     ps_rgb_multiply(paths->throughput[i], radiance[i]));
 }
 
-/* Path i goes on from the hit by chance. */
-static void note_chance(const struct view_pass *pass, uint32_t tile,
-                        const struct camera_paths *paths, size_t i, const ps_hit *hit)
+/* Path i goes on from gloss, or from a surface that is diffuse as well, by chance. */
+static void note_gloss(const struct view_pass *pass, uint32_t tile,
+                       const struct camera_paths *paths, size_t i, const ps_hit *hit)
 {
     const struct scene *scene = pass->scene;
     struct gbuffer *gbuffer = pass->gbuffer;
     uint32_t lane = paths->lanes[i];
-    gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS + lane] = true;
     if (!gbuffer->glossy)
         return;
     ps_rgb reflectance = material_reflectance(&scene->materials[hit->material], scene->microfacets,
@@ -143,6 +142,20 @@ static void note_chance(const struct view_pass *pass, uint32_t tile,
     gbuffer_store_glossy(&gbuffer->glossy[tile], lane, hit,
                          ps_rgb_multiply(paths->throughput[i], reflectance),
                          all > 0.0f ? 1.0f - diffuse / all : 1.0f, paths->travelled[i]);
+}
+
+/* Several samples of a pixel tell more where its path goes on by chance. What glass shows is as sharp as without it: its
+ * surface says nothing about that, as that of gloss does. */
+static void note_chance(const struct view_pass *pass, uint32_t tile,
+                        const struct camera_paths *paths, size_t i, const ps_hit *hit,
+                        const ps_bsdf_sample *on)
+{
+    bool gloss = on->probability < 1.0f || on->lobe == PS_GLOSSY;
+    if (pass->hits || !(gloss || material_refracts(&pass->scene->materials[hit->material])))
+        return;
+    pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS + paths->lanes[i]] = true;
+    if (gloss)
+        note_gloss(pass, tile, paths, i, hit);
 }
 
 /* Sends the paths on, or ends them at the diffuse lobe of a surface that has others too. */
@@ -158,8 +171,7 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
         ps_bsdf_sample on =
             material_scatter(&scene->materials[hits[i].material], scene->microfacets,
                              PS_FROM_CAMERA, &paths->rays[i], &hits[i], numbers);
-        if (!pass->hits && (on.probability < 1.0f || on.lobe == PS_GLOSSY))
-            note_chance(pass, tile, paths, i, &hits[i]);
+        note_chance(pass, tile, paths, i, &hits[i], &on);
         if (on.lobe == PS_DIFFUSE) {
             ps_rgb throughput = ps_rgb_scale(paths->throughput[i], 1.0f / on.probability);
             if (ps_rgb_maximum(hits[i].albedo) > 0.0f)

@@ -236,27 +236,32 @@ static void test_diffuse_parts_count_once(void **state)
 
 /* --- glass -------------------------------------------------------------------------------------- */
 
-static double share_that_passes(const struct material *glass, const struct meeting *meeting,
-                                double expected_sine, double expected_weight)
+struct shares {
+    double passed, mirrored; /* mean weights */
+    double ways;             /* share of the samples that passed */
+};
+
+static struct shares shares_of_glass(const struct material *glass, const struct meeting *meeting,
+                                     ps_direction direction, double expected_sine)
 {
     struct random random = {23};
-    int passed = 0;
+    struct shares shares = {0, 0, 0};
     for (int i = 0; i < SAMPLES; i++) {
-        ps_bsdf_sample on = scatter(glass, meeting, PS_FROM_CAMERA, &random);
+        ps_bsdf_sample on = scatter(glass, meeting, direction, &random);
+        double weight = (double)on.weight.g / SAMPLES;
         assert_int_equal(on.lobe, PS_SPECULAR);
         assert_true(on.pdf == 0);
         assert_true(fabsf(ps_length(on.direction) - 1) < 1e-5f);
+        assert_true(on.normal.y * on.direction.y > 0);
         if (on.direction.y > 0) {
-            assert_true(fabsf(on.weight.g - 1) < 1e-6f);
-            assert_true(on.normal.y > 0);
+            shares.mirrored += weight;
             continue;
         }
-        passed++;
-        assert_true(on.normal.y < 0);
+        shares.passed += weight;
+        shares.ways += 1.0 / SAMPLES;
         assert_true(fabs((double)on.direction.x - expected_sine) < 1e-4);
-        assert_true(fabs((double)on.weight.g - expected_weight) < 1e-4);
     }
-    return (double)passed / SAMPLES;
+    return shares;
 }
 
 /* Fresnel's equations at 60 degrees to the normal of glass, worked out by hand. */
@@ -268,8 +273,13 @@ static void test_glass_refracts(void **state)
     double sine = sqrt(0.75) / 1.5, cosine = sqrt(1 - sine * sine);
     double s = (0.5 - 1.5 * cosine) / (0.5 + 1.5 * cosine);
     double p = (1.5 * 0.5 - cosine) / (1.5 * 0.5 + cosine);
-    double passed = share_that_passes(&glass, &outside, sine, 1 / 2.25);
-    assert_true(fabs(passed - (1 - 0.5 * (s * s + p * p))) < 0.01);
+    double reflectance = 0.5 * (s * s + p * p);
+    struct shares camera = shares_of_glass(&glass, &outside, PS_FROM_CAMERA, sine);
+    struct shares light = shares_of_glass(&glass, &outside, PS_FROM_LIGHT, sine);
+    assert_true(fabs(camera.mirrored - reflectance) < 0.01);
+    assert_true(fabs(camera.passed * 2.25 - (1 - reflectance)) < 0.01);
+    assert_true(fabs(light.ways - (1 - reflectance)) < 0.01);
+    assert_true(fabs(camera.ways - 0.875) < 0.01); /* at least an eighth is mirrored */
 }
 
 static void test_glass_reflects_totally_inside(void **state)
@@ -278,8 +288,9 @@ static void test_glass_reflects_totally_inside(void **state)
     struct material glass = made_one(plain(MATERIAL_DIELECTRIC, 1));
     struct meeting steep = meet(0.9f, PS_HIT_BACK), flat = meet(0.6f, PS_HIT_BACK);
     double sine = 1.5 * sqrt(1 - 0.81);
-    assert_true(share_that_passes(&glass, &steep, sine, 2.25) > 0.9);
-    assert_true(share_that_passes(&glass, &flat, 0, 0) == 0); /* sine 0.8 > 1 / 1.5 */
+    assert_true(shares_of_glass(&glass, &steep, PS_FROM_CAMERA, sine).passed > 0.9 * 2.25);
+    struct shares all = shares_of_glass(&glass, &flat, PS_FROM_CAMERA, 0); /* sine 0.8 > 1 / 1.5 */
+    assert_true(all.ways == 0 && fabs(all.mirrored - 1) < 1e-5);
 }
 
 static void test_power_is_not_squeezed(void **state)
@@ -298,7 +309,7 @@ static void test_glass_absorbs_by_distance(void **state)
     struct meeting inside = meet(0.6f, PS_HIT_BACK);
     struct random random = {1};
     inside.hit.distance = 3;
-    ps_bsdf_sample on = scatter(&glass, &inside, PS_FROM_CAMERA, &random);
+    ps_bsdf_sample on = scatter(&glass, &inside, PS_FROM_LIGHT, &random);
     assert_true(fabsf(on.weight.r - 1) < 1e-6f);
     assert_true(fabsf(on.weight.g - expf(-1.5f)) < 1e-6f);
     assert_true(fabsf(on.weight.b - expf(-6)) < 1e-6f);
