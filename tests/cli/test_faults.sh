@@ -83,7 +83,8 @@ expect_same_pixels jumped.exr again.exr
 
 # --- many passes ---
 
-# Memory after half of them and before the end, without what a sanitizer keeps back.
+# Memory after half of them and before the end, without what a sanitizer keeps back. Threads that write checkpoints may
+# open one heap more at any time, which is 4 MB of what 30 passes would lose if each lost a film (1 MB).
 passes=60 most=1.02
 [ -n "${PSPLAT_QUICK:-}" ] || passes=400
 ! is_on PSPLAT_SANITIZE || most=1.15 # its allocator scatters what it gives
@@ -97,7 +98,7 @@ for estimator in gather splat; do
         n + 0 >= passes / 2 && !early { early = bytes + 0 }
         n + 0 < passes { late = bytes + 0 }
         END { print estimator ": " early " bytes after half of the passes, " late " before the last"
-              exit !(early > 0 && late < early * most + 1e6) }' out >memory || fail "memory grows: $(cat memory)"
+              exit !(early > 0 && late < early * most + 6e6) }' out >memory || fail "memory grows: $(cat memory)"
     cat memory
     rm -f soak.exr
 done
