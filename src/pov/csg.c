@@ -3,8 +3,8 @@
  * The surface of a solid by boolean operations is made of the surfaces of its parts, each as far as it lies inside
  * (union: outside) of the other parts (A. Requicha and H. Voelcker, "Boolean operations in solid modeling", 1985). The
  * parts that cut are convex, as spheres, boxes, cylinders, cones and planes are: their faces' planes cut the polygons
- * of the others. A part that is not convex is cut, but cuts nothing, with a warning. No library does that in plain C;
- * the solids of scenes by hand are small.
+ * of the others. A part that is not convex is cut, but cuts nothing, with a warning; the face of a plane that such a part
+ * ought to bound is left out. No library does that in plain C; the solids of scenes by hand are small.
  */
 #include "pov/polygons.h"
 #include "pov/write.h"
@@ -262,6 +262,8 @@ static struct node *build(struct solid *solid, const struct pov_object *object,
     struct pov_above look = pov_below(object, above);
     if (depth > DEEPEST)
         fail(solid, "its parts are in each other more than 100 deep");
+    if (depth > 0)
+        pov_warn_of_object(solid->writer, object);
     if (solid->failed || object->shape == POV_SHAPE_NOTHING)
         return NULL;
     if (object->shape == POV_SHAPE_LIGHT || object->shape == POV_SHAPE_HEIGHT_FIELD) {
@@ -396,8 +398,27 @@ struct path {
     size_t child; /* which of its children is on the way */
 };
 
+/* A plane that is cut by nothing to the end of its mesh, though a part that is not convex bounds it. */
+static bool is_sheet(const struct node *leaf, const struct path *path,
+                     const struct csg_polygons *kept)
+{
+    bool bounded = false, ends = false;
+    for (; path; path = path->up)
+        for (size_t i = 0; i < path->node->child_count && path->node->kind == ALL; i++) {
+            const struct node *part = path->node->children[i];
+            bounded |= i != path->child && !part->cuts && !part->inverse;
+        }
+    for (size_t i = 0; i < kept->vertex_count && bounded; i++)
+        for (size_t k = 0; k < leaf->mesh.vertex_count; k++) {
+            struct vector off = vector_subtract(kept->vertices[i].point, leaf->mesh.points[k]);
+            ends |= vector_length(off) <= TOLERANCE * vector_length(leaf->mesh.points[k]);
+        }
+    return leaf->object->shape == POV_SHAPE_PLANE && ends;
+}
+
 static void write_surface(struct solid *solid, const struct node *leaf, const struct path *path)
 {
+    const struct path *whole = path;
     struct csg_polygons kept = {0}, next = {0};
     bool turned = leaf->inverse && path != NULL;
     add_triangles(solid, leaf, &kept);
@@ -415,7 +436,10 @@ static void write_surface(struct solid *solid, const struct node *leaf, const st
         }
         turned = turned != (node->inverse && path->up != NULL);
     }
-    if (!solid->failed)
+    if (!solid->failed && is_sheet(leaf, whole, &kept))
+        pov_warn_at(solid->writer->reader, leaf->object->file, &leaf->object->token,
+                    "the face by which plane ends a part that is not convex is left out");
+    else if (!solid->failed)
         write_leaf(solid, leaf, &kept, turned);
     csg_polygons_release(&kept);
     csg_polygons_release(&next);

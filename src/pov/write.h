@@ -48,6 +48,9 @@ void pov_write_light(struct pov_writer *writer, const struct pov_object *object,
 void pov_write_object(struct pov_writer *writer, const struct pov_object *object,
                       const struct pov_above *above);
 
+/* Warns of what has no counterpart in an object, if anything. */
+void pov_warn_of_object(struct pov_writer *writer, const struct pov_object *object);
+
 /* The name of the material that stands for what is above; NULL: reported (write_material.c). */
 const char *pov_write_material(struct pov_writer *writer, const struct pov_above *above);
 /* A colour of the scene's gamma as a linear one. */

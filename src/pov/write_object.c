@@ -379,6 +379,14 @@ static bool write_pictured(struct pov_writer *writer, const struct pov_object *o
 
 /* --- all ------------------------------------------------------------------------------------------ */
 
+void pov_warn_of_object(struct pov_writer *writer, const struct pov_object *object)
+{
+    const struct pov_note *note = &object->note;
+    if (note->text)
+        pov_warn_at(writer->reader, note->file, &note->token, "%s %s",
+                    pov_text(writer->reader, note->token.word), note->text);
+}
+
 static void write_children(struct pov_writer *writer, const struct pov_object *object,
                            const struct pov_above *look)
 {
@@ -401,9 +409,7 @@ void pov_write_object(struct pov_writer *writer, const struct pov_object *object
         pov_error(writer->reader, &object->token,
                   "the scene has more than %d objects, those of groups each time",
                   POV_MOST_OBJECTS);
-    if (object->note.text)
-        pov_warn_at(writer->reader, object->note.file, &object->note.token, "%s %s",
-                    pov_text(writer->reader, object->note.token.word), object->note.text);
+    pov_warn_of_object(writer, object);
     if (writer->reader->stopped || object->shape == POV_SHAPE_NOTHING)
         return;
     if (object->clip_count > 0 && object->shape != POV_SHAPE_UNION &&
@@ -416,13 +422,12 @@ void pov_write_object(struct pov_writer *writer, const struct pov_object *object
                     "clipped_by of a group is left out");
     warn_of_map(writer, &look);
     switch (object->shape) {
-    case POV_SHAPE_LIGHT: {
-        struct transform at = transform_translate(object->p[0].x, object->p[0].y, object->p[0].z);
+    case POV_SHAPE_LIGHT:
         pov_write_light(writer, object, &look.place);
-        look.place = transform_compose(&look.place, &at);
-        write_children(writer, object, &look);
+        if (object->child_count > 0)
+            pov_warn_at(writer->reader, object->file, &object->token,
+                        "looks_like is left out: it would shade its light");
         break;
-    }
     case POV_SHAPE_UNION:
         write_children(writer, object, &look);
         break;

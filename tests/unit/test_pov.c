@@ -84,6 +84,17 @@ static void expect_error(const char *text, const char *part)
 }
 
 /* That the expression is that number, by the radius of a sphere. */
+/* The scene can be made, with a warning, and does not hold the other part. */
+static void expect_warning(const char *text, const char *part, const char *absent)
+{
+    char message[512] = "";
+    char *scene = convert(text, message);
+    if (!scene || !strstr(message, part) || strstr(scene, absent))
+        fail_msg("'%s' became\n%s\n%s\nwithout '%s', or with '%s'", text, scene ? scene : "",
+                 message, part, absent);
+    free(scene);
+}
+
 static void expect_number(const char *expression, const char *number)
 {
     char text[512], part[64];
@@ -372,6 +383,15 @@ static void test_makes_solids(void **state)
     expect("intersection { box { -1, 1 } plane { x, 0 } }", "triangles: {vertices: ");
     expect("difference { box { -1, 1 } box { 0, 2 } }", "triangles: {vertices: ");
     expect("difference { sphere { 0, 1 } torus { 2, 0.1 } }", "mesh: {file: ");
+    /* Half a torus has no faces where it was cut; a plane with a groove has its own. */
+    expect_warning("intersection { torus { 2, 0.5 } plane { y, 0 } }",
+                   "the face by which plane ends a part that is not convex", "vertices");
+    expect("difference { plane { y, 0 } torus { 2, 0.5 } }", "vertices");
+    expect("intersection { plane { y, 0 } plane { x, 0 } sphere { 0, 1 } }", "vertices");
+    expect_warning("union { intersection { sphere { 0, 1 } quadric { <1, 1, 1>, 0, 0, -1 } } }",
+                   "quadric has no counterpart", "quadric");
+    expect_warning("light_source { 0, 1 looks_like { sphere { 0, 1 } } }", "looks_like",
+                   "sphere: ");
     expect("sphere { 0, 1 clipped_by { plane { y, 0 } } }", "mesh: {file: ");
     char message[512];
     char *scene = convert("intersection { box { 0, 1 } box { 2, 3 } }", message);
