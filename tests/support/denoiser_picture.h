@@ -14,7 +14,7 @@ struct picture {
     float light[3][PIXELS], albedo[3][PIXELS], normal[3][PIXELS], position[3][PIXELS];
     float depth[PIXELS];
     float (*halves)[3][PIXELS]; /* light of even and of odd passes, two in all; NULL: one pass */
-    const float *gloss; /* share of the albedo that is gloss; NULL: none */
+    const float *gloss;         /* share of the albedo that is gloss; NULL: none */
 };
 
 void set_vector(float (*planes)[PIXELS], int pixel, ps_vec3 v);
