@@ -40,8 +40,7 @@ struct gbuffer {
     /* What of both comes from lights that cast hard shadows, likewise; NULL where nobody asks. */
     ps_rgb *hard, *hard_half;
     ps_rgb *emitted; /* radiance collected on the way there, of the same size, owned */
-    bool *
-        by_chance; /* whether another look would take another way (a lens, gloss, glass), likewise */
+    bool *by_chance; /* whether another look would take another way (lens, gloss, glass) */
     struct glossy_tile *glossy; /* of each tile, owned; NULL where the scene has no such surface */
     /* What shadow rays met (see gbuffer_occlusion_alike), and room for direct light that is joined; likewise,
      * or NULL where nobody joins it. */

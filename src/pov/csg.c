@@ -398,34 +398,39 @@ struct path {
     size_t child; /* which of its children is on the way */
 };
 
-/* A plane that is cut by nothing to the end of its mesh, though a part that is not convex bounds it. */
-static bool is_sheet(const struct node *leaf, const struct path *path,
-                     const struct csg_polygons *kept)
+/* Whether a part that is not convex, and so cuts nothing, bounds what the path leads to. */
+static bool is_bounded_in_vain(const struct path *path)
 {
-    bool bounded = false, ends = false;
+    bool bounded = false;
     for (; path; path = path->up)
         for (size_t i = 0; i < path->node->child_count && path->node->kind == ALL; i++) {
             const struct node *part = path->node->children[i];
             bounded |= i != path->child && !part->cuts && !part->inverse;
         }
-    for (size_t i = 0; i < kept->vertex_count && bounded; i++)
-        for (size_t k = 0; k < leaf->mesh.vertex_count; k++) {
-            struct vector off = vector_subtract(kept->vertices[i].point, leaf->mesh.points[k]);
-            ends |= vector_length(off) <= TOLERANCE * vector_length(leaf->mesh.points[k]);
+    return bounded;
+}
+
+/* Whether polygons of a plane reach a corner of the mesh that stands for it, which lies far away. */
+static bool reach_end(const struct csg_polygons *polygons, const struct mesh *plane)
+{
+    bool reach = false;
+    for (size_t i = 0; i < polygons->vertex_count; i++)
+        for (size_t k = 0; k < plane->vertex_count; k++) {
+            struct vector off = vector_subtract(polygons->vertices[i].point, plane->points[k]);
+            reach |= vector_length(off) <= TOLERANCE * vector_length(plane->points[k]);
         }
-    return leaf->object->shape == POV_SHAPE_PLANE && ends;
+    return reach;
 }
 
 static void write_surface(struct solid *solid, const struct node *leaf, const struct path *path)
 {
-    const struct path *whole = path;
     struct csg_polygons kept = {0}, next = {0};
     bool turned = leaf->inverse && path != NULL;
     add_triangles(solid, leaf, &kept);
-    for (; path; path = path->up) {
-        const struct node *node = path->node;
+    for (const struct path *at = path; at; at = at->up) {
+        const struct node *node = at->node;
         for (size_t i = 0; i < node->child_count && !solid->failed; i++) {
-            if (i == path->child || !node->children[i]->cuts)
+            if (i == at->child || !node->children[i]->cuts)
                 continue;
             csg_polygons_clear(&next);
             cut(solid, node->children[i], &kept, node->kind == ALL ? &next : NULL,
@@ -434,9 +439,10 @@ static void write_surface(struct solid *solid, const struct node *leaf, const st
             kept = next;
             next = swapped;
         }
-        turned = turned != (node->inverse && path->up != NULL);
+        turned = turned != (node->inverse && at->up != NULL);
     }
-    if (!solid->failed && is_sheet(leaf, whole, &kept))
+    bool is_plane = leaf->object->shape == POV_SHAPE_PLANE;
+    if (!solid->failed && is_plane && is_bounded_in_vain(path) && reach_end(&kept, &leaf->mesh))
         pov_warn_at(solid->writer->reader, leaf->object->file, &leaf->object->token,
                     "the face by which plane ends a part that is not convex is left out");
     else if (!solid->failed)

@@ -3,6 +3,7 @@
 Prints what is wrong, a line each; the exit status says whether anything was.
 """
 import contextlib
+import errno
 import http.client
 import json
 import os
@@ -369,13 +370,15 @@ def test_strangers(server):
 def raw(server, text, ends=False):
     """What a request of these bytes is answered; `ends`: nothing will follow them."""
     with socket.create_connection(("127.0.0.1", server.port), timeout=SLOW) as connection:
-        connection.sendall(text)
-        if ends:
-            connection.shutdown(socket.SHUT_WR)
         answer = b""
-        with contextlib.suppress(ConnectionError):
+        try:  # the server may hang up before it has read all
+            connection.sendall(text)
+            if ends:
+                connection.shutdown(socket.SHUT_WR)
             while block := connection.recv(4096):
                 answer += block
+        except OSError as error:
+            check(isinstance(error, ConnectionError) or error.errno == errno.ENOTCONN, f"it hangs up: {error}")
         return answer
 
 

@@ -236,50 +236,51 @@ static void test_diffuse_parts_count_once(void **state)
 
 /* --- glass -------------------------------------------------------------------------------------- */
 
-struct shares {
-    double passed, mirrored; /* mean weights */
-    double ways;             /* share of the samples that passed */
-};
-
-static struct shares shares_of_glass(const struct material *glass, const struct meeting *meeting,
-                                     ps_direction direction, double expected_sine)
+/* Each that passes weighs the same, and each that is mirrored. Returns the share of the samples that passed. */
+static double share_that_passes(const struct material *glass, const struct meeting *meeting,
+                                ps_direction direction, double expected_sine, double passed_weight,
+                                double mirrored_weight)
 {
     struct random random = {23};
-    struct shares shares = {0, 0, 0};
+    int passed = 0;
     for (int i = 0; i < SAMPLES; i++) {
         ps_bsdf_sample on = scatter(glass, meeting, direction, &random);
-        double weight = (double)on.weight.g / SAMPLES;
         assert_int_equal(on.lobe, PS_SPECULAR);
         assert_true(on.pdf == 0);
         assert_true(fabsf(ps_length(on.direction) - 1) < 1e-5f);
-        assert_true(on.normal.y * on.direction.y > 0);
         if (on.direction.y > 0) {
-            shares.mirrored += weight;
+            assert_true(fabs((double)on.weight.g - mirrored_weight) < 1e-5);
+            assert_true(on.normal.y > 0);
             continue;
         }
-        shares.passed += weight;
-        shares.ways += 1.0 / SAMPLES;
+        passed++;
+        assert_true(on.normal.y < 0);
         assert_true(fabs((double)on.direction.x - expected_sine) < 1e-4);
+        assert_true(fabs((double)on.weight.g - passed_weight) < 1e-4);
     }
-    return shares;
+    return (double)passed / SAMPLES;
 }
 
-/* Fresnel's equations at 60 degrees to the normal of glass, worked out by hand. */
+/* Fresnel's equations for the cosines on both sides; `eta`: of the far side over this one. */
+static double fresnel(double cosine, double far_cosine, double eta)
+{
+    double s = (cosine - eta * far_cosine) / (cosine + eta * far_cosine);
+    double p = (eta * cosine - far_cosine) / (eta * cosine + far_cosine);
+    return 0.5 * (s * s + p * p);
+}
+
+/* At 60 degrees to the normal. Camera paths mirror an eighth of the time, since that is more than the share. */
 static void test_glass_refracts(void **state)
 {
     (void)state;
     struct material glass = made_one(plain(MATERIAL_DIELECTRIC, 1));
     struct meeting outside = meet(0.5f, 0);
-    double sine = sqrt(0.75) / 1.5, cosine = sqrt(1 - sine * sine);
-    double s = (0.5 - 1.5 * cosine) / (0.5 + 1.5 * cosine);
-    double p = (1.5 * 0.5 - cosine) / (1.5 * 0.5 + cosine);
-    double reflectance = 0.5 * (s * s + p * p);
-    struct shares camera = shares_of_glass(&glass, &outside, PS_FROM_CAMERA, sine);
-    struct shares light = shares_of_glass(&glass, &outside, PS_FROM_LIGHT, sine);
-    assert_true(fabs(camera.mirrored - reflectance) < 0.01);
-    assert_true(fabs(camera.passed * 2.25 - (1 - reflectance)) < 0.01);
-    assert_true(fabs(light.ways - (1 - reflectance)) < 0.01);
-    assert_true(fabs(camera.ways - 0.875) < 0.01); /* at least an eighth is mirrored */
+    double sine = sqrt(0.75) / 1.5, reflectance = fresnel(0.5, sqrt(1 - sine * sine), 1.5);
+    double camera = share_that_passes(&glass, &outside, PS_FROM_CAMERA, sine,
+                                      (1 - reflectance) / 0.875 / 2.25, reflectance / 0.125);
+    double light = share_that_passes(&glass, &outside, PS_FROM_LIGHT, sine, 1, 1);
+    assert_true(fabs(camera - 0.875) < 0.01);
+    assert_true(fabs(light - (1 - reflectance)) < 0.01);
 }
 
 static void test_glass_reflects_totally_inside(void **state)
@@ -288,9 +289,12 @@ static void test_glass_reflects_totally_inside(void **state)
     struct material glass = made_one(plain(MATERIAL_DIELECTRIC, 1));
     struct meeting steep = meet(0.9f, PS_HIT_BACK), flat = meet(0.6f, PS_HIT_BACK);
     double sine = 1.5 * sqrt(1 - 0.81);
-    assert_true(shares_of_glass(&glass, &steep, PS_FROM_CAMERA, sine).passed > 0.9 * 2.25);
-    struct shares all = shares_of_glass(&glass, &flat, PS_FROM_CAMERA, 0); /* sine 0.8 > 1 / 1.5 */
-    assert_true(all.ways == 0 && fabs(all.mirrored - 1) < 1e-5);
+    double reflectance = fresnel(0.9, sqrt(1 - sine * sine), 1 / 1.5);
+    assert_true(share_that_passes(&glass, &steep, PS_FROM_LIGHT, sine, 1, 1) > 0.9);
+    assert_true(share_that_passes(&glass, &steep, PS_FROM_CAMERA, sine,
+                                  2.25 * (1 - reflectance) / 0.875, reflectance / 0.125) > 0.85);
+    /* sine 0.8 > 1 / 1.5 */
+    assert_true(share_that_passes(&glass, &flat, PS_FROM_CAMERA, 0, 0, 1) == 0);
 }
 
 static void test_power_is_not_squeezed(void **state)
@@ -309,7 +313,7 @@ static void test_glass_absorbs_by_distance(void **state)
     struct meeting inside = meet(0.6f, PS_HIT_BACK);
     struct random random = {1};
     inside.hit.distance = 3;
-    ps_bsdf_sample on = scatter(&glass, &inside, PS_FROM_LIGHT, &random);
+    ps_bsdf_sample on = scatter(&glass, &inside, PS_FROM_CAMERA, &random);
     assert_true(fabsf(on.weight.r - 1) < 1e-6f);
     assert_true(fabsf(on.weight.g - expf(-1.5f)) < 1e-6f);
     assert_true(fabsf(on.weight.b - expf(-6)) < 1e-6f);

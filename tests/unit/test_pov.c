@@ -83,7 +83,6 @@ static void expect_error(const char *text, const char *part)
     free(scene);
 }
 
-/* That the expression is that number, by the radius of a sphere. */
 /* The scene can be made, with a warning, and does not hold the other part. */
 static void expect_warning(const char *text, const char *part, const char *absent)
 {
@@ -95,6 +94,7 @@ static void expect_warning(const char *text, const char *part, const char *absen
     free(scene);
 }
 
+/* That the expression is that number, by the radius of a sphere. */
 static void expect_number(const char *expression, const char *number)
 {
     char text[512], part[64];
