@@ -130,6 +130,8 @@ typedef struct ps_filter_vtable {
  * alone. Without, --crop is refused. What depends on all of the picture is had by for_each_picture_tile and
  * tile_surfaces. */
 #define PS_ESTIMATOR_CROPS 4u
+/* Since 1.8: it splats onto the picture in every scene, so that there has to be memory for what splats light. */
+#define PS_ESTIMATOR_SPLATS 8u
 
 typedef struct ps_estimator_vtable {
     uint32_t size;
@@ -217,6 +219,9 @@ typedef struct ps_denoiser_vtable {
     /* Optional; without, the picture stays as it is. Filters in place. `psplat resolve` calls it without a scene: of the
      * services, camera and project know what they did, rays meet nothing, and there are no lights. [main thread] */
     ps_result (*filter)(const void *state, const ps_host *host, const ps_image_view *image);
+    /* Since 1.8: bytes that filter() allocates at a time, for each pixel. Where they are not there, the render is refused
+     * before it begins. */
+    uint64_t pixel_bytes;
 } ps_denoiser_vtable;
 
 /* --- bloom and tonemap ----------------------------------------------------------------------- */

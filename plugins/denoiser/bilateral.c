@@ -248,7 +248,8 @@ static const ps_param params[] = {
                  "scene's radius"),
 };
 
-static const ps_denoiser_vtable vtable = {.size = sizeof vtable, .filter = filter};
+static const ps_denoiser_vtable vtable = {
+    .size = sizeof vtable, .filter = filter, .pixel_bytes = PLANES * sizeof(float)};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

@@ -105,7 +105,8 @@ static const ps_param params[] = {
     PS_CHOICE(struct state, size, "5x5", sizes, "pixels under the blur"),
 };
 
-static const ps_denoiser_vtable vtable = {.size = sizeof vtable, .filter = filter};
+static const ps_denoiser_vtable vtable = {
+    .size = sizeof vtable, .filter = filter, .pixel_bytes = 2 * sizeof(float)};
 
 static const ps_descriptor descriptor = {
     .size = sizeof descriptor,

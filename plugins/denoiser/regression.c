@@ -547,6 +547,7 @@ static const ps_denoiser_vtable vtable = {
     .size = sizeof vtable,
     .flags = PS_DENOISER_HALVES | PS_DENOISER_DIRECT | PS_DENOISER_ERROR,
     .filter = filter,
+    .pixel_bytes = (PLANES_WITH_MARGIN + PLANES + 1) * sizeof(float) + REGRESSION_FITS_PIXEL,
 };
 
 static const ps_descriptor descriptor = {

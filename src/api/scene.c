@@ -71,8 +71,7 @@ static ps_result try_settings(psplat_scene *scene)
     settings.display = true;
     result = layers_suit(output_options_layers(&scene->options.output), &settings, &error);
     if (result == PS_OK)
-        result = render_options_check_size(&scene->options, &input->description.image, &settings,
-                                           false, &error);
+        result = render_options_check_size(&input->description.image, &settings, false, &error);
     if (result != PS_OK)
         diagnostics_report(input->sink, SEVERITY_ERROR, NULL, 0, "%s", error.text);
     settings_release(&settings);

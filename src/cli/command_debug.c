@@ -173,9 +173,9 @@ static int draw_job(struct job *job, struct scene_input *input, struct render_se
     struct scene scene;
     struct error error = {.text = ""};
     job->request.options.exposure = input->description.image.exposure;
-    const struct render_size size = {.width = (size_t)input->description.image.width,
-                                     .height = (size_t)input->description.image.height};
-    ps_result result = render_check_memory(&size, INFINITY, &error);
+    const struct image_description *image = &input->description.image;
+    ps_result result =
+        render_check_memory(settings, (size_t)image->width, (size_t)image->height, false, &error);
     if (result == PS_OK)
         result = scene_input_build(input, &scene);
     print_problems(input);

@@ -253,7 +253,7 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
 static ps_result check_size(const struct job *job, const struct scene_input *input,
                             struct error *error)
 {
-    return render_options_check_size(&job->taken.options, &input->description.image, job->settings,
+    return render_options_check_size(&input->description.image, job->settings,
                                      long_job_keeps_film(&job->passes), error);
 }
 

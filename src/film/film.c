@@ -174,11 +174,6 @@ size_t film_bytes(const struct film *film)
            (film->odd ? film_bytes(film->odd) : 0) + (film->half ? film_bytes(film->half) : 0);
 }
 
-size_t film_most_bytes(size_t width, size_t height)
-{
-    return width * height * sizeof(float) * FILM_ON_REQUEST;
-}
-
 static const struct glossy_tile no_gloss; /* depth 0 */
 
 /* A row of a tile's pixels that are in the picture. */

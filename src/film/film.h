@@ -82,8 +82,6 @@ bool film_has_tile(const struct film *film, const struct gbuffer *gbuffer, uint3
 
 void film_release(struct film *film);
 size_t film_bytes(const struct film *film);
-/* With all planes but those on request. */
-size_t film_most_bytes(size_t width, size_t height);
 
 /* Adds what the pixels of one tile of the pass that lie in the film gathered, but for the lanes that are `left_out`
  * (NULL: none); call for every tile, then end the pass. Tiles may be added by different threads at once: they touch

@@ -164,17 +164,30 @@ void gbuffer_release(struct gbuffer *gbuffer)
     *gbuffer = (struct gbuffer){.tiles = NULL};
 }
 
+size_t gbuffer_bytes_with(const struct gbuffer *layout, struct gbuffer_parts parts)
+{
+    size_t lane = sizeof *layout->direct + sizeof *layout->emitted + sizeof *layout->by_chance;
+    if (parts.joined)
+        lane += sizeof *layout->occlusion + sizeof *layout->joined;
+    if (parts.direct_half)
+        lane += sizeof *layout->direct_half;
+    if (parts.hard)
+        lane += sizeof *layout->hard + (parts.direct_half ? sizeof *layout->hard_half : 0);
+    if (parts.radiance)
+        lane += 3 * sizeof *layout->radiance;
+    size_t glossy = parts.glossy ? sizeof *layout->glossy : 0;
+    return layout->tile_count * (sizeof(ps_tile) + glossy + PS_TILE_PIXELS * lane);
+}
+
 size_t gbuffer_bytes(const struct gbuffer *gbuffer)
 {
-    size_t join = gbuffer->occlusion ? sizeof *gbuffer->occlusion + sizeof *gbuffer->joined : 0;
-    size_t radiance = gbuffer->radiance ? 3 * sizeof(float) : 0;
-    size_t half = gbuffer->direct_half ? sizeof *gbuffer->direct_half : 0;
-    size_t hard = (gbuffer->hard ? sizeof *gbuffer->hard : 0) +
-                  (gbuffer->hard_half ? sizeof *gbuffer->hard_half : 0);
-    size_t glossy = gbuffer->glossy ? sizeof *gbuffer->glossy : 0;
-    return gbuffer->tile_count *
-           (sizeof(ps_tile) + glossy +
-            PS_TILE_PIXELS * (2 * sizeof(ps_rgb) + sizeof(bool) + join + radiance + half + hard));
+    return gbuffer_bytes_with(gbuffer, (struct gbuffer_parts){
+                                           .joined = gbuffer->joined != NULL,
+                                           .direct_half = gbuffer->direct_half != NULL,
+                                           .hard = gbuffer->hard != NULL,
+                                           .glossy = gbuffer->glossy != NULL,
+                                           .radiance = gbuffer->radiance != NULL,
+                                       });
 }
 
 bool gbuffer_tile_numbered(const struct gbuffer *gbuffer, uint32_t number, uint32_t *tile)

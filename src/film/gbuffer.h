@@ -80,7 +80,13 @@ ps_result gbuffer_prepare_glossy(struct gbuffer *gbuffer, struct error *error);
 /* Makes room for indirect radiance. */
 ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error);
 
-/* Bytes that the buffer takes. */
+/* What a buffer has besides tiles, direct and emitted light, and by_chance. */
+struct gbuffer_parts {
+    bool joined, direct_half, hard, glossy, radiance;
+};
+
+/* Bytes that the tiles of a layout take with such parts, and that the buffer takes. */
+size_t gbuffer_bytes_with(const struct gbuffer *layout, struct gbuffer_parts parts);
 size_t gbuffer_bytes(const struct gbuffer *gbuffer);
 
 /* The number of a tile in the picture. */

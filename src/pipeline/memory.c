@@ -1,64 +1,116 @@
 /* memory.c: whether a picture of some size can be rendered here at all.
  *
  * A system that lends more memory than it has lets a render of a mistyped size begin and kills it
- * later, with others. So what grows with the picture (G-buffer, its copy for splats, film, the sums of passes and
- * the picture itself, which are there together at the end) is compared with the machine's memory
- * beforehand. What else the system runs is not known, and not asked for.
+ * later, with others. So what grows with the picture is compared with the machine's memory beforehand: once before the
+ * scene is loaded, by what any scene needs, and once when it is there, with all of its planes and what the process has
+ * by then. What else the system runs is not known, and not asked for.
  */
 #include "base/machine.h"
 #include "film/film_sum.h"
+#include "pipeline/planes.h"
 #include "pipeline/render.h"
 #include "pipeline/stages.h"
 
 #define GIB 0x1p30
 
-/* Planes of a film of several passes beyond those that each has: the reflected direct light and gloss; and in parts
- * of the passes the light, its weight, coverage, and the direct light. */
-#define MORE_PLANES (FILM_PLANES - FILM_ON_REQUEST + 5 + 6)
+/* Photons, surfels, splats and stacks of threads, which do not grow with the picture. */
+#define BESIDE 0x1p24
 
-static struct rectangle film_of(const struct render_size *size)
+/* Over the sum of the planes: their margins, and what allocators round up. */
+#define ROUNDED_UP 1.06
+
+/* Planes of a film with its parts, but for ids. */
+static size_t count_film(const struct planes *planes)
 {
-    return size->crop.width > 0 ? size->crop : (struct rectangle){0, 0, size->width, size->height};
+    size_t of_surfaces = FILM_VISIBLE - FILM_ALBEDO_R + 1, of_odd = 5; /* light, weight, coverage */
+    size_t reflected = planes->reflected ? 3 + (planes->reflected_hard ? 3 : 0) : 0;
+    return FILM_ON_REQUEST - (planes->surfaces ? 0 : of_surfaces) + (planes->gloss ? 1 : 0) +
+           (planes->odd ? of_odd : 0) + 2 * reflected;
 }
 
-static double bytes_of_passes(const struct render_size *size)
+/* Of a pixel: the film, and the sums of its passes with the squares of its light. */
+static size_t film_pixel(const struct planes *planes)
 {
-    struct rectangle film = film_of(size);
-    double pixels = (double)film.width * (double)film.height;
-    double planes = FILM_ON_REQUEST + MORE_PLANES, squares = 1.0;
-    if (!size->several_passes)
-        return 0.0;
-    double more = pixels * MORE_PLANES * sizeof(float);
-    double sums = pixels * (planes + squares) * sizeof(double);
-    /* A file's channels: those planes in two floats each, three for viewers, four of ids. */
-    double file =
-        size->keeps_film ? pixels * (2.0 * (planes + squares) + 7.0) * sizeof(float) : 0.0;
-    return more + sums + file;
+    size_t count = count_film(planes), ids = planes->ids ? 2 * sizeof(uint32_t) : 0;
+    size_t sums = planes->sums ? (count + 1) * sizeof(double) + ids : 0;
+    return count * sizeof(float) + ids + sums;
 }
 
-double render_bytes(const struct render_size *size)
+/* What a file of the film is made of: its planes in two floats each, three for viewers, four of ids. */
+static size_t file_pixel(const struct planes *planes)
 {
-    struct rectangle film = film_of(size);
-    struct gbuffer gbuffer =
-        gbuffer_layout_around(film, size->smooth_edges, size->width, size->height);
-    struct interleaved interleaved = interleaved_layout(&gbuffer, 1);
-    return (double)gbuffer_bytes(&gbuffer) + (double)interleaved_bytes(&interleaved) +
-           (double)gathered_light_bytes(&gbuffer) +
-           (double)film_most_bytes(film.width, film.height) +
-           (double)picture_bytes(film.width, film.height, size->display) + bytes_of_passes(size);
+    return (2 * (count_film(planes) + 1) + 7) * sizeof(float);
 }
 
-ps_result render_check_memory(const struct render_size *size, double limit, struct error *error)
+/* The picture, less the planes that it takes over from the film, and what makes it: halves of the light, and what the
+ * denoiser asks for. */
+static size_t picture_pixel(const struct render_settings *settings, const struct planes *planes)
 {
-    struct rectangle film = film_of(size);
-    double wanted = render_bytes(size), there = machine_memory();
-    bool is_limited = limit < there;
-    if (wanted <= (is_limited ? limit : there))
+    const ps_denoiser_vtable *denoiser = &settings->strategies[PS_DENOISER].type->table.denoiser;
+    bool has_error = denoiser->flags & PS_DENOISER_ERROR && !settings->picture_alone &&
+                     !settings->no_error_layer;
+    size_t rgb_layers = settings->display ? 3 : 2, halves = planes->odd ? 6 : 0;
+    size_t making = halves * sizeof(float) + denoiser->pixel_bytes;
+    size_t normalizing = planes->odd ? 11 * sizeof(float) : 0;
+    return (3 * rgb_layers + (has_error ? 1 : 0)) * sizeof(float) +
+           (making > normalizing ? making : normalizing);
+}
+
+static double gbuffer_part(const struct gbuffer *layout, const struct planes *planes)
+{
+    struct interleaved interleaved = interleaved_layout(layout, 1);
+    size_t bytes = gbuffer_bytes_with(
+        layout, (struct gbuffer_parts){planes->joined, planes->direct_half, planes->hard,
+                                       planes->gloss, planes->radiance});
+    if (planes->edges)
+        bytes += layout->tile_count * PS_TILE_PIXELS * sizeof(bool);
+    if (planes->splats || planes->caustics)
+        bytes += interleaved_bytes(&interleaved);
+    return (double)bytes + (planes->splats ? (double)gathered_light_bytes(layout) : 0);
+}
+
+/* G-buffer, film and sums last to the end, when there are the picture and the denoiser, or the film's file. */
+static double memory_of_picture(const struct render_settings *settings, const struct planes *planes,
+                                size_t width, size_t height, bool keeps_film)
+{
+    struct rectangle film = planes_window(settings, width, height);
+    struct gbuffer layout = planes_layout(settings, width, height);
+    size_t picture = picture_pixel(settings, planes), file = keeps_film ? file_pixel(planes) : 0;
+    return gbuffer_part(&layout, planes) +
+           (double)film.width * (double)film.height *
+               (double)(film_pixel(planes) + (picture > file ? picture : file));
+}
+
+static ps_result check(const struct render_settings *settings, size_t width, size_t height,
+                       double wanted, struct error *error)
+{
+    struct rectangle film = planes_window(settings, width, height);
+    double there = machine_memory();
+    bool is_limited = settings->memory_limit > 0 && settings->memory_limit < there;
+    if (is_limited)
+        there = settings->memory_limit;
+    if (wanted <= there)
         return PS_OK;
     return error_set(error, PS_ERROR_MEMORY,
                      "a picture of %zux%zu pixels takes %.1f GiB of memory to render, and %s "
                      "%.1f GiB; a smaller one is had by --size, a part of it by --crop",
                      film.width, film.height, wanted / GIB,
-                     is_limited ? "--memory-limit is" : "this machine has",
-                     (is_limited ? limit : there) / GIB);
+                     is_limited ? "--memory-limit is" : "this machine has", there / GIB);
+}
+
+ps_result render_check_memory(const struct render_settings *settings, size_t width, size_t height,
+                              bool keeps_film, struct error *error)
+{
+    bool sums = keeps_film || settings_pass_count(settings) > 1;
+    struct planes planes = planes_wanted(settings, NULL, sums, keeps_film);
+    return check(settings, width, height,
+                 memory_of_picture(settings, &planes, width, height, keeps_film), error);
+}
+
+ps_result memory_check(const struct render_settings *settings, const struct planes *planes,
+                       size_t width, size_t height, bool keeps_film, struct error *error)
+{
+    double picture = memory_of_picture(settings, planes, width, height, keeps_film);
+    double beside = machine_memory_of_process() + BESIDE;
+    return check(settings, width, height, ROUNDED_UP * picture + beside, error);
 }

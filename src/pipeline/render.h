@@ -16,21 +16,10 @@
 #include "render/settings.h"
 #include "scene/scene.h"
 
-/* What of a render its memory grows with. */
-struct render_size {
-    size_t width, height;
-    struct rectangle crop;           /* see render_settings */
-    bool several_passes, keeps_film; /* whose file is made of it */
-    bool display;                    /* the layer of that name is made */
-    bool smooth_edges;               /* aa_samples is more than 1 */
-};
-
-/* Bytes that grow with the picture: G-buffer, film and the picture, which has all layers. */
-double render_bytes(const struct render_size *size);
-
-/* PS_ERROR_MEMORY where that is more than this machine lends, or than `limit` bytes (INFINITY: none). Allocates
- * nothing. */
-ps_result render_check_memory(const struct render_size *size, double limit, struct error *error);
+/* PS_ERROR_MEMORY where a picture of any scene takes more memory than the settings allow, or this machine lends;
+ * render_run says so where that of its scene does. `keeps_film`: a film's file is made of it. Allocates nothing. */
+ps_result render_check_memory(const struct render_settings *settings, size_t width, size_t height,
+                              bool keeps_film, struct error *error);
 
 /* PS_ERROR_INVALID where the part of a picture of this size that the settings ask for does not lie in it, or their
  * estimator can't render a part. Before render_check_memory. */

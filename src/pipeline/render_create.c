@@ -1,6 +1,7 @@
 /* render_create.c: what a render needs before its first pass, and how it ends. */
 #include "base/clock.h"
 #include "host/splats.h"
+#include "pipeline/planes.h"
 #include "pipeline/render.h"
 #include "pipeline/stages.h"
 #include <stdlib.h>
@@ -34,114 +35,92 @@ static ps_result create_shadow_maps(struct render *render, struct error *error)
     return PS_OK;
 }
 
-/* The caller's film has all planes, so that any denoiser may resolve it. */
-static bool keeps_film(const struct render *render)
-{
-    return render->sum && render->sum != &render->own_sum;
-}
-
-/* Those planes of the film are half of its memory, and of the time that adding to it takes. */
-static bool wants_surfaces(const struct render *render)
-{
-    const struct render_settings *settings = render->settings;
-    return keeps_film(render) || !settings->picture_alone ||
-           settings->strategies[PS_DENOISER].type->table.denoiser.filter != NULL;
-}
-
-/* Of the picture, or of the part that is rendered. */
-static ps_result create_gbuffer_and_film(struct render *render, struct error *error)
-{
-    size_t width = render->scene->width, height = render->scene->height;
-    struct rectangle crop = render->settings->crop;
-    bool all = crop.width == 0;
-    struct gbuffer layout =
-        all ? gbuffer_layout(width, height)
-            : gbuffer_layout_around(crop, render->settings->aa_samples > 1, width, height);
-    ps_result result = gbuffer_create(layout, &render->gbuffer, error);
-    if (result == PS_OK)
-        result = film_create(all ? width : crop.width, all ? height : crop.height,
-                             wants_surfaces(render), &render->film, error);
-    if (result == PS_OK)
-        render->film.window = (struct picture_window){crop.x, crop.y, width, height};
-    return result;
-}
-
-static ps_result create_gloss(struct render *render, struct error *error)
-{
-    ps_result result = gbuffer_prepare_glossy(&render->gbuffer, error);
-    return result == PS_OK ? film_add_gloss(&render->film, error) : result;
-}
-
-/* Halves of the direct light tell its noise from an edge, of which hard shadows have some. */
-static ps_result create_edges(struct render *render, struct error *error)
-{
-    const struct scene *scene = render->scene;
-    size_t count = (size_t)render->gbuffer.tile_count * PS_TILE_PIXELS;
-    render->edges = calloc(count, sizeof *render->edges);
-    if (!render->edges)
-        return error_memory(error, count * sizeof *render->edges, "edges");
-    if (!scene_samples_lights(scene) || scene->light_samples < 2)
-        return PS_OK;
-    ps_result result = gbuffer_prepare_direct_half(&render->gbuffer, error);
-    return result == PS_OK && scene_has_hard_shadows_apart(scene)
-               ? gbuffer_prepare_hard(&render->gbuffer, error)
-               : result;
-}
-
-/* Where a denoiser may smooth the direct light: it has noise, which halves of it tell, and nothing else smooths it.
- * Halves of each pass are best, since its samples look at the same places; but one shadow ray, or one sample of
- * gloss, has no halves, and then passes are. */
-static ps_result create_reflected(struct render *render, struct error *error)
-{
-    const struct scene *scene = render->scene;
-    const struct render_settings *settings = render->settings;
-    bool shadows = scene_samples_lights(scene) && !settings->discontinuity_buffer;
-    bool gloss = render->gbuffer.glossy != NULL;
-    bool halved_shadows = shadows && scene->light_samples > 1;
-    bool halved_gloss = gloss && settings->aa_samples > 1;
-    bool halves = (halved_shadows || halved_gloss) &&
-                  (!render->sum || (shadows == halved_shadows && gloss == halved_gloss));
-    ps_result result = PS_OK;
-    if ((!shadows && !gloss) || (!halves && !render->sum))
-        return PS_OK;
-    if (halves && halved_shadows)
-        result = gbuffer_prepare_direct_half(&render->gbuffer, error);
-    bool hard_apart = shadows && scene_has_hard_shadows_apart(scene);
-    if (result == PS_OK && hard_apart)
-        result = gbuffer_prepare_hard(&render->gbuffer, error);
-    return result == PS_OK ? film_add_reflected(&render->film, halves, hard_apart, error) : result;
-}
-
 /* Pixels that ask different lights have nothing to compare. */
-static ps_result create_join(struct render *render, struct error *error)
+static ps_result check_join(const struct render *render, struct error *error)
 {
     const struct scene *scene = render->scene;
-    if (scene_chooses_lights(scene))
+    if (render->settings->discontinuity_buffer && scene_chooses_lights(scene))
         return error_set(
             error, PS_ERROR_INVALID,
             "discontinuity_buffer needs pixels that ask every light; the scene has %zu "
             "lights and light_choices is %u, less than half of that",
             light_bvh_count(scene->light_bvh), (unsigned)scene->light_choices);
-    return scene->has_area_lights ? gbuffer_prepare_join(&render->gbuffer, error) : PS_OK;
+    return PS_OK;
 }
 
-/* What the tables of some strategies ask for. */
-static ps_result create_for_strategies(struct render *render, struct error *error)
+/* Of the picture, or of the part that is rendered. */
+static ps_result create_gbuffer_and_film(struct render *render, const struct planes *planes,
+                                         struct error *error)
 {
-    uint32_t estimator = strategy_in(render, PS_ESTIMATOR)->type->table.estimator.flags;
-    uint32_t denoiser = keeps_film(render)
-                            ? UINT32_MAX
-                            : strategy_in(render, PS_DENOISER)->type->table.denoiser.flags;
-    ps_result result = PS_OK;
-    if (estimator & PS_ESTIMATOR_RADIANCE)
-        result = gbuffer_prepare_radiance(&render->gbuffer, error);
-    if (result == PS_OK && denoiser & PS_DENOISER_IDS)
-        result = film_add_ids(&render->film, error);
-    if (result == PS_OK && denoiser & PS_DENOISER_HALVES && render->sum)
-        result = film_add_halves(&render->film, error);
-    if (result == PS_OK && denoiser & PS_DENOISER_DIRECT)
-        result = create_reflected(render, error);
+    const struct render_settings *settings = render->settings;
+    size_t width = render->scene->width, height = render->scene->height;
+    struct rectangle window = planes_window(settings, width, height);
+    ps_result result =
+        gbuffer_create(planes_layout(settings, width, height), &render->gbuffer, error);
+    if (result == PS_OK)
+        result = film_create(window.width, window.height, planes->surfaces, &render->film, error);
+    if (result == PS_OK)
+        render->film.window = (struct picture_window){window.x, window.y, width, height};
     return result;
+}
+
+static ps_result add_to_gbuffer(struct render *render, const struct planes *planes,
+                                struct error *error)
+{
+    struct gbuffer *gbuffer = &render->gbuffer;
+    ps_result result = PS_OK;
+    if (planes->gloss)
+        result = gbuffer_prepare_glossy(gbuffer, error);
+    if (result == PS_OK && planes->joined)
+        result = gbuffer_prepare_join(gbuffer, error);
+    if (result == PS_OK && planes->direct_half)
+        result = gbuffer_prepare_direct_half(gbuffer, error);
+    if (result == PS_OK && planes->hard)
+        result = gbuffer_prepare_hard(gbuffer, error);
+    if (result == PS_OK && planes->radiance)
+        result = gbuffer_prepare_radiance(gbuffer, error);
+    return result;
+}
+
+static ps_result add_to_film(struct render *render, const struct planes *planes,
+                             struct error *error)
+{
+    struct film *film = &render->film;
+    ps_result result = PS_OK;
+    if (planes->gloss)
+        result = film_add_gloss(film, error);
+    if (result == PS_OK && planes->ids)
+        result = film_add_ids(film, error);
+    if (result == PS_OK && planes->odd)
+        result = film_add_halves(film, error);
+    if (result == PS_OK && planes->reflected)
+        result = film_add_reflected(film, planes->halves_of_pass, planes->reflected_hard, error);
+    return result;
+}
+
+static ps_result create_edges(struct render *render, struct error *error)
+{
+    size_t count = (size_t)render->gbuffer.tile_count * PS_TILE_PIXELS;
+    render->edges = calloc(count, sizeof *render->edges);
+    return render->edges ? PS_OK : error_memory(error, count * sizeof *render->edges, "edges");
+}
+
+/* All that is kept of pixels. */
+static ps_result create_planes(struct render *render, struct error *error)
+{
+    bool sums = render->sum != NULL, keeps_film = sums && render->sum != &render->own_sum;
+    struct planes planes = planes_wanted(render->settings, render->scene, sums, keeps_film);
+    ps_result result = check_join(render, error);
+    if (result == PS_OK)
+        result = memory_check(render->settings, &planes, render->scene->width,
+                              render->scene->height, keeps_film, error);
+    if (result == PS_OK)
+        result = create_gbuffer_and_film(render, &planes, error);
+    if (result == PS_OK)
+        result = add_to_gbuffer(render, &planes, error);
+    if (result == PS_OK)
+        result = add_to_film(render, &planes, error);
+    return result == PS_OK && planes.edges ? create_edges(render, error) : result;
 }
 
 ps_result render_create(struct render *render, struct error *error)
@@ -157,15 +136,7 @@ ps_result render_create(struct render *render, struct error *error)
     if (result == PS_OK)
         result = create_shadow_maps(render, error);
     if (result == PS_OK)
-        result = create_gbuffer_and_film(render, error);
-    if (result == PS_OK && scene->microfacets && wants_surfaces(render))
-        result = create_gloss(render, error);
-    if (result == PS_OK && render->settings->discontinuity_buffer)
-        result = create_join(render, error);
-    if (result == PS_OK && render->settings->aa_samples > 1)
-        result = create_edges(render, error);
-    if (result == PS_OK)
-        result = create_for_strategies(render, error);
+        result = create_planes(render, error);
     if (result == PS_OK)
         result = render_start_strategies(render, (ps_kind)0, error);
     if (result == PS_OK)

@@ -38,12 +38,6 @@ struct rgb_planes {
     float *r, *g, *b;
 };
 
-size_t picture_bytes(size_t width, size_t height, bool display)
-{
-    size_t rgb_layers = display ? 3 : 2; /* the picture, its indirect light, and what is shown */
-    return 3 * rgb_layers * width * height * sizeof(float);
-}
-
 static ps_result add_rgb(struct image *image, const char *const names[3], struct rgb_planes *planes,
                          struct error *error)
 {

@@ -3,6 +3,7 @@
 #define PIPELINE_STAGES_H
 
 #include "image/image.h"
+#include "pipeline/planes.h"
 #include "render/state.h"
 
 /* Makes all that passes share, and starts the strategies; needs scene, settings, callbacks, statistics and hosts.
@@ -33,8 +34,9 @@ void pass_light_first(struct render *render);
 /* Makes what is no number, or negative, 0; returns how many values there were. */
 uint64_t mend_plane(float *plane, size_t n);
 
-/* Of a picture, less the planes that it takes over from the film. */
-size_t picture_bytes(size_t width, size_t height, bool display);
+/* PS_ERROR_MEMORY where the planes, with all that is made of them, do not fit beside what the process has. */
+ps_result memory_check(const struct render_settings *settings, const struct planes *planes,
+                       size_t width, size_t height, bool keeps_film, struct error *error);
 
 /* A last stage that fails, or is stopped, must not cost the picture: it is left out, with a warning. Returns `result`. */
 ps_result leave_out(struct render *render, ps_kind kind, ps_result result, const char *instead,

@@ -17,7 +17,6 @@ struct render_options render_options_init(void)
         .batch = -1,
         .direct_resolution = -1,
         .exposure = NAN,
-        .memory_limit = INFINITY,
         .direct = -1,
     };
 }

@@ -20,7 +20,7 @@ struct render_options {
     char *bounces, *quality;
     double seed, threads, batch, direct_resolution; /* negative: not given */
     double exposure;                                /* NAN: not given */
-    double memory_limit;                            /* bytes; INFINITY: the machine's alone */
+    double memory_limit;                            /* bytes; 0: what the machine lends */
     int32_t direct;                                 /* enum direct_light; negative: not given */
     bool preview;
 };
@@ -49,8 +49,7 @@ ps_result render_options_resolve(const struct render_options *options,
 
 /* PS_ERROR_INVALID where a part is asked for that can't be rendered alone (render_check_crop); PS_ERROR_MEMORY where a
  * picture takes more than the options allow, or this machine lends. */
-ps_result render_options_check_size(const struct render_options *options,
-                                    const struct image_description *image,
+ps_result render_options_check_size(const struct image_description *image,
                                     const struct render_settings *settings, bool keeps_film,
                                     struct error *error);
 

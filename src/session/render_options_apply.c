@@ -67,6 +67,7 @@ ps_result render_options_resolve(const struct render_options *options,
         return result;
     settings->isa = options->isa;
     settings->crop = crop_of(options, &description->image);
+    settings->memory_limit = options->memory_limit;
     if (options->passes.is_given) {
         settings->first_pass = options->passes.first;
         settings->passes = options->passes.end;
@@ -74,20 +75,12 @@ ps_result render_options_resolve(const struct render_options *options,
     return PS_OK;
 }
 
-ps_result render_options_check_size(const struct render_options *options,
-                                    const struct image_description *image,
+ps_result render_options_check_size(const struct image_description *image,
                                     const struct render_settings *settings, bool keeps_film,
                                     struct error *error)
 {
-    const struct render_size size = {
-        .width = (size_t)image->width,
-        .height = (size_t)image->height,
-        .crop = settings->crop,
-        .several_passes = keeps_film || settings_pass_count(settings) > 1,
-        .keeps_film = keeps_film,
-        .display = settings->display,
-        .smooth_edges = settings->aa_samples > 1,
-    };
-    ps_result result = render_check_crop(settings, size.width, size.height, error);
-    return result == PS_OK ? render_check_memory(&size, options->memory_limit, error) : result;
+    size_t width = (size_t)image->width, height = (size_t)image->height;
+    ps_result result = render_check_crop(settings, width, height, error);
+    return result == PS_OK ? render_check_memory(settings, width, height, keeps_film, error)
+                           : result;
 }

@@ -79,6 +79,31 @@ expect_match err "^psplat: error: a picture of 96x54 pixels takes 0.0 GiB of mem
 # shellcheck disable=SC2086
 run 0 -q $job --memory-limit 1T -o a.exr
 
+# What is asked for is what a render takes, and no more than a fifth over it: with the denoiser, halves of the passes, the
+# film's file, and splats.
+peak_of() {
+    python3 -c 'import resource, subprocess, sys
+subprocess.run(sys.argv[1:], check=True)
+print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)' "$PSPLAT" -q "$@" "$PSPLAT_SOURCE/scenes/cornell-area.psd"
+}
+expect_estimate() {
+    peak=$(peak_of "$@" -o a.exr) || fail "no peak of $*"
+    rm -f a.film.exr
+    run 1 -q "$@" --memory-limit $((peak * 98 / 100))K -o no.exr "$PSPLAT_SOURCE/scenes/cornell-area.psd"
+    expect_match err "^psplat: error: a picture of [0-9x]* pixels takes"
+    run 0 -q "$@" --memory-limit $((peak * 120 / 100))K -o a.exr "$PSPLAT_SOURCE/scenes/cornell-area.psd"
+    rm -f a.film.exr
+}
+if ! is_on PSPLAT_SANITIZE; then
+    few="-t 2 --size 800x500 -p injection=photon:count=1000"
+    # shellcheck disable=SC2086
+    expect_estimate $few -p estimator=pathtrace:samples=1
+    # shellcheck disable=SC2086
+    expect_estimate $few -p estimator=ambient --passes 2 --checkpoint a.film.exr
+    # shellcheck disable=SC2086
+    expect_estimate $few -p estimator=splat -p denoiser=none
+fi
+
 # --- progress ---
 
 # shellcheck disable=SC2086

@@ -213,6 +213,9 @@ static size_t centres_along(size_t size, int bandwidth)
     return (size + (size_t)spacing(bandwidth) - 1) / (size_t)spacing(bandwidth);
 }
 
+/* As many as for the smallest bandwidth, whose centres are two pixels apart. */
+_Static_assert(sizeof(struct regression_fit) / 4 <= REGRESSION_FITS_PIXEL, "fits of a pixel");
+
 size_t regression_fits_bytes(size_t width, size_t height)
 {
     return centres_along(width, REGRESSION_SMALLEST) * centres_along(height, REGRESSION_SMALLEST) *

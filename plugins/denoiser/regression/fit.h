@@ -44,6 +44,7 @@ size_t regression_plane_size(size_t width, size_t height);
 size_t regression_at(const struct regression *regression, size_t x, size_t y);
 
 size_t regression_fits_bytes(size_t width, size_t height);
+#define REGRESSION_FITS_PIXEL 32 /* bytes of them for each pixel, at most */
 
 /* Fits `values`, planes with a margin, by a bandwidth in pixels. Puts what the planes of all fits say at each pixel
  * into `fitted`, planes without a margin; 0 where no surface is seen. Runs on all workers; after the host was
