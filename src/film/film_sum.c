@@ -186,13 +186,18 @@ ps_result film_sum_add(struct film_sum *sum, const struct film *film, struct wor
     return result == PS_OK ? over_planes(&work, add_plane, workers, error) : result;
 }
 
-bool film_sum_is_alike(const struct film_sum *a, const struct film_sum *b)
+bool film_sum_has_planes_of(const struct film_sum *a, const struct film_sum *b)
 {
-    bool alike = a->width == b->width && a->height == b->height &&
-                 picture_window_same(a->window, b->window) && !a->object == !b->object;
+    bool alike = !a->object == !b->object;
     for (int plane = 0; plane < FILM_SUM_PLANES; plane++)
         alike &= !a->planes[plane].high == !b->planes[plane].high;
     return alike;
+}
+
+bool film_sum_is_alike(const struct film_sum *a, const struct film_sum *b)
+{
+    return a->width == b->width && a->height == b->height &&
+           picture_window_same(a->window, b->window) && film_sum_has_planes_of(a, b);
 }
 
 ps_result film_sum_merge(struct film_sum *sum, const struct film_sum *other,

@@ -48,7 +48,8 @@ bool film_sum_fits(const struct film_sum *sum, const struct film *film);
 ps_result film_sum_add(struct film_sum *sum, const struct film *film, struct workers *workers,
                        struct error *error);
 
-/* Whether both have the same place and planes. */
+/* Whether both have the same planes; and the same place, too. */
+bool film_sum_has_planes_of(const struct film_sum *a, const struct film_sum *b);
 bool film_sum_is_alike(const struct film_sum *a, const struct film_sum *b);
 
 /* Adds another sum, of other passes and the same planes; likewise. */

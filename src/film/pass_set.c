@@ -85,6 +85,14 @@ bool pass_set_meets(const struct pass_set *a, const struct pass_set *b, uint32_t
     return false;
 }
 
+bool pass_set_same(const struct pass_set *a, const struct pass_set *b)
+{
+    bool same = a->count == b->count;
+    for (size_t i = 0; i < a->count && same; i++)
+        same = a->runs[i].first == b->runs[i].first && a->runs[i].end == b->runs[i].end;
+    return same;
+}
+
 uint32_t pass_set_next_missing(const struct pass_set *set, uint32_t first)
 {
     for (size_t i = 0; i < set->count; i++)

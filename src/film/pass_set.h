@@ -32,6 +32,9 @@ bool pass_set_has(const struct pass_set *set, uint32_t number);
 /* Whether two sets have a pass in common; the first such in *number. */
 bool pass_set_meets(const struct pass_set *a, const struct pass_set *b, uint32_t *number);
 
+/* Whether both hold the same passes. */
+bool pass_set_same(const struct pass_set *a, const struct pass_set *b);
+
 /* The first number from `first` on that is not there. */
 uint32_t pass_set_next_missing(const struct pass_set *set, uint32_t first);
 

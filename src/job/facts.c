@@ -95,13 +95,18 @@ static void format_colour(ps_rgb colour, char *text, size_t size)
     snprintf(text, size, "[%s, %s, %s]", numbers[0], numbers[1], numbers[2]);
 }
 
+ps_result facts_set_crop(struct image *image, struct rectangle part, struct error *error)
+{
+    char crop[96] = "none";
+    if (part.width > 0)
+        snprintf(crop, sizeof crop, "%zu,%zu,%zu,%zu", part.x, part.y, part.width, part.height);
+    return image_set_attribute(image, "psplat.crop", crop, error);
+}
+
 ps_result facts_of_settings(struct image *image, const char *scene_path,
                             const struct render_settings *settings, struct error *error)
 {
-    const struct rectangle *part = &settings->crop;
-    char direct[64] = "rays", indirect[32], ambient[128], crop[96] = "none";
-    if (part->width > 0)
-        snprintf(crop, sizeof crop, "%zu,%zu,%zu,%zu", part->x, part->y, part->width, part->height);
+    char direct[64] = "rays", indirect[32], ambient[128];
     if (settings->direct == DIRECT_SHADOWMAP)
         snprintf(direct, sizeof direct, "shadowmap:resolution=%" PRIu32,
                  settings->direct_resolution);
@@ -109,11 +114,12 @@ ps_result facts_of_settings(struct image *image, const char *scene_path,
     format_colour(settings->ambient, ambient, sizeof ambient);
     const char *const facts[][2] = {{"psplat.version", PSPLAT_VERSION},
                                     {"psplat.scene", scene_path},
-                                    {"psplat.crop", crop},
                                     {"psplat.direct", direct},
                                     {"psplat.indirect_exposure", indirect},
                                     {"psplat.ambient", ambient}};
     ps_result result = set_texts(image, facts, sizeof facts / sizeof facts[0], error);
+    if (result == PS_OK)
+        result = facts_set_crop(image, settings->crop, error);
     if (result == PS_OK)
         result = set_number(image, "psplat.seed", settings->seed, error);
     if (result == PS_OK)

@@ -14,6 +14,9 @@
 ps_result facts_of_settings(struct image *image, const char *scene_path,
                             const struct render_settings *settings, struct error *error);
 
+/* The part of the picture, in place of the one that was said; no width: all of it. */
+ps_result facts_set_crop(struct image *image, struct rectangle part, struct error *error);
+
 /* A strategy with its parameters. */
 ps_result facts_set_strategy(struct image *image, const struct strategy *strategy,
                              struct error *error);

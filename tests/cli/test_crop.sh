@@ -159,7 +159,7 @@ expect_part whole.exr all.exr sum.direct sum.indirect sum.weight sum.P sum.odd.i
 run 0 merge -q late.exr sum.exr -o merged.exr
 run 0 compare merged.exr all.exr --layer sum.indirect --metric max --fail 'max>0'
 run 2 merge -q aside.exr sum.exr -o no.exr
-expect_text err "can't add 'sum.exr' to 'aside.exr': they differ in the crop, '69,60,30,50' and '70,60,30,50'"
+expect_text err "can't put 'sum.exr' beside 'aside.exr': they have pixels in common"
 # shellcheck disable=SC2086
 run 0 $job --passes 3 --checkpoint sum.exr --resume -o resumed.exr -p denoiser=none "$glossy"
 run 0 resolve -q merged.exr -p denoiser=none -o resolved.exr
@@ -169,6 +169,38 @@ expect_text out "resolved.exr: 30x50 at 70,60 of 112x112"
 # shellcheck disable=SC2086
 run 2 -q --size 112x112 $few -p estimator=splat --crop 70,60,30,51 --passes 3 --checkpoint sum.exr --resume -o no.png "$glossy"
 expect_text err "differs in the crop"
+
+# --- parts side by side ---
+
+# Films of parts make that of the whole, in whatever order, with passes apart as well; so does what is made of it.
+# shellcheck disable=SC2086
+for crop in 0,0,112,30 0,30,50,82 50,30,62,82; do
+    run 0 -q --size 112x112 $few -p estimator=splat --crop $crop --passes 0:2 --checkpoint part-$crop-a.exr "$glossy"
+    run 0 -q --size 112x112 $few -p estimator=splat --crop $crop --passes 2:3 --checkpoint part-$crop-b.exr "$glossy"
+done
+run 0 merge part-50,30,62,82-b.exr part-*-a.exr part-0,*-b.exr -o joined.exr
+expect_text err "psplat: wrote joined.exr: 3 passes"
+expect_part whole.exr joined.exr sum.direct sum.indirect sum.weight sum.P sum.odd.indirect sum.reflected sum.half.reflected \
+    sum.squares sum.gloss object.low material.low
+run 0 resolve -q whole.exr -o whole-picture.exr
+run 0 resolve -q joined.exr -o joined-picture.exr
+expect_same_pixels whole-picture.exr joined-picture.exr
+expect_empty err
+run 0 info joined.exr
+expect_text out "psplat.crop: none"
+
+# Parts that make a larger one; and what makes none.
+run 0 merge -q part-0,30,50,82-?.exr part-50,30,62,82-?.exr -o below.exr
+run 0 info below.exr
+expect_text out "psplat.crop: 0,30,112,82"
+expect_part whole.exr below.exr sum.direct sum.indirect
+run 2 merge -q part-0,0,112,30-a.exr part-50,30,62,82-a.exr -o no.exr
+expect_text err "the films leave 4100 pixels of the rectangle around them, 0,0,112,112, without light"
+run 2 merge -q part-0,0,112,30-a.exr below.exr -o no.exr
+expect_text err "can't put 'below.exr' beside 'part-0,0,112,30-a.exr': they hold different passes"
+run 2 merge -q below.exr whole.exr -o no.exr
+expect_text err "can't put 'whole.exr' beside 'below.exr': they have pixels in common"
+[ ! -e no.exr ] || fail "no.exr was written"
 
 # --- what goes by other pixels is said ---
 
