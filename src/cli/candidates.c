@@ -54,6 +54,7 @@ static const struct {
     {"compression", IMAGE_COMPRESSIONS},
     {"isa", "baseline, avx2, avx512"},
     {"layer", RENDER_LAYERS},
+    {"display", "tev"},
 };
 
 static void print_list(const struct prefix *prefix, const char *names)

@@ -1,10 +1,13 @@
 /* command_render.c: psplat render: a scene becomes a picture. */
 #include "base/clock.h"
+#include "base/path.h"
 #include "cli/command.h"
 #include "cli/long_job.h"
 #include "cli/output_list.h"
 #include "cli/progress.h"
 #include "cli/render_arguments.h"
+#include "cli/viewer.h"
+#include "session/layers.h"
 #include "session/output.h"
 #include "session/remark.h"
 
@@ -22,6 +25,7 @@ static const struct option options[] = {
     {0, "preview", NULL, "a quick look: small, few light paths, coarse shadows"},
     LONG_JOB_OPTIONS,
     PROGRESS_OPTION,
+    VIEWER_OPTION,
     {0, "memory-limit", "SIZE", "refuse what takes more, as 500M or 8G; default: the machine's"},
     {0, "stats", "FILE.json", "write what each stage took in time and memory"},
 };
@@ -31,6 +35,9 @@ struct job {
     struct output_list outputs;
     struct long_job passes;
     const char *stats_path;
+    const char *display; /* NULL: no viewer */
+    struct tev_address display_address;
+    struct viewer *viewer; /* while it renders */
     enum progress_mode progress_mode;
     struct progress progress;
     bool has_stopped; /* passes ended by a signal; their picture is made all the same */
@@ -80,6 +87,8 @@ static bool take_option(struct job *job, const struct argument *argument)
 {
     if (argument_is(argument, "stats"))
         job->stats_path = argument->value;
+    else if (argument_is(argument, "display"))
+        return viewer_parse(job->display = argument->value, &job->display_address);
     else if (argument_is(argument, "progress"))
         return progress_parse_mode(argument->value, &job->progress_mode);
     return true; /* another's */
@@ -161,6 +170,12 @@ static ps_result write_picture_on_the_way(void *user, struct image *image, uint3
     return write_picture(user, image, passes, true, error);
 }
 
+static void show_picture(void *user, const struct image *image)
+{
+    const struct job *job = user;
+    viewer_show(job->viewer, image, output_options_layers(&job->outputs.options), false);
+}
+
 static void show_progress(void *user, const char *stage, double fraction)
 {
     struct job *job = user;
@@ -239,6 +254,8 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
     tell_of_dark_pixels(job, statistics);
     struct error reason;
     ps_result written = write_files(job, &image, statistics, &reason);
+    if (job->viewer && image.width > 0)
+        viewer_show(job->viewer, &image, output_options_layers(&job->outputs.options), true);
     image_release(&image);
     if (result == PS_CANCELLED)
         error_set(error, PS_CANCELLED, "interrupted: the picture holds what was done by then");
@@ -248,6 +265,21 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
         print_error(error->text);
     *error = reason;
     return written;
+}
+
+/* With the viewer beside it. */
+static ps_result render_and_show(struct job *job, const struct scene *scene,
+                                 struct statistics *statistics, struct error *error)
+{
+    if (!job->display)
+        return render_and_write(job, scene, statistics, error);
+    job->viewer = viewer_create(&job->display_address, path_name(job->taken.scene_path));
+    if (!job->viewer)
+        return PS_ERROR_MEMORY;
+    ps_result result = render_and_write(job, scene, statistics, error);
+    viewer_destroy(job->viewer);
+    job->viewer = NULL;
+    return result;
 }
 
 static ps_result check_size(const struct job *job, const struct scene_input *input,
@@ -273,7 +305,7 @@ static int render_job(struct job *job, struct scene_input *input)
     if (result == PS_OK) {
         result = long_job_begin(&job->passes, &input->description, &scene, job->settings, &error);
         if (result == PS_OK)
-            result = render_and_write(job, &scene, &statistics, &error);
+            result = render_and_show(job, &scene, &statistics, &error);
         scene_release(&scene);
     }
     statistics_destroy(&statistics);
@@ -289,7 +321,8 @@ static int render_job(struct job *job, struct scene_input *input)
 static void set_wishes(const struct job *job, struct render_settings *settings)
 {
     bool error = job->passes.schedule.error > 0.0;
-    settings->picture_alone = !output_list_wants_layers(&job->outputs) && !error;
+    bool shows_all = job->display && layers_are_some(output_options_layers(&job->outputs.options));
+    settings->picture_alone = !output_list_wants_layers(&job->outputs) && !error && !shows_all;
     settings->no_error_layer = !output_list_wants_error(&job->outputs) && !error;
     settings->display = output_list_wants_display(&job->outputs);
     settings->exposure = job->description->image.exposure;
@@ -334,7 +367,7 @@ static int load_and_render(struct job *job)
 static void write_nothing(struct job *job)
 {
     job->outputs.count = 0;
-    job->stats_path = NULL;
+    job->stats_path = job->display = NULL;
     job->taken.quiet = true;
     job->progress_mode = PROGRESS_NONE;
 }
@@ -349,6 +382,8 @@ static int run_job(struct job *job)
     job->passes.quiet = job->taken.quiet;
     job->passes.write_now = &write_now;
     job->passes.write_picture = write_picture_on_the_way;
+    job->passes.show_picture = show_picture;
+    job->passes.schedule.shows = job->display != NULL;
     job->passes.user = job;
     return check_outputs(job) ? load_and_render(job) : STATUS_FAILED;
 }

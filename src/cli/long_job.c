@@ -213,20 +213,22 @@ static void write_checkpoint(struct long_job *job, double start)
 
 /* --- between passes --------------------------------------------------------------------------------- */
 
-static void look_at_picture(struct long_job *job, struct render *render, bool write)
+static void look_at_picture(struct long_job *job, struct render *render, bool write, bool show)
 {
     struct schedule *schedule = &job->schedule;
     struct image image;
     struct error error;
     double start = clock_seconds();
     uint32_t passes = pass_set_size(&render_film(render)->passes);
-    ps_result result = render_picture(render, write, &image, &error);
+    ps_result result = render_picture(render, write || show, &image, &error);
     if (schedule->error > 0.0) {
         double estimate = error_estimate_of_picture(&image);
         if (estimate < 0.0)
             estimate = error_estimate_of_film(render_film(render));
         schedule_note_error(schedule, passes, estimate, clock_seconds() - start);
     }
+    if (show && image.width > 0)
+        job->show_picture(job->user, &image);
     if (write && image.width > 0)
         result = job->write_picture(job->user, &image, passes, &error);
     if (result != PS_OK && result != PS_CANCELLED)
@@ -234,6 +236,8 @@ static void look_at_picture(struct long_job *job, struct render *render, bool wr
     image_release(&image);
     if (write)
         schedule_note_picture(schedule, start, clock_seconds());
+    if (show)
+        schedule_note_show(schedule, start, clock_seconds());
 }
 
 static void do_what_is_due(struct long_job *job, struct render *render, uint32_t passes)
@@ -242,14 +246,15 @@ static void do_what_is_due(struct long_job *job, struct render *render, uint32_t
     struct error error;
     bool now_wanted = *job->write_now != 0;
     bool write = now_wanted || schedule_wants_picture(&job->schedule, now);
-    bool look = write || schedule_wants_error(&job->schedule, passes);
+    bool show = schedule_wants_show(&job->schedule, now);
+    bool look = write || show || schedule_wants_error(&job->schedule, passes);
     bool keep = job->checkpoint && (now_wanted || schedule_wants_checkpoint(&job->schedule, now));
     *job->write_now = 0;
     if ((look || keep) && job->team && team_gather(job->team, &error) != PS_OK)
         return; /* the film is lost, which team_end tells */
     double gathering = clock_seconds() - now;
     if (look)
-        look_at_picture(job, render, write);
+        look_at_picture(job, render, write, show);
     if (keep)
         write_checkpoint(job, clock_seconds() - gathering);
 }

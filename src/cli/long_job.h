@@ -50,6 +50,7 @@ struct long_job {
     volatile sig_atomic_t *write_now; /* set by a signal */
     ps_result (*write_picture)(void *user, struct image *image, uint32_t passes,
                                struct error *error);
+    void (*show_picture)(void *user, const struct image *image); /* where the schedule shows */
     void *user;
 };
 

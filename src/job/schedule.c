@@ -4,13 +4,16 @@
 
 #define SHARE_FOR_LOOKING 0.2
 #define SHARE_FOR_CHECKPOINTS 0.02
+#define SHARE_FOR_SHOWS 0.2
+#define SHOW_EVERY 0.5
 
 void schedule_start(struct schedule *schedule, double now)
 {
     schedule->start = now;
     schedule->pass_start = schedule->last_checkpoint = now;
-    schedule->last_picture = -INFINITY;
+    schedule->last_picture = schedule->last_show = -INFINITY;
     schedule->pass_seconds = schedule->picture_seconds = schedule->checkpoint_seconds = 0.0;
+    schedule->show_seconds = 0.0;
     schedule->next_look = 1;
     schedule->estimate = -1.0;
 }
@@ -37,6 +40,12 @@ bool schedule_wants_picture(const struct schedule *schedule, double now)
            now - schedule->last_picture >= schedule->write_every;
 }
 
+bool schedule_wants_show(const struct schedule *schedule, double now)
+{
+    double every = fmax(SHOW_EVERY, schedule->show_seconds / SHARE_FOR_SHOWS);
+    return schedule->shows && now - schedule->last_show >= every;
+}
+
 bool schedule_wants_checkpoint(const struct schedule *schedule, double now)
 {
     double every = schedule->checkpoint_every;
@@ -49,6 +58,12 @@ void schedule_note_picture(struct schedule *schedule, double start, double now)
 {
     schedule->picture_seconds = now - start;
     schedule->last_picture = now;
+}
+
+void schedule_note_show(struct schedule *schedule, double start, double now)
+{
+    schedule->show_seconds = now - start;
+    schedule->last_show = now;
 }
 
 void schedule_note_checkpoint(struct schedule *schedule, double start, double now)

@@ -12,14 +12,17 @@
 #include <stdint.h>
 
 struct schedule {
-    double seconds;             /* that it may take; INFINITY: any */
-    double error;               /* relative, that is good enough; 0: none is */
-    double write_every;         /* a picture; INFINITY: at the end alone */
-    double checkpoint_every;    /* a film; likewise */
+    double seconds;          /* that it may take; INFINITY: any */
+    double error;            /* relative, that is good enough; 0: none is */
+    double write_every;      /* a picture; INFINITY: at the end alone */
+    double checkpoint_every; /* a film; likewise */
+    bool
+        shows; /* pictures to a viewer, each half a second, and no more often than a fifth of the time */
     bool checkpoints_are_cheap; /* and no more often than that costs a fiftieth of the time */
     double start;
     double pass_start, pass_seconds, picture_seconds, last_picture;
     double last_checkpoint, checkpoint_seconds;
+    double last_show, show_seconds;
     uint32_t next_look; /* at the error: passes */
     double estimate;    /* of the error, when it was last looked at; negative: never */
 };
@@ -36,10 +39,12 @@ bool schedule_has_time(const struct schedule *schedule, double now);
 
 /* Whether a picture, or a film, is due on the way. The first picture is as soon as there is one. */
 bool schedule_wants_picture(const struct schedule *schedule, double now);
+bool schedule_wants_show(const struct schedule *schedule, double now);
 bool schedule_wants_checkpoint(const struct schedule *schedule, double now);
 
 /* Those were made, from `start` to `now`. */
 void schedule_note_picture(struct schedule *schedule, double start, double now);
+void schedule_note_show(struct schedule *schedule, double start, double now);
 void schedule_note_checkpoint(struct schedule *schedule, double start, double now);
 
 /* Whether the error ought to be looked at after so many passes; and what it is then, which took some time to tell. */

@@ -1,0 +1,167 @@
+#include "cli/viewer.h"
+
+#include "cli/command.h"
+#include "session/layers.h"
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+struct viewer {
+    struct tev_address address;
+    char name[256];
+    pthread_t thread;
+    pthread_mutex_t mutex;
+    pthread_cond_t changed;
+    /* Guarded by the mutex. */
+    struct image next;   /* to be sent; no channels: none */
+    bool busy, ends;     /* with one of them; after it */
+    struct error reason; /* why the last one was not sent; no text: it was */
+    bool has_failed;     /* and that was said */
+};
+
+bool viewer_parse(const char *value, struct tev_address *address)
+{
+    bool good = strncmp(value, "tev", 3) == 0 && tev_parse_address(value + 3, address);
+    if (!good)
+        fprintf(stderr,
+                "psplat: error: --display: expected tev, tev:HOST or tev:HOST:PORT, got '%s'\n",
+                value);
+    return good;
+}
+
+/* --- the thread ----------------------------------------------------------------------------------- */
+
+static ps_result send_picture(const struct viewer *viewer, const struct image *image,
+                              int *connection, struct error *error)
+{
+    bool is_new = *connection < 0;
+    ps_result result = is_new ? tev_connect(&viewer->address, connection, error) : PS_OK;
+    if (result == PS_OK)
+        result = tev_send(*connection, viewer->name, image, is_new, error);
+    if (result != PS_OK && *connection >= 0) {
+        close(*connection);
+        *connection = -1;
+    }
+    return result;
+}
+
+/* Waits for a picture, which becomes the caller's; false at the end. */
+static bool take_next(struct viewer *viewer, struct image *image)
+{
+    pthread_mutex_lock(&viewer->mutex);
+    while (viewer->next.channel_count == 0 && !viewer->ends)
+        pthread_cond_wait(&viewer->changed, &viewer->mutex);
+    *image = viewer->next;
+    viewer->next = (struct image){0};
+    viewer->busy = image->channel_count > 0;
+    pthread_mutex_unlock(&viewer->mutex);
+    return image->channel_count > 0;
+}
+
+static void *send_pictures(void *user)
+{
+    struct viewer *viewer = user;
+    struct image image;
+    int connection = -1;
+    while (take_next(viewer, &image)) {
+        struct error error = {.text = ""};
+        if (send_picture(viewer, &image, &connection, &error) == PS_OK)
+            error.text[0] = '\0';
+        image_release(&image);
+        pthread_mutex_lock(&viewer->mutex);
+        viewer->busy = false;
+        viewer->reason = error;
+        pthread_cond_broadcast(&viewer->changed);
+        pthread_mutex_unlock(&viewer->mutex);
+    }
+    if (connection >= 0)
+        close(connection);
+    return NULL;
+}
+
+/* --- the caller's thread -------------------------------------------------------------------------- */
+
+struct viewer *viewer_create(const struct tev_address *address, const char *name)
+{
+    struct viewer *viewer = calloc(1, sizeof *viewer);
+    size_t length = strlen(name), most = sizeof viewer->name - 1;
+    if (viewer) {
+        viewer->address = *address;
+        snprintf(viewer->name, sizeof viewer->name, "%s",
+                 name + (length > most ? length - most : 0));
+        pthread_mutex_init(&viewer->mutex, NULL);
+        pthread_cond_init(&viewer->changed, NULL);
+        if (pthread_create(&viewer->thread, NULL, send_pictures, viewer) == 0)
+            return viewer;
+        pthread_cond_destroy(&viewer->changed);
+        pthread_mutex_destroy(&viewer->mutex);
+        free(viewer);
+    }
+    print_error("--display: there is no memory for it");
+    return NULL;
+}
+
+/* With the mutex. */
+static void tell_of_failure(struct viewer *viewer)
+{
+    if (viewer->reason.text[0] && !viewer->has_failed)
+        print_warning(viewer->reason.text);
+    viewer->has_failed = viewer->reason.text[0] != '\0';
+}
+
+static void wait_until_idle(struct viewer *viewer)
+{
+    while (viewer->busy || viewer->next.channel_count > 0)
+        pthread_cond_wait(&viewer->changed, &viewer->mutex);
+}
+
+static ps_result copy_channels(const struct image *image, const char *layers, struct image *copy,
+                               struct error *error)
+{
+    size_t pixels = image->width * image->height;
+    *copy = (struct image){.width = image->width, .height = image->height};
+    for (size_t i = 0; i < image->channel_count; i++) {
+        if (!layers_keep(layers, image->channels[i].name))
+            continue;
+        float *samples = image_add_channel(copy, image->channels[i].name);
+        if (!samples) {
+            image_release(copy);
+            return error_memory(error, pixels * sizeof *samples, "the picture to show");
+        }
+        memcpy(samples, image->channels[i].samples, pixels * sizeof *samples);
+    }
+    return PS_OK;
+}
+
+void viewer_show(struct viewer *viewer, const struct image *image, const char *layers, bool is_last)
+{
+    struct error error;
+    pthread_mutex_lock(&viewer->mutex);
+    if (is_last)
+        wait_until_idle(viewer);
+    if (!viewer->busy && viewer->next.channel_count == 0) {
+        tell_of_failure(viewer);
+        if (copy_channels(image, layers, &viewer->next, &error) != PS_OK)
+            print_warning(error.text);
+        pthread_cond_broadcast(&viewer->changed);
+    }
+    pthread_mutex_unlock(&viewer->mutex);
+}
+
+void viewer_destroy(struct viewer *viewer)
+{
+    if (!viewer)
+        return;
+    pthread_mutex_lock(&viewer->mutex);
+    wait_until_idle(viewer);
+    tell_of_failure(viewer);
+    viewer->ends = true;
+    pthread_cond_broadcast(&viewer->changed);
+    pthread_mutex_unlock(&viewer->mutex);
+    pthread_join(viewer->thread, NULL);
+    pthread_cond_destroy(&viewer->changed);
+    pthread_mutex_destroy(&viewer->mutex);
+    free(viewer);
+}
