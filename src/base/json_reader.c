@@ -82,10 +82,13 @@ static bool skip_one_of(struct scanner *scanner, const char *set)
     return true;
 }
 
+/* RFC 8259: a whole part has no zeros before its first other digit. */
 static bool skip_number(struct scanner *scanner)
 {
     skip_one_of(scanner, "-");
-    if (!skip_digits(scanner) || (skip_one_of(scanner, ".") && !skip_digits(scanner)))
+    const char *whole = scanner->at;
+    if (!skip_digits(scanner) || (*whole == '0' && scanner->at - whole > 1) ||
+        (skip_one_of(scanner, ".") && !skip_digits(scanner)))
         return false;
     if (!skip_one_of(scanner, "eE"))
         return true;

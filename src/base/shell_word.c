@@ -18,3 +18,10 @@ void shell_word_print(FILE *stream, const char *word)
             fputc(*word, stream);
     fputc('\'', stream);
 }
+
+void shell_word_print_path(FILE *stream, const char *path)
+{
+    if (path[0] == '-' && path[1])
+        fputs("./", stream);
+    shell_word_print(stream, path);
+}

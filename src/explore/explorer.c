@@ -9,12 +9,13 @@
 
 /* --- loading ----------------------------------------------------------------------------------------- */
 
-/* The machine's, shared out among the views. A reference, which lets others go before, does not count. */
-static uint32_t thread_share(struct explorer *explorer)
+/* The machine's, shared out among the views. A reference, which lets others go before, does not count. View b is loaded
+ * before it is there; a render of view a that goes on then keeps its threads. */
+static uint32_t thread_share(struct explorer *explorer, int view)
 {
     uint32_t processors = parallel_processor_count();
     pthread_mutex_lock(&explorer->lock);
-    bool two = explorer->views[VIEW_A].is_present && explorer->views[VIEW_B].is_present;
+    bool two = view == VIEW_B || explorer->views[VIEW_B].is_present;
     pthread_mutex_unlock(&explorer->lock);
     return two && processors > 1 ? processors / 2 : processors;
 }
@@ -28,11 +29,11 @@ static ps_result set_number(psplat_scene *scene, const char *option, uint32_t nu
     return psplat_scene_set(scene, option, text, error);
 }
 
-static ps_result set_options(struct explorer *explorer, const struct option_list *options,
+static ps_result set_options(struct explorer *explorer, int view, const struct option_list *options,
                              uint32_t passes, bool preview, psplat_scene *scene,
                              psplat_error *error)
 {
-    ps_result result = set_number(scene, "threads", thread_share(explorer), error);
+    ps_result result = set_number(scene, "threads", thread_share(explorer, view), error);
     if (result == PS_OK)
         result = option_list_set(&explorer->fixed, scene, error);
     if (result == PS_OK)
@@ -43,7 +44,7 @@ static ps_result set_options(struct explorer *explorer, const struct option_list
                    : set_number(scene, "passes", passes, error);
 }
 
-ps_result explorer_load(struct explorer *explorer, const struct option_list *options,
+ps_result explorer_load(struct explorer *explorer, int view, const struct option_list *options,
                         uint32_t passes, bool preview, psplat_scene **scene, psplat_error *error)
 {
     psplat_scene *made = psplat_scene_create();
@@ -52,7 +53,7 @@ ps_result explorer_load(struct explorer *explorer, const struct option_list *opt
         *error = (psplat_error){.result = PS_ERROR_MEMORY, .message = "out of memory"};
         return PS_ERROR_MEMORY;
     }
-    ps_result result = set_options(explorer, options, passes, preview, made, error);
+    ps_result result = set_options(explorer, view, options, passes, preview, made, error);
     if (result == PS_OK)
         result = psplat_scene_load(made, explorer->path, error);
     if (result != PS_OK)
@@ -163,7 +164,7 @@ static ps_result load_for(struct explorer *explorer, int view, struct option_lis
     psplat_scene *scene;
     struct timespec began;
     clock_gettime(CLOCK_REALTIME, &began);
-    ps_result result = explorer_load(explorer, options, passes, false, &scene, error);
+    ps_result result = explorer_load(explorer, view, options, passes, false, &scene, error);
     if (result != PS_OK && !(error->file[0] && scene_is_wrong(explorer)))
         return result;
     set_view(explorer, view, options, passes, scene, began);
@@ -251,7 +252,7 @@ static ps_result load_first(struct explorer *explorer, struct option_list *optio
     struct timespec began;
     clock_gettime(CLOCK_REALTIME, &began);
     view->is_present = true;
-    ps_result result = explorer_load(explorer, options, passes, false, &scene, problem);
+    ps_result result = explorer_load(explorer, VIEW_A, options, passes, false, &scene, problem);
     if (result != PS_OK && !problem->file[0])
         return result;
     if (result == PS_OK)

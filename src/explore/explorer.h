@@ -67,7 +67,7 @@ void explorer_watch(struct explorer *explorer);
 struct shown_picture *explorer_picture(struct explorer *explorer, int view);
 
 /* Loads the scene for a view. `preview`: a quick look instead, with no number of passes. Any thread. */
-ps_result explorer_load(struct explorer *explorer, const struct option_list *options,
+ps_result explorer_load(struct explorer *explorer, int view, const struct option_list *options,
                         uint32_t passes, bool preview, psplat_scene **scene, psplat_error *error);
 
 /* Takes over what a scene that was loaded for a view says of itself. Under the lock. */

@@ -119,8 +119,11 @@ static ps_result put_view(const struct route_request *request, int view, psplat_
     if (result == PS_OK)
         result = read_view(root, &options, &passes, &error);
     arena_release(&arena);
-    if (result == PS_OK)
-        return explorer_put_view(request->explorer, view, &options, passes, told);
+    if (result == PS_OK) {
+        result = explorer_put_view(request->explorer, view, &options, passes, told);
+        /* A picture too large for the memory is as wrong an option as others. */
+        return result == PS_ERROR_MEMORY ? PS_ERROR_INVALID : result;
+    }
     snprintf(told->message, sizeof told->message, "%s", error.text);
     option_list_release(&options);
     return result;

@@ -1,5 +1,6 @@
 #include "explore/reference.h"
 
+#include "base/input_file.h"
 #include "base/path.h"
 #include "explore/explorer.h"
 #include "explore/json_text.h"
@@ -125,12 +126,34 @@ static char *beside_scene(const struct explorer *explorer, const char *path)
     return asprintf(&made, "%.*s%s", folder, explorer->path, path) < 0 ? NULL : made;
 }
 
+/* As --restrict forbids a scene to read other files. One that is not there is told alike. */
+static ps_result check_folder(const struct explorer *explorer, const char *path,
+                              struct error *error)
+{
+    const char *restricted = option_list_value(&explorer->fixed, "restrict");
+    if (!restricted)
+        return PS_OK;
+    char *folder = input_folder_resolve(restricted, error);
+    if (!folder)
+        return PS_ERROR_INVALID;
+    bool allowed = input_file_exists(path, folder);
+    free(folder);
+    return allowed ? PS_OK
+                   : error_set(error, PS_ERROR_INVALID,
+                               "%.1000s: no file in the folder that --restrict names", path);
+}
+
 ps_result reference_put_file(struct explorer *explorer, const char *path, struct error *error)
 {
     struct shown_picture *shown;
     char *found = beside_scene(explorer, path);
     if (!found)
         return error_memory(error, strlen(path), "a name");
+    ps_result allowed = check_folder(explorer, found, error);
+    if (allowed != PS_OK) {
+        free(found);
+        return allowed;
+    }
     pthread_mutex_lock(&explorer->lock);
     uint64_t number = ++explorer->pictures;
     pthread_mutex_unlock(&explorer->lock);

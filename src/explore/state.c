@@ -30,8 +30,8 @@ static void write_command(const struct explorer *explorer, const struct view *vi
     FILE *stream = open_memstream(&text, &length);
     if (!stream)
         return;
-    fputs("psplat ", stream);
-    shell_word_print(stream, explorer->path);
+    fputs("psplat render ", stream); /* the scene may have the name of another command */
+    shell_word_print_path(stream, explorer->path);
     option_list_print(&explorer->fixed, stream);
     option_list_print(&view->options, stream);
     bool is_shown = view->shown_passes > 0 && !view->shows_preview;

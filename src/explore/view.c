@@ -33,6 +33,11 @@ struct work {
     double show_cost;            /* seconds that the last picture took */
 };
 
+static int index_of(const struct view *view)
+{
+    return (int)(view - view->explorer->views);
+}
+
 static bool is_over(const struct work *work)
 {
     return atomic_load(&work->explorer->stopping) ||
@@ -98,7 +103,10 @@ void view_measure(struct view *view, bool anew)
     if (reference && history.count > 0) {
         history_measure(&history, reference, anew);
         pthread_mutex_lock(&explorer->lock);
-        history_take_errors(&view->history, &history);
+        struct shown_picture *now = reference_picture(explorer);
+        if (now == shown) /* or another has come since, and measures by itself */
+            history_take_errors(&view->history, &history);
+        shown_picture_release(now);
         explorer_tell(explorer);
         pthread_mutex_unlock(&explorer->lock);
     }
@@ -127,6 +135,7 @@ static bool put_in_place(const struct work *work, struct shown_picture *shown, u
     struct view *view = work->view;
     if (is_over(work))
         return false;
+    set_time(work);
     view->shown = shown;
     view->shown_passes = passes;
     view->shows_preview = work->is_preview;
@@ -179,9 +188,6 @@ static void show_passes(void *user, psplat_rendering *rendering, uint32_t passes
         return;
     double start = clock_seconds(), cpu_start = cpu_time_of_threads(work->view->name);
     take_time(work);
-    pthread_mutex_lock(&work->explorer->lock);
-    set_time(work);
-    pthread_mutex_unlock(&work->explorer->lock);
     psplat_rendering_picture(rendering, &picture, NULL);
     if (picture)
         show(work, picture, passes);
@@ -207,6 +213,7 @@ static ps_result render(struct work *work, const psplat_scene *scene, uint32_t p
     work->cpu_start = cpu_time_of_threads(work->view->name);
     work->seconds = work->cpu_seconds = 0.0;
     ps_result result = psplat_render(scene, &callbacks, &picture, error);
+    take_time(work);
     if (picture && result != PS_CANCELLED)
         show(work, picture, passes);
     else
@@ -236,7 +243,9 @@ static void render_preview(struct work *work, const struct option_list *options)
     psplat_error error;
     work->is_preview = true;
     if (option_list_append_scene(&quick, options) && shrink(&quick) &&
-        explorer_load(work->explorer, &quick, 1, true, &scene, &error) == PS_OK && !is_over(work))
+        explorer_load(work->explorer, index_of(work->view), &quick, 1, true, &scene, &error) ==
+            PS_OK &&
+        !is_over(work))
         render(work, scene, 1, &error);
     work->is_preview = false;
     psplat_scene_destroy(scene);
@@ -263,7 +272,8 @@ static psplat_scene *load(struct work *work, const struct option_list *options, 
     psplat_error error;
     struct timespec began;
     clock_gettime(CLOCK_REALTIME, &began);
-    ps_result result = explorer_load(explorer, options, passes, false, &scene, &error);
+    ps_result result =
+        explorer_load(explorer, index_of(view), options, passes, false, &scene, &error);
     pthread_mutex_lock(&explorer->lock);
     if (is_over(work)) {
         /* A request has brought another since. */

@@ -1,5 +1,6 @@
 #include "explore/watched_files.h"
 
+#include "base/digest.h"
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -27,12 +28,6 @@ void watched_files_release(struct watched_files *files)
     *files = (struct watched_files){0};
 }
 
-/* FNV-1a over words; http://www.isthe.com/chongo/tech/comp/fnv */
-static uint64_t digest_word(uint64_t digest, uint64_t word)
-{
-    return (digest ^ word) * UINT64_C(0x100000001b3);
-}
-
 static bool is_later(struct timespec a, struct timespec b)
 {
     return a.tv_sec != b.tv_sec ? a.tv_sec > b.tv_sec : a.tv_nsec > b.tv_nsec;
@@ -41,18 +36,18 @@ static bool is_later(struct timespec a, struct timespec b)
 /* Not 0. `newest`: when the last of them was written. */
 static uint64_t digest_of(const struct watched_files *files, struct timespec *newest)
 {
-    uint64_t digest = UINT64_C(0xcbf29ce484222325);
+    uint64_t digest = DIGEST_START;
     *newest = (struct timespec){0};
     for (size_t i = 0; i < files->count; i++) {
         struct stat status;
         bool there = stat(files->paths[i], &status) == 0;
-        digest = digest_word(digest, there);
+        digest_add(&digest, &there, sizeof there);
         if (!there)
             continue;
-        digest = digest_word(digest, (uint64_t)status.st_size);
-        digest = digest_word(digest, (uint64_t)status.st_ino);
-        digest = digest_word(digest, (uint64_t)status.st_mtim.tv_sec);
-        digest = digest_word(digest, (uint64_t)status.st_mtim.tv_nsec);
+        digest_add(&digest, &status.st_size, sizeof status.st_size);
+        digest_add(&digest, &status.st_ino, sizeof status.st_ino);
+        digest_add(&digest, &status.st_mtim.tv_sec, sizeof status.st_mtim.tv_sec);
+        digest_add(&digest, &status.st_mtim.tv_nsec, sizeof status.st_mtim.tv_nsec);
         if (is_later(status.st_mtim, *newest))
             *newest = status.st_mtim;
     }

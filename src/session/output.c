@@ -162,8 +162,8 @@ static void print_command(FILE *stream, const struct image *image, const char *s
                           const struct scene_options *options,
                           const struct render_settings *settings, uint32_t passes)
 {
-    fprintf(stream, "psplat render");
-    print_next(stream, strcmp(scene_path, "<stdin>") == 0 ? "-" : scene_path);
+    fprintf(stream, "psplat render ");
+    shell_word_print_path(stream, strcmp(scene_path, "<stdin>") == 0 ? "-" : scene_path);
     scene_options_each_word(options, print_next, stream);
     fprintf(stream, " --size %zux%zu", image->window.picture_width, image->window.picture_height);
     if (settings->crop.width > 0)

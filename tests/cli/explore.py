@@ -226,6 +226,7 @@ def test_changes(server):
             ([("plugin", "estimator=none_such")], "none_such"),
             ([("plugin", "estimator=splat:radius=x")], "radius"),
             ([("size", "0x9")], "--size"),
+            ([("size", "65536x65536")], "memory"),
             ([("param", "lamp=[")], "lamp"),
             ([("param", "none=1")], "none"),
             ([("camera", "back")], "back"),
@@ -234,7 +235,7 @@ def test_changes(server):
             ([("plugin", "estimator=./mine.so")], "file")):
         answer = server.put("view/a", options(*pairs), 422)
         check(answer and message in answer["message"], f"{pairs}: {answer}")
-    for body in ("", "{", "[]", "{}", '{"options": [["size"]]}', '{"options": [["size", 3]]}', '{"options": {}}',
+    for body in ("", "{", "[]", "{}", '{"options": [], "passes": 02}', '{"options": [["size"]]}', '{"options": [["size", 3]]}', '{"options": {}}',
                  '{"options": [], "passes": 0}', '{"options": [], "passes": "2"}', '{"options": [["a\\u0000", ""]]}',
                  '{"options": [["seed", "\\ud800"]]}', "[" * 60000):
         status, _, _ = server.ask("PUT", "view/a", body)
@@ -503,6 +504,35 @@ def test_faulty_begin():
         check("did you mean 'lights'?" in err.read(), "the error on stderr")
 
 
+def test_restricted():
+    """A reference is no way out of the folder of --restrict."""
+    os.makedirs("inside/deep", exist_ok=True)
+    write("inside/scene.psd", SCENE)
+    write("inside/part.psd", PART)
+    for folder in ("inside", "."):
+        subprocess.run([PSPLAT, "-q", "--size", "32x18", "--plugin", "estimator=ambient", "-o", f"{folder}/reference.exr",
+                        "inside/scene.psd"], check=True)
+    if not os.path.islink("inside/link.exr"):
+        os.symlink("../reference.exr", "inside/link.exr")
+    with serving("inside/scene.psd", "--restrict", "inside", "--size", "32x18", "--passes", "1") as server:
+        server.finished()
+        server.put("reference", {"file": "reference.exr"})
+        for path in ("../reference.exr", os.path.abspath("reference.exr"), "link.exr", "deep/../../reference.exr",
+                     "/etc/passwd", "none.exr"):
+            answer = server.put("reference", {"file": path}, 422)
+            check("no file in the folder that --restrict names" in answer["message"], f"{path}: {answer}")
+
+
+def test_names():
+    """The command to copy works for scenes that have the name of another command, or look like an option."""
+    for name in ("check", "-x.psd"):
+        write(name, SCENE)
+        with serving(f"./{name}" if name[0] == "-" else name, "--size", "32x18", "--passes", "1") as server:
+            server.finished()
+            command = server.view("a")["command"].replace("psplat", PSPLAT, 1)
+            check_same(subprocess.run(f"{command} -q -o named.exr", shell=True).returncode, 0, command)
+
+
 def test_browser():
     """The page is opened where there is a desktop."""
     os.mkdir("bin")
@@ -549,7 +579,7 @@ def main():
             start = time.monotonic()
             test(server)
             print(f"{test.__name__}: {time.monotonic() - start:.1f} s")
-    for test in (test_begin, test_faulty_begin, test_browser, test_end):
+    for test in (test_begin, test_faulty_begin, test_restricted, test_names, test_browser, test_end):
         start = time.monotonic()
         test()
         print(f"{test.__name__}: {time.monotonic() - start:.1f} s")
