@@ -146,6 +146,8 @@ typedef struct ps_estimator_vtable {
     ps_result (*end_pass)(void *state, const ps_host *host, const ps_pass *pass);
     /* Optional. Once, after the last pass, if begin was called and succeeded. [main thread] */
     void (*end)(void *state, const ps_host *host);
+    /* Since 1.8: bytes that accumulate() allocates at a time, for each pixel; see ps_denoiser_vtable. */
+    uint64_t pixel_bytes;
 } ps_estimator_vtable;
 
 /* --- normalization --------------------------------------------------------------------------- */

@@ -117,10 +117,9 @@ static void trace_group(void *user, uint64_t index, uint32_t worker)
     }
     gather_begin(&gather);
     gather_samples(&gather, work->setting.most);
-    float share = 1.0f / (float)work->setting.most;
     for (size_t i = 0; i < gather.points.count; i++) {
-        work->traced[first + i] = ps_rgb_scale(gather.irradiance[i], share);
-        work->half[first + i] = ps_rgb_scale(gather.half[i], 2.0f * share);
+        work->traced[first + i] = gather.irradiance[i];
+        work->half[first + i] = ps_rgb_scale(gather.half[i], 2.0f);
     }
 }
 
@@ -237,6 +236,7 @@ static const ps_param params[] = {
 static const ps_estimator_vtable vtable = {
     .size = sizeof vtable,
     .flags = PS_ESTIMATOR_SHARES_PLACES | PS_ESTIMATOR_CROPS,
+    .pixel_bytes = GATHER_PIXEL_BYTES,
     .accumulate = accumulate,
 };
 

@@ -19,6 +19,11 @@
 /* Over the sum of the planes: their margins, and what allocators round up. */
 #define ROUNDED_UP 1.06
 
+static size_t larger(size_t a, size_t b)
+{
+    return a > b ? a : b;
+}
+
 /* Planes of a film with its parts, but for ids. */
 static size_t count_film(const struct planes *planes)
 {
@@ -52,8 +57,7 @@ static size_t picture_pixel(const struct render_settings *settings, const struct
     size_t rgb_layers = settings->display ? 3 : 2, halves = planes->odd ? 6 : 0;
     size_t making = halves * sizeof(float) + denoiser->pixel_bytes;
     size_t normalizing = planes->odd ? 11 * sizeof(float) : 0;
-    return (3 * rgb_layers + (has_error ? 1 : 0)) * sizeof(float) +
-           (making > normalizing ? making : normalizing);
+    return (3 * rgb_layers + (has_error ? 1 : 0)) * sizeof(float) + larger(making, normalizing);
 }
 
 static double gbuffer_part(const struct gbuffer *layout, const struct planes *planes)
@@ -69,16 +73,21 @@ static double gbuffer_part(const struct gbuffer *layout, const struct planes *pl
     return (double)bytes + (planes->splats ? (double)gathered_light_bytes(layout) : 0);
 }
 
-/* G-buffer, film and sums last to the end, when there are the picture and the denoiser, or the film's file. */
+/* G-buffer, film and sums last to the end. Beside them are, at different times, what the estimator needs in a pass, the
+ * picture with its denoiser, and the film's file. */
 static double memory_of_picture(const struct render_settings *settings, const struct planes *planes,
                                 size_t width, size_t height, bool keeps_film)
 {
     struct rectangle film = planes_window(settings, width, height);
     struct gbuffer layout = planes_layout(settings, width, height);
-    size_t picture = picture_pixel(settings, planes), file = keeps_film ? file_pixel(planes) : 0;
+    const ps_estimator_vtable *estimator =
+        &settings->strategies[PS_ESTIMATOR].type->table.estimator;
+    size_t at_once = picture_pixel(settings, planes);
+    if (keeps_film)
+        at_once = larger(at_once, file_pixel(planes));
+    at_once = larger(at_once, (size_t)estimator->pixel_bytes);
     return gbuffer_part(&layout, planes) +
-           (double)film.width * (double)film.height *
-               (double)(film_pixel(planes) + (picture > file ? picture : file));
+           (double)film.width * (double)film.height * (double)(film_pixel(planes) + at_once);
 }
 
 static ps_result check(const struct render_settings *settings, size_t width, size_t height,

@@ -1,20 +1,13 @@
 #include "gather_picture.h"
 
 #include "allocation.h"
-#include <string.h>
-
-/* What a tile's first round found, kept until it is known how many more samples it takes. */
-struct first_round {
-    ps_rgb irradiance[PS_TILE_PIXELS];
-    float found[GATHER_GUIDES][GUIDE_RINGS][GUIDE_SECTORS];
-};
 
 struct work {
     const struct gather_setting *setting;
     uint64_t samples; /* of each point, on average */
     /* When tiles take samples by their need: what the first round found in each, and how many it takes. The need is that
      * of all of the picture; what was found is kept for the tiles that are there, `places` being their places. */
-    struct first_round *first_rounds;
+    struct gather_first *first_rounds;
     struct tile_pilot *pilots;
     uint32_t *allocated, *places;
 };
@@ -58,21 +51,8 @@ static void take_first_round(void *user, uint64_t index, uint32_t worker)
     gather.goes_on = true;
     gather_samples(&gather, GATHER_FIRST);
     work->pilots[index] = pilot_of(&gather, &tile);
-    if (work->places[index] == NO_PLACE)
-        return;
-    struct first_round *first = &work->first_rounds[work->places[index]];
-    memcpy(first->irradiance, gather.irradiance, sizeof first->irradiance);
-    for (uint32_t i = 0; i < gather.guide_count; i++)
-        memcpy(first->found[i], gather.guides[i].found, sizeof first->found[i]);
-}
-
-static void resume(const struct first_round *first, struct gather *gather)
-{
-    memcpy(gather->irradiance, first->irradiance, sizeof first->irradiance);
-    for (uint32_t i = 0; i < gather->guide_count; i++)
-        memcpy(gather->guides[i].found, first->found[i], sizeof first->found[i]);
-    gather_update_guides(gather);
-    gather->done = GATHER_FIRST;
+    if (work->places[index] != NO_PLACE)
+        work->first_rounds[work->places[index]] = gather.first;
 }
 
 static void gather_tile(void *user, uint64_t index, uint32_t worker)
@@ -86,11 +66,10 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     if (!begin_tile(work, index, tile, &gather))
         return;
     if (work->allocated)
-        resume(&work->first_rounds[work->places[index]], &gather);
+        gather_resume(&gather, &work->first_rounds[work->places[index]]);
     gather_samples(&gather, samples);
     for (size_t i = 0; i < gather.points.count; i++)
-        ps_add_irradiance(tile, gather.points.lanes[i],
-                          ps_rgb_scale(gather.irradiance[i], 1.0f / (float)samples));
+        ps_add_irradiance(tile, gather.points.lanes[i], gather.irradiance[i]);
 }
 
 static void mark_tile(void *user, uint64_t index, uint32_t worker)

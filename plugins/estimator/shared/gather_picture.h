@@ -8,6 +8,9 @@ enum {
     GATHER_MOST_OF_SAMPLES = 4
 }; /* times the samples, that a tile takes at most: setting->most */
 
+/* What gather_picture() allocates for each pixel, when it shares samples out. */
+#define GATHER_PIXEL_BYTES (sizeof(struct gather_first) / PS_TILE_PIXELS)
+
 /* Adds what so many samples of each pixel find, on average over the picture; `adaptive`: more of them where they are
  * needed. PS_ERROR_MEMORY or PS_CANCELLED. */
 ps_result gather_picture(const struct gather_setting *setting, uint64_t samples, bool adaptive);

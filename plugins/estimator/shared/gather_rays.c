@@ -1,5 +1,7 @@
 #include "gather_rays.h"
 
+#include <string.h>
+
 #define SAME_FACING 0.8f /* cosine of two normals that share a guide */
 
 /* --- guides --- */
@@ -28,20 +30,72 @@ void gather_begin(struct gather *gather)
         gather->guide_of[i] = choose_guide(gather, gather->points.normals[i]);
 }
 
-/* `learns`: whether more rays will be drawn by what this sample found; `half`: whether it is of the first half. */
-static void end_sample(struct gather *gather, bool learns, bool half)
+/* --- samples --- */
+
+/* Of the samples of a call. */
+struct round {
+    uint64_t samples, all; /* of the round, and of all rounds */
+    bool is_first, learns; /* more rays will be drawn by what these find */
+};
+
+static void add(struct gather *gather, size_t i, ps_rgb found, float weight, bool half)
 {
+    ps_rgb weighed = ps_rgb_scale(found, weight);
+    gather->irradiance[i] = ps_rgb_add(gather->irradiance[i], weighed);
+    if (half)
+        gather->half[i] = ps_rgb_add(gather->half[i], weighed);
+}
+
+static float learnt_of(ps_rgb found)
+{
+    return found.r + found.g + found.b;
+}
+
+/* 1 / (c p_c + g p_g), over 1 / p_c, where p_g is `ratio` of p_c. */
+static float balanced(uint64_t all, float ratio)
+{
+    return 1.0f / ((float)GATHER_FIRST + (float)(all - GATHER_FIRST) * ratio);
+}
+
+static float smooth_ratio(const struct gather *gather, size_t i, ps_vec3 direction, float learnt)
+{
+    return guide_smooth_ratio(&gather->guides[gather->guide_of[i]], gather->points.normals[i],
+                              direction, learnt);
+}
+
+static void end_sample(struct gather *gather, const struct round *round, uint64_t number)
+{
+    bool half = number < round->samples / 2;
     for (size_t i = 0; i < gather->points.count; i++) {
         ps_rgb found = gather->found[i];
-        gather->irradiance[i] = ps_rgb_add(gather->irradiance[i], found);
-        if (half)
-            gather->half[i] = ps_rgb_add(gather->half[i], found);
+        if (round->is_first) {
+            gather->first.found[number][i] = found;
+            gather->first.directions[number][i] = gather->directions[i];
+            add(gather, i, found, 1.0f / (float)round->samples, half);
+        } else {
+            float smooth = smooth_ratio(gather, i, gather->directions[i], 0.0f);
+            add(gather, i, found, smooth * balanced(round->all, smooth), half);
+        }
         gather->samples[i]++;
-        if (!learns)
-            continue;
-        guide_learn(&gather->guides[gather->guide_of[i]], gather->directions[i],
-                    found.r + found.g + found.b);
+        if (round->learns)
+            guide_learn(&gather->guides[gather->guide_of[i]], gather->directions[i],
+                        learnt_of(found), gather->ratios[i]);
     }
+}
+
+/* Weighs the rays of the first round by the guides of the round that begins, for its share of the guided rays. */
+static void add_first(struct gather *gather, const struct round *round)
+{
+    float share = (float)round->samples / (float)(round->all - GATHER_FIRST);
+    for (size_t number = 0; number < GATHER_FIRST; number++)
+        for (size_t i = 0; i < gather->points.count; i++) {
+            ps_rgb found = gather->first.found[number][i];
+            float learnt = learnt_of(found);
+            if (!(learnt > 0.0f))
+                continue;
+            float ratio = smooth_ratio(gather, i, gather->first.directions[number][i], learnt);
+            add(gather, i, found, share * balanced(round->all, ratio), number < GATHER_FIRST / 2);
+        }
 }
 
 /* --- rays --- */
@@ -55,20 +109,20 @@ static void start_paths(struct gather *gather, struct paths *paths, struct paths
     paths->count = 0;
     for (uint32_t i = 0; i < points->count; i++) {
         ps_vec3 normal = points->normals[i];
-        float pdf;
-        ps_vec3 direction = guide_sample(&gather->guides[gather->guide_of[i]], normal,
-                                         segment->numbers[i][0], segment->numbers[i][1], &pdf);
-        float cosine = ps_dot(direction, normal);
+        const struct guide *guide = &gather->guides[gather->guide_of[i]];
+        ps_vec3 direction =
+            guide_sample(guide, normal, segment->numbers[i][0], segment->numbers[i][1]);
         gather->directions[i] = direction;
+        gather->ratios[i] = guide_ratio(guide, normal, direction);
         gather->places[i][0] = segment->numbers[i][2];
         gather->places[i][1] = segment->numbers[i][3];
         gather->found[i] = (ps_rgb){0, 0, 0};
-        if (!(cosine > 0.0f))
+        if (!(ps_dot(direction, normal) > 0.0f))
             continue;
         paths_add(paths, i,
                   ps_leave_surface(points->positions[i], normal, direction,
                                    setting->pass->surface_offset),
-                  cosine / pdf);
+                  PS_PI / gather->ratios[i]);
     }
 }
 
@@ -124,7 +178,7 @@ static void scatter_paths(struct gather *gather, struct paths *paths, struct pat
     paths->count = alive;
 }
 
-static void take_sample(struct gather *gather, bool learns, bool half)
+static void take_sample(struct gather *gather, const struct round *round, uint64_t number_of_sample)
 {
     const struct paths_setting *setting = &gather->setting->paths;
     struct paths paths;
@@ -137,26 +191,46 @@ static void take_sample(struct gather *gather, bool learns, bool half)
         paths_draw_numbers(setting, number + 1, gather->samples, &paths, &segment);
         scatter_paths(gather, &paths, &segment);
     }
-    end_sample(gather, learns, half);
+    end_sample(gather, round, number_of_sample);
 }
 
-void gather_update_guides(struct gather *gather)
+static void update_guides(struct gather *gather)
 {
     for (uint32_t i = 0; i < gather->guide_count; i++)
         guide_update(&gather->guides[i]);
 }
 
-static void take_round(struct gather *gather, uint64_t round, bool last)
+void gather_resume(struct gather *gather, const struct gather_first *first)
+{
+    gather->first = *first;
+    gather->done = GATHER_FIRST;
+    for (size_t number = 0; number < GATHER_FIRST; number++)
+        for (size_t i = 0; i < gather->points.count; i++) {
+            ps_rgb found = first->found[number][i];
+            add(gather, i, found, 1.0f / GATHER_FIRST, number < GATHER_FIRST / 2);
+            guide_learn(&gather->guides[gather->guide_of[i]], first->directions[number][i],
+                        learnt_of(found), 1.0f);
+        }
+    update_guides(gather);
+}
+
+static void take_round(struct gather *gather, const struct round *round)
 {
     const struct gather_setting *setting = gather->setting;
     uint64_t first =
         (gather->index << 32) +
         ((uint64_t)setting->paths.pass->number * setting->most + gather->done) * PS_TILE_PIXELS;
+    if (gather->done == GATHER_FIRST) { /* what was added without guides is weighed anew */
+        memset(gather->irradiance, 0, sizeof gather->irradiance);
+        memset(gather->half, 0, sizeof gather->half);
+    }
+    if (!round->is_first)
+        add_first(gather, round);
     for (size_t i = 0; i < gather->points.count; i++)
-        gather->samples[i] = first + ps_lane_along_curve(gather->points.lanes[i]) * round;
-    for (uint64_t sample = 0; sample < round; sample++)
-        take_sample(gather, !last || gather->goes_on, sample < round / 2);
-    gather->done += round;
+        gather->samples[i] = first + ps_lane_along_curve(gather->points.lanes[i]) * round->samples;
+    for (uint64_t number = 0; number < round->samples; number++)
+        take_sample(gather, round, number);
+    gather->done += round->samples;
 }
 
 /* Rounds of 4, 12, 48, ... samples, each drawn by what those before it found. Shorter ones would learn sooner, but the
@@ -164,11 +238,17 @@ static void take_round(struct gather *gather, uint64_t round, bool last)
 void gather_samples(struct gather *gather, uint64_t samples)
 {
     while (gather->done < samples) {
-        uint64_t round = gather->done == 0 ? GATHER_FIRST : 3 * gather->done;
+        uint64_t most = gather->done == 0 ? GATHER_FIRST : 3 * gather->done;
         uint64_t left = samples - gather->done;
-        bool last = round >= left;
-        take_round(gather, last ? left : round, last);
+        bool last = most >= left;
+        struct round round = {
+            .samples = last ? left : most,
+            .all = samples,
+            .is_first = gather->done == 0,
+            .learns = !last || gather->goes_on,
+        };
+        take_round(gather, &round);
         if (!last)
-            gather_update_guides(gather);
+            update_guides(gather);
     }
 }

@@ -2,6 +2,12 @@
  *
  * Paths leave the points (paths.h) and go on until a cache of irradiance knows the rest, or to their end. Their first
  * directions are drawn where those before them found light (guide.h).
+ *
+ * Rays of the first round, by the cosine, have much more noise than guided ones where the light comes from a small part
+ * of the hemisphere. So both are combined by multiple importance sampling (Veach and Guibas 1995, balance heuristic): with
+ * c rays by the cosine and g guided ones, the former have the share c p_c / (c p_c + g q) of each direction and the latter
+ * the rest. That needs no pdf: q is smoother than that of the guided rays (guide.h). Where there are guides of several
+ * rounds, this is done with each, and the mean over all guided rays is taken.
  */
 #ifndef PSPLAT_ESTIMATOR_GATHER_RAYS_H
 #define PSPLAT_ESTIMATOR_GATHER_RAYS_H
@@ -28,18 +34,28 @@ struct gather_setting {
     const void *cache;
 };
 
+/* What the rays of the first round found, by the cosine, and where: to be weighed when there are guides. */
+struct gather_first {
+    ps_rgb found[GATHER_FIRST][PS_TILE_PIXELS];
+    ps_vec3 directions[GATHER_FIRST][PS_TILE_PIXELS];
+};
+
 struct gather {
     const struct gather_setting *setting;
     uint64_t index; /* of the group, among all that draw random numbers: a tile's own */
     ps_points points;
     uint64_t done; /* samples */
     bool goes_on;  /* others will follow those that are asked for: they learn for them */
-    /* Sums over the samples of irradiance, W/m^2, at each point; `half` by the first half of each round. */
+    /* Estimates of the irradiance, W/m^2, at each point, when all samples are done; `half` is what the first half of each
+     * round has of it. */
     ps_rgb irradiance[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
-    /* Of the sample under way: its index, what it found, its first direction, and random numbers for lookups. */
+    struct gather_first first;
+    /* Of the sample under way: its index, what it found, its first direction with its pdf over that of the cosine, and
+     * random numbers for lookups. */
     uint64_t samples[PS_TILE_PIXELS];
     ps_rgb found[PS_TILE_PIXELS];
     ps_vec3 directions[PS_TILE_PIXELS];
+    float ratios[PS_TILE_PIXELS];
     float places[PS_TILE_PIXELS][2];
     uint8_t guide_of[PS_TILE_PIXELS];
     uint32_t guide_count;
@@ -52,7 +68,7 @@ void gather_begin(struct gather *gather);
 /* Takes samples until `samples` are done, in rounds. Any thread. */
 void gather_samples(struct gather *gather, uint64_t samples);
 
-/* What samples before these found, by the guides' `found`, is what rays are drawn by from now on. */
-void gather_update_guides(struct gather *gather);
+/* Goes on after a first round of a gather of the same points. */
+void gather_resume(struct gather *gather, const struct gather_first *first);
 
 #endif

@@ -1,5 +1,6 @@
 #include "guide.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 _Static_assert(GUIDE_SECTORS == 16, "sector_of");
@@ -32,7 +33,7 @@ static void bin_of(const struct guide *guide, ps_vec3 direction, float cosine, i
     *sector = sector_of(ps_dot(direction, guide->u), ps_dot(direction, guide->v));
 }
 
-void guide_learn(struct guide *guide, ps_vec3 direction, float irradiance)
+void guide_learn(struct guide *guide, ps_vec3 direction, float irradiance, float ratio)
 {
     float cosine = ps_dot(direction, guide->normal);
     int ring, sector;
@@ -40,48 +41,81 @@ void guide_learn(struct guide *guide, ps_vec3 direction, float irradiance)
         return;
     bin_of(guide, direction, cosine, &ring, &sector);
     guide->found[ring][sector] += irradiance;
+    guide->rays[ring][sector] += 1.0f / ratio;
 }
 
-/* Neighbours tell of a bin, too. */
-static float smoothed(const struct guide *guide, int ring, int sector)
+/* --- smoothing --- */
+
+/* Neighbours tell of a bin, too: what of ring `from`, and of a sector `away` from it, counts there. */
+static float of_ring(int to, int from)
 {
-    static const float weights[3] = {0.25f, 0.5f, 0.25f};
-    float sum = 0.0f, total = 0.0f;
-    for (int i = -1; i <= 1; i++) {
-        if (ring + i < 0 || ring + i >= GUIDE_RINGS)
-            continue;
-        for (int j = -1; j <= 1; j++) {
-            int other = (sector + j + GUIDE_SECTORS) % GUIDE_SECTORS;
-            float weight = weights[i + 1] * weights[j + 1];
-            sum += weight * guide->found[ring + i][other];
-            total += weight;
+    bool is_border = to == 0 || to == GUIDE_RINGS - 1;
+    return (to == from ? 0.5f : 0.25f) / (is_border ? 0.75f : 1.0f);
+}
+
+static float of_sector(int away)
+{
+    return away == 0 ? 0.5f : 0.25f;
+}
+
+static int first_ring(int ring)
+{
+    return ring > 0 ? ring - 1 : 0;
+}
+
+static int last_ring(int ring)
+{
+    return ring < GUIDE_RINGS - 1 ? ring + 1 : ring;
+}
+
+static float smoothed(float bins[GUIDE_RINGS][GUIDE_SECTORS], int ring, int sector)
+{
+    float sum = 0.0f;
+    for (int from = first_ring(ring); from <= last_ring(ring); from++)
+        for (int away = -1; away <= 1; away++) {
+            int other = (sector + away + GUIDE_SECTORS) % GUIDE_SECTORS;
+            sum += of_ring(ring, from) * of_sector(away) * bins[from][other];
         }
-    }
-    return sum / total;
+    return sum;
+}
+
+/* What of a bin is left in it, and in all bins together, when they are smoothed twice. */
+static float left_in_bin(int ring)
+{
+    float of_rings = 0.0f, of_sectors = 0.25f * 0.25f + 0.5f * 0.5f + 0.25f * 0.25f;
+    for (int other = first_ring(ring); other <= last_ring(ring); other++)
+        of_rings += of_ring(ring, other) * of_ring(other, ring);
+    return of_rings * of_sectors;
+}
+
+static float left_in_all(int ring)
+{
+    float left = 0.0f;
+    for (int once = first_ring(ring); once <= last_ring(ring); once++)
+        for (int twice = first_ring(once); twice <= last_ring(once); twice++)
+            left += of_ring(twice, once) * of_ring(once, ring);
+    return left;
 }
 
 void guide_update(struct guide *guide)
 {
-    float sum = 0.0f;
-    for (int ring = 0; ring < GUIDE_RINGS; ring++)
-        for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
-            guide->density[ring][sector] = smoothed(guide, ring, sector);
-            sum += guide->density[ring][sector];
-        }
-    guide->ready = sum > 0.0f;
-    if (!guide->ready)
-        return;
-    float rings = 0.0f;
+    guide->total = guide->smooth_total = 0.0f;
     for (int ring = 0; ring < GUIDE_RINGS; ring++) {
         float sectors = 0.0f;
         for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
-            sectors += guide->density[ring][sector];
+            guide->known[ring][sector] = smoothed(guide->found, ring, sector);
+            sectors += guide->known[ring][sector];
             guide->sector_ends[ring][sector] = sectors;
-            guide->density[ring][sector] *= (float)GUIDE_BINS / sum;
         }
-        rings += sectors;
-        guide->ring_ends[ring] = rings;
+        guide->total += sectors;
+        guide->ring_ends[ring] = guide->total;
     }
+    for (int ring = 0; ring < GUIDE_RINGS; ring++)
+        for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
+            guide->smooth[ring][sector] = smoothed(guide->known, ring, sector);
+            guide->smooth_total += guide->smooth[ring][sector];
+        }
+    guide->ready = guide->total > 0.0f;
 }
 
 /* Which of n cumulative ends a number of [0, 1) falls before, and where in its part. */
@@ -105,29 +139,54 @@ static ps_vec3 guided_direction(const struct guide *guide, float a, float b)
                                ((float)sector + in_sector) / GUIDE_SECTORS);
 }
 
-static float guided_pdf(const struct guide *guide, ps_vec3 direction)
+ps_vec3 guide_sample(const struct guide *guide, ps_vec3 normal, float a, float b)
 {
-    float cosine = ps_dot(direction, guide->normal);
-    int ring, sector;
-    if (!(cosine > 0.0f))
-        return 0.0f;
-    bin_of(guide, direction, cosine, &ring, &sector);
-    return guide->density[ring][sector] * cosine / PS_PI;
+    if (!guide->ready)
+        return ps_cosine_direction(normal, a, b);
+    if (a < BY_COSINE)
+        return ps_cosine_direction(normal, a / BY_COSINE, b);
+    return guided_direction(guide, (a - BY_COSINE) / (1.0f - BY_COSINE), b);
 }
 
-ps_vec3 guide_sample(const struct guide *guide, ps_vec3 normal, float a, float b, float *pdf)
+/* With a share of the cosine; `cosine` and `guided`: of the direction with the surface's normal, and the guide's. */
+static float ratio_of(float known, float total, float cosine, float guided)
 {
-    ps_vec3 direction;
-    if (!guide->ready) {
-        direction = ps_cosine_direction(normal, a, b);
-        *pdf = ps_max(ps_dot(direction, normal), 1e-6f) / PS_PI;
-        return direction;
-    }
-    if (a < BY_COSINE)
-        direction = ps_cosine_direction(normal, a / BY_COSINE, b);
-    else
-        direction = guided_direction(guide, (a - BY_COSINE) / (1.0f - BY_COSINE), b);
-    float cosine = ps_max(ps_dot(direction, normal), 0.0f);
-    *pdf = BY_COSINE * cosine / PS_PI + (1.0f - BY_COSINE) * guided_pdf(guide, direction);
-    return direction;
+    float density = known * (float)GUIDE_BINS / total;
+    return BY_COSINE + (1.0f - BY_COSINE) * density * guided / ps_max(cosine, 1e-6f);
+}
+
+float guide_ratio(const struct guide *guide, ps_vec3 normal, ps_vec3 direction)
+{
+    float cosine = ps_dot(direction, normal), guided = ps_dot(direction, guide->normal);
+    int ring, sector;
+    if (!guide->ready)
+        return 1.0f;
+    if (!(guided > 0.0f))
+        return BY_COSINE;
+    bin_of(guide, direction, guided, &ring, &sector);
+    return ratio_of(guide->known[ring][sector], guide->total, cosine, guided);
+}
+
+/* By how much a bin has more light for that of one ray, than if that had found what the others did. */
+static float excess(const struct guide *guide, int ring, int sector, float learnt)
+{
+    float others = guide->rays[ring][sector] - 1.0f, rest = guide->found[ring][sector] - learnt;
+    return others > 0.5f ? learnt - rest / others : learnt;
+}
+
+float guide_smooth_ratio(const struct guide *guide, ps_vec3 normal, ps_vec3 direction, float learnt)
+{
+    float cosine = ps_dot(direction, normal), guided = ps_dot(direction, guide->normal);
+    int ring, sector;
+    if (!guide->ready)
+        return 1.0f;
+    if (!(guided > 0.0f))
+        return BY_COSINE;
+    bin_of(guide, direction, guided, &ring, &sector);
+    float more = learnt > 0.0f ? excess(guide, ring, sector, learnt) : 0.0f;
+    float total = guide->smooth_total - more * left_in_all(ring);
+    if (!(total > 1e-6f * guide->smooth_total))
+        return 1.0f; /* the guide knows of that ray alone */
+    float known = ps_max(guide->smooth[ring][sector] - more * left_in_bin(ring), 0.0f);
+    return ratio_of(known, total, cosine, guided);
 }

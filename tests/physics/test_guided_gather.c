@@ -1,0 +1,106 @@
+/* test_guided_gather.c: gather rays drawn where those before them found light, and how both are combined.
+ *
+ * A wall that no lamp reaches sees a small lit patch of the floor: by the cosine one ray in ten finds it.
+ */
+#include "support/render_scene.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#define WIDTH 96
+#define HEIGHT 64
+#define SEEDS 4
+
+static const char scene[] =
+    "psd: 1\n"
+    "camera: {location: [0, 1.5, 4], look_at: [0, 1.3, 0], angle: 30}\n"
+    "image: {width: 96, height: 64}\n"
+    "materials: {white: {diffuse: 0.7}}\n"
+    "lights: [spotlight: {location: [0, 3, 1.2], point_at: [0, 0, 1.2], radius: 12, falloff: 14, "
+    "intensity: 100}]\n"
+    "objects:\n"
+    "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, 0], [-9, 0, 0]], material: white}\n"
+    "  - quad: {corners: [[-9, 0, 0], [9, 0, 0], [9, 9, 0], [-9, 9, 0]], material: white}\n";
+
+/* Deviation of pixels from the mean of the four beside them, over the light. */
+static double grain_of(const struct image *image)
+{
+    const float *light = image_channel(image, "indirect.G");
+    double squares = 0, sum = 0;
+    int count = 0;
+    for (int y = 1; y < HEIGHT - 1; y++)
+        for (int x = 1; x < WIDTH - 1; x++, count++) {
+            const float *at = &light[y * WIDTH + x];
+            double off = (double)(at[0] - 0.25f * (at[-1] + at[1] + at[-WIDTH] + at[WIDTH]));
+            squares += off * off;
+            sum += (double)at[0];
+        }
+    return sqrt(squares * count) / sum;
+}
+
+static struct rendering render_by(const char *estimator, int seed)
+{
+    const char *const strategies[] = {estimator, "denoiser=none", NULL};
+    char text[2048];
+    snprintf(text, sizeof text, "%srender: {bounces: 1, passes: 1, seed: %d}\n", scene, seed);
+    return render_text(text, 2, strategies);
+}
+
+static double grain_by(const char *estimator)
+{
+    struct rendering rendering = render_by(estimator, 1);
+    double grain = grain_of(&rendering.image);
+    rendering_release(&rendering);
+    return grain;
+}
+
+/* Four rays by the cosine, and as many guided ones, whose noise is a fifth. As plain means of all eight they would have
+ * half of the noise of the four. */
+static void test_guided_rays_count_by_their_pdf(void **state)
+{
+    (void)state;
+    double unguided = grain_by("estimator=gather:samples=4,adaptive=no");
+    double both = grain_by("estimator=gather:samples=8,adaptive=no");
+    double shared_out = grain_by("estimator=gather:samples=8,adaptive=yes");
+    print_message("noise %.3f, with guided rays %.3f, shared out %.3f\n", unguided, both,
+                  shared_out);
+    assert_true(unguided > 1.0);
+    assert_true(both < 0.38 * unguided);
+    assert_true(shared_out < 0.38 * unguided);
+}
+
+static double mean_by(const char *estimator, int seed)
+{
+    struct rendering rendering = render_by(estimator, seed);
+    double mean = mean_of_all(&rendering.image, "indirect.G");
+    rendering_release(&rendering);
+    return mean;
+}
+
+/* Weights that follow from what the weighed rays found must not darken or brighten the light. */
+static void test_weights_keep_the_mean(void **state)
+{
+    (void)state;
+    double reference = mean_by("estimator=pathtrace:samples=512", 100);
+    static const char *const estimators[] = {"estimator=gather:samples=8",
+                                             "estimator=gather:samples=32,adaptive=no"};
+    for (size_t i = 0; i < 2; i++) {
+        double mean = 0;
+        for (int seed = 1; seed <= SEEDS; seed++)
+            mean += mean_by(estimators[i], seed) / SEEDS;
+        print_message("%s: %.4f of the light\n", estimators[i], mean / reference);
+        assert_true(fabs(mean / reference - 1) < 8e-3);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_guided_rays_count_by_their_pdf),
+        cmocka_unit_test(test_weights_keep_the_mean),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,131 @@
+/* test_guide.c: rays drawn where those before them found light (plugins/estimator/shared/guide.h). */
+#include "plugins/estimator/shared/guide.h"
+
+#include "support/random.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#define RAYS 20000
+
+static const ps_vec3 up = {0, 0, 1};
+
+/* From a part of the hemisphere. */
+static float light_of(ps_vec3 direction)
+{
+    return direction.x > 0.5f && direction.z > 0.5f ? 10.0f * direction.x : 0.0f;
+}
+
+static void learn(struct guide *guide, struct random *random, size_t rays)
+{
+    for (size_t i = 0; i < rays; i++) {
+        ps_vec3 direction = ps_cosine_direction(up, random_unit(random), random_unit(random));
+        guide_learn(guide, direction, light_of(direction), 1.0f);
+    }
+    guide_update(guide);
+}
+
+static void test_knows_nothing_at_first(void **state)
+{
+    (void)state;
+    struct guide guide;
+    struct random random = {3};
+    guide_begin(&guide, up);
+    guide_update(&guide);
+    assert_false(guide.ready);
+    for (int i = 0; i < 100; i++) {
+        ps_vec3 direction = guide_sample(&guide, up, random_unit(&random), random_unit(&random));
+        assert_true(direction.z >= 0);
+        assert_true(guide_ratio(&guide, up, direction) == 1.0f);
+        assert_true(guide_smooth_ratio(&guide, up, direction, 0.0f) == 1.0f);
+    }
+}
+
+/* The mean of 1 / ratio over rays of the guide is the integral of the cosine's pdf, and that of light / ratio the light's:
+ * from a surface that faces another way than the guide as well, as far as the guide reaches. */
+static void test_ratio_is_that_of_the_pdf(void **state)
+{
+    (void)state;
+    struct guide guide;
+    struct random random = {5};
+    guide_begin(&guide, up);
+    learn(&guide, &random, 4000);
+    const ps_vec3 normals[] = {up, ps_normalize((ps_vec3){0.2f, -0.3f, 1})};
+    for (size_t n = 0; n < 2; n++) {
+        double whole = 0, by_cosine = 0, by_guide = 0, hits = 0;
+        for (int i = 0; i < RAYS; i++) {
+            float a = random_unit(&random), b = random_unit(&random);
+            ps_vec3 guided = guide_sample(&guide, normals[n], a, b);
+            ps_vec3 even = ps_cosine_direction(normals[n], a, b);
+            by_cosine += (double)light_of(even) / RAYS;
+            if (!(ps_dot(guided, normals[n]) > 0))
+                continue;
+            float ratio = guide_ratio(&guide, normals[n], guided);
+            whole += 1.0 / (double)ratio / RAYS;
+            by_guide += (double)(light_of(guided) / ratio) / RAYS;
+            hits += light_of(guided) > 0 ? 1.0 / RAYS : 0;
+        }
+        assert_true(fabs(whole - 1) < 0.02);
+        assert_true(fabs(by_guide / by_cosine - 1) < 0.04);
+        assert_true(hits > 0.5); /* a seventh by the cosine */
+    }
+}
+
+/* Over rays by the cosine, its mean is 1, as that of the pdf is. */
+static void test_smooth_ratio_is_a_pdf_s(void **state)
+{
+    (void)state;
+    struct guide guide;
+    struct random random = {7};
+    double sharp = 0, smooth = 0;
+    guide_begin(&guide, up);
+    learn(&guide, &random, 4000);
+    for (int i = 0; i < RAYS; i++) {
+        ps_vec3 direction = ps_cosine_direction(up, random_unit(&random), random_unit(&random));
+        sharp += (double)guide_ratio(&guide, up, direction) / RAYS;
+        smooth += (double)guide_smooth_ratio(&guide, up, direction, 0.0f) / RAYS;
+    }
+    assert_true(fabs(sharp - 1) < 0.03);
+    assert_true(fabs(smooth - 1) < 0.03);
+}
+
+/* A ray that found what the others did changes nothing when they count in its place; one that found more than them makes
+ * its direction more likely, and that is taken out; and what only one ray knows of, is not known without it. */
+static void test_others_count_in_place_of_a_ray(void **state)
+{
+    (void)state;
+    struct guide alike, lucky, alone;
+    const ps_vec3 direction = ps_normalize((ps_vec3){0.3f, 0.1f, 1});
+    const ps_vec3 elsewhere = ps_normalize((ps_vec3){-1, 0.2f, 0.3f});
+    guide_begin(&alike, up);
+    guide_begin(&lucky, up);
+    guide_begin(&alone, up);
+    for (int i = 0; i < 4; i++) {
+        guide_learn(&alike, direction, 2.0f, 1.0f);
+        guide_learn(&alike, elsewhere, 1.0f, 1.0f);
+        guide_learn(&lucky, direction, i == 0 ? 20.0f : 2.0f, 1.0f);
+        guide_learn(&lucky, elsewhere, 1.0f, 1.0f);
+    }
+    guide_learn(&alone, direction, 5.0f, 1.0f);
+    guide_update(&alike);
+    guide_update(&lucky);
+    guide_update(&alone);
+    float of_alike = guide_smooth_ratio(&alike, up, direction, 0.0f);
+    assert_true(fabsf(guide_smooth_ratio(&alike, up, direction, 2.0f) - of_alike) < 1e-4f);
+    assert_true(guide_smooth_ratio(&lucky, up, direction, 0.0f) > 1.05f * of_alike);
+    assert_true(fabsf(guide_smooth_ratio(&lucky, up, direction, 20.0f) - of_alike) < 1e-3f);
+    assert_true(guide_smooth_ratio(&alone, up, direction, 5.0f) == 1.0f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_knows_nothing_at_first),
+        cmocka_unit_test(test_ratio_is_that_of_the_pdf),
+        cmocka_unit_test(test_smooth_ratio_is_a_pdf_s),
+        cmocka_unit_test(test_others_count_in_place_of_a_ray),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
