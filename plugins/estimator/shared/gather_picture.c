@@ -98,7 +98,8 @@ static ps_result make_places(struct work *work)
     return work->first_rounds || result != PS_OK ? result : PS_ERROR_MEMORY;
 }
 
-/* The first round may have missed all that there is to be found in a tile: half of the samples are taken everywhere. */
+/* The first round may have missed all that there is to be found in a tile, and has much more noise than guided rays: half of
+ * those are taken everywhere. */
 static ps_result share_out_samples(struct work *work)
 {
     const ps_host *host = work->setting->paths.host;
@@ -110,7 +111,7 @@ static ps_result share_out_samples(struct work *work)
     ps_result result = make_places(work);
     if (result == PS_OK)
         result = host->for_each_picture_tile(host, take_first_round, work);
-    uint64_t half = work->samples / 2, least = half > GATHER_FIRST ? half : GATHER_FIRST;
+    uint64_t least = GATHER_FIRST + (work->samples - GATHER_FIRST + 1) / 2;
     if (result == PS_OK)
         allocate_samples(work->pilots, tiles, least, work->samples, work->setting->most,
                          work->allocated);
