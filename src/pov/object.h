@@ -200,6 +200,9 @@ void pov_read_prism(struct pov_reader *reader, struct pov_object *object);
 void pov_read_superellipsoid(struct pov_reader *reader, struct pov_object *object);
 void pov_read_light(struct pov_reader *reader, struct pov_object *object);
 
+/* Moves a mesh to the reader's memory. NULL: reported (surface.c). */
+const struct mesh *pov_keep_mesh(struct pov_reader *reader, struct mesh *mesh);
+
 /* --- the rest of the scene -------------------------------------------------------------------------- */
 
 struct pov_camera {

@@ -5,8 +5,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool csg_take(struct csg_budget *budget, size_t steps, size_t bytes)
+{
+    budget->spent = budget->spent || steps > budget->steps || bytes > budget->bytes;
+    budget->steps -= steps < budget->steps ? steps : budget->steps;
+    budget->bytes -= bytes < budget->bytes ? bytes : budget->bytes;
+    return !budget->spent;
+}
+
 void csg_polygons_release(struct csg_polygons *polygons)
 {
+    if (polygons->budget)
+        polygons->budget->bytes += polygons->vertex_capacity * sizeof *polygons->vertices +
+                                   polygons->capacity * sizeof *polygons->list;
     free(polygons->vertices);
     free(polygons->list);
     *polygons = (struct csg_polygons){0};
@@ -17,15 +28,30 @@ void csg_polygons_clear(struct csg_polygons *polygons)
     polygons->vertex_count = polygons->count = 0;
 }
 
+static bool grow(struct csg_budget *budget, void **items, size_t *capacity, size_t wanted,
+                 size_t size)
+{
+    size_t before = *capacity;
+    if (wanted <= before)
+        return true;
+    if (budget && (budget->spent || (wanted - before) > budget->bytes / size)) {
+        budget->spent = true;
+        return false;
+    }
+    if (!scene_text_grow(items, capacity, wanted, size))
+        return false;
+    return !budget || csg_take(budget, 0, (*capacity - before) * size);
+}
+
 bool csg_polygons_add(struct csg_polygons *polygons, const struct csg_vertex *vertices,
                       size_t count)
 {
     if (count < 3)
         return true;
-    if (!scene_text_grow((void **)&polygons->vertices, &polygons->vertex_capacity,
-                         polygons->vertex_count + count, sizeof *vertices) ||
-        !scene_text_grow((void **)&polygons->list, &polygons->capacity, polygons->count + 1,
-                         sizeof *polygons->list))
+    if (!grow(polygons->budget, (void **)&polygons->vertices, &polygons->vertex_capacity,
+              polygons->vertex_count + count, sizeof *vertices) ||
+        !grow(polygons->budget, (void **)&polygons->list, &polygons->capacity, polygons->count + 1,
+              sizeof *polygons->list))
         return false;
     memcpy(polygons->vertices + polygons->vertex_count, vertices, count * sizeof *vertices);
     polygons->list[polygons->count++] = (struct csg_polygon){polygons->vertex_count, count};
@@ -91,7 +117,7 @@ static bool add(struct csg_polygons *to, const struct csg_vertex *v, size_t coun
 
 /* Surely apart: by the spheres around both, or by one of the planes. */
 static bool is_apart(const struct csg_convex *convex, const struct csg_vertex *v, size_t count,
-                     double tolerance, size_t *steps)
+                     double tolerance, struct csg_budget *budget)
 {
     double nearest = INFINITY, size = 0.0;
     for (size_t i = 0; i < count && convex->radius < INFINITY; i++) {
@@ -101,7 +127,7 @@ static bool is_apart(const struct csg_convex *convex, const struct csg_vertex *v
     if (convex->radius < INFINITY && nearest - size > convex->radius)
         return true;
     for (size_t i = 0; i < convex->plane_count; i++) {
-        *steps += count;
+        csg_take(budget, count, 0);
         if (side_of(&convex->planes[i], v, count, tolerance) > 0)
             return true;
     }
@@ -115,14 +141,14 @@ struct buffers {
 
 static bool cut_one(const struct csg_vertex *v, size_t count, const struct csg_convex *convex,
                     double tolerance, struct buffers *buffers, struct csg_polygons *inside,
-                    struct csg_polygons *outside, size_t *steps)
+                    struct csg_polygons *outside, struct csg_budget *budget)
 {
     size_t back_count, front_count;
-    if (is_apart(convex, v, count, tolerance, steps))
+    if (is_apart(convex, v, count, tolerance, budget))
         return add(outside, v, count);
     memcpy(buffers->rest, v, count * sizeof *v);
     for (size_t i = 0; i < convex->plane_count; i++) {
-        *steps += count;
+        csg_take(budget, count, 0);
         if (side_of(&convex->planes[i], buffers->rest, count, tolerance) < 0)
             continue;
         split(&convex->planes[i], buffers->rest, count, tolerance, buffers->back, &back_count,
@@ -140,7 +166,7 @@ static bool cut_one(const struct csg_vertex *v, size_t count, const struct csg_c
 }
 
 bool csg_cut(const struct csg_polygons *polygons, const struct csg_convex *convex, double tolerance,
-             struct csg_polygons *inside, struct csg_polygons *outside, size_t *steps)
+             struct csg_polygons *inside, struct csg_polygons *outside, struct csg_budget *budget)
 {
     size_t largest = 0;
     for (size_t i = 0; i < polygons->count; i++)
@@ -153,7 +179,8 @@ bool csg_cut(const struct csg_polygons *polygons, const struct csg_convex *conve
     bool good = true;
     for (size_t i = 0; i < polygons->count && good; i++)
         good = cut_one(polygons->vertices + polygons->list[i].start, polygons->list[i].count,
-                       convex, tolerance, &buffers, inside, outside, steps);
+                       convex, tolerance, &buffers, inside, outside, budget) &&
+               !budget->spent;
     free(memory);
     return good;
 }

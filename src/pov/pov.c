@@ -13,7 +13,9 @@
 
 static void write_all(struct pov_reader *reader)
 {
-    struct pov_writer writer = {.reader = reader};
+    size_t steps = reader->options->most_steps;
+    struct pov_writer writer = {
+        .reader = reader, .cutting_left = POV_MOST_CUTTING * (steps ? steps : POV_MOST_STEPS)};
     const struct pov_above world = {.place = transform_identity,
                                     .texture_place = transform_identity};
     if (!reader->has_gamma)
@@ -26,6 +28,10 @@ static void write_all(struct pov_reader *reader)
         pov_write_sky(&writer);
     name_index_release(&writer.meshes);
     free(writer.mesh_files);
+    name_index_release(&writer.solid_index);
+    for (size_t i = 0; i < writer.solid_count; i++)
+        free(writer.solids[i].pieces);
+    free(writer.solids);
 }
 
 static void finish(struct pov_reader *reader, struct written_scene *scene)

@@ -62,16 +62,25 @@ void pov_no_memory(struct pov_reader *reader)
     reader->no_memory = reader->stopped = true;
 }
 
+static size_t most_memory(const struct pov_reader *reader)
+{
+    return reader->options->most_memory ? reader->options->most_memory : POV_MOST_MEMORY;
+}
+
+size_t pov_memory_left(const struct pov_reader *reader)
+{
+    return most_memory(reader) - reader->memory;
+}
+
 bool pov_charge(struct pov_reader *reader, size_t count, size_t size)
 {
-    size_t most = reader->options->most_memory ? reader->options->most_memory : POV_MOST_MEMORY;
     if (reader->stopped)
         return false;
-    if (count > (most - reader->memory) / size) {
+    if (count > pov_memory_left(reader) / size) {
         diagnostics_report(reader->sink, SEVERITY_ERROR, NULL, 0,
                            "the scene's values and meshes need more than %zu MiB, the most that is "
                            "allowed",
-                           most >> 20);
+                           most_memory(reader) >> 20);
         reader->stopped = true;
         return false;
     }

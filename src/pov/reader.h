@@ -113,6 +113,8 @@ void pov_no_memory(struct pov_reader *reader);
 /* The file that is read now; for pov_warn_at. */
 const char *pov_file(const struct pov_reader *reader);
 
+/* Bytes that the options still allow. */
+size_t pov_memory_left(const struct pov_reader *reader);
 /* Counts memory; false: reported, there is more than the options allow. */
 bool pov_charge(struct pov_reader *reader, size_t count, size_t size);
 /* Zeroed, from the arena, within what the options allow; NULL: reported. */

@@ -52,22 +52,27 @@ static struct vector settle_normal(const struct pov_corner *corners, size_t k)
     return (struct vector){n.x / length, n.y / length, n.z / length};
 }
 
-void pov_surface_adopt(struct pov_reader *reader, struct mesh *mesh, struct pov_object *object)
+const struct mesh *pov_keep_mesh(struct pov_reader *reader, struct mesh *mesh)
 {
     struct mesh kept = {.vertex_count = mesh->vertex_count, .triangle_count = mesh->triangle_count};
-    object->shape = mesh->triangle_count > 0 ? POV_SHAPE_MESH : POV_SHAPE_NOTHING;
-    if (mesh->triangle_count > 0) {
-        kept.points = pov_copy(reader, mesh->points, mesh->vertex_count * sizeof *mesh->points);
-        kept.triangles =
-            pov_copy(reader, mesh->triangles, mesh->triangle_count * sizeof *mesh->triangles);
-        if (mesh->normals)
-            kept.normals =
-                pov_copy(reader, mesh->normals, mesh->vertex_count * sizeof *mesh->normals);
-        if (mesh->uv)
-            kept.uv = pov_copy(reader, mesh->uv, mesh->vertex_count * sizeof *mesh->uv);
-        object->mesh = pov_copy(reader, &kept, sizeof kept);
-    }
+    kept.points = pov_copy(reader, mesh->points, mesh->vertex_count * sizeof *mesh->points);
+    kept.triangles =
+        pov_copy(reader, mesh->triangles, mesh->triangle_count * sizeof *mesh->triangles);
+    if (mesh->normals)
+        kept.normals = pov_copy(reader, mesh->normals, mesh->vertex_count * sizeof *mesh->normals);
+    if (mesh->uv)
+        kept.uv = pov_copy(reader, mesh->uv, mesh->vertex_count * sizeof *mesh->uv);
     mesh_release(mesh);
+    return reader->stopped ? NULL : pov_copy(reader, &kept, sizeof kept);
+}
+
+void pov_surface_adopt(struct pov_reader *reader, struct mesh *mesh, struct pov_object *object)
+{
+    object->shape = mesh->triangle_count > 0 ? POV_SHAPE_MESH : POV_SHAPE_NOTHING;
+    if (mesh->triangle_count > 0)
+        object->mesh = pov_keep_mesh(reader, mesh);
+    else
+        mesh_release(mesh);
 }
 
 void pov_surface_finish(struct pov_surface *surface, struct pov_object *object)

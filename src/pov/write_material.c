@@ -416,7 +416,21 @@ static bool flatten(struct pov_writer *writer, struct pov_texture *texture, int 
     return true;
 }
 
-const char *pov_write_material(struct pov_writer *writer, const struct pov_above *above)
+/* Without what rounding leaves of zeros: the same pattern is to be the same text. */
+static struct transform without_noise(struct transform map)
+{
+    for (int i = 0; i < 3; i++) {
+        double *row = map.m[i], largest = 0.0;
+        for (int k = 0; k < 4; k++)
+            largest = fmax(largest, fabs(row[k]));
+        for (int k = 0; k < 4; k++)
+            row[k] = fabs(row[k]) > 1e-12 * largest ? row[k] : 0.0;
+    }
+    return map;
+}
+
+const char *pov_write_material(struct pov_writer *writer, const struct pov_above *above,
+                               const struct transform *from_scene)
 {
     const struct pov_look *look = writer->reader->look;
     struct pov_texture flat = above->texture ? *above->texture : look->texture;
@@ -425,8 +439,9 @@ const char *pov_write_material(struct pov_writer *writer, const struct pov_above
     if (!flatten(writer, &flat, 0))
         return NULL;
     struct transform place = transform_compose(&above->texture_place, &texture->pigment.place);
-    struct paint paint = {writer, &texture->pigment, transform_compose(&writer->mirror, &place),
-                          above->is_sphere, NULL};
+    place = transform_compose(&writer->mirror, &place);
+    place = without_noise(transform_compose(from_scene, &place));
+    struct paint paint = {writer, &texture->pigment, place, above->is_sphere, NULL};
     if (texture->pigment.pattern == POV_PATTERN_IMAGE)
         paint.image = pov_write_file_name(writer, texture->pigment.file, &texture->pigment.token,
                                           texture->pigment.image);

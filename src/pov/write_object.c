@@ -57,12 +57,11 @@ struct pov_above pov_below(const struct pov_object *object, const struct pov_abo
     return inner;
 }
 
-/* The end of an object's map. */
-static void finish(struct pov_writer *writer, const struct pov_above *look,
-                   const struct transform *placement)
+void pov_end_object(struct pov_writer *writer, const struct pov_above *look,
+                    const struct transform *placement, const struct transform *from_scene)
 {
     FILE *out = writer->reader->scene.objects.stream;
-    const char *material = pov_write_material(writer, look);
+    const char *material = pov_write_material(writer, look, from_scene);
     if (!material)
         return;
     fputs(", material: ", out);
@@ -215,7 +214,7 @@ static void write_shape(struct pov_writer *writer, const struct pov_object *obje
     for (int i = 0; i < 2 && plain; i++)
         p[i] = transform_point(&writer->mirror, p[i]);
     put_shape(writer->reader->scene.objects.stream, object, p);
-    finish(writer, look, plain ? NULL : &placement);
+    pov_end_object(writer, look, plain ? NULL : &placement, &transform_identity);
 }
 
 /* In the world's coordinates, by the normal and a point of it. */
@@ -240,7 +239,7 @@ static void write_plane(struct pov_writer *writer, const struct pov_object *obje
     put_key_vector(out, "  - plane: {normal", n);
     put_key_number(out, ", distance", distance);
     put_key_number(out, ", extent", writer->extent);
-    finish(writer, look, NULL);
+    pov_end_object(writer, look, NULL, &transform_identity);
 }
 
 static void write_height_field(struct pov_writer *writer, const struct pov_object *object,
@@ -253,128 +252,9 @@ static void write_height_field(struct pov_writer *writer, const struct pov_objec
         fputs("  - height_field: {file: ", out);
         put_path(out, name);
         fputs(object->smooth ? ", smooth: yes" : ", smooth: no", out);
-        finish(writer, look, &placement);
+        pov_end_object(writer, look, &placement, &transform_identity);
     }
     free(name);
-}
-
-/* --- meshes --------------------------------------------------------------------------------------- */
-
-static uint64_t hash_of(const struct mesh *mesh)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%p", (const void *)mesh);
-    return name_index_hash(text);
-}
-
-/* The name of the file that has the mesh already; NULL: none. */
-static const char *file_of(const struct pov_writer *writer, const struct mesh *mesh)
-{
-    size_t i = name_index_find(&writer->meshes, hash_of(mesh));
-    for (; i != NAME_INDEX_NONE; i = name_index_before(&writer->meshes, i))
-        if (writer->mesh_files[i].mesh == mesh)
-            return writer->mesh_files[i].name;
-    return NULL;
-}
-
-static void note_file(struct pov_writer *writer, const struct mesh *mesh)
-{
-    const struct scene_text *scene = &writer->reader->scene;
-    if (!pov_grow(writer->reader, (void **)&writer->mesh_files, &writer->mesh_file_capacity,
-                  writer->mesh_file_count + 1, sizeof *writer->mesh_files))
-        return;
-    writer->mesh_files[writer->mesh_file_count++] =
-        (struct pov_mesh_file){mesh, scene->files[scene->file_count - 1].name};
-    if (!name_index_add(&writer->meshes, hash_of(mesh)))
-        pov_no_memory(writer->reader);
-}
-
-/* The beginning of an object; false: reported. */
-static bool put_mesh(struct pov_writer *writer, const struct pov_object *object,
-                     const struct mesh *mesh)
-{
-    struct pov_reader *reader = writer->reader;
-    FILE *out = reader->scene.objects.stream;
-    bool is_shared = mesh == object->mesh;
-    const char *known = is_shared ? file_of(writer, mesh) : NULL;
-    size_t files = reader->scene.file_count;
-    if (known) {
-        fputs("  - mesh: {file: ", out);
-        put_path(out, known);
-        fputs(", use: [geometry]", out);
-        return true;
-    }
-    if (!pov_charge(reader, mesh->vertex_count, 32) ||
-        !pov_charge(reader, mesh->triangle_count, 13))
-        return false;
-    if (!mesh_put(&reader->scene, reader->options->base, out, mesh)) {
-        pov_no_memory(reader);
-        return false;
-    }
-    if (is_shared && reader->scene.file_count > files)
-        note_file(writer, mesh);
-    return true;
-}
-
-void pov_write_mesh(struct pov_writer *writer, const struct pov_object *object,
-                    const struct mesh *mesh, const struct transform *place,
-                    const struct pov_above *above)
-{
-    struct transform placement;
-    if (mesh->triangle_count > 0 && pov_placement(writer, object, place, &placement) &&
-        put_mesh(writer, object, mesh))
-        finish(writer, above, &placement);
-}
-
-/* A picture that lies over x and y is laid over the mesh by its u and v. */
-static bool is_planar(const struct pov_above *look)
-{
-    const struct pov_pigment *p = look->texture ? &look->texture->pigment : NULL;
-    return p && p->pattern == POV_PATTERN_IMAGE && !p->is_uv && !look->is_uv && p->map_type == 0;
-}
-
-static void warn_of_map(struct pov_writer *writer, const struct pov_above *look)
-{
-    const struct pov_pigment *p = look->texture ? &look->texture->pigment : NULL;
-    if (p && p->pattern == POV_PATTERN_IMAGE && (p->map_type != 0 || p->is_uv || look->is_uv))
-        pov_warn_at(writer->reader, p->file, &p->token,
-                    "image_map: it lies by psplat's own u and v of the shape");
-}
-
-static void write_planar(struct pov_writer *writer, const struct pov_object *object,
-                         const struct mesh *from, const struct pov_above *look)
-{
-    struct mesh mesh = *from;
-    struct transform picture =
-        transform_compose(&look->texture_place, &look->texture->pigment.place);
-    struct transform inverse;
-    mesh.uv = transform_invert(&picture, &inverse)
-                  ? malloc((mesh.vertex_count + 1) * sizeof *mesh.uv)
-                  : NULL;
-    if (!mesh.uv) {
-        pov_write_mesh(writer, object, from, &look->place, look);
-        return;
-    }
-    struct transform map = transform_compose(&inverse, &look->place);
-    for (size_t i = 0; i < mesh.vertex_count; i++) {
-        struct vector p = transform_point(&map, mesh.points[i]);
-        mesh.uv[i][0] = fmin(fmax(p.x, -1e6), 1e6);
-        mesh.uv[i][1] = fmin(fmax(p.y, -1e6), 1e6);
-    }
-    pov_write_mesh(writer, object, &mesh, &look->place, look);
-    free(mesh.uv);
-}
-
-/* Shapes under a planar picture become meshes. False: there is no mesh of it. */
-static bool write_pictured(struct pov_writer *writer, const struct pov_object *object,
-                           const struct pov_above *look)
-{
-    struct mesh mesh = {0};
-    if (!pov_has_extent(object) || !pov_tessellate(writer, object, &mesh))
-        return false;
-    write_planar(writer, object, &mesh, look);
-    mesh_release(&mesh);
-    return true;
 }
 
 /* --- all ------------------------------------------------------------------------------------------ */
@@ -385,6 +265,14 @@ void pov_warn_of_object(struct pov_writer *writer, const struct pov_object *obje
     if (note->text)
         pov_warn_at(writer->reader, note->file, &note->token, "%s %s",
                     pov_text(writer->reader, note->token.word), note->text);
+}
+
+static void warn_of_map(struct pov_writer *writer, const struct pov_above *look)
+{
+    const struct pov_pigment *p = look->texture ? &look->texture->pigment : NULL;
+    if (p && p->pattern == POV_PATTERN_IMAGE && (p->map_type != 0 || p->is_uv || look->is_uv))
+        pov_warn_at(writer->reader, p->file, &p->token,
+                    "image_map: it lies by psplat's own u and v of the shape");
 }
 
 static void write_children(struct pov_writer *writer, const struct pov_object *object,
@@ -414,7 +302,7 @@ void pov_write_object(struct pov_writer *writer, const struct pov_object *object
         return;
     if (object->clip_count > 0 && object->shape != POV_SHAPE_UNION &&
         object->shape != POV_SHAPE_INTERSECTION) {
-        pov_write_intersection(writer, object, above);
+        pov_write_solid(writer, object, above);
         return;
     }
     if (object->clip_count > 0)
@@ -432,24 +320,21 @@ void pov_write_object(struct pov_writer *writer, const struct pov_object *object
         write_children(writer, object, &look);
         break;
     case POV_SHAPE_INTERSECTION:
-        pov_write_intersection(writer, object, above);
+        pov_write_solid(writer, object, above);
         break;
     case POV_SHAPE_HEIGHT_FIELD:
         write_height_field(writer, object, &look);
         break;
     case POV_SHAPE_MESH:
-        if (is_planar(&look))
-            write_planar(writer, object, object->mesh, &look);
-        else
-            pov_write_mesh(writer, object, object->mesh, &look.place, &look);
+        pov_write_mesh(writer, object, object->mesh, &look);
         break;
     case POV_SHAPE_PLANE:
-        if (!is_planar(&look) || !write_pictured(writer, object, &look))
+        if (!pov_is_planar(&look) || !pov_write_pictured(writer, object, &look))
             write_plane(writer, object, &look);
         break;
     default:
         look.is_sphere = object->shape == POV_SHAPE_SPHERE;
-        if (!is_planar(&look) || !write_pictured(writer, object, &look))
+        if (!pov_is_planar(&look) || !pov_write_pictured(writer, object, &look))
             write_shape(writer, object, &look);
     }
 }

@@ -357,9 +357,9 @@ static void test_cuts_polygons(void **state)
     struct csg_plane planes[] = {{{1, 0, 0}, 0}, {{0, 1, 0}, 0.5}};
     const struct csg_convex convex = {planes, 2, {0, 0, 0}, INFINITY};
     struct csg_polygons all = {0}, inside = {0}, outside = {0};
-    size_t steps = 0;
+    struct csg_budget budget = {.steps = 1000};
     assert_true(csg_polygons_add(&all, square, 4));
-    assert_true(csg_cut(&all, &convex, 1e-9, &inside, &outside, &steps));
+    assert_true(csg_cut(&all, &convex, 1e-9, &inside, &outside, &budget));
     double areas[2] = {0, 0};
     const struct csg_polygons *parts[] = {&inside, &outside};
     for (int k = 0; k < 2; k++)
@@ -400,6 +400,37 @@ static void test_makes_solids(void **state)
     free(scene);
 }
 
+/* Copies of a solid are instances of its meshes, each with its own place and look. */
+static void test_shares_solids(void **state)
+{
+    (void)state;
+    static const char copies[] =
+        "#declare D = difference { box { -1, 1 } sphere { 0, 1.2 } }"
+        "object { D } object { D translate 3*x pigment { rgb <1, 0, 0> } }"
+        "union { object { D rotate z*90 } scale 2 pigment { checker rgb 1, rgb 0 } }";
+    expect_warning(copies, "", "t-mesh-2");
+    expect(copies, "instance: {of: \"mesh-2\", material: \"texture-2\", matrix: [1, 0, 0, 3,");
+    expect(copies, "matrix: [0, -2, 0, 0, 2, 0, 0, 0, 0, 0, -2, 0]}");
+    /* The pattern moves with the instance: here it lies as in the world, which is turned back. */
+    expect(copies,
+           "checker: {colors: [0.6, 0], matrix: [0, 0.5, 0, 0, -0.5, 0, 0, 0, 0, 0, 0.5, 0]}");
+}
+
+static void test_leaves_out_whole_solids(void **state)
+{
+    (void)state;
+    expect_warning("difference { box { -1, 1 } sphere { 0, 1.2 } sphere { 0.1, 1.2 } "
+                   "sphere { 0.2, 1.2 } sphere { 0.3, 1.2 } sphere { 0.4, 1.2 } }",
+                   "1:1: warning: an intersection or difference is left out: its parts", "mesh");
+    const struct csg_vertex corners[3] = {{{0, 0, 0}, {0, 0, 0}}};
+    struct csg_budget budget = {.bytes = 2000};
+    struct csg_polygons list = {.budget = &budget};
+    for (int i = 0; i < 100; i++)
+        csg_polygons_add(&list, corners, 3);
+    assert_true(budget.spent && list.count < 20);
+    csg_polygons_release(&list);
+}
+
 /* assimp takes a line end behind the header for a part of it. */
 static void test_begins_no_ply_file_with_a_line_end(void **state)
 {
@@ -436,6 +467,8 @@ int main(void)
         cmocka_unit_test(test_carries_textures),
         cmocka_unit_test(test_cuts_polygons),
         cmocka_unit_test(test_makes_solids),
+        cmocka_unit_test(test_shares_solids),
+        cmocka_unit_test(test_leaves_out_whole_solids),
         cmocka_unit_test(test_begins_no_ply_file_with_a_line_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
