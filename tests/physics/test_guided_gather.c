@@ -25,22 +25,6 @@ static const char scene[] =
     "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, 0], [-9, 0, 0]], material: white}\n"
     "  - quad: {corners: [[-9, 0, 0], [9, 0, 0], [9, 9, 0], [-9, 9, 0]], material: white}\n";
 
-/* Deviation of pixels from the mean of the four beside them, over the light. */
-static double grain_of(const struct image *image)
-{
-    const float *light = image_channel(image, "indirect.G");
-    double squares = 0, sum = 0;
-    int count = 0;
-    for (int y = 1; y < HEIGHT - 1; y++)
-        for (int x = 1; x < WIDTH - 1; x++, count++) {
-            const float *at = &light[y * WIDTH + x];
-            double off = (double)(at[0] - 0.25f * (at[-1] + at[1] + at[-WIDTH] + at[WIDTH]));
-            squares += off * off;
-            sum += (double)at[0];
-        }
-    return sqrt(squares * count) / sum;
-}
-
 static struct rendering render_by(const char *estimator, int seed)
 {
     const char *const strategies[] = {estimator, "denoiser=none", NULL};
@@ -52,7 +36,7 @@ static struct rendering render_by(const char *estimator, int seed)
 static double grain_by(const char *estimator)
 {
     struct rendering rendering = render_by(estimator, 1);
-    double grain = grain_of(&rendering.image);
+    double grain = grain_of(&rendering.image, "indirect.G", 1, 1, WIDTH - 2, HEIGHT - 2);
     rendering_release(&rendering);
     return grain;
 }

@@ -2,6 +2,7 @@
 
 #include "parser/psd.h"
 #include "pipeline/render.h"
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -160,6 +161,22 @@ double mean_of(const struct image *image, const char *channel, size_t x, size_t 
 double mean_of_all(const struct image *image, const char *channel)
 {
     return mean_of(image, channel, 0, 0, image->width, image->height);
+}
+
+double grain_of(const struct image *image, const char *channel, size_t x, size_t y, size_t width,
+                size_t height)
+{
+    const float *light = image_channel(image, channel);
+    double squares = 0, count = (double)(width * height);
+    assert_true(x > 0 && y > 0 && x + width < image->width && y + height < image->height);
+    for (size_t row = y; row < y + height; row++)
+        for (size_t column = x; column < x + width; column++) {
+            const float *at = &light[row * image->width + column];
+            const float *above = at - image->width, *below = at + image->width;
+            double off = (double)(*at - 0.25f * (at[-1] + at[1] + *above + *below));
+            squares += off * off;
+        }
+    return sqrt(squares / count) / mean_of(image, channel, x, y, width, height);
 }
 
 void expect_same_image(const struct image *a, const struct image *b)

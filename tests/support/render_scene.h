@@ -48,6 +48,10 @@ double mean_of(const struct image *image, const char *channel, size_t x, size_t 
                size_t height);
 double mean_of_all(const struct image *image, const char *channel);
 
+/* Deviation of the rectangle's pixels from the mean of the four beside them, which are in the picture, over their mean. */
+double grain_of(const struct image *image, const char *channel, size_t x, size_t y, size_t width,
+                size_t height);
+
 /* Fails the test unless both have the same channels, bit for bit. */
 void expect_same_image(const struct image *a, const struct image *b);
 

@@ -148,45 +148,59 @@ ps_vec3 guide_sample(const struct guide *guide, ps_vec3 normal, float a, float b
     return guided_direction(guide, (a - BY_COSINE) / (1.0f - BY_COSINE), b);
 }
 
-/* With a share of the cosine; `cosine` and `guided`: of the direction with the surface's normal, and the guide's. */
-static float ratio_of(float known, float total, float cosine, float guided)
+/* Where a direction lies in a guide; `slope` is its cosine with the guide's normal over that with a surface's. */
+struct place {
+    int ring, sector;
+    float slope;
+};
+
+/* False where the guide does not reach: rays go there by the cosine alone. */
+static bool find_place(const struct guide *guide, ps_vec3 normal, ps_vec3 direction,
+                       struct place *place)
 {
-    float density = known * (float)GUIDE_BINS / total;
-    return BY_COSINE + (1.0f - BY_COSINE) * density * guided / ps_max(cosine, 1e-6f);
+    float cosine = ps_dot(direction, normal), guided = ps_dot(direction, guide->normal);
+    if (!(guided > 0.0f))
+        return false;
+    bin_of(guide, direction, guided, &place->ring, &place->sector);
+    place->slope = guided / ps_max(cosine, 1e-6f);
+    return true;
+}
+
+/* `share`: what of all light is in the bin. */
+static float ratio_of(float share, float slope)
+{
+    return BY_COSINE + (1.0f - BY_COSINE) * share * (float)GUIDE_BINS * slope;
 }
 
 float guide_ratio(const struct guide *guide, ps_vec3 normal, ps_vec3 direction)
 {
-    float cosine = ps_dot(direction, normal), guided = ps_dot(direction, guide->normal);
-    int ring, sector;
+    struct place at;
     if (!guide->ready)
         return 1.0f;
-    if (!(guided > 0.0f))
-        return BY_COSINE;
-    bin_of(guide, direction, guided, &ring, &sector);
-    return ratio_of(guide->known[ring][sector], guide->total, cosine, guided);
+    return find_place(guide, normal, direction, &at)
+               ? ratio_of(guide->known[at.ring][at.sector] / guide->total, at.slope)
+               : BY_COSINE;
 }
 
 /* By how much a bin has more light for that of one ray, than if that had found what the others did. */
-static float excess(const struct guide *guide, int ring, int sector, float learnt)
+static float excess(const struct guide *guide, const struct place *at, float learnt)
 {
-    float others = guide->rays[ring][sector] - 1.0f, rest = guide->found[ring][sector] - learnt;
+    float others = guide->rays[at->ring][at->sector] - 1.0f;
+    float rest = guide->found[at->ring][at->sector] - learnt;
     return others > 0.5f ? learnt - rest / others : learnt;
 }
 
 float guide_smooth_ratio(const struct guide *guide, ps_vec3 normal, ps_vec3 direction, float learnt)
 {
-    float cosine = ps_dot(direction, normal), guided = ps_dot(direction, guide->normal);
-    int ring, sector;
+    struct place at;
     if (!guide->ready)
         return 1.0f;
-    if (!(guided > 0.0f))
+    if (!find_place(guide, normal, direction, &at))
         return BY_COSINE;
-    bin_of(guide, direction, guided, &ring, &sector);
-    float more = learnt > 0.0f ? excess(guide, ring, sector, learnt) : 0.0f;
-    float total = guide->smooth_total - more * left_in_all(ring);
+    float more = learnt > 0.0f ? excess(guide, &at, learnt) : 0.0f;
+    float total = guide->smooth_total - more * left_in_all(at.ring);
     if (!(total > 1e-6f * guide->smooth_total))
         return 1.0f; /* the guide knows of that ray alone */
-    float known = ps_max(guide->smooth[ring][sector] - more * left_in_bin(ring), 0.0f);
-    return ratio_of(known, total, cosine, guided);
+    float in_bin = guide->smooth[at.ring][at.sector] - more * left_in_bin(at.ring);
+    return ratio_of(ps_max(in_bin, 0.0f) / total, at.slope);
 }
