@@ -28,6 +28,8 @@ static void write_all(struct pov_reader *reader)
         pov_write_sky(&writer);
     name_index_release(&writer.meshes);
     free(writer.mesh_files);
+    name_index_release(&writer.picture_index);
+    free(writer.pictures);
     name_index_release(&writer.solid_index);
     for (size_t i = 0; i < writer.solid_count; i++)
         free(writer.solids[i].pieces);

@@ -18,6 +18,12 @@ struct pov_mesh_file {
     const char *group; /* once it comes again; or NULL */
 };
 
+/* A picture that was looked at. */
+struct pov_picture {
+    const char *path;  /* where it lies */
+    const char *shown; /* the same from the new scene's folder; NULL: it can't be read */
+};
+
 /* What is left of the surface of a part of a solid. */
 struct pov_piece {
     const struct pov_object *part;
@@ -45,6 +51,9 @@ struct pov_writer {
     struct name_index meshes; /* the ones below, by their addresses */
     struct pov_mesh_file *mesh_files;
     size_t mesh_file_count, mesh_file_capacity;
+    struct name_index picture_index; /* of the pictures, by their paths */
+    struct pov_picture *pictures;
+    size_t picture_count, picture_capacity;
     struct name_index solid_index; /* of the solids, by what they are made of */
     struct pov_solid *solids;
     size_t solid_count, solid_capacity;
@@ -98,10 +107,10 @@ void pov_write_mesh(struct pov_writer *writer, const struct pov_object *object,
                     const struct mesh *mesh, const struct pov_above *look);
 /* For lists by address. */
 uint64_t pov_hash_address(const void *address);
-/* The path by which the scene names a file that the POV-Ray scene names; to be freed. NULL: reported, or the file is
- * not there, with a warning. */
-char *pov_write_file_name(struct pov_writer *writer, const char *file,
-                          const struct pov_token *token, const char *name);
+/* The path by which the scene names a picture that the POV-Ray scene names. NULL: reported, or it can't be read, with a
+ * warning (write_picture.c). */
+const char *pov_write_file_name(struct pov_writer *writer, const char *file,
+                                const struct pov_token *token, const char *name);
 
 /* What is above the children of an object. */
 struct pov_above pov_below(const struct pov_object *object, const struct pov_above *above);

@@ -29,7 +29,7 @@ struct paint {
     const struct pov_pigment *pigment;
     struct transform place; /* of the pattern, to the scene */
     bool shines_in_one;     /* its emission has no pattern */
-    char *image;            /* owned; or NULL */
+    const char *image;      /* or NULL */
 };
 
 static void put_scaled(struct paint *paint, FILE *out, const double color[3],
@@ -459,6 +459,5 @@ const char *pov_write_material(struct pov_writer *writer, const struct pov_above
     else
         name = intern(writer, wanted,
                       material_text(&paint, &texture->finish, interior, clear >= 0.95));
-    free(paint.image);
     return name;
 }

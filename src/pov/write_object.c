@@ -5,7 +5,6 @@
  */
 #include "pov/write.h"
 
-#include "scene/texture.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,45 +70,6 @@ void pov_end_object(struct pov_writer *writer, const struct pov_above *look,
     if (placement)
         put_placement(out, placement);
     fputs("}\n", out);
-}
-
-/* --- files ---------------------------------------------------------------------------------------- */
-
-/* Pictures of the system's folder are named by their absolute path; others from the new scene's folder. */
-char *pov_write_file_name(struct pov_writer *writer, const char *file,
-                          const struct pov_token *token, const char *name)
-{
-    struct pov_reader *reader = writer->reader;
-    const struct pov_options *options = reader->options;
-    bool is_system = false;
-    char *path = pov_find(reader, name, &is_system), *shown = NULL;
-    struct texture texture;
-    struct error error;
-    const struct texture_description description = {.path = path};
-    if (path && texture_load(&description, is_system ? options->system : options->folder, &texture,
-                             &error) != PS_OK) {
-        pov_warn_at(reader, file, token, "%.200s: %.200s: left out", name, error.text);
-        free(path);
-        return NULL;
-    }
-    if (path)
-        texture_release(&texture);
-    if (!path) {
-        pov_warn_at(reader, file, token, "%.200s: there is no readable file of that name: left out",
-                    name);
-        return NULL;
-    }
-    size_t folder = strlen(options->scene_folder),
-           size = strlen(options->from_output) + strlen(path) + 1;
-    bool beside = *path != '/' && strncmp(path, options->scene_folder, folder) == 0;
-    shown = malloc(size);
-    if (shown)
-        snprintf(shown, size, "%s%s", beside ? options->from_output : "",
-                 beside ? path + folder : path);
-    if (!shown || !scene_text_note(&reader->scene, path))
-        pov_no_memory(reader);
-    free(path);
-    return shown;
 }
 
 /* --- psplat's own shapes ---------------------------------------------------------------------------- */
@@ -247,14 +207,13 @@ static void write_height_field(struct pov_writer *writer, const struct pov_objec
 {
     FILE *out = writer->reader->scene.objects.stream;
     struct transform placement;
-    char *name = pov_write_file_name(writer, object->file, &object->token, object->image);
+    const char *name = pov_write_file_name(writer, object->file, &object->token, object->image);
     if (name && pov_placement(writer, object, &look->place, &placement)) {
         fputs("  - height_field: {file: ", out);
         put_path(out, name);
         fputs(object->smooth ? ", smooth: yes" : ", smooth: no", out);
         pov_end_object(writer, look, &placement, &transform_identity);
     }
-    free(name);
 }
 
 /* --- all ------------------------------------------------------------------------------------------ */

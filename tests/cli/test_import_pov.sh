@@ -82,6 +82,15 @@ expect_text pictures.psd 'height_field: {file: "grey.png", smooth: yes'
 expect_text pictures.psd 'wrap: clamp, interpolate: nearest'
 run 0 render -q -p estimator=splat --size 32x24 pictures.psd -o pictures.exr
 
+# A picture that lies in a library is named from wherever the new scene is.
+mkdir scenes
+cp grey.png library/lent.png
+printf '%s\nlight_source { y 9 fade_distance 1 fade_power 2 }\nbox { 0, 1 pigment { image_map { png "lent.png" interpolate 2 } } }\n' "$head" >scenes/lent.pov
+run 0 import --library library scenes/lent.pov
+expect_text scenes/lent.psd 'library/lent.png"'
+run 0 check scenes/lent.psd
+expect_no_text err warning
+
 # --- what does not end ends; what is wrong says where ---
 
 wrong() {
