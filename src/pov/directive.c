@@ -323,10 +323,16 @@ static void include(struct pov_reader *reader, const struct pov_token *token)
         pov_include(reader, token, name);
 }
 
+/* Nothing behind the number is looked at: a directive there may ask for the version. */
 static void set_version(struct pov_reader *reader, const struct pov_token *token)
 {
     (void)token;
-    double version = pov_read_float(reader);
+    struct pov_token next = pov_next(reader);
+    double version = next.number;
+    if (next.kind != POV_NUMBER) {
+        pov_unread(reader, next);
+        version = pov_read_float(reader);
+    }
     if (version > 0.0)
         reader->version = version;
     skip_semicolon(reader);

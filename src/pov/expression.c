@@ -69,9 +69,11 @@ static struct pov_number read_vector_literal(struct pov_reader *reader)
     return result;
 }
 
-static double decode_srgb(double value)
+/* As a colour of the scene, which is made linear by its assumed_gamma later. */
+static double decode_srgb(const struct pov_reader *reader, double value)
 {
-    return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
+    double linear = value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
+    return reader->gamma == 1.0 ? linear : pow(fmax(linear, 0.0), 1.0 / reader->gamma);
 }
 
 /* "rgbt <...>" behind its first word: where the terms go. */
@@ -84,7 +86,7 @@ static struct pov_number read_color_terms(struct pov_reader *reader, uint32_t wo
     int wanted = 3 + (filters || transmits) + (word == POV_rgbft || word == POV_srgbft);
     promote(&n, &(struct pov_number){.terms = wanted});
     for (int i = 0; i < 3; i++)
-        color.v[i] = is_srgb ? decode_srgb(n.v[i]) : n.v[i];
+        color.v[i] = is_srgb ? decode_srgb(reader, n.v[i]) : n.v[i];
     if (filters)
         color.v[3] = n.v[3];
     if (wanted == 5)

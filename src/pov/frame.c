@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define BYTES_OF_WORD 64 /* a new one, with its place in the index */
+
 /* --- files -------------------------------------------------------------------------------------- */
 
 /* FOLDER/NAME, to be freed; NULL: out of memory. */
@@ -74,12 +76,22 @@ static const struct pov_tokens *cut_file(struct pov_reader *reader, const char *
 {
     struct pov_tokens *tokens = add_file(reader, path);
     const char *name = diagnostics_add_source(reader->sink, path, text, length);
-    if (!tokens || !name ||
-        !pov_tokens_cut(tokens, name, text, length, &reader->words, &reader->arena)) {
+    size_t words = reader->words.count;
+    if (!tokens || !name) {
         pov_no_memory(reader);
         return NULL;
     }
-    return tokens;
+    if (!pov_charge(reader, length, 1)) /* the copy for messages */
+        return NULL;
+    size_t most = pov_memory_left(reader) / sizeof *tokens->list;
+    if (!pov_tokens_cut(tokens, name, text, length, most, &reader->words, &reader->arena)) {
+        if (tokens->count < most || pov_charge(reader, most + 1, sizeof *tokens->list))
+            pov_no_memory(reader);
+        return NULL;
+    }
+    bool fits = pov_charge(reader, tokens->count, sizeof *tokens->list) &&
+                pov_charge(reader, reader->words.count - words, BYTES_OF_WORD);
+    return fits ? tokens : NULL;
 }
 
 bool pov_start(struct pov_reader *reader, const char *name, const char *text, size_t length)

@@ -235,15 +235,16 @@ static bool cut(struct cutter *cutter, struct pov_token *token)
 }
 
 bool pov_tokens_cut(struct pov_tokens *tokens, const char *file, const char *text, size_t length,
-                    struct pov_words *words, struct arena *arena)
+                    size_t most, struct pov_words *words, struct arena *arena)
 {
     size_t mark = byte_order_mark_length(text, length);
     struct cutter cutter = {text + mark, text + length, 1, 1, tokens, words, arena};
     struct pov_token token;
     tokens->file = file;
     do {
-        if (!cut(&cutter, &token) || !scene_text_grow((void **)&tokens->list, &tokens->capacity,
-                                                      tokens->count + 1, sizeof *tokens->list))
+        if (tokens->count == most || !cut(&cutter, &token) ||
+            !scene_text_grow((void **)&tokens->list, &tokens->capacity, tokens->count + 1,
+                             sizeof *tokens->list))
             return false;
         tokens->list[tokens->count++] = token;
     } while (token.kind != POV_END);

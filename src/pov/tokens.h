@@ -42,9 +42,10 @@ struct pov_tokens {
     size_t count, capacity;
 };
 
-/* Cuts a text; words and texts go to the arena. False: out of memory. `file` must outlive the tokens. */
+/* Cuts a text; words and texts go to the arena. False: out of memory, or there are more than `most` tokens: then
+ * there are as many. `file` must outlive the tokens. */
 bool pov_tokens_cut(struct pov_tokens *tokens, const char *file, const char *text, size_t length,
-                    struct pov_words *words, struct arena *arena);
+                    size_t most, struct pov_words *words, struct arena *arena);
 void pov_tokens_release(struct pov_tokens *tokens);
 
 #endif

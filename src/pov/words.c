@@ -39,15 +39,16 @@ void pov_words_release(struct pov_words *words)
 bool pov_words_number(struct pov_words *words, struct arena *arena, const char *text, size_t length,
                       uint32_t *number)
 {
-    char *copy = arena_copy(arena, text, length);
+    char *copy = strndup(text, length);
     if (!copy)
         return false;
     size_t i = name_index_find(&words->index, name_index_hash(copy));
-    for (; i != NAME_INDEX_NONE; i = name_index_before(&words->index, i))
-        if (strcmp(words->texts[i], copy) == 0) {
-            *number = (uint32_t)i;
-            return true;
-        }
-    *number = (uint32_t)words->count;
-    return words->count < UINT32_MAX && add(words, copy);
+    while (i != NAME_INDEX_NONE && strcmp(words->texts[i], copy) != 0)
+        i = name_index_before(&words->index, i);
+    free(copy);
+    *number = (uint32_t)(i == NAME_INDEX_NONE ? words->count : i);
+    if (i != NAME_INDEX_NONE)
+        return true;
+    copy = words->count < UINT32_MAX ? arena_copy(arena, text, length) : NULL;
+    return copy && add(words, copy);
 }

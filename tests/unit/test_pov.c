@@ -18,7 +18,12 @@ static void test_cuts_tokens(void **state)
     struct pov_tokens tokens = {0};
     struct arena arena = {0};
     assert_true(pov_words_start(&words));
-    assert_true(pov_tokens_cut(&tokens, "t.pov", text, strlen(text), &words, &arena));
+    assert_true(pov_tokens_cut(&tokens, "t.pov", text, strlen(text), 100, &words, &arena));
+    pov_tokens_release(&tokens);
+    assert_false(pov_tokens_cut(&tokens, "t.pov", text, strlen(text), 8, &words, &arena));
+    assert_int_equal(tokens.count, 8);
+    pov_tokens_release(&tokens);
+    assert_true(pov_tokens_cut(&tokens, "t.pov", text, strlen(text), 9, &words, &arena));
     const struct pov_token *t = tokens.list;
     static const int kinds[] = {POV_WORD,   POV_NUMBER, POV_NUMBER, POV_NUMBER, POV_DIRECTIVE,
                                 POV_STRING, POV_SYMBOL, POV_BAD,    POV_END};
@@ -176,6 +181,15 @@ static void test_executes_directives(void **state)
     expect("#macro Str(A) A #end #macro M(Str) sphere { 0, Str } #end M(3)", "radius: 3,");
     expect("#declare A = 1; #undef A #ifndef (A) sphere { 0, 2 } #end", "radius: 2,");
     expect("#version 3.5; sphere { 0, version }", "radius: 3.5,");
+    expect("#version 3.5 #declare V = version; sphere { 0, V }", "radius: 3.5,");
+    expect("#version 3.5 #if (version = 3.5) sphere { 0, 2 } #end", "radius: 2,");
+    /* A macro in the value makes the name another thing than the array whose element is assigned or asked for. */
+    static const char other[] = "#declare A = array[2]; #macro M() #declare A = 5; 1 #end ";
+    char text[256];
+    snprintf(text, sizeof text, "%s#declare A[0] = M(); sphere { 0, A }", other);
+    expect(text, "radius: 5,");
+    snprintf(text, sizeof text, "%s sphere { 0, dimension_size(A, M()) }", other);
+    expect(text, "radius: 2,");
     expect_error("#if (1) sphere { 0, 1 }",
                  "t.pov:1:1: error: the file ends before the #end of this");
     expect_error("#end", "#end without");
@@ -221,6 +235,9 @@ static void test_ends_what_does_not_end(void **state)
     char text[2048] = "sphere { 0, ";
     memset(text + strlen(text), '(', 1000);
     expect_error(text, "more than 150 deep");
+    static char tokens[750000]; /* of 24 bytes each, though they cost few steps */
+    memset(tokens, '(', sizeof tokens - 1);
+    expect_error(tokens, "16 MiB, the most that is allowed");
     expect_error("union {", "the file ends");
     expect_error("/* a", "a comment that does not end");
     expect_error("sphere { 0, 1 pigment { image_map { png \"a", "a text that does not end");
@@ -342,6 +359,10 @@ static void test_carries_textures(void **state)
     expect("#default { finish { diffuse 1 } pigment { rgb 0.5 } } sphere { 0, 1 }",
            "diffuse: 0.5}");
     expect("sphere { 0, 1 pigment { srgb 1 } finish { diffuse 1 } }", "diffuse: 1}");
+    expect("sphere { 0, 1 pigment { srgb 0.5 } finish { diffuse 1 } }", "diffuse: 0.21404");
+    expect("global_settings { assumed_gamma 2.2 } sphere { 0, 1 pigment { srgb 0.5 } finish { "
+           "diffuse 1 } }",
+           "diffuse: 0.21404");
 }
 
 /* --- solids --------------------------------------------------------------------------------------- */
