@@ -60,7 +60,7 @@ static bool find_planes(struct csg_node *node)
         double length = vector_length(n);
         if (!(length > 0.0))
             continue;
-        n = (struct vector){n.x / length, n.y / length, n.z / length};
+        n = vector_unit(n);
         struct csg_plane plane = {n, vector_dot(n, a)};
         size_t count = convex->plane_count, from = count > 3 ? count - 3 : 0;
         bool known = false;
@@ -78,9 +78,8 @@ static void find_sphere(struct csg_node *node)
     struct vector sum = {0, 0, 0};
     double count = (double)mesh->vertex_count;
     for (size_t i = 0; i < mesh->vertex_count; i++)
-        sum = (struct vector){sum.x + mesh->points[i].x, sum.y + mesh->points[i].y,
-                              sum.z + mesh->points[i].z};
-    node->convex.center = (struct vector){sum.x / count, sum.y / count, sum.z / count};
+        sum = vector_add(sum, mesh->points[i]);
+    node->convex.center = vector_scale(sum, 1.0 / count);
     for (size_t i = 0; i < mesh->vertex_count; i++)
         node->convex.radius =
             fmax(node->convex.radius,

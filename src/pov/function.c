@@ -75,12 +75,6 @@ static bool read_of_floats(struct pov_reader *reader, const struct pov_token *to
 
 /* --- of vectors ----------------------------------------------------------------------------------- */
 
-static struct vector unit(struct vector a)
-{
-    double length = vector_length(a);
-    return length > 0.0 ? (struct vector){a.x / length, a.y / length, a.z / length} : a;
-}
-
 /* vdot(a, b) and its like. */
 static struct pov_value of_vectors(struct pov_reader *reader, uint32_t word)
 {
@@ -107,7 +101,7 @@ static struct pov_value of_vectors(struct pov_reader *reader, uint32_t word)
     case POV_vcross:
         return pov_vector(vector_cross(a, b));
     case POV_vnormalize:
-        return pov_vector(unit(a));
+        return pov_vector(vector_unit(a));
     case POV_vrotate: {
         struct transform turn = pov_rotation(b);
         return pov_vector(transform_point(&turn, a));

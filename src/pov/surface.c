@@ -48,8 +48,7 @@ static struct vector settle_normal(const struct pov_corner *corners, size_t k)
     struct vector a = vector_subtract(corners[1].point, corners[0].point);
     struct vector b = vector_subtract(corners[2].point, corners[0].point);
     n = vector_cross(a, b);
-    double length = vector_length(n);
-    return (struct vector){n.x / length, n.y / length, n.z / length};
+    return vector_unit(n);
 }
 
 const struct mesh *pov_keep_mesh(struct pov_reader *reader, struct mesh *mesh)

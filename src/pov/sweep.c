@@ -307,7 +307,7 @@ static bool plane_of(const struct vector *points, size_t count, struct vector ax
     double length = vector_length(normal);
     if (!(length > 0.0))
         return false;
-    normal = (struct vector){normal.x / length, normal.y / length, normal.z / length};
+    normal = vector_unit(normal);
     struct vector other =
         fabs(normal.x) < 0.6 ? (struct vector){1, 0, 0} : (struct vector){0, 1, 0};
     axes[0] = vector_cross(other, normal);

@@ -14,8 +14,7 @@ static void across(struct vector n, struct vector *u, struct vector *v)
 {
     struct vector other = fabs(n.x) < 0.6 ? (struct vector){1, 0, 0} : (struct vector){0, 1, 0};
     *u = vector_cross(other, n);
-    double length = vector_length(*u);
-    *u = (struct vector){u->x / length, u->y / length, u->z / length};
+    *u = vector_unit(*u);
     *v = vector_cross(n, *u);
 }
 
@@ -60,7 +59,7 @@ static bool box(const struct pov_object *o, struct mesh *mesh)
 
 static bool square(const struct pov_object *o, double extent, struct mesh *mesh)
 {
-    struct vector n = o->p[0], u, v, origin = {n.x * o->r[0], n.y * o->r[0], n.z * o->r[0]};
+    struct vector n = o->p[0], u, v, origin = vector_scale(n, o->r[0]);
     if (!mesh_allocate(mesh, 4, false, false, 2))
         return false;
     across(n, &u, &v);
@@ -92,7 +91,7 @@ static bool cone(const struct pov_object *o, struct mesh *mesh)
     double radii[2] = {o->r[0], o->shape == POV_SHAPE_CYLINDER ? o->r[0] : o->r[1]};
     struct vector axis = vector_subtract(o->p[1], o->p[0]), u, v;
     double length = vector_length(axis), slope = (radii[0] - radii[1]) / length;
-    struct vector n = {axis.x / length, axis.y / length, axis.z / length};
+    struct vector n = vector_unit(axis);
     if (!mesh_allocate(mesh, 4 * COLUMNS + 2, true, false, 4 * COLUMNS))
         return false;
     across(n, &u, &v);
@@ -128,8 +127,7 @@ static bool cone(const struct pov_object *o, struct mesh *mesh)
 
 static bool disc(const struct pov_object *o, struct mesh *mesh)
 {
-    double length = vector_length(o->p[1]);
-    struct vector n = {o->p[1].x / length, o->p[1].y / length, o->p[1].z / length}, u, v;
+    struct vector n = vector_unit(o->p[1]), u, v;
     if (!mesh_allocate(mesh, 2 * COLUMNS, false, false, 2 * COLUMNS))
         return false;
     across(n, &u, &v);

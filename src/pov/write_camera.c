@@ -9,22 +9,6 @@
 
 #define PI 3.14159265358979323846
 
-static struct vector times(struct vector a, double factor)
-{
-    return (struct vector){a.x * factor, a.y * factor, a.z * factor};
-}
-
-static struct vector plus(struct vector a, struct vector b)
-{
-    return (struct vector){a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-static struct vector unit(struct vector a)
-{
-    double length = vector_length(a);
-    return length > 0.0 ? times(a, 1.0 / length) : a;
-}
-
 /* Turned to look_at; before transforms. */
 static void turn(struct pov_camera *camera)
 {
@@ -35,13 +19,13 @@ static void turn(struct pov_camera *camera)
         vector_dot(vector_cross(camera->right, camera->up), camera->direction) >= 0.0;
     if (!camera->has_look_at || !(vector_length(to) > 0.0))
         return;
-    camera->direction = times(unit(to), direction);
+    camera->direction = vector_scale(vector_unit(to), direction);
     struct vector side = vector_cross(camera->sky, camera->direction);
     if (!(vector_length(side) > 1e-9 * direction))
         side = vector_cross((struct vector){0, 0, 1}, camera->direction);
-    side = unit(side);
-    camera->right = times(side, is_left_handed ? right : -right);
-    camera->up = times(unit(vector_cross(camera->direction, side)), up);
+    side = vector_unit(side);
+    camera->right = vector_scale(side, is_left_handed ? right : -right);
+    camera->up = vector_scale(vector_unit(vector_cross(camera->direction, side)), up);
 }
 
 static void write_image(struct pov_writer *writer, double aspect)
@@ -59,8 +43,9 @@ static void write_lens(struct pov_writer *writer, const struct pov_camera *camer
     if (!(camera->aperture > 0.0) || camera->orthographic)
         return;
     struct vector focal = camera->has_focal_point ? camera->focal_point : camera->look_at;
-    double focus = vector_dot(
-        vector_subtract(transform_point(&camera->place, focal), camera->location), unit(direction));
+    double focus =
+        vector_dot(vector_subtract(transform_point(&camera->place, focal), camera->location),
+                   vector_unit(direction));
     fputs(", aperture: ", out);
     put_number(out, fmin(0.5 * camera->aperture, 1e6));
     if (focus > 1e-6) {
@@ -98,7 +83,8 @@ void pov_write_camera(struct pov_writer *writer)
     }
     bool is_left_handed = vector_dot(vector_cross(right, up), direction) >= 0.0;
     writer->mirror = is_left_handed ? transform_scale(1, 1, -1) : transform_identity;
-    writer->middle = plus(camera.location, times(unit(direction), fmax(looks, 1e-3)));
+    writer->middle =
+        vector_add(camera.location, vector_scale(vector_unit(direction), fmax(looks, 1e-3)));
     writer->extent = 100.0 * (vector_length(camera.location) + looks + 1.0);
     struct vector middle = transform_point(&writer->mirror, writer->middle);
     write_image(writer, width / height);
@@ -107,7 +93,7 @@ void pov_write_camera(struct pov_writer *writer)
     fputs(", look_at: ", out);
     put_vector(out, middle);
     fputs(", up: ", out);
-    put_vector(out, transform_direction(&writer->mirror, unit(up)));
+    put_vector(out, transform_direction(&writer->mirror, vector_unit(up)));
     double angle = camera.angle > 0.0 ? fmin(camera.angle, 179.0)
                                       : 2.0 * atan(0.5 * width / depth) * 180.0 / PI;
     if (camera.orthographic) {

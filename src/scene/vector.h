@@ -19,6 +19,16 @@ static inline struct vector vector_subtract(struct vector a, struct vector b)
     return (struct vector){a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
+static inline struct vector vector_add(struct vector a, struct vector b)
+{
+    return (struct vector){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+static inline struct vector vector_scale(struct vector v, double factor)
+{
+    return (struct vector){v.x * factor, v.y * factor, v.z * factor};
+}
+
 static inline double vector_dot(struct vector a, struct vector b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -32,6 +42,13 @@ static inline struct vector vector_cross(struct vector a, struct vector b)
 static inline double vector_length(struct vector v)
 {
     return sqrt(vector_dot(v, v));
+}
+
+/* Of length 1; of length 0, as it is. */
+static inline struct vector vector_unit(struct vector v)
+{
+    double length = vector_length(v);
+    return length > 0.0 ? (struct vector){v.x / length, v.y / length, v.z / length} : v;
 }
 
 #endif
