@@ -87,8 +87,7 @@ struct pov_camera pov_read_camera(struct pov_reader *reader)
     struct pov_token token;
     pov_expect(reader, '{');
     while (token = pov_next(reader), !pov_is(&token, '}') && token.kind != POV_END) {
-        const struct pov_value *value =
-            token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
+        const struct pov_value *value = pov_named(reader, &token);
         if (value && value->kind == POV_VALUE_CAMERA)
             camera = *value->camera;
         else if (pov_is(&token, ',') || pov_read_transform(reader, &token, &camera.place))

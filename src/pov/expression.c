@@ -400,15 +400,33 @@ static bool compare(uint32_t symbol, double a, double b)
     }
 }
 
+static bool is_comparison(const struct pov_token *token)
+{
+    return token->kind == POV_SYMBOL && (token->symbol >= POV_LESS_EQUAL ||
+                                         (token->symbol && strchr("<>=", (int)token->symbol)));
+}
+
+/* Of two texts. */
+static struct pov_number compare_texts(struct pov_reader *reader)
+{
+    const char *a = pov_read_string(reader);
+    struct pov_token token = pov_next(reader);
+    if (!is_comparison(&token))
+        pov_unexpected(reader, &token, "a comparison of texts");
+    const char *b = reader->stopped ? NULL : pov_read_string(reader);
+    return a && b ? of_float(compare(token.symbol, strcmp(a, b), 0.0)) : zero;
+}
+
 static struct pov_number read_comparison(struct pov_reader *reader)
 {
+    struct pov_token first = pov_next(reader);
+    pov_unread(reader, first);
+    if (pov_begins_string(reader, &first))
+        return compare_texts(reader);
     struct pov_number result = pov_read_number(reader);
     for (;;) {
         struct pov_token token = pov_next(reader);
-        bool compares =
-            token.kind == POV_SYMBOL &&
-            (token.symbol >= POV_LESS_EQUAL || (token.symbol && strchr("<>=", (int)token.symbol)));
-        if (!compares) {
+        if (!is_comparison(&token)) {
             pov_unread(reader, token);
             return result;
         }

@@ -34,6 +34,9 @@ bool pov_read_function(struct pov_reader *reader, const struct pov_token *token,
                        struct pov_number *result);
 bool pov_is_function(uint32_t word);
 
+/* What a name stands for, with "[i]" where that is an array of what is no number, text or array. NULL: nothing, or
+ * reported. */
+struct pov_value *pov_named(struct pov_reader *reader, const struct pov_token *token);
 /* Any value that can be declared or be an argument (rvalue.c); POV_VALUE_NONE: reported. */
 struct pov_value pov_read_value(struct pov_reader *reader);
 

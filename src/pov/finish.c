@@ -111,8 +111,7 @@ struct pov_finish pov_read_finish(struct pov_reader *reader, struct pov_finish f
 {
     struct pov_token token;
     while (token = pov_next(reader), !pov_is(&token, '}') && token.kind != POV_END) {
-        const struct pov_value *value =
-            token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
+        const struct pov_value *value = pov_named(reader, &token);
         if (value && value->kind == POV_VALUE_FINISH)
             finish = *value->finish;
         else if (!pov_is(&token, ','))
@@ -125,8 +124,7 @@ struct pov_interior pov_read_interior(struct pov_reader *reader, struct pov_inte
 {
     struct pov_token token;
     while (token = pov_next(reader), !pov_is(&token, '}') && token.kind != POV_END) {
-        const struct pov_value *value =
-            token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
+        const struct pov_value *value = pov_named(reader, &token);
         if (value && value->kind == POV_VALUE_INTERIOR) {
             interior = *value->interior;
             continue;

@@ -101,7 +101,7 @@ static bool read_part(struct pov_reader *reader, const struct pov_token *token,
         pov_expect(reader, '{');
         next = pov_next(reader);
         struct pov_object **list = pov_allocate(reader, 1, sizeof *list);
-        struct pov_value *value = next.kind == POV_WORD ? pov_lookup(reader, next.word) : NULL;
+        struct pov_value *value = pov_named(reader, &next);
         struct pov_object *child = NULL;
         if (value && value->kind == POV_VALUE_OBJECT)
             child = pov_copy(reader, value->object, sizeof *child);
@@ -126,7 +126,7 @@ void pov_read_light(struct pov_reader *reader, struct pov_object *object)
 {
     struct pov_light light = {.radius = 30.0, .falloff = 45.0};
     struct pov_token token = pov_next(reader);
-    const struct pov_value *value = token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
+    const struct pov_value *value = pov_named(reader, &token);
     object->shape = POV_SHAPE_LIGHT;
     if (value && value->kind == POV_VALUE_OBJECT && value->object->light) { /* a declared one */
         const struct pov_token first = object->token;

@@ -65,8 +65,7 @@ static void read_plane(struct pov_reader *reader, struct pov_object *object)
     double length = vector_length(object->p[0]);
     if (!(length > 0.0))
         pov_error(reader, &object->token, "plane: its normal is 0");
-    object->p[0] =
-        (struct vector){object->p[0].x / length, object->p[0].y / length, object->p[0].z / length};
+    object->p[0] = vector_unit(object->p[0]);
 }
 
 static void read_torus(struct pov_reader *reader, struct pov_object *object)
@@ -155,8 +154,7 @@ static void read_group(struct pov_reader *reader, struct pov_object *object)
 static void read_named(struct pov_reader *reader, struct pov_object *object)
 {
     struct pov_token token = pov_next(reader), first = object->token;
-    struct pov_value *value = token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
-    value = value ? pov_element(reader, &token, value) : NULL;
+    struct pov_value *value = pov_named(reader, &token);
     if (value && value->kind == POV_VALUE_OBJECT) {
         const char *file = object->file;
         *object = *value->object;
@@ -418,8 +416,7 @@ void pov_read_modifiers(struct pov_reader *reader, struct pov_object *object)
     struct pov_token token;
     object->is_own_texture = false;
     while (token = pov_next(reader), !pov_is(&token, '}') && token.kind != POV_END) {
-        const struct pov_value *value =
-            token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
+        const struct pov_value *value = pov_named(reader, &token);
         if (value && value->kind == POV_VALUE_TEXTURE)
             add_texture(reader, object, *value->texture, false);
         else if (!pov_is(&token, ',') && !pov_read_modifier(reader, &token, object))

@@ -216,6 +216,8 @@ struct pov_camera {
 struct pov_camera pov_read_camera(struct pov_reader *reader);
 /* global_settings, background, sky_sphere, fog, ...; false: the token is none (surroundings.c). */
 bool pov_read_surroundings(struct pov_reader *reader, const struct pov_token *token);
+/* "{ pigment {...} ... }" of a sky_sphere: the first pigment. NULL: there is none. */
+const struct pov_pigment *pov_read_sky(struct pov_reader *reader);
 /* Behind #default. */
 void pov_read_default(struct pov_reader *reader);
 /* "pigment {...}" and the like as a value; false: the token begins none. */

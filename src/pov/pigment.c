@@ -1,7 +1,8 @@
 /* pigment.c: colours, maps of colours and patterns; see object.h and the reference of POV-Ray 3.7, "Pigment".
  *
- * psplat has patterns of two colours. checker and gradient are the same ones; what looks like clouds becomes noise
- * between the means of the lower and the upper half of the map; the mean colour stands for what is left.
+ * psplat has patterns of two colours. checker and gradient are the same ones, but for maps of more colours; what looks
+ * like clouds becomes noise between the means of the lower and the upper half of the map; the mean colour stands for
+ * what is left.
  */
 #include "pov/expression.h"
 #include "pov/object.h"
@@ -38,6 +39,7 @@ static const struct {
     {POV_cubic, POV_PATTERN_OTHER},        {POV_pavement, POV_PATTERN_OTHER},
     {POV_tiling, POV_PATTERN_OTHER},       {POV_function, POV_PATTERN_OTHER},
     {POV_density_file, POV_PATTERN_OTHER}, {POV_pigment_pattern, POV_PATTERN_OTHER},
+    {POV_object, POV_PATTERN_OTHER},
 };
 
 /* --- maps --------------------------------------------------------------------------------------- */
@@ -70,6 +72,33 @@ static void mean_between(const struct pov_color_map *map, double from, double to
     }
 }
 
+/* The line of least squares through the map from 0 to `last`: its mean, and so the light in all, is the map's. Where
+ * the line leaves what colours the map has, it is cut there. `ends`: the map's there, then the line's. */
+static void line_through(const struct pov_color_map *map, double last, double ends[2][POV_TERMS])
+{
+    enum { STEPS = 64 };
+    double sums[2][POV_TERMS] = {{0}}, least[POV_TERMS], most[POV_TERMS], squares = 0.0;
+    for (int k = 0; k < POV_TERMS; k++) {
+        least[k] = fmin(ends[0][k], ends[1][k]);
+        most[k] = fmax(ends[0][k], ends[1][k]);
+    }
+    for (int i = 0; i < STEPS; i++) {
+        double color[POV_TERMS], t = (i + 0.5) / STEPS - 0.5;
+        pov_color_at(map, last * (t + 0.5), color);
+        squares += t * t;
+        for (int k = 0; k < POV_TERMS; k++) {
+            sums[0][k] += color[k] / STEPS;
+            sums[1][k] += color[k] * t;
+            least[k] = fmin(least[k], color[k]);
+            most[k] = fmax(most[k], color[k]);
+        }
+    }
+    for (int k = 0; k < POV_TERMS; k++)
+        for (int end = 0; end < 2; end++)
+            ends[end][k] =
+                fmin(fmax(sums[0][k] + (end - 0.5) * sums[1][k] / squares, least[k]), most[k]);
+}
+
 /* The map that a pattern has without one: from black to white. */
 static const struct pov_color_map *map_of(const struct pov_pigment *pigment)
 {
@@ -91,7 +120,8 @@ static void usual_colors(const struct pov_pigment *pigment, double colors[POV_LI
 static bool is_listed(const struct pov_pigment *pigment)
 {
     return pigment->word == POV_checker || pigment->word == POV_brick ||
-           pigment->word == POV_hexagon || pigment->word == POV_tiles;
+           pigment->word == POV_hexagon || pigment->word == POV_tiles ||
+           pigment->word == POV_object;
 }
 
 void pov_pigment_ends(const struct pov_pigment *pigment, double colors[2][POV_TERMS])
@@ -101,8 +131,11 @@ void pov_pigment_ends(const struct pov_pigment *pigment, double colors[2][POV_TE
         usual_colors(pigment, listed);
         memcpy(colors, listed, 2 * sizeof listed[0]);
     } else if (pigment->pattern == POV_PATTERN_GRADIENT) {
+        double last = pigment->word == POV_marble ? 0.5 : 1.0;
         pov_color_at(map_of(pigment), 0.0, colors[0]);
-        pov_color_at(map_of(pigment), pigment->word == POV_marble ? 0.5 : 1.0, colors[1]);
+        pov_color_at(map_of(pigment), last, colors[1]);
+        if (map_of(pigment)->count > 2)
+            line_through(map_of(pigment), last, colors);
     } else {
         mean_between(map_of(pigment), 0.0, 0.5, colors[0]);
         mean_between(map_of(pigment), 0.5, 1.0, colors[1]);
@@ -137,8 +170,7 @@ void pov_pigment_mean(const struct pov_pigment *pigment, double color[POV_TERMS]
 static bool read_mean(struct pov_reader *reader, double color[POV_TERMS])
 {
     struct pov_token token = pov_next(reader);
-    struct pov_value *value = token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
-    value = value ? pov_element(reader, &token, value) : NULL;
+    struct pov_value *value = pov_named(reader, &token);
     if (value && value->kind == POV_VALUE_PIGMENT) {
         pov_pigment_mean(value->pigment, color);
     } else if (value && value->kind == POV_VALUE_TEXTURE) {
@@ -231,7 +263,7 @@ const struct pov_color_map *pov_read_color_map(struct pov_reader *reader)
     if (!pov_enter(reader, pov_peek(reader)))
         return NULL;
     while (token = pov_next(reader), !pov_is(&token, '}') && token.kind != POV_END) {
-        struct pov_value *value = token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
+        struct pov_value *value = pov_named(reader, &token);
         size_t added = 0;
         const struct pov_map_entry *from = entries;
         if (value && value->kind == POV_VALUE_COLOR_MAP) {
@@ -264,7 +296,6 @@ const struct pov_color_map *pov_read_color_map(struct pov_reader *reader)
 
 static void read_listed(struct pov_reader *reader, struct pov_pigment *pigment)
 {
-    pigment->listed_count = 0;
     while (pigment->listed_count < POV_LISTED && !reader->stopped) {
         double *color = pigment->listed[pigment->listed_count];
         if (!read_mean(reader, color)) {
@@ -280,15 +311,72 @@ static void read_listed(struct pov_reader *reader, struct pov_pigment *pigment)
     }
 }
 
+/* Those of spirals, julias, agates. */
+static void read_numbers(struct pov_reader *reader)
+{
+    while (!reader->stopped) {
+        struct pov_token token = pov_next(reader);
+        pov_unread(reader, token);
+        if (!pov_begins_number(reader, &token) || pov_is_word(&token, POV_color) ||
+            pov_is_word(&token, POV_colour))
+            return;
+        pov_read_number(reader);
+        pov_skip_comma(reader);
+    }
+}
+
+/* "{ OBJECT outside, inside }" */
+static void read_object_pattern(struct pov_reader *reader, struct pov_pigment *pigment)
+{
+    pov_expect(reader, '{');
+    struct pov_token token = pov_next(reader);
+    const struct pov_value *value = pov_named(reader, &token);
+    if (pov_begins_object(reader, &token))
+        pov_read_object(reader, &token);
+    else if (!value || value->kind != POV_VALUE_OBJECT)
+        pov_unexpected(reader, &token, "an object");
+    pov_skip_comma(reader);
+    read_listed(reader, pigment);
+    pov_expect(reader, '}');
+}
+
+/* "df3 "FILE"" */
+static void skip_density_file(struct pov_reader *reader)
+{
+    struct pov_token token = pov_next(reader);
+    if (token.kind != POV_WORD || strcmp(pov_text(reader, token.word), "df3") != 0)
+        pov_unread(reader, token);
+    pov_read_string(reader);
+}
+
 /* What stands behind a pattern's name. */
 static void read_pattern(struct pov_reader *reader, struct pov_pigment *pigment)
 {
+    pigment->listed_count = 0;
     switch (pigment->word) {
     case POV_checker:
     case POV_brick:
     case POV_hexagon:
-    case POV_tiles:
         read_listed(reader, pigment);
+        break;
+    case POV_tiles: {
+        bool braces = pov_accept(reader, '{');
+        read_listed(reader, pigment);
+        if (braces)
+            pov_expect(reader, '}');
+        break;
+    }
+    case POV_object:
+        read_object_pattern(reader, pigment);
+        break;
+    case POV_slope:
+        if (pov_accept(reader, '{'))
+            pov_skip_block(reader);
+        else
+            read_numbers(reader);
+        break;
+    case POV_density_file:
+        skip_density_file(reader);
         break;
     case POV_gradient:
         pigment->axis = pov_read_vector(reader);
@@ -297,7 +385,6 @@ static void read_pattern(struct pov_reader *reader, struct pov_pigment *pigment)
         pigment->axis = (struct vector){1, 0, 0};
         break;
     case POV_function:
-    case POV_density_file:
     case POV_pigment_pattern:
     case POV_average:
     case POV_cubic: {
@@ -315,16 +402,8 @@ static void read_pattern(struct pov_reader *reader, struct pov_pigment *pigment)
         }
         break;
     }
-    default: /* numbers of spirals, julias, agates */
-        while (!reader->stopped) {
-            struct pov_token token = pov_next(reader);
-            pov_unread(reader, token);
-            if (!pov_begins_number(reader, &token) || pov_is_word(&token, POV_color) ||
-                pov_is_word(&token, POV_colour))
-                return;
-            pov_read_number(reader);
-            pov_skip_comma(reader);
-        }
+    default:
+        read_numbers(reader);
     }
 }
 
@@ -368,6 +447,12 @@ static bool skip_detail(struct pov_reader *reader, const struct pov_token *token
         if (token->word == POV_frequency || token->word == POV_phase)
             pov_note(reader, token, "frequency and phase of a pattern are left out", note);
         pov_read_optional(reader, 0.0);
+        return true;
+    case POV_altitude:
+    case POV_exterior: /* of fractals, as interior: two numbers */
+    case POV_interior:
+    case POV_interpolate:
+        read_numbers(reader);
         return true;
     case POV_warp:
         pov_note(reader, token, "warp is left out", note);
@@ -431,8 +516,7 @@ struct pov_pigment pov_read_pigment(struct pov_reader *reader, const struct pov_
     if (!pov_enter(reader, first))
         return pigment;
     while (token = pov_next(reader), !pov_is(&token, '}') && token.kind != POV_END) {
-        const struct pov_value *value =
-            token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
+        const struct pov_value *value = pov_named(reader, &token);
         if (value && value->kind == POV_VALUE_PIGMENT) {
             pigment = *value->pigment;
         } else if (value && value->kind == POV_VALUE_COLOR_MAP) {

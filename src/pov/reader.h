@@ -95,6 +95,8 @@ struct pov_reader {
     const char *camera_file;
     double background[3], ambient_light[3], gamma;
     bool has_background, has_gamma;
+    struct pov_token background_token;
+    const char *background_file;
     const struct pov_pigment *sky;
     struct scene_text scene;
 };

@@ -317,6 +317,13 @@ static struct pov_value read_text_value(struct pov_reader *reader)
                 : (struct pov_value){0};
 }
 
+struct pov_value *pov_named(struct pov_reader *reader, const struct pov_token *token)
+{
+    struct pov_value *value = token->kind == POV_WORD ? pov_lookup(reader, token->word) : NULL;
+    bool holds = value && value->kind == POV_VALUE_ARRAY && value->array->held >= POV_VALUE_PIGMENT;
+    return holds ? pov_element(reader, token, value) : value;
+}
+
 /* A name that stands for something that is no number: "#declare A = B". */
 static struct pov_value read_named(struct pov_reader *reader, const struct pov_token *token,
                                    struct pov_value *value)

@@ -39,23 +39,23 @@ static void read_settings(struct pov_reader *reader)
     }
 }
 
-static void read_background(struct pov_reader *reader)
+static void read_background(struct pov_reader *reader, const struct pov_token *token)
 {
+    reader->background_token = *token;
+    reader->background_file = pov_file(reader);
     pov_expect(reader, '{');
     memcpy(reader->background, pov_read_color(reader).v, sizeof reader->background);
     reader->has_background = true;
     pov_expect(reader, '}');
 }
 
-/* The first pigment; further ones are layers. */
-static void read_sky_sphere(struct pov_reader *reader)
+const struct pov_pigment *pov_read_sky(struct pov_reader *reader)
 {
     struct pov_token token;
     struct pov_pigment *sky = NULL;
     pov_expect(reader, '{');
     while (token = pov_next(reader), !pov_is(&token, '}') && token.kind != POV_END) {
-        const struct pov_value *value =
-            token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
+        const struct pov_value *value = pov_named(reader, &token);
         struct transform step;
         if (pov_is_word(&token, POV_pigment)) {
             pov_expect(reader, '{');
@@ -69,13 +69,13 @@ static void read_sky_sphere(struct pov_reader *reader)
                 sky->place = transform_compose(&step, &sky->place);
         } else if (pov_is_word(&token, POV_emission)) {
             pov_read_color(reader);
-        } else if (value && value->kind == POV_VALUE_OTHER) {
-            pov_warn(reader, &token, "sky_sphere: a declared one is left out");
+        } else if (value && value->kind == POV_VALUE_SKY) {
+            sky = value->pigment ? pov_copy(reader, value->pigment, sizeof *sky) : NULL;
         } else {
             pov_unexpected(reader, &token, "a pigment, or '}'");
         }
     }
-    reader->sky = sky ? sky : reader->sky;
+    return sky;
 }
 
 bool pov_read_surroundings(struct pov_reader *reader, const struct pov_token *token)
@@ -85,11 +85,13 @@ bool pov_read_surroundings(struct pov_reader *reader, const struct pov_token *to
         read_settings(reader);
         return true;
     case POV_background:
-        read_background(reader);
+        read_background(reader, token);
         return true;
-    case POV_sky_sphere:
-        read_sky_sphere(reader);
+    case POV_sky_sphere: {
+        const struct pov_pigment *sky = pov_read_sky(reader);
+        reader->sky = sky ? sky : reader->sky;
         return true;
+    }
     case POV_fog:
     case POV_rainbow:
     case POV_media:

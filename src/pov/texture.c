@@ -49,8 +49,7 @@ struct pov_texture pov_read_texture(struct pov_reader *reader, const struct pov_
         return texture;
     texture.name = POV_texture;
     while (token = pov_next(reader), !pov_is(&token, '}') && token.kind != POV_END) {
-        struct pov_value *value = token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
-        value = value ? pov_element(reader, &token, value) : NULL;
+        struct pov_value *value = pov_named(reader, &token);
         if (value && value->kind == POV_VALUE_TEXTURE) {
             texture = *value->texture;
             texture.name = token.word;
@@ -73,8 +72,7 @@ struct pov_material pov_read_material(struct pov_reader *reader)
     if (!pov_enter(reader, pov_peek(reader)))
         return (struct pov_material){NULL, NULL};
     while (token = pov_next(reader), !pov_is(&token, '}') && token.kind != POV_END) {
-        const struct pov_value *value =
-            token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
+        const struct pov_value *value = pov_named(reader, &token);
         if (value && value->kind == POV_VALUE_MATERIAL) {
             parts.texture = value->material->texture;
             parts.interior = value->material->interior;
@@ -105,8 +103,7 @@ static struct transform read_transform_block(struct pov_reader *reader)
         return place;
     pov_expect(reader, '{');
     while (token = pov_next(reader), !pov_is(&token, '}') && token.kind != POV_END) {
-        const struct pov_value *value =
-            token.kind == POV_WORD ? pov_lookup(reader, token.word) : NULL;
+        const struct pov_value *value = pov_named(reader, &token);
         if (value && value->kind == POV_VALUE_TRANSFORM)
             place = transform_compose(value->transform, &place);
         else if (pov_is_word(&token, POV_inverse))
@@ -197,6 +194,10 @@ bool pov_read_declared(struct pov_reader *reader, const struct pov_token *token,
         *value = kept(reader, POV_VALUE_TRANSFORM, &t, sizeof t);
         return true;
     }
+    case POV_sky_sphere:
+        value->pigment = pov_read_sky(reader);
+        value->kind = POV_VALUE_SKY;
+        return true;
     case POV_camera: {
         struct pov_camera c = pov_read_camera(reader);
         *value = kept(reader, POV_VALUE_CAMERA, &c, sizeof c);
@@ -284,8 +285,7 @@ bool pov_read_step(struct pov_reader *reader, const struct pov_token *token, str
         return true;
     case POV_transform: {
         struct pov_token next = pov_next(reader);
-        const struct pov_value *value =
-            next.kind == POV_WORD ? pov_lookup(reader, next.word) : NULL;
+        const struct pov_value *value = pov_named(reader, &next);
         if (value && value->kind == POV_VALUE_TRANSFORM) { /* of old, without braces */
             *step = *value->transform;
             return true;

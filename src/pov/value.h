@@ -35,6 +35,7 @@ enum pov_value_kind {
     POV_VALUE_TRANSFORM,
     POV_VALUE_OBJECT,
     POV_VALUE_CAMERA,
+    POV_VALUE_SKY,
     POV_VALUE_OTHER /* what has no counterpart: media, fog, splines, normals */
 };
 
@@ -45,7 +46,7 @@ struct pov_value {
         const char *text;
         struct pov_array *array;
         const struct pov_macro *macro;
-        const struct pov_pigment *pigment;
+        const struct pov_pigment *pigment; /* also of a sky_sphere */
         const struct pov_finish *finish;
         const struct pov_texture *texture;
         const struct pov_interior *interior;

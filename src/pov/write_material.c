@@ -313,7 +313,7 @@ static void warn_of(struct paint *paint, const struct pov_finish *f)
                     pov_text(reader, p->word), p->word == POV_marble ? "a gradient" : "noise");
     else if (p->pattern == POV_PATTERN_GRADIENT && p->map && p->map->count > 2)
         pov_warn_at(reader, p->file, &p->token,
-                    "gradient: only the first and the last colour of its map count");
+                    "gradient: two colours stand for the %zu of its map", p->map->count);
     double mean[POV_TERMS];
     pov_pigment_mean(p, mean);
     if (f->diffuse * largest_of(mean) > 1.0 + 1e-9)

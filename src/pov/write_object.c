@@ -186,11 +186,9 @@ static void write_plane(struct pov_writer *writer, const struct pov_object *obje
     struct vector n = object->p[0];
     if (!pov_placement(writer, object, &look->place, &placement))
         return;
-    struct vector point = transform_point(
-        &placement, (struct vector){n.x * object->r[0], n.y * object->r[0], n.z * object->r[0]});
+    struct vector point = transform_point(&placement, vector_scale(n, object->r[0]));
     n = transform_normal(&placement, n);
-    double length = vector_length(n);
-    n = (struct vector){n.x / length, n.y / length, n.z / length};
+    n = vector_unit(n);
     double distance = vector_dot(n, point);
     if (!is_within(n) || !(fabs(distance) <= 1e12)) {
         pov_warn_at(writer->reader, object->file, &object->token, "a plane far away is left out");
@@ -259,8 +257,7 @@ void pov_write_object(struct pov_writer *writer, const struct pov_object *object
     pov_warn_of_object(writer, object);
     if (writer->reader->stopped || object->shape == POV_SHAPE_NOTHING)
         return;
-    if (object->clip_count > 0 && object->shape != POV_SHAPE_UNION &&
-        object->shape != POV_SHAPE_INTERSECTION) {
+    if (object->clip_count > 0 && object->shape != POV_SHAPE_UNION) {
         pov_write_solid(writer, object, above);
         return;
     }

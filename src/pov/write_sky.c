@@ -96,10 +96,10 @@ void pov_write_sky(struct pov_writer *writer)
     struct pov_reader *reader = writer->reader;
     const struct pov_pigment *sky = reader->sky;
     double mean[POV_TERMS];
-    static const struct pov_token nowhere = {0};
     bool shines = reader->background[0] + reader->background[1] + reader->background[2] > 0.0;
     if (sky || (reader->has_background && shines))
-        pov_warn_at(reader, sky ? sky->file : NULL, sky ? &sky->token : &nowhere,
+        pov_warn_at(reader, sky ? sky->file : reader->background_file,
+                    sky ? &sky->token : &reader->background_token,
                     "background and sky_sphere light the scene too, as they do in POV-Ray's "
                     "radiosity alone");
     if (!sky) {

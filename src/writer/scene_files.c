@@ -1,7 +1,8 @@
 /* scene_files.c: see scene_files.h.
  *
- * The files beside the scene are made in a folder that goes away again, and moved out of it when all are whole, and the
- * scene's text is written too: an import that fails leaves the files of an earlier one as they are.
+ * The files beside the scene are made in a folder of their own, and moved out of it when all are whole, and the scene's
+ * text is written too: an import that fails leaves the files of an earlier one as they are, unless one can't be moved.
+ * The folder goes away again, but for an import that is killed: it leaves the folder, with what it made so far.
  */
 #include "writer/scene_files.h"
 

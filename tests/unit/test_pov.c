@@ -326,6 +326,11 @@ static void test_carries_textures(void **state)
          "checker: {colors: [0.5, 0], matrix: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -2, 0]}"},
         {"pigment { gradient x color_map { [0 rgb 1] [1 rgb 0] } }",
          "gradient: {colors: [0.6, 0], axis: [1, 0, 0]"},
+        /* More colours: the nearest two, of the same mean. */
+        {"pigment { gradient y color_map { [0 rgb 1] [0.5 rgb 0] [1 rgb 1] } }",
+         "gradient: {colors: [0.3, 0.3], axis"},
+        {"pigment { gradient y color_map { [0 rgb 0] [0.5 rgb 0.5] [1 rgb 1] } }",
+         "gradient: {colors: [0, 0.6], axis"},
         {"pigment { bozo color_map { [0 rgb 1] [1 rgb 0] } }",
          "noise: {colors: [0.45, 0.15], octaves: 1"},
         {"pigment { brick rgb 1, rgb 0 }", "diffuse: 0.12}"},
@@ -363,6 +368,40 @@ static void test_carries_textures(void **state)
     expect("global_settings { assumed_gamma 2.2 } sphere { 0, 1 pigment { srgb 0.5 } finish { "
            "diffuse 1 } }",
            "diffuse: 0.21404");
+}
+
+/* Ways to write that are rare, but POV-Ray's. */
+static void test_reads_rare_forms(void **state)
+{
+    (void)state;
+    static const char *const looks[][2] = {
+        {"tiles { pigment { rgb 1 } tile2 pigment { rgb 0 } }", "diffuse: 0.3}"},
+        {"object { box { 0, 1 } rgb 1, rgb 0 }", "diffuse: 0.3}"},
+        {"object { Ball pigment { rgb 0 } pigment { rgb 1 } }", "diffuse: 0.3}"},
+        {"slope { <0, 1, 0>, 0, 1 altitude <0, 1, 0>, 0, 2 }", "diffuse: 0.3}"},
+        {"slope <0, 1, 0>, 0, 1 altitude <0, 1, 0>, 0, 2", "diffuse: 0.3}"},
+        {"mandel 10 exterior 1, 2 interior 0, 1", "diffuse: 0.3}"},
+        {"density_file df3 \"a.df3\" interpolate 1", "diffuse: 0.3}"},
+        {"checker Colors[0], Colors[1]", "colors: [0.6, 0]"},
+        {"Pigments[0]", "diffuse: 0.6}"},
+    };
+    static const char start[] = "#declare Ball = sphere { 0, 1 } "
+                                "#declare Colors = array[2] { rgb 1, rgb 0 } "
+                                "#declare Pigments = array[1] { pigment { rgb 1 } } "
+                                "#declare M = array[1] { material { texture { Pigments[0] } } }";
+    char text[1024];
+    for (size_t i = 0; i < sizeof looks / sizeof looks[0]; i++) {
+        snprintf(text, sizeof text, "%s sphere { 0, 1 pigment { %s } }", start, looks[i][0]);
+        expect(text, looks[i][1]);
+    }
+    snprintf(text, sizeof text, "%s sphere { 0, 1 material { M[0] } }", start);
+    expect(text, "diffuse: 0.6}");
+    expect("#declare S = \"a\"; #if (S != \"\" & S < \"b\") sphere { 0, 2 } #end", "radius: 2,");
+    expect_error("#if (\"a\" + 1) #end", "a comparison of texts");
+    expect("#declare S = sky_sphere { pigment { rgb <0, 0, 1> } } sky_sphere { S }",
+           "sky: {radiance: [0, 0, 1]}");
+    expect_warning("sphere { 0, 1 }\nbackground { rgb 1 }", "t.pov:2:1: warning: background",
+                   "box");
 }
 
 /* --- solids --------------------------------------------------------------------------------------- */
@@ -415,7 +454,17 @@ static void test_makes_solids(void **state)
                    "sphere: ");
     expect("sphere { 0, 1 clipped_by { plane { y, 0 } } }", "mesh: {file: ");
     char message[512];
-    char *scene = convert("intersection { box { 0, 1 } box { 2, 3 } }", message);
+    char *scene =
+        convert("intersection { box { -1, 1 } box { 0, 2 } clipped_by { plane { y, 0.5 } } "
+                "} global_settings { assumed_gamma 1 }",
+                message);
+    assert_non_null(scene);
+    assert_non_null(strstr(scene, "0.5, 0]"));
+    assert_string_equal(message, "");
+    free(scene);
+    expect_warning("union { box { 0, 1 } clipped_by { plane { y, 0 } } }",
+                   "1:1: warning: clipped_by", "mesh");
+    scene = convert("intersection { box { 0, 1 } box { 2, 3 } }", message);
     assert_non_null(scene);
     assert_null(strstr(scene, "objects:"));
     free(scene);
@@ -486,6 +535,7 @@ int main(void)
         cmocka_unit_test(test_mirrors_unless_the_camera_does),
         cmocka_unit_test(test_carries_lights),
         cmocka_unit_test(test_carries_textures),
+        cmocka_unit_test(test_reads_rare_forms),
         cmocka_unit_test(test_cuts_polygons),
         cmocka_unit_test(test_makes_solids),
         cmocka_unit_test(test_shares_solids),
