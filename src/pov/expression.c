@@ -414,7 +414,8 @@ static struct pov_number compare_texts(struct pov_reader *reader)
     if (!is_comparison(&token))
         pov_unexpected(reader, &token, "a comparison of texts");
     const char *b = reader->stopped ? NULL : pov_read_string(reader);
-    return a && b ? of_float(compare(token.symbol, strcmp(a, b), 0.0)) : zero;
+    int order = a && b ? strcmp(a, b) : 0;
+    return a && b ? of_float(compare(token.symbol, (double)order, 0.0)) : zero;
 }
 
 static struct pov_number read_comparison(struct pov_reader *reader)

@@ -39,7 +39,7 @@ static const struct {
     {POV_cubic, POV_PATTERN_OTHER},        {POV_pavement, POV_PATTERN_OTHER},
     {POV_tiling, POV_PATTERN_OTHER},       {POV_function, POV_PATTERN_OTHER},
     {POV_density_file, POV_PATTERN_OTHER}, {POV_pigment_pattern, POV_PATTERN_OTHER},
-    {POV_object, POV_PATTERN_OTHER},
+    {POV_object, POV_PATTERN_OTHER},       {POV_image_pattern, POV_PATTERN_OTHER},
 };
 
 /* --- maps --------------------------------------------------------------------------------------- */
@@ -385,6 +385,7 @@ static void read_pattern(struct pov_reader *reader, struct pov_pigment *pigment)
         pigment->axis = (struct vector){1, 0, 0};
         break;
     case POV_function:
+    case POV_image_pattern:
     case POV_pigment_pattern:
     case POV_average:
     case POV_cubic: {

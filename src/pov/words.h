@@ -39,10 +39,10 @@
     X(color_map) X(colour_map) X(conserve_energy) X(crackle) X(crand) X(cubic) X(cylindrical)      \
     X(density_file) X(dents) X(diffuse) X(emission) X(exponent) X(exterior) X(facets)              \
     X(fade_color) X(fade_colour) X(fade_distance) X(fade_power) X(falloff) X(finish) X(frequency)  \
-    X(fresnel) X(gamma) X(gradient) X(granite) X(hexagon) X(image_map) X(interior)                 \
-    X(interior_texture) X(interpolate) X(ior) X(irid) X(julia) X(lambda) X(leopard) X(magnet)      \
-    X(mandel) X(map_type) X(marble) X(material) X(material_map) X(metallic) X(mortar) X(normal)    \
-    X(normal_map) X(octaves) X(omega) X(once) X(onion) X(pavement) X(phase) X(phong)               \
+    X(fresnel) X(gamma) X(gradient) X(granite) X(hexagon) X(image_map) X(image_pattern)            \
+    X(interior) X(interior_texture) X(interpolate) X(ior) X(irid) X(julia) X(lambda) X(leopard)    \
+    X(magnet) X(mandel) X(map_type) X(marble) X(material) X(material_map) X(metallic) X(mortar)    \
+    X(normal) X(normal_map) X(octaves) X(omega) X(once) X(onion) X(pavement) X(phase) X(phong)     \
     X(phong_size) X(pigment) X(pigment_map) X(pigment_pattern) X(planar) X(quick_color)            \
     X(quick_colour) X(tiles) X(tile2) X(poly_wave) X(quilted) X(radial) X(ramp_wave)               \
     X(reflection) X(reflection_exponent) X(repeat) X(ripples) X(roughness) X(scallop_wave)         \

@@ -382,6 +382,7 @@ static void test_reads_rare_forms(void **state)
         {"slope <0, 1, 0>, 0, 1 altitude <0, 1, 0>, 0, 2", "diffuse: 0.3}"},
         {"mandel 10 exterior 1, 2 interior 0, 1", "diffuse: 0.3}"},
         {"density_file df3 \"a.df3\" interpolate 1", "diffuse: 0.3}"},
+        {"image_pattern { png \"a.png\" }", "diffuse: 0.3}"},
         {"checker Colors[0], Colors[1]", "colors: [0.6, 0]"},
         {"Pigments[0]", "diffuse: 0.6}"},
     };
