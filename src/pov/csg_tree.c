@@ -244,13 +244,20 @@ static struct csg_node *build(struct csg_work *work, const struct pov_object *ob
         csg_fail(work, "its parts are in each other more than 100 deep");
     if (depth > 0)
         pov_warn_of_object(work->writer, object);
-    if (work->failed || object->shape == POV_SHAPE_NOTHING)
+    if (work->failed || (object->shape == POV_SHAPE_NOTHING && !object->note.text))
         return NULL;
-    if (object->shape == POV_SHAPE_LIGHT || object->shape == POV_SHAPE_HEIGHT_FIELD) {
+    bool is_field = object->shape == POV_SHAPE_HEIGHT_FIELD;
+    if (object->shape == POV_SHAPE_LIGHT || is_field)
         pov_warn_at(work->writer->reader, object->file, &object->token,
                     "%s in an intersection or difference is left out",
                     pov_text(work->writer->reader, object->token.word));
+    if (object->shape == POV_SHAPE_LIGHT)
         return NULL;
+    if (object->shape == POV_SHAPE_NOTHING || is_field) { /* it has no surface, and cuts nothing */
+        struct csg_node *missing = new_node(work, CSG_LEAF, object);
+        if (missing)
+            missing->inverse = object->inverse;
+        return missing;
     }
     struct csg_node *node = build_object(work, object, place, depth);
     if (!node || object->clip_count == 0)

@@ -451,6 +451,11 @@ static void test_makes_solids(void **state)
     expect("intersection { plane { y, 0 } plane { x, 0 } sphere { 0, 1 } }", "vertices");
     expect_warning("union { intersection { sphere { 0, 1 } quadric { <1, 1, 1>, 0, 0, -1 } } }",
                    "quadric has no counterpart", "quadric");
+    /* What a part that is left out would bound must not become sheets of planes. */
+    expect_warning(
+        "intersection { quadric { <1, 0, 1>, 0, 0, -1 } plane { y, 1 } plane { -y, 1 } }",
+        "quadric has no counterpart", "vertices");
+    expect("difference { plane { y, 1 } quadric { <1, 0, 1>, 0, 0, -1 } }", "vertices");
     expect_warning("light_source { 0, 1 looks_like { sphere { 0, 1 } } }", "looks_like",
                    "sphere: ");
     expect("sphere { 0, 1 clipped_by { plane { y, 0 } } }", "mesh: {file: ");
