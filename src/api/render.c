@@ -171,7 +171,9 @@ static ps_result resolve(psplat_rendering *rendering, psplat_error *error)
     }
     ps_result result = render_options_resolve(&scene->options, &scene->input.description, sink,
                                               &rendering->settings);
-    if (result != PS_OK)
+    if (result == PS_OK)
+        render_options_suit_scene(&scene->options, &scene->scene, &rendering->settings);
+    else
         report_problems(error, result, sink);
     diagnostics_destroy(sink);
     return result;

@@ -303,6 +303,7 @@ static int render_job(struct job *job, struct scene_input *input)
     print_problems(input);
     statistics_add_seconds(&statistics, "scene", clock_seconds() - start);
     if (result == PS_OK) {
+        render_options_suit_scene(&job->taken.options, &scene, job->settings);
         result = long_job_begin(&job->passes, &input->description, &scene, job->settings, &error);
         if (result == PS_OK)
             result = render_and_show(job, &scene, &statistics, &error);

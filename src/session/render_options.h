@@ -47,6 +47,11 @@ ps_result render_options_resolve(const struct render_options *options,
                                  const struct scene_description *description,
                                  struct diagnostics *sink, struct render_settings *settings);
 
+/* Takes back what a preview asks of scenes in general, and this one cannot have: where pixels ask some of many lights
+ * each, they have nothing to join (discontinuity_buffer.h). */
+void render_options_suit_scene(const struct render_options *options, const struct scene *scene,
+                               struct render_settings *settings);
+
 /* PS_ERROR_INVALID where a part is asked for that can't be rendered alone (render_check_crop); PS_ERROR_MEMORY where a
  * picture takes more than the options allow, or this machine lends. */
 ps_result render_options_check_size(const struct image_description *image,

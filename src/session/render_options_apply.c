@@ -75,6 +75,13 @@ ps_result render_options_resolve(const struct render_options *options,
     return PS_OK;
 }
 
+void render_options_suit_scene(const struct render_options *options, const struct scene *scene,
+                               struct render_settings *settings)
+{
+    if (options->preview && scene_chooses_lights(scene))
+        settings->discontinuity_buffer = false;
+}
+
 ps_result render_options_check_size(const struct image_description *image,
                                     const struct render_settings *settings, bool keeps_film,
                                     struct error *error)

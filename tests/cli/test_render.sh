@@ -241,6 +241,10 @@ expect_text out "photon:count=70,roulette=2"
 expect_text out "psplat.passes: 2"
 expect_no_text out "640x360"
 
+# Many lights, of which pixels ask some, have nothing to join.
+run 0 -q --preview --size 48x27 -o many.exr "$PSPLAT_SOURCE/scenes/lanterns.psd"
+expect_empty err
+
 # Pixels that no light reached are told of where there are any, with the same number.
 run 0 --size 48x27 -p injection=photon:count=8 -p estimator=splat --stats dark.json -o dark.exr "$cornell"
 dark=$(sed -n 's/.*"pixels without weight": \([0-9]*\).*/\1/p' dark.json)
