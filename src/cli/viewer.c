@@ -33,8 +33,9 @@ bool viewer_parse(const char *value, struct tev_address *address)
 
 /* --- the thread ----------------------------------------------------------------------------------- */
 
-static ps_result send_picture(const struct viewer *viewer, const struct image *image,
-                              int *connection, struct error *error)
+/* The error has a text where that fails. */
+static void send_picture(const struct viewer *viewer, const struct image *image, int *connection,
+                         struct error *error)
 {
     bool is_new = *connection < 0;
     ps_result result = is_new ? tev_connect(&viewer->address, connection, error) : PS_OK;
@@ -44,7 +45,6 @@ static ps_result send_picture(const struct viewer *viewer, const struct image *i
         close(*connection);
         *connection = -1;
     }
-    return result;
 }
 
 /* Waits for a picture, which becomes the caller's; false at the end. */
@@ -67,8 +67,7 @@ static void *send_pictures(void *user)
     int connection = -1;
     while (take_next(viewer, &image)) {
         struct error error = {.text = ""};
-        if (send_picture(viewer, &image, &connection, &error) == PS_OK)
-            error.text[0] = '\0';
+        send_picture(viewer, &image, &connection, &error);
         image_release(&image);
         pthread_mutex_lock(&viewer->mutex);
         viewer->busy = false;

@@ -48,7 +48,6 @@ static void take_first_round(void *user, uint64_t index, uint32_t worker)
     host->tile_surfaces(host, (uint32_t)index, sizeof tile, &tile);
     if (!begin_tile(work, index, &tile, &gather))
         return;
-    gather.goes_on = true;
     gather_samples(&gather, GATHER_FIRST);
     work->pilots[index] = pilot_of(&gather, &tile);
     if (work->places[index] != NO_PLACE)

@@ -205,12 +205,9 @@ void gather_resume(struct gather *gather, const struct gather_first *first)
     gather->first = *first;
     gather->done = GATHER_FIRST;
     for (size_t number = 0; number < GATHER_FIRST; number++)
-        for (size_t i = 0; i < gather->points.count; i++) {
-            ps_rgb found = first->found[number][i];
-            add(gather, i, found, 1.0f / GATHER_FIRST, number < GATHER_FIRST / 2);
+        for (size_t i = 0; i < gather->points.count; i++)
             guide_learn(&gather->guides[gather->guide_of[i]], first->directions[number][i],
-                        learnt_of(found), 1.0f);
-        }
+                        learnt_of(first->found[number][i]), 1.0f);
     update_guides(gather);
 }
 
@@ -245,7 +242,7 @@ void gather_samples(struct gather *gather, uint64_t samples)
             .samples = last ? left : most,
             .all = samples,
             .is_first = gather->done == 0,
-            .learns = !last || gather->goes_on,
+            .learns = !last,
         };
         take_round(gather, &round);
         if (!last)

@@ -45,7 +45,6 @@ struct gather {
     uint64_t index; /* of the group, among all that draw random numbers: a tile's own */
     ps_points points;
     uint64_t done; /* samples */
-    bool goes_on;  /* others will follow those that are asked for: they learn for them */
     /* Estimates of the irradiance, W/m^2, at each point, when all samples are done; `half` is what the first half of each
      * round has of it. */
     ps_rgb irradiance[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
@@ -68,7 +67,7 @@ void gather_begin(struct gather *gather);
 /* Takes samples until `samples` are done, in rounds. Any thread. */
 void gather_samples(struct gather *gather, uint64_t samples);
 
-/* Goes on after a first round of a gather of the same points. */
+/* Goes on after a first round of a gather of the same points; more samples are to follow. */
 void gather_resume(struct gather *gather, const struct gather_first *first);
 
 #endif
