@@ -45,6 +45,7 @@ class Server:
                                         stdout=subprocess.PIPE, text=True)
         self.address = self.process.stdout.readline().strip()
         if not re.fullmatch(r"http://127\.0\.0\.1:\d+/[0-9a-f]{32}/", self.address):
+            self.close()
             raise AssertionError("psplat explore printed %r" % self.address)
 
     def write(self, text):
@@ -60,17 +61,27 @@ class Server:
     def state(self):
         return self.get("state")
 
+    def put(self, path, body):
+        request = urllib.request.Request(self.address + path, json.dumps(body).encode(),
+                                         {"Content-Type": "application/json"}, method="PUT")
+        urllib.request.urlopen(request, timeout=PATIENCE).close()
+
     def memory(self):
         """Resident, in bytes."""
         with open("/proc/%d/status" % self.process.pid) as status:
             return 1024 * int(re.search(r"VmRSS:\s*(\d+)", status.read()).group(1))
 
     def close(self):
+        """The exit status after SIGINT; of one that goes on regardless, that of SIGKILL."""
         self.process.send_signal(signal.SIGINT)
-        status = self.process.wait(PATIENCE)
-        self.process.stdout.close()
-        self.folder.cleanup()
-        return status
+        try:
+            return self.process.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            return self.process.wait()
+        finally:
+            self.process.stdout.close()
+            self.folder.cleanup()
 
 
 def is_bad(message):
@@ -84,21 +95,18 @@ class Explore(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.close)
         cls.browser.resize(1280, 720)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
 
     def setUp(self):
         self.server = Server(SCENE, OPTIONS)
+        self.addCleanup(lambda: self.assertEqual(self.server.close(), 0, "status after SIGINT"))
+        self.addCleanup(lambda: self.browser.open("about:blank"))
         self.browser.open(self.server.address)
         self.wait("the first picture", lambda: self.canvas_sum("a") > 0)
 
     def tearDown(self):
         bad = [message["message"] for message in self.browser.messages() if is_bad(message)]
-        self.browser.open("about:blank")
-        self.assertEqual(self.server.close(), 0, "status after SIGINT")
         self.assertEqual(bad, [], "errors of the page")
 
     # --- what tests ask and do ---
@@ -156,6 +164,53 @@ class Explore(unittest.TestCase):
         self.browser.run("document.activeElement.blur()")
         self.browser.press(keys)
 
+    def set_at_once(self, **values):
+        """Fields by the names of their controls, faster than the page sends what changes."""
+        self.browser.run("""
+            for (const [name, value] of Object.entries(arguments[0])) {
+                const field = document.querySelector(`.control[data-name="${name}"] input:not([type=range])`);
+                field.value = value;
+                field.dispatchEvent(new Event("change"));
+            }""", values)
+
+    def hold(self, pattern, method="GET"):
+        """Requests of that kind get no further, until they are let go."""
+        self.browser.run("""
+            const [pattern, method] = arguments, send = window.fetch;
+            window.held = 0;
+            const free = new Promise((resolve) => { window.letGo = () => { window.fetch = send; resolve(); }; });
+            window.fetch = (path, init) => {
+                if (!path.match(pattern) || (init?.method ?? "GET") !== method)
+                    return send(path, init);
+                window.held++;
+                return free.then(() => send(path, init));
+            };""", pattern, method)
+
+    def wait_for_held(self):
+        self.wait("a request", lambda: self.browser.run("return window.held") > 0)
+
+    def let_go(self):
+        self.browser.run("window.letGo()")
+
+    def compare(self):
+        self.press("c")
+        self.wait("view B", lambda: self.is_seen(".pane.b canvas") and self.canvas_sum("b") > 0)
+        self.wait("B's settings", lambda: self.browser.run("return document.querySelector('[value=b]').checked"))
+
+    def rest(self):
+        """Waits until all is rendered, and the page knows."""
+        def is_done():
+            views = [view for view in self.server.state()["views"].values() if view]
+            return all(not view["stage"] and view["passes"] == view["passes_wanted"] for view in views) and all(
+                "pass %d of" % view["passes"] in self.text("figcaption[data-view=%s] .progress" % name)
+                for name, view in zip("ab", views))
+        self.wait("all passes", is_done)
+
+    def put_options(self, view, *more, passes=2):
+        """More of them than the views have at first, past the page."""
+        first = [[OPTIONS[i][2:], OPTIONS[i + 1]] for i in range(0, len(OPTIONS), 2)]
+        self.server.put("view/" + view, {"options": first + [list(option) for option in more], "passes": passes})
+
     # --- tests ---
 
     def test_refines(self):
@@ -186,8 +241,34 @@ class Explore(unittest.TestCase):
         self.enter("count", "600")
         self.wait("no refusal", lambda: not self.is_seen(self.control("count") + " .error"))
         self.wait("the command", lambda: "count=600" in self.command())
+        self.enter("passes", "many")
+        self.wait("a refusal", lambda: "1..65536" in self.text(self.control("passes") + " .error"))
+        self.assertEqual(self.browser.run("return document.querySelector(arguments[0]).value",
+                                          self.control("passes") + " .number"), "many")
         self.browser.click("#reset-all")
         self.wait("the scene as its file has it", lambda: "lamp" not in self.command())
+
+    def test_refusals_leave_other_changes(self):
+        """Of changes that are sent together the page takes back those alone that are refused."""
+        self.set_at_once(lamp="3", count="-5", seed="7")
+        self.wait("a refusal", lambda: self.is_seen(self.control("count") + " .error"))
+        self.wait("the others", lambda: "lamp=3" in self.command() and "--seed 7" in self.command())
+        self.assertNotIn("count=-5", self.command())
+        self.assertFalse(self.is_seen(self.control("lamp") + " .error"))
+        self.assertFalse(self.is_seen(self.control("seed") + " .error"))
+
+    def test_changes_keep_their_order(self):
+        """A change whose request is slow comes before a later one all the same."""
+        self.hold("view/a", "PUT")
+        self.set_at_once(seed="5")
+        self.wait_for_held()
+        self.set_at_once(seed="6")
+        time.sleep(0.4)  # it would be sent by now
+        self.assertEqual(self.browser.run("return window.held"), 1)
+        self.let_go()
+        self.wait("both", lambda: "--seed 6" in self.command())
+        time.sleep(0.4)
+        self.assertIn(["seed", "6"], self.server.state()["views"]["a"]["options"])
 
     def test_repeats_by_its_command(self):
         """The command line below the picture makes the same picture."""
@@ -228,19 +309,29 @@ class Explore(unittest.TestCase):
         self.wait("a pan by the mouse", lambda: self.canvas_sum("a") != before)
         self.press("f")
         self.wait("the whole", lambda: self.text("#zoom") == fitted)
-        self.choose("#layer", "picture")
-        self.wait("the layer", lambda: self.text("#value-a").startswith("picture"))
-        before = self.canvas_sum("a")
-        self.press("]]")
-        self.wait("exposure", lambda: self.canvas_sum("a") != before and self.text("#exposure-value") == "+1")
+        self.rest()
+        for layer in ("display", "picture"):
+            self.choose("#layer", layer)
+            self.wait("the layer", lambda layer=layer: self.text("#value-a").startswith(layer))
+            time.sleep(0.5)  # its picture comes after its name
+            before = self.canvas_sum("a")
+            self.press("]]")
+            self.wait("exposure", lambda before=before: self.canvas_sum("a") not in (0, before) and
+                      self.text("#exposure-value") == "+1")
+            self.press("0")
+            self.wait("as it was", lambda before=before: self.canvas_sum("a") == before)
+        # A slider that was moved keeps the focus, and leaves the page its keys.
+        self.browser.click("#exposure")
+        self.assertEqual(self.browser.run("return document.activeElement.id"), "exposure")
+        self.browser.press("1")
+        self.wait("1:1", lambda: self.text("#zoom") == "100 %")
+        self.browser.point(*box)
         for layer in ("direct", "indirect", "albedo", "N", "P", "Z"):
             self.choose("#layer", layer)
             self.wait(layer, lambda layer=layer: self.text("#value-a").startswith(layer + " "))
 
     def test_compares(self):
-        self.press("c")
-        self.wait("view B", lambda: self.is_seen(".pane.b canvas") and self.canvas_sum("b") > 0)
-        self.wait("B's settings", lambda: self.browser.run("return document.querySelector('[value=b]').checked"))
+        self.compare()
         self.choose(self.control("estimator") + " select", "ambient")
         self.wait("two methods", lambda: self.text(".name.b") == "B · ambient")
         self.assertNotIn("ambient", self.text(".name.a"))
@@ -259,6 +350,75 @@ class Explore(unittest.TestCase):
         self.wait("the divider", lambda: self.browser.run("return document.querySelector('#split').value > 0.55"))
         self.press("c")
         self.wait("A alone", lambda: not self.is_seen(".pane.b canvas") and not self.is_seen(".name.b"))
+
+    def test_second_view_comes_back(self):
+        """Compare, pressed again, makes B anew; a change of B that is under way when it is closed does not."""
+        self.compare()
+        self.choose(self.control("estimator") + " select", "ambient")
+        self.wait("B's method", lambda: self.text(".name.b") == "B · ambient")
+        for is_sent in (False, True):
+            if is_sent:
+                self.hold("view/b", "PUT")
+            self.set_at_once(seed="5")
+            if is_sent:
+                self.wait_for_held()
+            self.press("c")
+            if is_sent:
+                self.let_go()
+            self.wait("A alone", lambda: not self.is_seen(".pane.b canvas") and not self.server.state()["views"]["b"])
+            time.sleep(0.5)
+            self.assertIsNone(self.server.state()["views"]["b"], "B stays closed")
+            self.compare()
+            self.assertEqual(self.text(".name.b")[1:], self.text(".name.a")[1:], "a copy of A")
+
+    def test_refused_second_view(self):
+        self.enter("lamp", "3")
+        self.wait("the command", lambda: "lamp=3" in self.command())
+        self.server.write(SCENE.replace("lamp", "bulb"))
+        self.wait("the error", lambda: self.is_seen("#problem"))
+        # It is the option that is wrong, not the scene.
+        self.assertIn("does not take the options", self.text("#problem-title"))
+        self.assertIn("unknown parameter 'lamp'", self.text("#problem-text"))
+        self.press("c")
+        self.wait("a refusal", lambda: "View B can't be made" in self.text("#problem-title"))
+        self.assertIn("unknown parameter 'lamp'", self.text("#problem-text"))
+        self.browser.click("#reset-all")
+        self.wait("none", lambda: not self.is_seen("#problem"))
+        self.compare()
+
+    def test_layer_of_one_view(self):
+        """The layer `error` is made by one denoiser alone, and by no preview."""
+        self.put_options("a", ("plugin", "denoiser=regression"))
+        self.wait("the layer", lambda: self.browser.run(
+            "return Array.from(document.querySelectorAll('#layer option'), (o) => o.value).includes('error')"))
+        self.choose("#layer", "error")
+        self.compare()
+        self.assertNotIn("no layer", self.text("figcaption[data-view=b]"))
+        self.put_options("b")
+        self.wait("word of it", lambda: "has no layer error" in self.text("figcaption[data-view=b]"))
+        self.wait("no picture of before", lambda: self.canvas_sum("b") == 0)
+        self.assertNotEqual(self.canvas_sum("a"), 0)
+        self.choose("#mode", "difference")
+        self.wait("word of it", lambda: self.text("#legend-text") == "View B has no layer error.")
+        self.choose("#mode", "side")
+        self.put_options("a", ("plugin", "denoiser=regression"), ("seed", "8"))
+        self.rest()
+        self.assertEqual(self.browser.run("return document.querySelector('#layer').value"), "error")
+
+    def test_maps_and_metrics_are_of_what_is_shown(self):
+        self.compare()
+        self.put_options("b", ("seed", "9"))
+        self.press("e")
+        self.choose("#mode", "flip")
+        self.rest()
+        self.wait("a map", lambda: "rel_rmse" in self.text("#metrics") and self.canvas_sum("a") > 0)
+        self.hold("^compare")
+        self.choose("#layer", "indirect")
+        self.wait("no map of before", lambda: self.canvas_sum("a") == 0)
+        self.assertEqual(self.text("#metrics"), "")
+        self.assertEqual(self.text("#metrics-empty"), "Measuring.")
+        self.let_go()
+        self.wait("the new", lambda: "rel_rmse" in self.text("#metrics") and self.canvas_sum("a") > 0)
 
     def test_reference(self):
         self.press("e")
@@ -291,6 +451,34 @@ class Explore(unittest.TestCase):
         self.wait("the parameter's value", lambda: self.browser.run(
             "return document.querySelector(arguments[0]).value", self.control("lamp") + " input") == "4")
 
+    def test_probe(self):
+        """One place in pictures of two sizes; what there is during a preview."""
+        self.compare()
+        self.put_options("b", ("size", "32x18"))
+        self.rest()
+        self.browser.drag(self.middle("a"), self.middle("a"))
+        self.wait("both", lambda: re.search("B 1[56], [89]", self.text("#probe-values")))
+        self.assertRegex(self.text("#probe-title"), "Pixel 3[12], 1[78]")
+        self.assertEqual(self.text("#probe-values").count("indirect"), 2)
+        self.wait("no more", lambda: self.text("#probe-note") == "")
+        self.press("c")
+        self.put_options("a", ("plugin", "estimator=pathtrace:samples=1000"), ("size", "1280x360"))
+        self.wait("a preview", lambda: self.text(".pane.a .progress").startswith("preview"))
+        self.browser.click("#probe-close")
+        self.assertFalse(self.is_seen("#probe"))
+        self.browser.drag(self.middle("a"), self.middle("a"))
+        self.wait("word of it", lambda: self.is_seen("#probe-note"))
+        self.assertEqual(self.text("#probe-note"), "The first pass brings its values.")
+        self.assertEqual(self.text("#probe-values"), "")
+
+    def test_colours(self):
+        """An exposure of what is encoded already: 0.5 is 0.214 in linear light, and 0.428 is 0.686."""
+        found = self.browser.run("""
+            return import("./colour.js").then(({paintLayer}) => [0, 1, -1].map((exposure) => Array.from(paintLayer(
+                {width: 1, height: 1, channels: 3, samples: new Float32Array([0.5, 0, 1])}, "display", exposure).data)));
+            """)
+        self.assertEqual(found, [[128, 0, 255, 255], [175, 0, 255, 255], [92, 0, 188, 255]])
+
     def test_options(self):
         """The page's reading and writing of options, without the program."""
         self.assertEqual(self.browser.run("""
@@ -316,11 +504,13 @@ class Explore(unittest.TestCase):
                 return [slider.position(8), slider.value(0), slider.value(1), slider.value(slider.position(500)),
                     sliderOf({type: "number", minimum: 0, maximum: 1, default: "0.5"}).value(0.25),
                     sliderOf({type: "number", minimum: 0, default: "1"}), logTicks(0.02, 0.3),
-                    [0, 1234.5, 1.23456, 1e-9, NaN].map((value) => short(value))];
+                    [0, 1234.5, 1.23456, 1e-9, NaN].map((value) => short(value)),
+                    [[7.3, 9.6], [1.05, 1.4], [0.31, 0.45], [1e-5, 1e3]].map(([low, high]) => logTicks(low, high).filter(
+                        (tick) => tick >= low && tick <= high).length >= 2)];
             });""")
         self.assertAlmostEqual(found[0], 1 / 3)
         self.assertEqual(found[1:], [1, 65536, 500, 0.25, None, [0.02, 0.05, 0.1, 0.2],
-                                     ["0", "1235", "1.23", "1.00e-9", "nan"]])
+                                     ["0", "1235", "1.23", "1.00e-9", "nan"], [True] * 4])
 
     def test_two_tabs(self):
         first = self.browser.tab()

@@ -11,6 +11,12 @@ const srgb_table = Uint8ClampedArray.from({length: table_size + 1}, (_, i) => {
     return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055);
 });
 
+// And back, over what is encoded, 0..1.
+const linear_table = Float32Array.from({length: table_size + 1}, (_, i) => {
+    const encoded = i / table_size;
+    return encoded <= 0.04045 ? encoded / 12.92 : ((encoded + 0.055) / 1.055) ** 2.4;
+});
+
 // Nine colours of "magma" (N. Smith, S. van der Walt, for matplotlib, 2015), evenly spaced, as in `psplat compare`.
 const magma = [[0, 0, 4], [28, 16, 68], [79, 18, 123], [129, 37, 129], [181, 54, 122], [229, 80, 100],
     [251, 135, 97], [254, 194, 135], [252, 253, 191]];
@@ -36,14 +42,18 @@ export const difference_table = ramp_table(difference_colours);
 
 const not_a_number = [255, 0, 255]; // magenta: nothing that is rendered has it
 
-// What a layer shows: "shown" is encoded already, "light" takes the exposure, "direction" is -1..1, and "range" is
-// spread from its least to its largest value.
+// What a layer shows: "light" is linear, "shown" is encoded already (an exposure decodes it and encodes it anew),
+// "direction" is -1..1, and "range" is spread from its least to its largest value.
 export function kindOfLayer(name) {
     if (name === "display")
         return "shown";
     if (name === "N")
         return "direction";
     return ["P", "Z", "weight", "error"].includes(name) ? "range" : "light";
+}
+
+export function takesExposure(name) {
+    return ["shown", "light"].includes(kindOfLayer(name));
 }
 
 function rangeOf(samples, channels, channel) {
@@ -74,8 +84,16 @@ function encodeLinearly(samples, bytes, channels, channel, [low, high]) {
         bytes[i] = factor * (samples[i] - low);
 }
 
+function decode(samples) {
+    return samples.map((encoded) => linear_table[(Math.min(Math.max(encoded, 0), 1) * table_size + 0.5) | 0]);
+}
+
 function encode(layer, {samples, channels}, exposure) {
     const kind = kindOfLayer(layer), bytes = new Uint8ClampedArray(samples.length);
+    if (kind === "shown" && exposure !== 0) {
+        encodeLight(decode(samples), bytes, exposure);
+        return bytes;
+    }
     if (kind === "light") {
         encodeLight(samples, bytes, exposure);
         return bytes;

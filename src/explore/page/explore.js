@@ -1,7 +1,7 @@
 // explore.js: the page of `psplat explore`. The program holds the state of the views, which all pages share; each page
 // has a look of its own, kept in its address, so that a reload shows the same.
 
-import {kindOfLayer} from "./colour.js";
+import {takesExposure} from "./colour.js";
 import {Comparison} from "./comparison.js";
 import {fillSelect} from "./elements.js";
 import {short} from "./numbers.js";
@@ -14,6 +14,7 @@ const look = {layer: "display", exposure: 0, mode: "side", split: 0.5, edited: "
 const by_id = (id) => document.getElementById(id);
 let state = null, catalogue_text = "", is_lost = false;
 let turns_to_b = false; // to its settings, once the state has the view that was asked for
+let refusal = null; // of what has no control of its own: {heading, message, causes}
 
 // --- the look of this page -----------------------------------------------------------------------------------
 
@@ -55,7 +56,8 @@ const panes = new Panes(look, (what) => {
     showValues();
     showZoom();
 });
-const probe = new Probe({root: by_id("probe"), title: by_id("probe-title"), table: by_id("probe-values")});
+const probe = new Probe({root: by_id("probe"), title: by_id("probe-title"), table: by_id("probe-values"),
+    note: by_id("probe-note")});
 const settings = new Settings(by_id("controls"), sendTo("a"));
 const comparison = new Comparison(Object.fromEntries(["metrics", "metrics_caption", "metrics_empty", "plot",
     "plot_empty", "plot_legend", "reference_form", "reference_kind", "reference_file", "reference_samples",
@@ -104,13 +106,33 @@ function problemOf() {
     if (is_lost)
         return ["The program does not answer.", "It has ended: start it again, and open the address that it prints. " +
             "The command line below has the settings."];
-    if (state.scene_error)
-        return withPlace("The scene has an error; the picture is from before.", state.scene_error);
+    if (refusal)
+        return [refusal.heading, refusal.message];
+    if (state.scene_error) {
+        // An error of an option has no file: the scene is another, and has no such parameter or camera any more.
+        return withPlace(state.scene_error.file ? "The scene has an error; the picture is from before." :
+            "The scene does not take the options; the picture is from before.", state.scene_error);
+    }
     for (const view of ["a", "b"]) {
         if (state.views[view]?.error)
             return withPlace(`View ${view.toUpperCase()} can't be rendered.`, state.views[view].error);
     }
     return null;
+}
+
+// What a refusal depends on: it is told until that is other.
+function causes() {
+    return JSON.stringify([state.catalogue, state.views.a.options]);
+}
+
+function refuse(heading, message) {
+    refusal = {heading, message, causes: causes()};
+    showProblem();
+}
+
+function forgive() {
+    if (refusal?.causes !== causes())
+        refusal = null;
 }
 
 function withPlace(heading, {message, file, line, column}) {
@@ -128,15 +150,16 @@ function showProblem() {
 }
 
 function showLayers() {
-    const layers = state.views.a?.layers || [];
+    const {layers, preview} = state.views.a;
     const select = by_id("layer"), names = layers.map(({name}) => name);
-    if (names.length > 0 && names.join() !== Array.from(select.options, (option) => option.value).join()) {
+    const listed = Array.from(select.options, (option) => option.value);
+    // A preview may have fewer layers than what follows it.
+    if (names.length > 0 && names.join() !== listed.join() && !(preview && listed.length > 0))
         fillSelect(select, names.map((name) => [name, name]));
-        if (!names.includes(look.layer))
-            look.layer = names.includes("display") ? "display" : names[0];
-    }
+    if (names.length > 0 && !names.includes(look.layer) && !preview)
+        look.layer = names.includes("display") ? "display" : names[0];
     select.value = look.layer;
-    const is_light = kindOfLayer(look.layer) === "light" || panes.mode() === "difference";
+    const is_light = takesExposure(look.layer) || panes.mode() === "difference";
     by_id("exposure").disabled = !is_light;
     by_id("exposure-label").title = is_light ? "in stops: a factor of 2 each" :
         "light alone has an exposure: choose another layer, such as picture";
@@ -183,6 +206,7 @@ function edit(view) {
 function showState(next) {
     state = next;
     panes.state = state;
+    forgive();
     showLayers();
     panes.show(state);
     showCompared();
@@ -214,13 +238,20 @@ async function toggleCompare() {
     const {a, b} = state.views;
     if (b && look.edited === "b")
         settings.drop();
+    refusal = null;
+    showProblem();
     try {
         turns_to_b = !b;
+        await settings.sent; // a change on its way would make B anew
         await (b ? server.remove("view/b") : server.put("view/b", {options: a.options, passes: a.passes_wanted}));
     } catch (problem) {
-        console.warn(problem.message); // the program is gone, which is told already
+        turns_to_b = false;
+        refuse(b ? "View B stays." : "View B can't be made.", problem.message);
     }
 }
+
+// In the place of a control, where there is none to stand beside.
+const reset_all = {fail: (message) => message && refuse("The settings stay as they are.", message)};
 
 function nextOf(list, now, step) {
     return list[(list.indexOf(now) + step + list.length) % list.length];
@@ -232,8 +263,7 @@ function nextLayer(step) {
 }
 
 function probePointer() {
-    const found = panes.values();
-    probe.turnTo(found && {x: found.x, y: found.y});
+    probe.turnTo(panes.pointer);
     probe.show(state);
 }
 
@@ -264,12 +294,13 @@ const keys = {
     "?": () => by_id("keys").showModal(),
 };
 
+// Sliders, check boxes and buttons keep the focus after they were used: of the keys they take the arrows alone.
 function pressed(event) {
-    const is_typing = event.target.closest("input, select, textarea, dialog, summary");
+    const is_typing = event.target.closest("input:not([type=range], [type=checkbox], [type=radio]), select, dialog");
     if (is_typing || event.ctrlKey || event.altKey || event.metaKey || !state || !Object.hasOwn(keys, event.key))
         return;
     const scrolls = event.key.startsWith("Arrow");
-    if (scrolls && event.target.closest("form, footer, #comparison"))
+    if (scrolls && event.target.closest("form, input, footer, #comparison"))
         return;
     event.preventDefault();
     keys[event.key]();
@@ -302,7 +333,7 @@ function listen() {
     by_id("measure").addEventListener("click", keys.e);
     by_id("help").addEventListener("click", keys["?"]);
     by_id("probe-close").addEventListener("click", () => probe.turnTo(null));
-    by_id("reset-all").addEventListener("click", () => settings.resetAll());
+    by_id("reset-all").addEventListener("click", () => settings.resetAll(reset_all));
     by_id("copy").addEventListener("click", copyCommand);
     by_id("settings").addEventListener("submit", (event) => event.preventDefault());
     by_id("edited").addEventListener("change", (event) => edit(event.target.value));
@@ -331,6 +362,7 @@ async function start() {
         if (state)
             showProblem();
         if (!lost) {
+            refusal = null;
             panes.forget();
             readCatalogue();
         }

@@ -45,8 +45,16 @@ export function sliderOf(row) {
     };
 }
 
+// Two ticks at the least, a whole number of equal steps from 0.
+function evenTicks(low, high) {
+    const step = 10 ** Math.floor(Math.log10((high - low) / 2)), ticks = [];
+    for (let i = Math.ceil(low / step); i * step <= high; i++)
+        ticks.push(Number((i * step).toPrecision(12)));
+    return ticks;
+}
+
 // Ticks of a logarithmic axis from `low` to `high`, both above 0: powers of ten, with 2 and 5 between where these are
-// few.
+// few; even ones in a range that is so short that it has none or one of them.
 export function logTicks(low, high) {
     const ticks = [], decades = Math.log10(high / low);
     const steps = decades > 3 ? [1] : decades > 1 ? [1, 2, 5] : [1, 1.5, 2, 3, 5, 7];
@@ -57,5 +65,5 @@ export function logTicks(low, high) {
                 ticks.push(tick);
         }
     }
-    return ticks;
+    return ticks.length < 2 ? evenTicks(low, high) : ticks;
 }

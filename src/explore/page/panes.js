@@ -1,7 +1,7 @@
 // panes.js: the pictures of the views as the page shows them: one, two side by side, two under a slider, their
 // difference, or a map of what an eye would notice (FLIP).
 
-import {magma_table, difference_table, kindOfLayer, paintDifference, paintLayer, paintMap} from "./colour.js";
+import {magma_table, difference_table, paintDifference, paintLayer, paintMap, takesExposure} from "./colour.js";
 import {Feed} from "./feed.js";
 import {seconds, short} from "./numbers.js";
 import * as server from "./server.js";
@@ -36,7 +36,7 @@ class Shown {
 
     // Painted anew only where samples or exposure are others.
     paint(exposure) {
-        const shown = kindOfLayer(this.layer) === "light" ? exposure : 0;
+        const shown = takesExposure(this.layer) ? exposure : 0;
         if (this.painted !== shown) {
             this.image = canvasOf(paintLayer(this.picture, this.layer, shown), this.image);
             this.painted = shown;
@@ -174,7 +174,7 @@ export class Panes {
         this.state = state;
         for (const view of ["a", "b"]) {
             const of_state = state.views[view];
-            if (!of_state)
+            if (!of_state || this.lacksLayer(view))
                 this.shown[view].drop();
             else if (of_state.picture > 0)
                 this.shown[view].feed.want({view, layer: this.look.layer, picture: of_state.picture});
@@ -185,6 +185,12 @@ export class Panes {
         if (ready)
             this.map_feed.want({layer: this.look.layer, of, against, numbers});
         this.draw();
+    }
+
+    // A denoiser may make a layer that the other view's does not make, or that of the preview.
+    lacksLayer(view) {
+        const {picture, layers} = this.state.views[view];
+        return picture > 0 && !layers.some(({name}) => name === this.look.layer);
     }
 
     // Where one pane shows both views, it has both captions.
@@ -203,7 +209,8 @@ export class Panes {
             return;
         caption.querySelector(".name").textContent =
             `${this.state.views.b ? `${view.toUpperCase()} · ` : ""}${of_state.strategies.estimator}`;
-        caption.querySelector(".progress").textContent = stageText(of_state);
+        caption.querySelector(".progress").textContent = stageText(of_state) +
+            (this.lacksLayer(view) ? ` · has no layer ${this.look.layer}` : "");
         caption.querySelector("progress").value = of_state.fraction;
         this.viewports[view].canvas.setAttribute("aria-label",
             `view ${view.toUpperCase()}: ${of_state.strategies.estimator}, ${stageText(of_state)}`);
@@ -224,14 +231,13 @@ export class Panes {
         if (!this.state)
             return;
         const {a, b} = this.shown, mode = this.mode(), exposure = this.look.exposure;
-        let images = [];
+        const painted = (shown) => shown.picture && shown.paint(exposure);
+        let images = mode === "slider" ? [painted(a), painted(b)] : [painted(a)];
         if (mode === "difference" || this.showsMap())
-            images = [this.showsMap() ? this.presentMap() : this.difference()].filter(Boolean);
-        else if (a.picture)
-            images = mode === "slider" && b.picture ? [a.paint(exposure), b.paint(exposure)] : [a.paint(exposure)];
+            images = [this.showsMap() ? this.presentMap() : this.difference()];
         this.viewports.a.show(images, this.frame(), this.look.split);
         if (mode === "side")
-            this.viewports.b.show(b.picture ? [b.paint(exposure)] : [], this.frame("b"), 0.5);
+            this.viewports.b.show([painted(b)], this.frame("b"), 0.5);
     }
 
     // The map of what is compared now; null where it is one of something else.
@@ -271,6 +277,10 @@ export class Panes {
             return null;
         if (this.frame("a").width !== this.frame("b").width || this.frame("a").height !== this.frame("b").height)
             return {text: "The pictures have different sizes."};
+        for (const view of ["a", "b"]) {
+            if (this.lacksLayer(view))
+                return {text: `View ${view.toUpperCase()} has no layer ${this.look.layer}.`};
+        }
         const end = short(this.largestDifference());
         return {table: difference_table, low: `−${end}`, high: `+${end}`,
             text: `luminance of B minus A in ${this.look.layer}; the exposure changes the scale`};

@@ -1,5 +1,8 @@
 // settings.js: the settings of one view: all strategies with their parameters, options of the render, cameras and
 // parameters of the scene. The server's state says what they are; what the user changes goes to it at once.
+//
+// What the user does is kept as changes of whatever the program has, not as a list of options: so one that is refused
+// takes no other with it, and one of another page in between stays.
 
 import {Control} from "./control.js";
 import {make} from "./elements.js";
@@ -101,22 +104,66 @@ function group(title, is_open, parts) {
         ...parts.map((part) => part.root));
 }
 
+// What one view is asked for: changes of its settings that the program has neither taken nor refused yet.
+class Asked {
+    // send(list, passes) is a promise that fails with a Refused.
+    constructor(send, view) {
+        this.send = send;
+        this.view = view;
+        this.changes = []; // [{edit, control}], oldest first; edit({list, passes}) is the settings with the change
+    }
+
+    settings(changes = this.changes) {
+        return changes.reduce((settings, {edit}) => edit(settings),
+            {list: this.view.options, passes: this.view.passes_wanted});
+    }
+
+    // Of one control, the newest counts.
+    add(change) {
+        this.changes = [...this.changes.filter(({control}) => control !== change.control), change];
+    }
+
+    async sendThese(changes) {
+        const {list, passes} = this.settings(changes);
+        await this.send(list, passes);
+        this.view = {...this.view, options: list, passes_wanted: passes};
+        this.changes = this.changes.filter((change) => !changes.includes(change));
+    }
+
+    // All together, as they may need each other; where that is refused, each alone, so that only what is wrong is left
+    // out. refused(control, message) is told what that is.
+    async sendAll(refused) {
+        const changes = this.changes;
+        if (changes.length > 1 && await this.sendThese(changes).then(() => true, () => false))
+            return;
+        for (const change of changes) {
+            try {
+                if (this.changes.includes(change)) // its control has had no newer one meanwhile
+                    await this.sendThese([change]);
+            } catch (problem) {
+                if (this.changes.includes(change))
+                    refused(change.control, problem.message);
+                this.changes = this.changes.filter((kept) => kept !== change);
+            }
+        }
+    }
+}
+
 export class Settings {
     // send(list, passes) is a promise that fails with a Refused.
     constructor(root, send) {
         this.root = root;
-        this.send = send;
-        this.view = null;
-        this.wanted = null; // what was asked for, until the state has it: {list, passes, control}
+        this.asked = new Asked(send, null);
         this.timer = null;
         this.sent = Promise.resolve(); // all that was sent, one after the other
         this.parts = [];
-        this.failed = null;
+        this.failed = []; // controls beside which a refusal stands
     }
 
     // From the catalogue, once, and whenever a saved scene brings other parameters.
     build(catalogue) {
-        const change = (edited, control) => this.change(edited, control);
+        const change = (edited, control) => this.ask(
+            ({list, passes}) => ({list: edited(list), passes}), control);
         const strategies = inOrder(catalogue.kinds).map((kind) => new Strategy(kind, change));
         const of = (display) => strategies.filter(({kind}) => Boolean(kind.display) === display);
         const render = [...catalogue.options.map((row) => optionControl(row, change)), this.passesControl()];
@@ -132,53 +179,48 @@ export class Settings {
             group("Render", true, [...render, {root: experts(sets)}]),
             group("Parts of the method", true, of(false).filter(({kind}) => kind.kind !== "estimator")),
             group("Display", false, of(true)));
-        if (this.view)
-            this.show(this.view);
+        if (this.asked.view)
+            this.show(this.asked.view);
     }
 
     passesControl() {
         const control = new Control({name: "passes", type: "integer", minimum: 1, maximum: 65536, default: "64",
-            domain: "integer 1..65536", help: "the picture refines until so many are done"},
-            (text) => this.ask({list: this.list(), passes: Number(text ?? 64), control}));
-        return {root: control.root, show: (list, view) => {
-            const wanted = String(this.wanted?.passes ?? view.passes_wanted);
+            domain: "integer 1..65536", help: "the picture refines until so many are done"}, (text) => {
+            const number = Number(text ?? 64), passes = Number.isFinite(number) ? number : text; // a word is refused
+            this.ask(({list}) => ({list, passes}), control);
+        });
+        return {root: control.root, show: () => {
+            const wanted = String(this.asked.settings().passes);
             control.show(wanted, wanted !== "64");
         }};
     }
 
-    list() {
-        return this.wanted ? this.wanted.list : this.view.options;
-    }
-
-    // A new state of the view. What was asked for and not yet sent stays on top of it.
+    // A new state of the view. What was asked for and not yet taken stays on top of it.
     show(view) {
-        this.view = view;
+        this.asked.view = view;
+        const {list} = this.asked.settings();
         for (const part of this.parts)
-            part.show(this.list(), view);
+            part.show(list, view);
     }
 
     // Another view's settings: what was asked for of the old one is sent, errors are gone.
     turnTo(send, view) {
         if (this.timer !== null)
             this.sendNow();
-        this.wanted = null;
-        this.send = send;
-        this.fail(null, null);
+        this.asked = new Asked(send, view);
+        this.forgive();
         this.show(view);
     }
 
-    // edited(list) is the list of options with the change that the control stands for.
-    change(edited, control) {
-        this.ask({list: edited(this.list()), passes: this.wanted?.passes ?? this.view.passes_wanted, control});
+    resetAll(control) {
+        this.drop();
+        this.ask(({passes}) => ({list: [], passes}), control);
     }
 
-    resetAll() {
-        this.ask({list: [], passes: this.view.passes_wanted, control: null});
-    }
-
-    ask(wanted) {
-        this.wanted = wanted;
-        this.show(this.view);
+    ask(edit, control) {
+        this.forgive();
+        this.asked.add({edit, control});
+        this.show(this.asked.view);
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.sendNow(), delay);
     }
@@ -187,40 +229,27 @@ export class Settings {
     drop() {
         clearTimeout(this.timer);
         this.timer = null;
-        this.wanted = null;
+        this.asked.changes = [];
     }
 
+    // Requests that overtake each other would leave an older list; so each waits for the one before, and takes along what
+    // was asked for meanwhile.
     sendNow() {
-        const wanted = this.wanted, send = this.send;
+        const asked = this.asked;
         clearTimeout(this.timer);
         this.timer = null;
-        this.sent = this.sent.then(() => this.sendOne(send, wanted));
+        this.sent = this.sent.then(() => asked.sendAll((control, message) => {
+            if (asked !== this.asked)
+                return; // the controls show another view
+            this.failed.push(control);
+            control.fail(message);
+        }));
     }
 
-    // Requests that overtake each other would leave an older list; so each waits for the one before, and what a newer list
-    // of the same view holds as well is left out.
-    async sendOne(send, wanted) {
-        if (this.send === send && this.wanted && this.wanted !== wanted && this.timer === null)
-            return;
-        try {
-            await send(wanted.list, wanted.passes);
-            if (this.wanted !== wanted)
-                return; // changed meanwhile
-            this.view = {...this.view, options: wanted.list, passes_wanted: wanted.passes};
-            this.wanted = null;
-            this.fail(null, null);
-        } catch (refusal) {
-            if (this.wanted === wanted)
-                this.fail(wanted.control, refusal.message);
-        }
-    }
-
-    // What is refused is not asked for again: the next change starts from what the program has.
-    fail(control, message) {
-        this.failed?.fail(null);
-        this.failed = control;
-        control?.fail(message);
-        if (control)
-            this.wanted = null;
+    // Refusals are told until the next change.
+    forgive() {
+        for (const control of this.failed)
+            control.fail(null);
+        this.failed = [];
     }
 }

@@ -48,7 +48,7 @@ export class Viewport extends EventTarget {
         super();
         this.canvas = canvas;
         this.place = place;
-        this.images = []; // one, or two under a slider
+        this.images = []; // one, or two under a slider; null where there is none
         this.split = 0.5;
         this.frame = {width: 1, height: 1};
         this.due = false;
@@ -95,6 +95,8 @@ export class Viewport extends EventTarget {
         const left = Math.round(width / 2 - this.place.u * w), top = Math.round(height / 2 - this.place.v * h);
         const divider = Math.round(this.split * width);
         this.images.forEach((image, i) => {
+            if (!image)
+                return;
             context.save();
             if (this.images.length > 1) {
                 context.beginPath();
