@@ -4,10 +4,12 @@ Of the protocol (https://www.w3.org/TR/webdriver2/) this has what the tests need
 """
 
 import base64
+import contextlib
 import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -33,9 +35,11 @@ class Browser:
     def __init__(self, width=1280, height=720, arguments=()):
         self.folder = tempfile.mkdtemp()
         self.log = open(os.path.join(self.folder, "log"), "w+b")
-        self.driver = subprocess.Popen(["chromedriver", "--port=0"], stdout=self.log, stderr=self.log)
-        self.session = None
+        self.session = self.driver = None
         try:
+            # A group of its own: Chromium goes with it, whatever state that is in.
+            self.driver = subprocess.Popen(["chromedriver", "--port=0"], stdout=self.log, stderr=self.log,
+                                           start_new_session=True, env={**os.environ, "TMPDIR": self.folder})
             self.address = "http://127.0.0.1:%d" % self._port()
             self.session = self._ask("POST", "/session", {"capabilities": {"alwaysMatch": {
                 "browserName": "chrome",
@@ -86,8 +90,10 @@ class Browser:
             if self.session:
                 self.ask("DELETE", "")
         finally:
-            self.driver.terminate()
-            self.driver.wait()
+            if self.driver:
+                with contextlib.suppress(ProcessLookupError):
+                    os.killpg(self.driver.pid, signal.SIGKILL)
+                self.driver.wait()
             self.log.close()
             shutil.rmtree(self.folder, ignore_errors=True)
 
