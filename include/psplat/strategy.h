@@ -190,7 +190,7 @@ typedef struct ps_image_view {
     const float *position_x, *position_y, *position_z;
     const float *depth;    /* INFINITY where nothing is seen */
     const float *weight;   /* sum over the passes of what the estimator weighed the light with */
-    const float *coverage; /* passes in which a surface was seen */
+    const float *coverage; /* passes in which a surface was seen, at the end of the way by mirrors and glass */
     /* Where the table asks for them, else NULL: object and material of the first pass, PS_NO_OBJECT where
      * nothing is seen; and the indirect radiance of the even and of the odd passes alone, whose
      * difference tells the noise: NULL, too, where there is one pass. Of direct light they are by halves of the shadow
@@ -204,6 +204,14 @@ typedef struct ps_image_view {
     float *error;
     float odd_share; /* since 1.4: of the samples, how many are in odd_r, _g, _b: 0..1 */
 } ps_image_view;
+
+/* Whether a pixel has light to denoise: false where nothing is seen, or a mirror alone with nothing behind. Of such a mirror
+ * albedo, normal, position and depth are told, but what it shows has no noise. */
+static inline int ps_image_has_surface(const ps_image_view *image, size_t pixel)
+{
+    return image->depth[pixel] < INFINITY &&
+           (image->coverage[pixel] > 0.0f || (image->gloss && image->gloss[pixel] > 0.0f));
+}
 
 #define PS_DENOISER_IDS 1u    /* ps_image_view.object and material are there */
 #define PS_DENOISER_HALVES 2u /* ps_image_view.even_r to odd_b are there */

@@ -65,7 +65,7 @@ static void guide_pixel(const struct work *work, size_t pixel)
     const ps_image_view *image = work->image;
     ps_vec3 normal = {image->normal_x[pixel], image->normal_y[pixel], image->normal_z[pixel]};
     float length = ps_length(normal);
-    int surface = image->depth[pixel] < INFINITY && length > 0.0f;
+    int surface = ps_image_has_surface(image, pixel) && length > 0.0f;
     normal = surface ? ps_scale(normal, 1.0f / length) : (ps_vec3){0, 0, 0};
     work->planes[NORMAL_X][pixel] = normal.x;
     work->planes[NORMAL_Y][pixel] = normal.y;

@@ -71,13 +71,13 @@ static void blur_plane(const ps_host *host, const struct kernel *kernel, const p
 static void fill_coverage(const ps_image_view *image, float *coverage)
 {
     for (size_t i = 0; i < (size_t)image->width * image->height; i++)
-        coverage[i] = image->depth[i] < INFINITY ? 1.0f : 0.0f;
+        coverage[i] = ps_image_has_surface(image, i) ? 1.0f : 0.0f;
 }
 
 static void divide(const ps_image_view *image, const float *coverage, float *plane)
 {
     for (size_t i = 0; i < (size_t)image->width * image->height; i++)
-        plane[i] = image->depth[i] < INFINITY ? plane[i] / coverage[i] : 0.0f;
+        plane[i] = ps_image_has_surface(image, i) ? plane[i] / coverage[i] : 0.0f;
 }
 
 static ps_result filter(const void *opaque, const ps_host *host, const ps_image_view *image)

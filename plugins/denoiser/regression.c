@@ -127,7 +127,7 @@ static void take_pixel(const struct work *work, size_t pixel, size_t at)
                              image->albedo_b[pixel]};
     float length = ps_length(normal), most = ps_max(albedo[0], ps_max(albedo[1], albedo[2]));
     float irradiance[3];
-    if (!(image->depth[pixel] < INFINITY && length > 0.0f && most >= DARKEST))
+    if (!(ps_image_has_surface(image, pixel) && length > 0.0f && most >= DARKEST))
         return;
     guides->normal[0][at] = normal.x / length;
     guides->normal[1][at] = normal.y / length;

@@ -192,9 +192,15 @@ static bool ends_at_surface(const struct tile_row *row, size_t i)
     return row->tile->object[row->lane + i] != PS_NO_OBJECT;
 }
 
-static bool met_gloss(const struct tile_row *row, size_t i)
+/* Gloss, or a mirror with nothing behind: a surface on the way stands for the pixel. */
+static bool has_first_surface(const struct tile_row *row, size_t i)
 {
     return row->glossy->depth[row->lane + i] > 0.0f;
+}
+
+static bool met_gloss(const struct tile_row *row, size_t i)
+{
+    return has_first_surface(row, i) && !row->glossy->sharp[row->lane + i];
 }
 
 /* Adds shares of values to a plane, where the film has it. */
@@ -217,15 +223,27 @@ static void add_seen(struct film *film, int plane, const struct tile_row *row, c
     add_shares(film, plane, row, seen);
 }
 
-/* The same of what tells surfaces apart: that of the first glossy one, where there is one. */
+/* What a pixel counts for where planes tell surfaces apart. A mirror with nothing behind hardly counts, so that it is told
+ * where no sample saw anything else, and otherwise not: its light has no noise, and denoisers leave it out. A power of 2,
+ * which keeps sums exact. */
+static float presence(const struct tile_row *row, size_t i)
+{
+    const float mirror = 0x1p-20f;
+    if (met_gloss(row, i) || ends_at_surface(row, i))
+        return 1.0f;
+    return has_first_surface(row, i) ? mirror : 0.0f;
+}
+
+/* What tells surfaces apart: that of the first one on the way, where there is one. */
 static void add_feature(struct film *film, int plane, const struct tile_row *row,
                         const float *values, const float *glossy)
 {
     float features[PS_TILE_SIZE];
-    for (size_t i = 0; i < row->count; i++)
-        features[i] = met_gloss(row, i)         ? glossy[row->lane + i]
-                      : ends_at_surface(row, i) ? values[i]
-                                                : 0.0f;
+    for (size_t i = 0; i < row->count; i++) {
+        float there = presence(row, i);
+        float value = has_first_surface(row, i) ? glossy[row->lane + i] : values[i];
+        features[i] = there > 0.0f ? there * value : 0.0f;
+    }
     add_shares(film, plane, row, features);
 }
 
@@ -269,7 +287,8 @@ static void add_denoised(struct film *film, const struct tile_row *row, int chan
 }
 
 /* Adds the share of the light that arrives where a pixel looks, and that its albedo and the way to the
- * camera leave; and the light that this reflects. */
+ * camera leave; and the light that this reflects. What the way leaves makes up for the chance by which glass let light
+ * through, and for radiance that is squeezed in glass: with it the albedo can be more than 1, which no reflectance is. */
 static void add_reflected(struct film *film, const struct tile_row *row, int channel,
                           const struct row_channel *from)
 {
@@ -285,6 +304,8 @@ static void add_reflected(struct film *film, const struct tile_row *row, int cha
     add_seen(film, FILM_DIRECT_R + channel, row, direct);
     add_denoised(film, row, channel, from, albedo);
     add_seen(film, FILM_COLOR_R + channel, row, indirect);
+    for (size_t i = 0; i < row->count; i++)
+        albedo[i] = ps_min(albedo[i], 1.0f);
     add_feature(film, FILM_ALBEDO_R + channel, row, albedo, from->glossy);
 }
 
@@ -336,7 +357,7 @@ static void add_geometry(struct film *film, const struct tile_row *row)
     for (size_t i = 0; i < row->count; i++) {
         ones[i] = 1.0f;
         zeros[i] = 0.0f;
-        visible[i] = met_gloss(row, i) || ends_at_surface(row, i) ? 1.0f : 0.0f;
+        visible[i] = presence(row, i);
     }
     add_seen(film, FILM_WEIGHT, row, tile->weight + lane);
     add_seen(film, FILM_COVERAGE, row, ones);
@@ -461,7 +482,7 @@ static bool all_met_gloss(const struct gbuffer *gbuffer, uint32_t first, uint32_
 {
     bool all = gbuffer->glossy != NULL;
     for (uint32_t i = first; i < first + count && all; i++)
-        all = gbuffer->glossy->depth[i] > 0.0f;
+        all = gbuffer->glossy->depth[i] > 0.0f && !gbuffer->glossy->sharp[i];
     return all;
 }
 

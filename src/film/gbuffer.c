@@ -266,23 +266,48 @@ void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throu
     tile->material[lane] = hit->material;
 }
 
-void gbuffer_store_glossy(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,
-                          ps_rgb reflectance, float gloss, float travelled)
+static void store_first(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,
+                        ps_rgb reflectance, float travelled)
 {
     assert(lane < PS_TILE_PIXELS);
-    if (glossy->depth[lane] > 0.0f)
-        return;
-    glossy->reflectance_r[lane] = reflectance.r;
-    glossy->reflectance_g[lane] = reflectance.g;
-    glossy->reflectance_b[lane] = reflectance.b;
+    glossy->reflectance_r[lane] = fminf(reflectance.r, 1.0f);
+    glossy->reflectance_g[lane] = fminf(reflectance.g, 1.0f);
+    glossy->reflectance_b[lane] = fminf(reflectance.b, 1.0f);
     glossy->normal_x[lane] = hit->normal.x;
     glossy->normal_y[lane] = hit->normal.y;
     glossy->normal_z[lane] = hit->normal.z;
     glossy->position_x[lane] = hit->position.x;
     glossy->position_y[lane] = hit->position.y;
     glossy->position_z[lane] = hit->position.z;
-    glossy->gloss[lane] = gloss;
     glossy->depth[lane] = travelled;
+}
+
+void gbuffer_store_glossy(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,
+                          ps_rgb reflectance, float gloss, float travelled)
+{
+    if (glossy->depth[lane] > 0.0f && !glossy->sharp[lane])
+        return;
+    store_first(glossy, lane, hit, reflectance, travelled);
+    glossy->gloss[lane] = gloss;
+    glossy->sharp[lane] = false;
+}
+
+void gbuffer_store_mirror(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,
+                          ps_rgb reflectance, float travelled)
+{
+    if (glossy->depth[lane] > 0.0f)
+        return;
+    store_first(glossy, lane, hit, reflectance, travelled);
+    glossy->gloss[lane] = 0.0f;
+    glossy->sharp[lane] = true;
+}
+
+void gbuffer_forget_mirror(struct glossy_tile *glossy, uint32_t lane)
+{
+    assert(lane < PS_TILE_PIXELS);
+    if (glossy->sharp[lane])
+        glossy->depth[lane] = 0.0f;
+    glossy->sharp[lane] = false;
 }
 
 /* Zeroes a tile's radiance, and tells the tile where it is. */
@@ -305,8 +330,10 @@ void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t index)
     clear_radiance(gbuffer, index);
     memset(&gbuffer->emitted[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(ps_rgb));
     memset(&gbuffer->by_chance[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(bool));
-    if (gbuffer->glossy)
+    if (gbuffer->glossy) {
         memset(gbuffer->glossy[index].depth, 0, sizeof gbuffer->glossy[index].depth);
+        memset(gbuffer->glossy[index].sharp, 0, sizeof gbuffer->glossy[index].sharp);
+    }
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
         tile->position_x[lane] = tile->position_y[lane] = tile->position_z[lane] = GBUFFER_NOWHERE;
         tile->depth[lane] = INFINITY;

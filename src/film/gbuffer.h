@@ -18,7 +18,8 @@
 #define GBUFFER_NOWHERE 1e18f
 
 /* Of the lanes of a tile whose paths met gloss, or a surface that mirrors by chance: the first such surface. What a
- * pixel finds behind it differs from look to look; this is what neighbouring pixels have in common. */
+ * pixel finds behind it differs from look to look; this is what neighbouring pixels have in common. Of those that mirror
+ * sharply and meet nothing behind: the first mirror, since there is nothing else that the pixel sees. */
 struct glossy_tile {
     float reflectance_r[PS_TILE_PIXELS], reflectance_g[PS_TILE_PIXELS],
         reflectance_b[PS_TILE_PIXELS]; /* by all lobes, and of the way from there to the camera */
@@ -26,6 +27,7 @@ struct glossy_tile {
     float position_x[PS_TILE_PIXELS], position_y[PS_TILE_PIXELS], position_z[PS_TILE_PIXELS];
     float gloss[PS_TILE_PIXELS]; /* share of the reflectance that is not diffuse */
     float depth[PS_TILE_PIXELS]; /* 0: met none */
+    bool sharp[PS_TILE_PIXELS];  /* a mirror, with nothing behind: what it shows has no noise */
 };
 
 struct gbuffer {
@@ -134,6 +136,14 @@ void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throu
  * of that which is gloss. */
 void gbuffer_store_glossy(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,
                           ps_rgb reflectance, float gloss, float travelled);
+
+/* Notes a mirror of a lane that met no such surface before, likewise. A glossy surface behind it replaces it; a path that
+ * ends at a surface forgets it (below). */
+void gbuffer_store_mirror(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,
+                          ps_rgb reflectance, float travelled);
+
+/* Forgets the mirror of a lane whose path ends at a surface. */
+void gbuffer_forget_mirror(struct glossy_tile *glossy, uint32_t lane);
 
 /* Whether no lane of a tile sees anything. */
 bool gbuffer_sees_nothing(const ps_tile *tile);

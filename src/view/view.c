@@ -78,6 +78,8 @@ static void end_path(const struct view_pass *pass, uint32_t tile, const struct c
     uint32_t lane = paths->lanes[i];
     if (!pass->hits) {
         gbuffer_store(&pass->gbuffer->tiles[tile], lane, hit, throughput, travelled);
+        if (pass->gbuffer->glossy)
+            gbuffer_forget_mirror(&pass->gbuffer->glossy[tile], lane);
         return;
     }
     pass->rays[lane] = paths->rays[i];
@@ -127,9 +129,10 @@ static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t 
                     ps_rgb_multiply(paths->throughput[i], radiance[i]));
 }
 
-/* Path i goes on from gloss, or from a surface that is diffuse as well, by chance. */
+/* Path i goes on from gloss, or from a surface that is diffuse as well, by chance; or from a mirror (`sharp`), which stands
+ * for the pixel until the path ends at a surface. */
 static void note_gloss(const struct view_pass *pass, uint32_t tile,
-                       const struct camera_paths *paths, size_t i, const ps_hit *hit)
+                       const struct camera_paths *paths, size_t i, const ps_hit *hit, bool sharp)
 {
     const struct scene *scene = pass->scene;
     struct gbuffer *gbuffer = pass->gbuffer;
@@ -139,9 +142,13 @@ static void note_gloss(const struct view_pass *pass, uint32_t tile,
     ps_rgb reflectance = material_reflectance(&scene->materials[hit->material], scene->microfacets,
                                               hit, paths->rays[i].direction);
     float diffuse = ps_luminance(hit->albedo), all = ps_luminance(reflectance);
-    gbuffer_store_glossy(&gbuffer->glossy[tile], lane, hit,
-                         ps_rgb_multiply(paths->throughput[i], reflectance),
-                         all > 0.0f ? 1.0f - diffuse / all : 1.0f, paths->travelled[i]);
+    float gloss = all > 0.0f ? 1.0f - diffuse / all : 1.0f;
+    reflectance = ps_rgb_multiply(paths->throughput[i], reflectance);
+    if (sharp)
+        gbuffer_store_mirror(&gbuffer->glossy[tile], lane, hit, reflectance, paths->travelled[i]);
+    else
+        gbuffer_store_glossy(&gbuffer->glossy[tile], lane, hit, reflectance, gloss,
+                             paths->travelled[i]);
 }
 
 /* Several samples of a pixel tell more where its path goes on by chance. What glass shows is as sharp as without it: its
@@ -151,11 +158,13 @@ static void note_chance(const struct view_pass *pass, uint32_t tile,
                         const ps_bsdf_sample *on)
 {
     bool gloss = on->probability < 1.0f || on->lobe == PS_GLOSSY;
-    if (pass->hits || !(gloss || material_refracts(&pass->scene->materials[hit->material])))
+    bool refracts = material_refracts(&pass->scene->materials[hit->material]);
+    if (pass->hits)
         return;
-    pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS + paths->lanes[i]] = true;
-    if (gloss)
-        note_gloss(pass, tile, paths, i, hit);
+    if (gloss || refracts)
+        pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS + paths->lanes[i]] = true;
+    if (gloss || !refracts)
+        note_gloss(pass, tile, paths, i, hit, !gloss);
 }
 
 /* Sends the paths on, or ends them at the diffuse lobe of a surface that has others too. */

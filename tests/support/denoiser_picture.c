@@ -78,6 +78,9 @@ static void denoise_or_stop(struct picture *picture, const char *choice, uint32_
                             bool cancelled)
 {
     struct bare_host bare;
+    float coverage[PIXELS];
+    for (int i = 0; i < PIXELS; i++)
+        coverage[i] = picture->depth[i] < INFINITY ? 1.0f : 0.0f;
     const ps_image_view view = {
         .size = sizeof view,
         .width = WIDTH,
@@ -96,6 +99,7 @@ static void denoise_or_stop(struct picture *picture, const char *choice, uint32_
         .position_y = picture->position[1],
         .position_z = picture->position[2],
         .depth = picture->depth,
+        .coverage = coverage,
         .gloss = picture->gloss,
         .even_r = picture->halves ? picture->halves[0][0] : NULL,
         .even_g = picture->halves ? picture->halves[0][1] : NULL,

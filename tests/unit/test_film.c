@@ -400,6 +400,86 @@ static void test_first_glossy_surface(void **state)
     assert_true(bench.gbuffer.glossy[0].depth[1] == 0);
 }
 
+/* A lane whose path met a mirror and then nothing, with value 3 in all that it is. */
+static void meet_mirror(uint32_t lane)
+{
+    ps_hit hit = {.position = {3, 3, 3}, .normal = {0, 0, 1}};
+    gbuffer_store_mirror(&bench.gbuffer.glossy[0], lane, &hit, (ps_rgb){0.75f, 2, 1}, 12);
+    bench.gbuffer.emitted[lane] = (ps_rgb){3, 3, 3};
+}
+
+/* A mirror stands for a pixel that sees nothing else, and its light is none to smooth. */
+static void test_mirror_with_nothing_behind(void **state)
+{
+    (void)state;
+    struct error error;
+    assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
+    assert_int_equal(film_add_reflected(&bench.film, true, false, &error), PS_OK);
+    assert_int_equal(film_add_gloss(&bench.film, &error), PS_OK);
+    gbuffer_clear_tile(&bench.gbuffer, 0);
+    for (uint32_t lane = 0; lane < 4; lane++)
+        see_nothing(&bench.gbuffer.tiles[0], lane);
+    meet_mirror(0);
+    meet_mirror(1);
+    see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[1], 1, 1);
+    gbuffer_forget_mirror(&bench.gbuffer.glossy[0], 1);
+    meet_mirror(2);
+    meet_gloss(2); /* behind the mirror */
+    meet_gloss(3);
+    meet_mirror(3); /* behind the gloss */
+    film_add_tile(&bench.film, &bench.gbuffer, 0, NULL);
+    film_end_pass(&bench.film);
+    film_average(&bench.film);
+    expect(FILM_POSITION_X, 0, 0, 3);
+    expect(FILM_NORMAL_Z, 0, 0, 1);
+    expect(FILM_DEPTH, 0, 0, 12);
+    expect(FILM_ALBEDO_R, 0, 0, 0.75);
+    expect(FILM_ALBEDO_G, 0, 0, 1); /* no reflectance is more */
+    expect(FILM_GLOSS, 0, 0, 0);
+    expect(FILM_COVERAGE, 0, 0, 0);
+    expect(FILM_DIRECT_R, 0, 0, 3);
+    expect(FILM_REFLECTED_R, 0, 0, 0);
+    expect(FILM_POSITION_X, 1, 0, 1);
+    expect(FILM_POSITION_X, 2, 0, 2);
+    expect(FILM_GLOSS, 2, 0, 0.75);
+    expect(FILM_POSITION_X, 3, 0, 2);
+}
+
+/* What other samples see counts, and the mirror then does not. */
+static void test_mirror_beside_a_surface(void **state)
+{
+    (void)state;
+    struct error error;
+    assert_int_equal(gbuffer_prepare_glossy(&bench.gbuffer, &error), PS_OK);
+    gbuffer_clear_tile(&bench.gbuffer, 0);
+    for (uint32_t lane = 0; lane < 4; lane++)
+        see_nothing(&bench.gbuffer.tiles[0], lane);
+    meet_mirror(0);
+    meet_mirror(1);
+    see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[2], 2, 1);
+    film_add_samples(&bench.film, &bench.gbuffer, 0, 4, 0.25f, 2, 0);
+    film_end_pass(&bench.film);
+    film_average(&bench.film);
+    expect(FILM_POSITION_X, 2, 0, 1);
+    expect(FILM_DEPTH, 2, 0, 4);
+    expect(FILM_VISIBLE, 2, 0, 0.25);
+}
+
+/* Glass that lets light through by chance makes up for it. */
+static void test_albedo_is_no_more_than_1(void **state)
+{
+    (void)state;
+    gbuffer_clear_tile(&bench.gbuffer, 0);
+    see(&bench.gbuffer.tiles[0], &bench.gbuffer.direct[0], 0, 1);
+    bench.gbuffer.tiles[0].throughput_r[0] = 1.25f;
+    film_add_tile(&bench.film, &bench.gbuffer, 0, NULL);
+    film_end_pass(&bench.film);
+    film_average(&bench.film);
+    expect(FILM_ALBEDO_R, 0, 0, 1);
+    expect(FILM_ALBEDO_G, 0, 0, 0.25);
+    expect(FILM_DIRECT_R, 0, 0, 1.25 / PI * 5);
+}
+
 /* Of a pixel's samples the second half is in `half` if all met gloss; else half of the shadow rays. */
 static void test_halves_of_glossy_samples(void **state)
 {
@@ -534,6 +614,9 @@ int main(void)
         FILM_TEST(test_samples_take_the_place_of_a_lane),
         FILM_TEST(test_many_samples_of_a_pixel),
         FILM_TEST(test_first_glossy_surface),
+        FILM_TEST(test_mirror_with_nothing_behind),
+        FILM_TEST(test_mirror_beside_a_surface),
+        FILM_TEST(test_albedo_is_no_more_than_1),
         FILM_TEST(test_halves_of_glossy_samples),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
