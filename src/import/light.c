@@ -3,8 +3,11 @@
  * KHR_lights_punctual counts in candela and lux. 683 lm are taken as one watt, the rate of Blender's
  * exporter ("standard" lighting mode, its default): a light of P watts leaves Blender as
  * 683 P / (4 pi) cd and becomes P / (4 pi) W/sr here, P watts in all; a sun's W/m^2 come back as they
- * were. A spot has the intensity of the whole sphere's share, there as here. Other formats have no
- * units: their numbers are taken as W/sr, a sun's as W/m^2.
+ * were. A spot has the intensity of the whole sphere's share, there as here.
+ *
+ * COLLADA, FBX and 3DS state no unit. Their numbers are taken for what Blender's exporters write: P watts of a
+ * point or a spot, P / (4 pi) W/sr, and W/m^2 of a sun. What fades otherwise than by the square is not asked for. FBX
+ * counts lengths in UnitScaleFactor centimetres, but not its lights.
  *
  * An intensity I lights a surface by I / d^2: where the request stretches all lengths by s, I grows by
  * s^2, and the picture stays the same. Scales of nodes do not count, as glTF says. A sun's irradiance
@@ -12,11 +15,13 @@
  */
 #include "import/steps.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define DEGREES (180.0 / 3.14159265358979323846)
 #define LUMENS_PER_WATT 683.0
+#define PI 3.14159265358979323846
 
 /* In the node's space; the angles are half ones, in radians. */
 struct source_light {
@@ -198,6 +203,40 @@ static bool kind_of(enum aiLightSourceType type, enum light_kind *kind)
     }
 }
 
+/* Units of an FBX file in a metre; of others, what assimp hands out is in metres. */
+static double units_per_metre(const struct mesh_job *job)
+{
+    const struct aiMetadata *data = job->scene->mMetaData;
+    for (unsigned i = 0; job->format == FORMAT_FBX && data && i < data->mNumProperties; i++) {
+        float centimetres = 0;
+        if (data->mValues[i].mType == AI_FLOAT &&
+            strcmp(data->mKeys[i].data, "UnitScaleFactor") == 0)
+            memcpy(&centimetres, data->mValues[i].mData, sizeof centimetres);
+        if (centimetres > 0 && isfinite(centimetres))
+            return 100.0 / (double)centimetres;
+    }
+    return 1;
+}
+
+/* W/sr, or a sun's W/m^2, of what the file states. */
+static ps_rgb assimp_amount(const struct mesh_job *job, const struct aiLight *light,
+                            enum light_kind kind)
+{
+    ps_rgb stated = {light->mColorDiffuse.r, light->mColorDiffuse.g, light->mColorDiffuse.b};
+    double unit = units_per_metre(job);
+    bool fades = kind == LIGHT_POINT || kind == LIGHT_SPOT;
+    return fades ? ps_rgb_scale(stated, (float)(unit * unit / (4 * PI))) : stated;
+}
+
+/* COLLADA's spots end at falloff_angle. Blender writes its blend, 0 to 1, as falloff_exponent, of which assimp makes a
+ * rim of at least acos 0.1 around the cone. */
+static double outer_cone(const struct mesh_job *job, const struct aiLight *light)
+{
+    double inner = light->mAngleInnerCone, outer = light->mAngleOuterCone;
+    bool is_exponent = outer - inner > 84 / DEGREES;
+    return job->format == FORMAT_COLLADA && is_exponent ? inner : outer;
+}
+
 static ps_result add_assimp_light(struct mesh_job *job, unsigned index)
 {
     const struct aiLight *light = job->scene->mLights[index];
@@ -207,12 +246,11 @@ static ps_result add_assimp_light(struct mesh_job *job, unsigned index)
     const struct mesh_node *node = mesh_node_named(job, light->mName.data, before);
     struct affine map = node ? mesh_node_placement(job, node) : job->to_scene;
     struct source_light source = {
-        .amount = {light->mColorDiffuse.r, light->mColorDiffuse.g, light->mColorDiffuse.b},
         .location = mesh_vector(light->mPosition),
         .direction = mesh_vector(light->mDirection),
         .up = mesh_vector(light->mUp),
         .inner = 0.5 * light->mAngleInnerCone,
-        .outer = 0.5 * light->mAngleOuterCone,
+        .outer = 0.5 * outer_cone(job, light),
         .width = light->mSize.x,
         .height = light->mSize.y,
     };
@@ -224,6 +262,7 @@ static ps_result add_assimp_light(struct mesh_job *job, unsigned index)
         drop(job, light->mName.data, "is an area without a size");
         return PS_OK;
     }
+    source.amount = assimp_amount(job, light, source.kind);
     return add(job, &map, &source, light->mName.data);
 }
 

@@ -237,9 +237,9 @@ static void default_scene_is_alike_in_other_formats(void **state)
     (void)state;
     static const struct {
         const char *file, *path;
-        double unit;
-    } cases[] = {{"../fuzz/corpus_mesh/dae", "m.dae", 1},
-                 {"../fuzz/corpus_mesh/fbx", "m.fbx", 0.01}};
+        double unit, watts;
+    } cases[] = {{"../fuzz/corpus_mesh/dae", "m.dae", 1, 1000},
+                 {"../fuzz/corpus_mesh/fbx", "m.fbx", 0.01, 1000}};
     static char bytes[65536];
     for (size_t i = 0; i < 2; i++) {
         FILE *stream = fopen(data_path(cases[i].file), "rb");
@@ -263,11 +263,46 @@ static void default_scene_is_alike_in_other_formats(void **state)
         assert_int_equal(imported.fragment.light_count, 1);
         assert_int_equal(imported.fragment.lights[0].kind, LIGHT_POINT);
         expect_near(imported.fragment.lights[0].location.y, 5.9039, 1e-4);
+        expect_near(imported.fragment.lights[0].amount.r * 4 * M_PI, cases[i].watts, 1e-2);
         assert_int_equal(mesh_of(&imported, 0)->triangle_count, 12);
         expect_near(fabs(corner(&imported, 0, 0, 0).y), 1, 1e-4);
         expect_color(material_named(&imported, "Material")->color.colors[0], 0.8, 0.8, 0.8);
         release_imported(&imported);
     }
+}
+
+/* A spot of 100 W, in a file in centimetres, as Blender writes its cone; and a sun. */
+#define DAE_LIGHTS                                                                                 \
+    "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "      \
+    "version=\"1.4.1\"><asset><unit meter=\"0.01\"/><up_axis>Y_UP</up_axis></asset>"               \
+    "<library_lights><light id=\"a\" name=\"a\"><technique_common><spot><color>100 50 0</color>"   \
+    "<falloff_angle>60</falloff_angle><falloff_exponent>0.15</falloff_exponent></spot>"            \
+    "</technique_common></light><light id=\"b\" name=\"b\"><technique_common><directional>"        \
+    "<color>3 3 3</color></directional></technique_common></light></library_lights>"               \
+    "<library_visual_scenes><visual_scene id=\"s\"><node id=\"na\" name=\"na\">"                   \
+    "<translate>0 200 0</translate><instance_light url=\"#a\"/></node>"                            \
+    "<node id=\"nb\" name=\"nb\"><instance_light url=\"#b\"/></node></visual_scene>"               \
+    "</library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>"
+
+static void lights_of_collada_are_watts(void **state)
+{
+    (void)state;
+    struct mesh_request request = request_all("m.dae");
+    struct mesh_memory_file file = {"m.dae", DAE_LIGHTS, sizeof DAE_LIGHTS - 1};
+    request.unit = 10;
+    struct imported imported = import_files(&request, &file, 1);
+    expect_success(&imported);
+    assert_int_equal(imported.fragment.light_count, 2);
+    const struct light_description *spot = &imported.fragment.lights[0];
+    assert_int_equal(spot->kind, LIGHT_SPOT);
+    expect_near(spot->location.y, 20, 1e-4);
+    expect_near(spot->amount.r * 4 * M_PI, 100 * 10 * 10, 1e-2);
+    expect_near(spot->amount.g * 4 * M_PI, 50 * 10 * 10, 1e-2);
+    expect_near(spot->falloff, 30, 1e-3);
+    expect_near(spot->radius, 30, 1e-3);
+    assert_int_equal(imported.fragment.lights[1].kind, LIGHT_SUN);
+    expect_near(imported.fragment.lights[1].amount.r, 3, 1e-5);
+    release_imported(&imported);
 }
 
 int main(void)
@@ -283,6 +318,7 @@ int main(void)
         cmocka_unit_test(materials_are_as_in_blender),
         cmocka_unit_test(texture_lies_the_right_way_up),
         cmocka_unit_test(default_scene_is_alike_in_other_formats),
+        cmocka_unit_test(lights_of_collada_are_watts),
         cmocka_unit_test(only_what_is_asked_for_comes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
