@@ -41,7 +41,13 @@ static const struct format {
     {"PSD", "8BPS", 0, 4, NULL},
 };
 
+#define BMP_COMPRESSION 30 /* where it stands: 1 and 2 are runs of 8 and of 4 bits */
+#define TARGA_HEADER 18
+
 #define FORMAT_COUNT (sizeof formats / sizeof *formats)
+
+/* Not read, in any build. */
+static const struct format bmp_in_runs = {.name = "BMP in runs"};
 
 static const struct format targa = {
     .name = "TGA",
@@ -125,10 +131,17 @@ ps_result raster_allocate(const char *path, struct raster *raster, struct error 
     return PS_OK;
 }
 
+/* By the header's compression. */
+static bool is_bmp_in_runs(const unsigned char *bytes, size_t size)
+{
+    return size >= BMP_COMPRESSION + 1 && memcmp(bytes, "BM", 2) == 0 &&
+           (bytes[BMP_COMPRESSION] == 1 || bytes[BMP_COMPRESSION] == 2) && bytes[14] >= 40;
+}
+
 /* A TGA file starts with its header, of which only some bytes can be. */
 static bool may_be_targa(const unsigned char *bytes, size_t size)
 {
-    if (size < RASTER_MAGIC || bytes[1] > 1)
+    if (size < TARGA_HEADER || bytes[1] > 1)
         return false;
     int kind = bytes[2] & ~8; /* 8: in runs */
     int depth = bytes[16];
@@ -139,6 +152,8 @@ static bool may_be_targa(const unsigned char *bytes, size_t size)
 
 static const struct format *find_format(const unsigned char *bytes, size_t size)
 {
+    if (is_bmp_in_runs(bytes, size))
+        return &bmp_in_runs;
     for (size_t i = 0; i < FORMAT_COUNT; i++) {
         const struct format *format = &formats[i];
         if (size >= format->offset + format->length &&

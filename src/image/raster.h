@@ -47,7 +47,8 @@ struct raster {
  * the format has them. NaN is read as 0 and infinity as the largest half float, 65504. Samples are
  * half floats where these hold every one.
  * TGA and BMP: grey, palettes and colours of 15 to 32 bits, TGA also in runs; an alpha that is 0 everywhere, of which
- * the header of a TGA says that it is none, is left out. Radiance: linear floats, as they stand. WebP: one picture, 8 bits.
+ * the header of a TGA says that it is none, is left out. BMP in runs is
+ * refused. Radiance: linear floats, as they stand, lines in any order. WebP: one picture, 8 bits.
  *
  * PS_ERROR_IO: the file cannot be read, is truncated or damaged; PS_ERROR_INVALID: no picture of a
  * known kind or size; PS_ERROR_MEMORY. Messages start with `path`. `raster` is written only on
@@ -58,7 +59,7 @@ ps_result raster_decode(const char *path, const unsigned char *bytes, size_t siz
                         struct raster *raster, struct error *error);
 
 /* Whether a file that starts with these bytes, RASTER_MAGIC of them or the whole file, is of a kind that is read. */
-#define RASTER_MAGIC 18
+#define RASTER_MAGIC 34
 bool raster_is_known(const unsigned char *bytes, size_t size);
 
 /* Of such a file that is not read: "KTX2" and the like, or NULL where its kind has no name here. */

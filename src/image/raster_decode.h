@@ -26,6 +26,9 @@ ps_result raster_read_bytes(const struct raster_source *source, struct raster *r
                             struct error *error); /* TGA and BMP */
 ps_result raster_read_radiance(const struct raster_source *source, struct raster *raster,
                                struct error *error);
+/* Radiance's lines in the order that stb_image knows. */
+ps_result raster_read_floats(const struct raster_source *source, struct raster *raster,
+                             struct error *error);
 #endif
 #ifdef PSPLAT_WEBP
 ps_result raster_read_webp(const struct raster_source *source, struct raster *raster,

@@ -6,8 +6,8 @@
  * it needs whole; its first read is into that buffer, by whose address the two are told apart. Beyond the end it is
  * given newlines: of zeros Radiance's reader would take runs of length 0 for ever.
  *
- * Radiance: 32 bits of mantissas and exponent, plain or in runs, top line first; EXPOSURE and PRIMARIES are
- * not looked at. stb_image knows neither the runs of before 1991 nor XYZE.
+ * Radiance: 32 bits of mantissas and exponent, plain or in runs, top line first (raster_radiance.c has the rest); EXPOSURE
+ * and PRIMARIES are not looked at. stb_image knows neither the runs of before 1991 nor XYZE.
  */
 #include "image/raster_decode.h"
 
@@ -84,12 +84,11 @@ static ps_result explain(const struct reading *reading, struct error *error)
     if (reason && strcmp(reason, "outofmem") == 0)
         return error_set(error, PS_ERROR_MEMORY, "%s: out of memory for its pixels", source->path);
     if (is_bmp(source))
-        return error_set(error, PS_ERROR_INVALID,
-                         "%s: a BMP of a kind that cannot be read, as in runs", source->path);
+        return error_set(error, PS_ERROR_INVALID, "%s: a BMP of a kind that cannot be read",
+                         source->path);
     if (source->bytes[1] == '?')
         return error_set(error, PS_ERROR_INVALID,
-                         "%s: a Radiance file of a kind that cannot be read, as of XYZE or of "
-                         "another order of lines",
+                         "%s: a Radiance file of a kind that cannot be read, as of XYZE",
                          source->path);
     return error_set(error, PS_ERROR_INVALID, "%s: this kind of picture cannot be read: %s",
                      source->path, reason ? reason : "unknown");
@@ -158,8 +157,8 @@ ps_result raster_read_bytes(const struct raster_source *source, struct raster *r
     return result;
 }
 
-ps_result raster_read_radiance(const struct raster_source *source, struct raster *raster,
-                               struct error *error)
+ps_result raster_read_floats(const struct raster_source *source, struct raster *raster,
+                             struct error *error)
 {
     ps_result result = read_size(source, sizeof(float), error);
     return result == PS_OK ? read_samples(source, true, raster, error) : result;
