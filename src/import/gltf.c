@@ -119,10 +119,16 @@ static ps_result visit_mesh(struct walk *walk, const struct json *node)
         return PS_OK;
     if (!json_size(node, "mesh", 0, &index) || index >= count_of(walk->gltf, "meshes"))
         return gltf_refuse(walk->error, "a node has a mesh that the file lacks");
+    const struct json *mesh = json_element(json_member(walk->gltf->root, "meshes"), index);
+    const struct json *primitives = json_member(mesh, "primitives");
+    size_t placed = primitives ? primitives->count : 0;
+    if (placed > MESH_OBJECTS - walk->gltf->placed)
+        return gltf_refuse(walk->error, "nodes and primitives make more than 1000000 objects");
+    walk->gltf->placed += placed;
     if (walk->seen_meshes[index])
         return PS_OK;
     walk->seen_meshes[index] = true;
-    return meet_materials(walk, json_element(json_member(walk->gltf->root, "meshes"), index));
+    return meet_materials(walk, mesh);
 }
 
 static ps_result visit_nodes(struct walk *walk, const struct json *indices, int depth);

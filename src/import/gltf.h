@@ -14,6 +14,9 @@
 
 #define GLTF_DEPTH 256
 
+/* What the nodes of a file place, primitive by primitive, with all instances; as many as a scene has. */
+#define MESH_OBJECTS 1000000
+
 struct gltf_bytes {
     const unsigned char *bytes;
     size_t length;
@@ -29,7 +32,7 @@ struct gltf {
     struct gltf_bytes *views;   /* those that were packed, once they are unpacked */
     size_t buffer_count, view_count, accessor_count;
     size_t unpacked;           /* bytes of views and accessors so far */
-    size_t placed;             /* objects of instances so far */
+    size_t placed;             /* objects so far, and those of instances */
     const struct json **nodes; /* of the scene, each before its children, as assimp keeps them */
     size_t node_count;
     const struct json **materials; /* in the order in which assimp meets them */

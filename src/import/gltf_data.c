@@ -240,8 +240,12 @@ ps_result gltf_accessor_open(struct gltf *gltf, size_t index, struct gltf_access
         !json_size(source, "byteOffset", 0, &offset) ||
         !json_size(view_of(gltf, view), "byteStride", 0, &accessor->stride))
         return gltf_refuse(error, "an accessor's place is no number");
-    if (view == SIZE_MAX)
-        return gltf_refuse(error, "an accessor of integers or instances has no view (zeros)");
+    if (view == SIZE_MAX) {
+        static const unsigned char zeros[4 * sizeof(float)];
+        accessor->bytes = zeros;
+        accessor->stride = 0;
+        return PS_OK;
+    }
     result = read_view(gltf, view, &bytes, error);
     if (result != PS_OK)
         return result;

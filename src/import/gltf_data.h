@@ -18,11 +18,12 @@ enum gltf_component {
     GLTF_FLOAT
 };
 
-/* All elements are within the bytes, which are the file's own, or unpacked into its arena. */
+/* All elements are within the bytes, which are the file's own, or unpacked into its arena. Where the file names no view, all
+ * are one of zeros, of any count. */
 struct gltf_accessor {
     const unsigned char *bytes;
-    size_t count, stride;
-    unsigned components; /* 1 to 4 */
+    size_t count, stride; /* 0: all elements are the same */
+    unsigned components;  /* 1 to 4 */
     enum gltf_component type;
     bool normalized;
 };

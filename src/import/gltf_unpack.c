@@ -2,7 +2,8 @@
  *
  * assimp copies integers into floats bit by bit, and does not know EXT_meshopt_compression. So coordinates that are
  * integers, and views that are packed, are unpacked into a buffer of their own, a file that exists for assimp alone;
- * the JSON names that in place of what the file has. Pictures that only an extension of a texture names become its
+ * the JSON names that in place of what the file has. So are accessors without a view, which are zeros (3.6.2.1) and which
+ * assimp leaves out. Pictures that only an extension of a texture names become its
  * source: a kind that is not read is told like any other.
  */
 #include "import/gltf_data.h"
@@ -102,6 +103,12 @@ static bool is_integer(const struct gltf *gltf, size_t accessor)
     return source && json_size(source, "componentType", GLTF_FLOAT, &type) && type != GLTF_FLOAT;
 }
 
+static bool is_zeros(const struct gltf *gltf, size_t accessor)
+{
+    const struct json *source = json_element(array_of(gltf, "accessors"), accessor);
+    return source && !json_member(source, "bufferView") && !json_member(source, "sparse");
+}
+
 static ps_result append_floats(struct unpacking *unpacking, const struct gltf_accessor *source,
                                size_t *index)
 {
@@ -139,9 +146,9 @@ static ps_result convert_attribute(struct unpacking *unpacking, struct json *att
         ps_result result = gltf_accessor_open(gltf, accessor, &source, unpacking->error);
         if (result != PS_OK)
             return result;
-        if (source.components != components)
+        if (components > 0 ? source.components != components : source.components < 3)
             return error_set(unpacking->error, PS_ERROR_INVALID,
-                             "glTF: an accessor of integers is of the wrong type");
+                             "glTF: an accessor is of the wrong type for what it stands for");
         result = append_floats(unpacking, &source, converted);
         if (result != PS_OK)
             return result;
@@ -188,7 +195,8 @@ static ps_result unpack_attribute(struct unpacking *unpacking, const struct json
         !json_size(json_member(primitive, "attributes"), attribute->name, SIZE_MAX, &accessor) ||
         accessor >= unpacking->gltf->accessor_count)
         return PS_OK;
-    if (attribute->components == 0 || !is_integer(unpacking->gltf, accessor))
+    bool zeros = is_zeros(unpacking->gltf, accessor) && !gltf_is_draco(primitive);
+    if (!zeros && (attribute->components == 0 || !is_integer(unpacking->gltf, accessor)))
         return unpack_views_of(unpacking, accessor);
     if (gltf_is_draco(primitive))
         return leave_out_draco(unpacking, primitive, attribute->name);

@@ -89,7 +89,7 @@ ps_result mesh_read_instances(struct gltf *gltf, const struct json *node, size_t
     instances->present = accessors.count != SIZE_MAX;
     if (result != PS_OK || !instances->present)
         return result;
-    if (accessors.count > (MESH_INSTANCES - gltf->placed) / meshes)
+    if (accessors.count > (MESH_OBJECTS - gltf->placed) / meshes)
         return complain(error, "instances make more than 1000000 objects");
     gltf->placed += accessors.count * meshes;
     size_t bytes = accessors.count * sizeof *instances->placements;

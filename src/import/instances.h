@@ -5,9 +5,6 @@
 #include "import/gltf_data.h"
 #include "scene/affine.h"
 
-/* All instances of a file together place at most as many objects. */
-#define MESH_INSTANCES 1000000
-
 /* Placements within the node's space, in the arena of `gltf`, each of `meshes`, at least one; not present where no
  * attribute places. `node`: its JSON, or NULL. PS_ERROR_INVALID, _IO or _MEMORY. */
 struct mesh_instances {

@@ -102,6 +102,9 @@ static ps_result add_object(struct builder *builder, const struct aiMesh *source
 {
     struct mesh_job *job = builder->job;
     const size_t *material = material_of(builder, source);
+    if (job->fragment->object_count == MESH_OBJECTS)
+        return error_set(job->error, PS_ERROR_INVALID, "%s: it makes more than %d objects",
+                         job->request->path, MESH_OBJECTS);
     ps_result result = reserve_object(builder);
     if (result != PS_OK)
         return result;

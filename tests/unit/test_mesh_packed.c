@@ -16,7 +16,7 @@ struct document {
 
 static struct imported import_document(const struct document *document)
 {
-    static char text[8192];
+    static char text[131072];
     const char *buffer = document->buffer ? document->buffer : "m.bin";
     char path[64];
     snprintf(text, sizeof text,
@@ -130,7 +130,9 @@ static void bad_integers_are_refused(void **state)
     refuse_document(&document, "cut short");
     document = of_integers;
     document.accessors = "{\"componentType\":5122,\"count\":400000000,\"type\":\"VEC3\"}";
-    refuse_document(&document, "has no view");
+    refuse_document(&document, "64 times");
+    document.accessors = "{\"componentType\":5126,\"count\":9007199254740991,\"type\":\"VEC3\"}";
+    refuse_document(&document, "64 times");
     document.accessors = "{\"bufferView\":77,\"componentType\":5122,\"count\":4,\"type\":\"VEC3\"}";
     refuse_document(&document, "a view that the file lacks");
     document.accessors = "{\"bufferView\":0,\"componentType\":5122,\"count\":0,\"type\":\"VEC3\"}";
@@ -361,6 +363,69 @@ static void instances_are_placed(void **state)
     release_imported(&imported);
 }
 
+/* By the specification an accessor without a view is zeros. */
+static void accessors_without_a_view_are_zeros(void **state)
+{
+    (void)state;
+    struct document document = of_integers;
+    document.accessors =
+        "{\"bufferView\":0,\"componentType\":5122,\"count\":4,\"type\":\"VEC3\"},"
+        "{\"bufferView\":1,\"componentType\":5120,\"normalized\":true,\"count\":4,\"type\":"
+        "\"VEC3\"},"
+        "{\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"},"
+        "{\"bufferView\":3,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"},"
+        "{\"componentType\":5123,\"normalized\":true,\"count\":4,\"type\":\"VEC3\"}";
+    document.primitive =
+        "{\"attributes\":{\"POSITION\":0,\"NORMAL\":1,\"TEXCOORD_0\":2,\"COLOR_0\":4},"
+        "\"indices\":3,\"material\":0}";
+    struct imported imported = import_document(&document);
+    expect_success(&imported);
+    expect_corners(&imported, 0);
+    const struct mesh_description *mesh = mesh_of(&imported, 0);
+    assert_non_null(mesh->uv);
+    assert_non_null(mesh->colors);
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        expect_near((double)mesh->uv[i][0], 0, 0);
+    release_imported(&imported);
+    document.accessors = "{\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"}";
+    document.primitive = "{\"attributes\":{\"POSITION\":0}}";
+    refuse_document(&document, "no triangles"); /* but a point */
+    document = of_instances;
+    document.nodes = "{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{"
+                     "\"TRANSLATION\":2}}}}";
+    document.accessors =
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+        "{\"bufferView\":1,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"},"
+        "{\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"}";
+    imported = import_document(&document);
+    expect_success(&imported);
+    assert_int_equal(imported.fragment.object_count, 2);
+    expect_vector(imported.fragment.objects[1].placement.translation, 0, 0, 0);
+    release_imported(&imported);
+}
+
+/* A thousand and one nodes with a mesh of a thousand primitives each. */
+static void objects_without_instances_are_bounded(void **state)
+{
+    static char nodes[40000], primitives[60000];
+    const char *const primitive = "{\"attributes\":{\"POSITION\":0},\"indices\":1}";
+    (void)state;
+    size_t length = (size_t)snprintf(nodes, sizeof nodes, "{\"children\":[1");
+    for (int i = 2; i <= 1001; i++)
+        length += (size_t)snprintf(nodes + length, sizeof nodes - length, ",%d", i);
+    length += (size_t)snprintf(nodes + length, sizeof nodes - length, "]}");
+    for (int i = 1; i <= 1001; i++)
+        length += (size_t)snprintf(nodes + length, sizeof nodes - length, ",{\"mesh\":0}");
+    length = (size_t)snprintf(primitives, sizeof primitives, "%s", primitive);
+    for (int i = 1; i < 1000; i++)
+        length +=
+            (size_t)snprintf(primitives + length, sizeof primitives - length, ",%s", primitive);
+    struct document document = of_instances;
+    document.nodes = nodes;
+    document.primitive = primitives;
+    refuse_document(&document, "1000000 objects");
+}
+
 static void bad_instances_are_refused(void **state)
 {
     (void)state;
@@ -457,6 +522,8 @@ int main(void)
         cmocka_unit_test(damaged_meshopt_is_refused),
         cmocka_unit_test(draco_is_unpacked),
         cmocka_unit_test(instances_are_placed),
+        cmocka_unit_test(accessors_without_a_view_are_zeros),
+        cmocka_unit_test(objects_without_instances_are_bounded),
         cmocka_unit_test(bad_instances_are_refused),
         cmocka_unit_test(instances_without_a_place_stand_as_the_node),
         cmocka_unit_test(instances_are_bounded),
