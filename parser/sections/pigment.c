@@ -165,7 +165,8 @@ static size_t append(struct reader *reader, const struct texture_keys *keys, cha
     description->textures = textures;
     textures[description->texture_count] = (struct texture_description){
         .path = path,
-        .wrap = keys->wrap,
+        .wrap_u = keys->wrap,
+        .wrap_v = keys->wrap,
         .encoding = keys->encoding,
         .nearest = keys->interpolate == 1,
         .origin = reader_origin(reader, keys->file),

@@ -121,9 +121,10 @@ static int read_integer(const struct aiMaterial *source, const char *key, enum a
     return value;
 }
 
-static enum texture_wrap read_wrap(const struct aiMaterial *source, enum aiTextureType type)
+static enum texture_wrap read_wrap(const struct aiMaterial *source, const char *key,
+                                   enum aiTextureType type)
 {
-    switch (read_integer(source, _AI_MATKEY_MAPPINGMODE_U_BASE, type, aiTextureMapMode_Wrap)) {
+    switch (read_integer(source, key, type, aiTextureMapMode_Wrap)) {
     case aiTextureMapMode_Clamp:
     case aiTextureMapMode_Decal:
         return WRAP_CLAMP;
@@ -136,8 +137,8 @@ static enum texture_wrap read_wrap(const struct aiMaterial *source, enum aiTextu
 
 static bool is_same(const struct texture_description *a, const struct texture_description *b)
 {
-    return strcmp(a->path, b->path) == 0 && a->wrap == b->wrap && a->encoding == b->encoding &&
-           a->nearest == b->nearest;
+    return strcmp(a->path, b->path) == 0 && a->wrap_u == b->wrap_u && a->wrap_v == b->wrap_v &&
+           a->encoding == b->encoding && a->nearest == b->nearest;
 }
 
 static void release_texture(struct texture_description *texture)
@@ -286,7 +287,8 @@ static ps_result find_texture(struct mesh_job *job, const struct aiMaterial *sou
     if (!read_name(source, use.type, &name))
         return PS_OK;
     struct texture_description texture = {
-        .wrap = read_wrap(source, use.type),
+        .wrap_u = read_wrap(source, _AI_MATKEY_MAPPINGMODE_U_BASE, use.type),
+        .wrap_v = read_wrap(source, _AI_MATKEY_MAPPINGMODE_V_BASE, use.type),
         .encoding = use.encoding,
         .nearest = read_integer(source, "$tex.mappingfiltermag", use.type, 0) == GL_NEAREST,
         .origin = job->request->origin,

@@ -53,9 +53,9 @@ struct texture_description {
     char *path;           /* for messages too; relative to the working folder */
     unsigned char *bytes; /* NULL: read the file */
     size_t byte_count;
-    int32_t wrap;     /* enum texture_wrap */
-    int32_t encoding; /* enum texture_encoding, of the colours; alpha is always linear */
-    bool nearest;     /* rather than bilinear */
+    int32_t wrap_u, wrap_v; /* enum texture_wrap */
+    int32_t encoding;       /* enum texture_encoding, of the colours; alpha is always linear */
+    bool nearest;           /* rather than bilinear */
     struct origin origin;
 };
 

@@ -142,7 +142,8 @@ static void add_texture(uint64_t *digest, const struct texture_description *desc
 {
     const struct raster *raster = &texture->raster;
     ADD(description->encoding);
-    ADD(texture->wrap);
+    ADD(texture->wrap_u);
+    ADD(texture->wrap_v);
     ADD(texture->nearest);
     ADD(raster->width);
     ADD(raster->height);

@@ -88,7 +88,9 @@ static ps_result prepare_values(struct texture *texture, const char *path, bool 
 ps_result texture_load(const struct texture_description *description, const char *folder,
                        struct texture *texture, struct error *error)
 {
-    struct texture loaded = {.wrap = description->wrap, .nearest = description->nearest};
+    struct texture loaded = {.wrap_u = description->wrap_u,
+                             .wrap_v = description->wrap_v,
+                             .nearest = description->nearest};
     ps_result result = description->bytes
                            ? raster_decode(description->path, description->bytes,
                                            description->byte_count, &loaded.raster, error)
@@ -229,14 +231,13 @@ static void interpolate(const struct texture *texture, struct neighbors across, 
 
 void texture_sample(const struct texture *texture, float u, float v, float rgba[4])
 {
-    int32_t wrap = texture->wrap;
     if (texture->nearest) {
-        texture_texel(texture, find_nearest(u, texture->width, wrap),
-                      find_nearest(v, texture->height, wrap), rgba);
+        texture_texel(texture, find_nearest(u, texture->width, texture->wrap_u),
+                      find_nearest(v, texture->height, texture->wrap_v), rgba);
         return;
     }
-    interpolate(texture, find_neighbors(u, texture->width, wrap),
-                find_neighbors(v, texture->height, wrap), rgba);
+    interpolate(texture, find_neighbors(u, texture->width, texture->wrap_u),
+                find_neighbors(v, texture->height, texture->wrap_v), rgba);
 }
 
 /* --- range ----------------------------------------------------------------------------------- */

@@ -17,7 +17,7 @@
 /* Owns texels and tables. Constant once loaded: any number of threads may sample it. */
 struct texture {
     uint32_t width, height;
-    int32_t wrap;               /* enum texture_wrap */
+    int32_t wrap_u, wrap_v;     /* enum texture_wrap */
     bool nearest;               /* rather than bilinear */
     struct raster raster;       /* the texels, top row first */
     float *color_of, *alpha_of; /* values of codes; NULL for floats; may be the same table */

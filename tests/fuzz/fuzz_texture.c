@@ -43,7 +43,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         .path = "fuzz",
         .bytes = bytes,
         .byte_count = size,
-        .wrap = (int32_t)(size % 3),
+        .wrap_u = (int32_t)(size % 3),
+        .wrap_v = (int32_t)(size / 9 % 3),
         .encoding = (int32_t)(size / 3 % 3),
         .nearest = size % 2 == 0,
     };

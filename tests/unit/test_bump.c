@@ -179,7 +179,7 @@ static void test_map_agrees_with_bump(void **state)
     struct texture map = texture_of(samples, 1, 1, 3);
     const ps_vec3 x = {0, 1, 0}, y = {0, 0, 1}, n = {1, 0, 0};
     (void)state;
-    height_map.wrap = WRAP_CLAMP;
+    height_map.wrap_u = height_map.wrap_v = WRAP_CLAMP;
     ps_vec3 bumped = bump_bump(&pigment, n, uv, n, x, y);
     assert_direction(bump_normal_map(&map, uv, n, x, y), bumped, 1e-5f);
 }

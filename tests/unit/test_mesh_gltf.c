@@ -152,7 +152,7 @@ static void textures_have_their_channels_and_encodings(void **state)
     const struct texture_description *textures = imported.fragment.textures;
     assert_int_equal(imported.fragment.texture_count, 2); /* as colour, and as numbers */
     assert_string_equal(textures[m->color.texture].path, "d/a.png");
-    assert_int_equal(textures[m->color.texture].wrap, WRAP_CLAMP);
+    assert_int_equal(textures[m->color.texture].wrap_u, WRAP_CLAMP);
     assert_true(textures[m->color.texture].nearest);
     assert_int_equal(m->color.channel, CHANNEL_RGB);
     assert_int_equal(m->opacity.texture, m->color.texture);

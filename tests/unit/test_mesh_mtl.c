@@ -192,10 +192,10 @@ static void maps_are_textures(void **state)
     assert_int_equal(m->color.kind, PIGMENT_IMAGE);
     expect_color(m->color.colors[0], 0.5, 0.6, 0.7);
     assert_string_equal(textures[m->color.texture].path, "d/a.png");
-    assert_int_equal(textures[m->color.texture].wrap, WRAP_CLAMP);
+    assert_int_equal(textures[m->color.texture].wrap_u, WRAP_CLAMP);
     assert_int_equal(textures[m->color.texture].encoding, ENCODING_AUTO);
     expect_color(m->emission.colors[0], 1, 1, 1); /* a picture beside black */
-    assert_int_equal(textures[m->emission.texture].wrap, WRAP_REPEAT);
+    assert_int_equal(textures[m->emission.texture].wrap_u, WRAP_REPEAT);
     assert_string_equal(textures[m->opacity.texture].path, "d/sub/b c.png");
     assert_int_equal(m->opacity.channel, CHANNEL_RGB);
     assert_int_equal(textures[m->opacity.texture].encoding, ENCODING_LINEAR);

@@ -288,7 +288,7 @@ static void test_slope_of_image(void **state)
         samples[i] = (float)(3 * (i % 5) + 7 * (i / 5));
     }
     struct texture texture = texture_of(samples, 5, 4, 1);
-    texture.wrap = WRAP_CLAMP;
+    texture.wrap_u = texture.wrap_v = WRAP_CLAMP;
     description.colors[0] = (ps_rgb){2, 2, 2};
     description.scale_u = 0.5;
     description.scale_v = -2; /* v' goes from 1 down to -1 */

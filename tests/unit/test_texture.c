@@ -16,7 +16,7 @@ static struct texture create(float samples[WIDTH * HEIGHT], enum texture_wrap wr
         samples[i] = value_at(i % WIDTH, HEIGHT - 1 - i / WIDTH);
     }
     struct texture texture = texture_of(samples, WIDTH, HEIGHT, 1);
-    texture.wrap = wrap;
+    texture.wrap_u = texture.wrap_v = wrap;
     texture.nearest = nearest;
     return texture;
 }
@@ -84,7 +84,7 @@ static void test_bilinear_weights(void **state)
     /* A product of shares: linear data alone would not tell. */
     float square[4] = {0, 1, 0, 0};
     texture = texture_of(square, 2, 2, 1);
-    texture.wrap = WRAP_CLAMP;
+    texture.wrap_u = texture.wrap_v = WRAP_CLAMP;
     assert_float_equal(look_up(&texture, 0.25 + 0.3 * 0.5, 0.25 + 0.6 * 0.5), 0.3 * 0.6, 1e-6);
 }
 
@@ -166,11 +166,24 @@ static void test_single_texel(void **state)
     (void)state;
     for (int wrap = WRAP_REPEAT; wrap <= WRAP_MIRROR; wrap++) {
         struct texture texture = texture_of(&sample, 1, 1, 1);
-        texture.wrap = wrap;
+        texture.wrap_u = texture.wrap_v = wrap;
         for (double u = -2; u <= 2; u += 0.1) {
             assert_float_equal(look_up(&texture, u, -u), 5, 1e-5);
         }
     }
+}
+
+static void test_each_axis_wraps_by_itself(void **state)
+{
+    float samples[WIDTH * HEIGHT];
+    (void)state;
+    struct texture texture = create(samples, WRAP_CLAMP, true);
+    texture.wrap_v = WRAP_REPEAT;
+    assert_float_equal(look_up_texels(&texture, WIDTH + 0.5, HEIGHT + 0.5), value_at(WIDTH - 1, 0),
+                       0);
+    texture.wrap_u = WRAP_MIRROR;
+    texture.wrap_v = WRAP_CLAMP;
+    assert_float_equal(look_up_texels(&texture, -1.5, -1.5), value_at(1, 0), 0);
 }
 
 /* Half way between black and white there is half the light, not half the code. */
@@ -180,13 +193,13 @@ static void test_decoded_before_interpolation(void **state)
     (void)state;
     struct texture texture = load_data("grey1.png", ENCODING_AUTO); /* 0 1 1 over 1 0 0 */
     texture.nearest = false;
-    texture.wrap = WRAP_CLAMP;
+    texture.wrap_u = texture.wrap_v = WRAP_CLAMP;
     texture_sample(&texture, 1.0f / 3.0f, 1.0f, rgba);
     assert_color(rgba, 0.5f, 0.5f, 0.5f, 1, 1e-6f);
     texture_release(&texture);
     texture = load_data("grey8.png", ENCODING_AUTO); /* 100 over 255 on the right */
     texture.nearest = false;
-    texture.wrap = WRAP_CLAMP;
+    texture.wrap_u = texture.wrap_v = WRAP_CLAMP;
     texture_sample(&texture, 1.0f, 0.5f, rgba);
     float expected = 0.5f * (1.0f + powf((100 / 255.0f + 0.055f) / 1.055f, 2.4f));
     assert_color(rgba, expected, expected, expected, 1, 1e-6f);
@@ -247,6 +260,7 @@ int main(void)
         cmocka_unit_test(test_mirror),
         cmocka_unit_test(test_single_texel),
         cmocka_unit_test(test_decoded_before_interpolation),
+        cmocka_unit_test(test_each_axis_wraps_by_itself),
         cmocka_unit_test(test_any_coordinate),
         cmocka_unit_test(test_large_texels),
         cmocka_unit_test(test_memory),
