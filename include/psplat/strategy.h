@@ -188,9 +188,10 @@ typedef struct ps_image_view {
     const float *albedo_r, *albedo_g, *albedo_b;
     const float *normal_x, *normal_y, *normal_z;
     const float *position_x, *position_y, *position_z;
-    const float *depth;    /* INFINITY where nothing is seen */
-    const float *weight;   /* sum over the passes of what the estimator weighed the light with */
-    const float *coverage; /* passes in which a surface was seen, at the end of the way by mirrors and glass */
+    const float *depth;  /* INFINITY where nothing is seen */
+    const float *weight; /* sum over the passes of what the estimator weighed the light with */
+    const float *
+        coverage; /* passes in which a surface was seen, at the end of the way by mirrors and glass */
     /* Where the table asks for them, else NULL: object and material of the first pass, PS_NO_OBJECT where
      * nothing is seen; and the indirect radiance of the even and of the odd passes alone, whose
      * difference tells the noise: NULL, too, where there is one pass. Of direct light they are by halves of the shadow

@@ -107,7 +107,8 @@ static void test_pictures(void **state)
     assert_int_equal(m[1].color.texture, p->texture);
     assert_true(m[1].color.scale_u == 1 && m[1].color.offset_v == 0);
     const struct texture_description *t = &d.textures[m[2].color.texture];
-    assert_true(t->wrap_u == WRAP_MIRROR && t->wrap_v == WRAP_MIRROR && t->nearest && !d.textures[p->texture].nearest);
+    assert_true(t->wrap_u == WRAP_MIRROR && t->wrap_v == WRAP_MIRROR && t->nearest &&
+                !d.textures[p->texture].nearest);
     assert_int_equal(m[2].opacity.channel, CHANNEL_A);
     assert_int_equal(d.textures[m[2].opacity.texture].encoding, ENCODING_LINEAR);
     assert_string_equal(d.textures[m[2].opacity.texture].path, "/b/leaf.png");
