@@ -104,6 +104,7 @@ struct object_keys {
     int32_t diffuse_only;
     int32_t colors; /* 0 linear, 1 srgb */
     double bump_scale;
+    double smooth_angle;
 };
 
 #endif

@@ -138,6 +138,8 @@ static const struct schema_row mesh_rows[] = {
                     "what numbers for reflectance in MTL mean")),
     VALUE(PS_NUMBER(struct object_keys, bump_scale, "1", 0, INFINITY, 0, "",
                     "factor on the heights of MTL's bump maps; 0: none")),
+    VALUE(PS_NUMBER(struct object_keys, smooth_angle, "0", 0, 180, 0, "degrees",
+                    "edges up to which parts without normals are smooth; 0: they are flat")),
     PLACED_ROWS,
 };
 

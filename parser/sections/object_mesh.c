@@ -160,6 +160,7 @@ void object_mesh_read(struct reader *reader, const struct item *item,
         .diffuse_only = keys->diffuse_only != 0,
         .srgb_colors = keys->colors != 0,
         .bump_scale = keys->bump_scale,
+        .smooth_angle = keys->smooth_angle,
         .placement = placed.placement,
         .origin = reader_origin(reader, item->key),
     };

@@ -115,6 +115,14 @@ static void fill_normals(const struct aiMesh *source, const ps_vec3 *smooth,
     mend_normals(mesh);
 }
 
+static ps_result smooth(struct mesh_job *job, struct mesh_description *mesh)
+{
+    ps_result result = mesh_smooth_by_angle(job, mesh, job->request->smooth_angle);
+    if (result == PS_OK)
+        mend_normals(mesh);
+    return result;
+}
+
 /* What a mesh has besides positions. */
 struct parts {
     bool normals, uv, second_uv, colors;
@@ -170,5 +178,7 @@ ps_result mesh_fill(struct mesh_job *job, const struct mesh_geometry *geometry,
         mesh_fill_colors(job, geometry, new_indices, mesh->colors);
     if (parts.normals)
         fill_normals(source, geometry->smooth, new_indices, mesh);
+    else if (job->request->smooth_angle > 0)
+        return smooth(job, mesh);
     return PS_OK;
 }

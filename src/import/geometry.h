@@ -39,4 +39,10 @@ void mesh_note_colors(struct mesh_job *job);
 ps_result mesh_smooth_normals(struct mesh_job *job, ps_vec3 ***normals);
 void mesh_smooth_release(const struct mesh_job *job, ps_vec3 **normals);
 
+/* --- smooth_angle.c ------------------------------------------------------------------------------ */
+
+/* Gives a mesh of at least one triangle, without normals, those of smooth surfaces, whose edges are sharp where normals of
+ * triangles differ by more than the angle, 0 to 180. Vertices at which smooth surfaces meet are split. */
+ps_result mesh_smooth_by_angle(struct mesh_job *job, struct mesh_description *mesh, double degrees);
+
 #endif

@@ -2,7 +2,7 @@
  *
  * assimp reads the file (OBJ with MTL, glTF 2, PLY, STL and a few more; format.h lists them) in a child
  * process: a file on which it crashes, or takes too long, is an error like any other. Texture coordinates
- * come with v upwards; normals are the file's, or those of its smoothing groups, or none. Cameras and
+ * come with v upwards; normals are the file's, or those of its smoothing groups, or by the angle of edges, or none. Cameras and
  * lights are carried into the scene. Where request maps change lengths by a factor s, intensities change
  * by s^2, so that the picture stays the same; radiances and a sun's irradiance stay. Colours are linear,
  * those of textures as their encoding says. No state outside of the arguments; may run in several threads
@@ -20,10 +20,12 @@ struct mesh_request {
     const char *folder; /* the only one to read from (input_file.h), or NULL */
     bool geometry, materials, camera, lights; /* what to use */
     double unit;                              /* scene units for each unit of the file */
-    int32_t up;              /* which axis of the file points upwards: 0 x, 1 y, 2 z */
-    bool diffuse_only;       /* leave out the gloss of the file's materials */
-    bool srgb_colors;        /* MTL's Kd, Ks and Tf are codes of sRGB; else they are linear */
-    double bump_scale;       /* times the heights of MTL's bump maps; 0: none */
+    int32_t up;        /* which axis of the file points upwards: 0 x, 1 y, 2 z */
+    bool diffuse_only; /* leave out the gloss of the file's materials */
+    bool srgb_colors;  /* MTL's Kd, Ks and Tf are codes of sRGB; else they are linear */
+    double bump_scale; /* times the heights of MTL's bump maps; 0: none */
+    double
+        smooth_angle; /* degrees: parts without normals or smoothing groups are smooth across flatter edges; 0: flat */
     struct affine placement; /* applied last */
     unsigned
         seconds; /* of processor time beyond what the files' size allows; 0: as many as usual */

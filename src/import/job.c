@@ -81,6 +81,9 @@ static ps_result prepare(struct mesh_job *job)
     if (!(request->unit > 0) || !isfinite(request->unit) || request->up < 0 || request->up > 2)
         return error_set(job->error, PS_ERROR_INVALID, "%s: a unit above 0 and an axis are needed",
                          request->path);
+    if (!(request->smooth_angle >= 0 && request->smooth_angle <= 180))
+        return error_set(job->error, PS_ERROR_INVALID,
+                         "%s: a smooth angle of 0 to 180 degrees is needed", request->path);
     job->to_scene = map_of_request(request);
     double volume = fabs((double)affine_determinant(&job->to_scene));
     if (!(volume > 0) || !isfinite(volume))

@@ -126,6 +126,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         .lights = true,
         .unit = 0.5,
         .bump_scale = 1,
+        .smooth_angle = data[0] & 0x40 ? 40 : 0,
         .up = 2,
         .placement = AFFINE_IDENTITY,
         .seconds = 1,

@@ -71,6 +71,17 @@ static void test_options_of_mtl(void **state)
     scene_description_release(&d);
 }
 
+static void test_smooth_angle(void **state)
+{
+    struct scene_description d =
+        parse_good(scene(state, "objects: [mesh: {file: @, smooth_angle: 40}]\n"));
+    assert_non_null(d.meshes[d.objects[0].mesh].normals);
+    scene_description_release(&d);
+    d = parse_good(scene(state, "objects: [mesh: {file: @}]\n"));
+    assert_null(d.meshes[d.objects[0].mesh].normals);
+    scene_description_release(&d);
+}
+
 static void test_in_groups(void **state)
 {
     struct scene_description d = parse_good(
@@ -131,6 +142,8 @@ static void test_errors(void **state)
            "5:56: error: up in mesh: expected x | y | z, got 'w'\n");
     expect(state, "objects: [mesh: {file: @, colors: rgb, bump_scale: -1}]",
            "error: colors in mesh: expected linear | srgb, got 'rgb'");
+    expect(state, "objects: [mesh: {file: @, smooth_angle: 200}]",
+           "error: smooth_angle in mesh: expected number 0..180, got '200'");
     expect(state, "objects: [mesh: {file: @, bump_scale: -1}]",
            "error: bump_scale in mesh: expected number >= 0, got '-1'");
     expect(state, "groups: {g: [mesh: {use: [lights], file: @}]}",
@@ -141,8 +154,11 @@ static void test_errors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        SCRATCH_TEST(test_materials), SCRATCH_TEST(test_options_of_mtl),
-        SCRATCH_TEST(test_in_groups), SCRATCH_TEST(test_parts_without_a_material),
+        SCRATCH_TEST(test_materials),
+        SCRATCH_TEST(test_options_of_mtl),
+        SCRATCH_TEST(test_smooth_angle),
+        SCRATCH_TEST(test_in_groups),
+        SCRATCH_TEST(test_parts_without_a_material),
         SCRATCH_TEST(test_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
