@@ -212,7 +212,7 @@ static bool spread(void **elements, size_t size, const struct split *splits, siz
 {
     if (!*elements)
         return true;
-    char *spread = malloc(count * size);
+    char *spread = malloc((count + 1) * size);
     if (!spread)
         return false;
     for (size_t i = 0; i < count; i++)
@@ -235,7 +235,7 @@ static bool take_normals(struct smoothing *s)
     struct mesh_description *mesh = s->mesh;
     size_t count;
     struct split *splits = split_vertices(s, &count);
-    mesh->normals = splits ? malloc(count * sizeof *mesh->normals) : NULL;
+    mesh->normals = splits ? malloc((count + 1) * sizeof *mesh->normals) : NULL;
     bool good = mesh->normals && spread_all(mesh, splits, count);
     for (size_t i = 0; good && i < count; i++)
         mesh->normals[i] = s->sums[splits[i].root];
