@@ -140,6 +140,15 @@ ps_result gbuffer_prepare_glossy(struct gbuffer *gbuffer, struct error *error)
                                           "glossy surfaces");
 }
 
+ps_result gbuffer_prepare_geometric_normals(struct gbuffer *gbuffer, struct error *error)
+{
+    size_t count = (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
+    gbuffer->geometric_normals = calloc(count, sizeof *gbuffer->geometric_normals);
+    return gbuffer->geometric_normals
+               ? PS_OK
+               : error_memory(error, count * sizeof *gbuffer->geometric_normals, "normals");
+}
+
 ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error)
 {
     size_t count = 3 * (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
@@ -161,6 +170,7 @@ void gbuffer_release(struct gbuffer *gbuffer)
     free(gbuffer->emitted);
     free(gbuffer->by_chance);
     free(gbuffer->glossy);
+    free(gbuffer->geometric_normals);
     *gbuffer = (struct gbuffer){.tiles = NULL};
 }
 
@@ -173,6 +183,8 @@ size_t gbuffer_bytes_with(const struct gbuffer *layout, struct gbuffer_parts par
         lane += sizeof *layout->direct_half;
     if (parts.hard)
         lane += sizeof *layout->hard + (parts.direct_half ? sizeof *layout->hard_half : 0);
+    if (parts.geometric_normals)
+        lane += sizeof *layout->geometric_normals;
     if (parts.radiance)
         lane += 3 * sizeof *layout->radiance;
     size_t glossy = parts.glossy ? sizeof *layout->glossy : 0;
@@ -186,6 +198,7 @@ size_t gbuffer_bytes(const struct gbuffer *gbuffer)
                                            .direct_half = gbuffer->direct_half != NULL,
                                            .hard = gbuffer->hard != NULL,
                                            .glossy = gbuffer->glossy != NULL,
+                                           .geometric_normals = gbuffer->geometric_normals != NULL,
                                            .radiance = gbuffer->radiance != NULL,
                                        });
 }
@@ -264,6 +277,14 @@ void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throu
     tile->depth[lane] = travelled;
     tile->object[lane] = hit->object;
     tile->material[lane] = hit->material;
+}
+
+void gbuffer_store_geometric_normal(struct gbuffer *gbuffer, uint32_t tile, uint32_t lane,
+                                    const ps_hit *hit)
+{
+    assert(lane < PS_TILE_PIXELS);
+    if (gbuffer->geometric_normals)
+        gbuffer->geometric_normals[(size_t)tile * PS_TILE_PIXELS + lane] = hit->geometric_normal;
 }
 
 static void store_first(struct glossy_tile *glossy, uint32_t lane, const ps_hit *hit,

@@ -48,6 +48,8 @@ struct gbuffer {
      * or NULL where nobody joins it. */
     uint64_t *occlusion;
     ps_rgb *joined;
+    /* Of the surface itself, where shading normals are smoothed or bent; likewise, or NULL where nobody asks. */
+    ps_vec3 *geometric_normals;
     float *
         radiance; /* what ps_tile.radiance_r, _g and _b point into, owned; NULL where nobody adds to it */
 };
@@ -79,12 +81,15 @@ ps_result gbuffer_prepare_hard(struct gbuffer *gbuffer, struct error *error);
 /* Makes room for the first glossy surfaces. */
 ps_result gbuffer_prepare_glossy(struct gbuffer *gbuffer, struct error *error);
 
+/* Makes room for geometric normals. */
+ps_result gbuffer_prepare_geometric_normals(struct gbuffer *gbuffer, struct error *error);
+
 /* Makes room for indirect radiance. */
 ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error);
 
 /* What a buffer has besides tiles, direct and emitted light, and by_chance. */
 struct gbuffer_parts {
-    bool joined, direct_half, hard, glossy, radiance;
+    bool joined, direct_half, hard, glossy, geometric_normals, radiance;
 };
 
 /* Bytes that the tiles of a layout take with such parts, and that the buffer takes. */
@@ -131,6 +136,10 @@ void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t tile);
  * its light. */
 void gbuffer_store(ps_tile *tile, uint32_t lane, const ps_hit *hit, ps_rgb throughput,
                    float travelled);
+
+/* Notes the geometric normal of what a lane sees, where there is room. */
+void gbuffer_store_geometric_normal(struct gbuffer *gbuffer, uint32_t tile, uint32_t lane,
+                                    const ps_hit *hit);
 
 /* Notes a glossy surface of a lane that met none before, what it reflects with the way to the camera, and the share
  * of that which is gloss. */

@@ -63,9 +63,10 @@ static size_t picture_pixel(const struct render_settings *settings, const struct
 static double gbuffer_part(const struct gbuffer *layout, const struct planes *planes)
 {
     struct interleaved interleaved = interleaved_layout(layout, 1);
+    interleaved.has_geometric_normals = planes->geometric;
     size_t bytes = gbuffer_bytes_with(
         layout, (struct gbuffer_parts){planes->joined, planes->direct_half, planes->hard,
-                                       planes->gloss, planes->radiance});
+                                       planes->gloss, planes->geometric, planes->radiance});
     if (planes->edges)
         bytes += layout->tile_count * PS_TILE_PIXELS * sizeof(bool);
     if (planes->splats || planes->caustics)

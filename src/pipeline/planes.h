@@ -18,6 +18,7 @@ struct planes {
     bool edges;       /* pixels that take several samples */
     bool splats;      /* what pixels get by splats, with short-range light */
     bool caustics;    /* what they get by splats of caustics alone */
+    bool geometric;   /* G-buffer: geometric normals beside smoothed or bent ones, for splats */
     bool direct_half; /* G-buffer: direct light by half of the shadow rays */
     bool hard;        /* G-buffer: light that casts hard shadows */
     bool radiance;    /* G-buffer: indirect radiance */

@@ -71,6 +71,8 @@ static ps_result add_to_gbuffer(struct render *render, const struct planes *plan
     ps_result result = PS_OK;
     if (planes->gloss)
         result = gbuffer_prepare_glossy(gbuffer, error);
+    if (result == PS_OK && planes->geometric)
+        result = gbuffer_prepare_geometric_normals(gbuffer, error);
     if (result == PS_OK && planes->joined)
         result = gbuffer_prepare_join(gbuffer, error);
     if (result == PS_OK && planes->direct_half)

@@ -503,16 +503,62 @@ static ps_bsdf_sample follow_lobe(const struct lobe *lobe, const struct view *vi
     return reflect_roughly(lobe, view, direction, sample);
 }
 
-/* What light paths lose or gain at smoothed and bent normals (Veach 1997, section 5.3). */
-static float shading_correction(const struct view *view, ps_vec3 w)
+/* What light paths lose or gain at smoothed and bent normals (Veach 1997, section 5.3): where they arrive, along
+ * view->out, and where they leave along w. */
+static float arrival_correction(const struct view *view)
 {
     ps_vec3 shading = view->hit->normal, true_normal = view->hit->geometric_normal;
     if (ps_same(shading, true_normal))
         return 1.0f;
     float in = ps_dot(view->out, shading) / fmaxf(ps_dot(view->out, true_normal), SMALLEST_COSINE);
-    float away = fabsf(ps_dot(w, true_normal)) / fmaxf(fabsf(ps_dot(w, shading)), SMALLEST_COSINE);
-    return fmaxf(in, 0.0f) * away;
+    return fmaxf(in, 0.0f);
 }
+
+static float shading_correction(const struct view *view, ps_vec3 w)
+{
+    ps_vec3 shading = view->hit->normal, true_normal = view->hit->geometric_normal;
+    if (ps_same(shading, true_normal))
+        return 1.0f;
+    float away = fabsf(ps_dot(w, true_normal)) / fmaxf(fabsf(ps_dot(w, shading)), SMALLEST_COSINE);
+    return arrival_correction(view) * away;
+}
+
+/* --- surfaces that are diffuse alone ---------------------------------------------------------------
+ *
+ * What arrives counts by the shading normal, and what leaves goes to all directions of the surface itself, whichever side of
+ * its shading normal they are on. So camera paths draw by the shading normal, and light paths by the geometric one. */
+
+static ps_bsdf_sample scatter_light_diffusely(const struct view *view, const float sample[4])
+{
+    ps_vec3 n = view->hit->geometric_normal;
+    ps_vec3 w = ps_cosine_direction(n, sample[0], sample[1]);
+    return (ps_bsdf_sample){
+        .direction = w,
+        .normal = n,
+        .weight = ps_rgb_scale(all_diffuse_albedo(view, view->cosine), arrival_correction(view)),
+        .probability = 1.0f,
+        .pdf = ps_dot(w, n) / PS_PI,
+        .lobe = PS_DIFFUSE,
+    };
+}
+
+static ps_bsdf_value evaluate_diffuse(const struct view *view, ps_direction direction, ps_vec3 away)
+{
+    const ps_hit *hit = view->hit;
+    ps_rgb albedo = all_diffuse_albedo(view, view->cosine);
+    float shading = fmaxf(ps_dot(away, hit->normal), 0.0f) / PS_PI;
+    float geometric = ps_dot(away, hit->geometric_normal) / PS_PI;
+    float back_shading = fmaxf(ps_dot(view->out, hit->normal), 0.0f) / PS_PI;
+    float back_geometric = ps_dot(view->out, hit->geometric_normal) / PS_PI;
+    if (!(geometric > 0.0f))
+        return (ps_bsdf_value){.pdf = 0.0f};
+    if (direction == PS_FROM_CAMERA)
+        return (ps_bsdf_value){ps_rgb_scale(albedo, shading), shading, back_geometric};
+    return (ps_bsdf_value){ps_rgb_scale(albedo, geometric * arrival_correction(view)), geometric,
+                           back_shading};
+}
+
+/* --- any surface ------------------------------------------------------------------------------- */
 
 ps_bsdf_sample material_scatter(const struct material *material,
                                 const struct microfacet_table *table, ps_direction direction,
@@ -520,6 +566,8 @@ ps_bsdf_sample material_scatter(const struct material *material,
 {
     struct lobe lobes[MOST_LOBES];
     struct view view = view_of(material, table, hit, ray->direction);
+    if (!material->specular && direction == PS_FROM_LIGHT)
+        return scatter_light_diffusely(&view, sample);
     size_t count = list_lobes(&view, lobes);
     if (count == 0)
         return (ps_bsdf_sample){
@@ -586,6 +634,8 @@ ps_bsdf_value material_evaluate(const struct material *material,
                                 const ps_ray *ray, const ps_hit *hit, ps_vec3 away)
 {
     struct view view = view_of(material, table, hit, ray->direction);
+    if (!material->specular)
+        return evaluate_diffuse(&view, direction, away);
     struct view reverse = view_of(material, table, hit, ps_scale(away, -1.0f));
     ps_bsdf_value value = {.pdf = 0.0f};
     ps_vec3 frame[3];

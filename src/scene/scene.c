@@ -147,6 +147,16 @@ size_t scene_bytes(const struct scene *scene)
     return sum;
 }
 
+bool scene_has_shading_normals(const struct scene *scene)
+{
+    bool any = false;
+    for (size_t i = 0; i < scene->shape_count && !any; i++)
+        any = scene->shapes[i].normals != NULL;
+    for (size_t i = 0; i < scene->material_count && !any; i++)
+        any = scene->materials[i].has_normal_map || scene->materials[i].has_bump;
+    return any;
+}
+
 /* Instances go by their objects. */
 const struct instance *scene_instance_of(const struct scene *scene, uint32_t object)
 {

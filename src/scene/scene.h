@@ -94,6 +94,9 @@ size_t scene_bytes(const struct scene *scene);
  * much as to ask it. */
 bool scene_chooses_lights(const struct scene *scene);
 
+/* Whether normals of some surface are smoothed or bent. */
+bool scene_has_shading_normals(const struct scene *scene);
+
 /* Whether points choose lights, or parts of them. */
 bool scene_needs_choices(const struct scene *scene);
 

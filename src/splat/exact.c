@@ -10,6 +10,9 @@ static void collect_points(const struct interleaved_tile *tile, const uint32_t *
         uint32_t lane = lanes[i];
         ps_vec3 position = {tile->position_x[lane], tile->position_y[lane], tile->position_z[lane]};
         ps_vec3 normal = {tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
+        if (tile->geometric)
+            normal = (ps_vec3){tile->geometric->x[lane], tile->geometric->y[lane],
+                               tile->geometric->z[lane]};
         points[i] = ps_add_scaled(position, surface_offset, normal);
     }
 }

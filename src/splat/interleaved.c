@@ -23,6 +23,7 @@ struct interleaved interleaved_layout(const struct gbuffer *gbuffer, uint32_t in
         .top = (uint32_t)window.y,
         .width = window.x + window.width,
         .height = window.y + window.height,
+        .has_geometric_normals = gbuffer->geometric_normals != NULL,
     };
     interleaved.tile_count =
         interleaved.subsets * interleaved.tiles_across * interleaved.tiles_down;
@@ -34,21 +35,34 @@ ps_result interleaved_create(struct interleaved layout, struct interleaved *inte
 {
     assert(layout.interleave >= 1 && layout.interleave <= PS_MOST_INTERLEAVE);
     *interleaved = layout;
-    interleaved->tiles = aligned_alloc(64, interleaved_bytes(interleaved));
-    return interleaved->tiles
-               ? PS_OK
-               : error_memory(error, interleaved_bytes(interleaved), "what splats light");
+    size_t count = layout.tile_count;
+    interleaved->tiles = aligned_alloc(64, count * sizeof *interleaved->tiles);
+    if (layout.has_geometric_normals)
+        interleaved->geometric_normals =
+            aligned_alloc(64, count * sizeof *interleaved->geometric_normals);
+    if (!interleaved->tiles || (layout.has_geometric_normals && !interleaved->geometric_normals)) {
+        size_t bytes = interleaved_bytes(interleaved);
+        interleaved_release(interleaved);
+        return error_memory(error, bytes, "what splats light");
+    }
+    for (size_t i = 0; i < count; i++)
+        interleaved->tiles[i].geometric =
+            interleaved->geometric_normals ? &interleaved->geometric_normals[i] : NULL;
+    return PS_OK;
 }
 
 void interleaved_release(struct interleaved *interleaved)
 {
     free(interleaved->tiles);
+    free(interleaved->geometric_normals);
     *interleaved = (struct interleaved){.tiles = NULL};
 }
 
 size_t interleaved_bytes(const struct interleaved *interleaved)
 {
-    return interleaved->tile_count * sizeof(struct interleaved_tile);
+    size_t normals =
+        interleaved->has_geometric_normals ? sizeof *interleaved->geometric_normals : 0;
+    return interleaved->tile_count * (sizeof *interleaved->tiles + normals);
 }
 
 /* Lane of a tile's pixel (x, y), and back. */
@@ -122,8 +136,18 @@ void interleaved_set_lane(struct interleaved_tile *tile, uint32_t lane, ps_vec3 
     tile->normal_z[lane] = normal.z;
 }
 
+static void set_geometric(struct interleaved_tile *tile, uint32_t lane, ps_vec3 normal)
+{
+    if (!tile->geometric)
+        return;
+    tile->geometric->x[lane] = normal.x;
+    tile->geometric->y[lane] = normal.y;
+    tile->geometric->z[lane] = normal.z;
+}
+
 void interleaved_clear_lane(struct interleaved_tile *tile, uint32_t lane)
 {
+    set_geometric(tile, lane, (ps_vec3){0, 0, 0});
     tile->position_x[lane] = tile->position_y[lane] = tile->position_z[lane] = BOUNDS_NOWHERE;
     tile->normal_x[lane] = tile->normal_y[lane] = tile->normal_z[lane] = 0.0f;
 }
@@ -164,6 +188,9 @@ static void fill_tile(void *user, uint64_t index, uint32_t worker)
             uint32_t from = gbuffer_tile_of(gbuffer, x, y, &photon);
             interleaved_set_lane(tile, lane, ps_tile_position(&gbuffer->tiles[from], photon),
                                  ps_tile_normal(&gbuffer->tiles[from], photon));
+            if (tile->geometric)
+                set_geometric(tile, lane,
+                              gbuffer->geometric_normals[(size_t)from * PS_TILE_PIXELS + photon]);
         } else {
             interleaved_clear_lane(tile, lane);
         }

@@ -18,12 +18,20 @@
 
 #define INTERLEAVED_BLOCK 16 /* pixels of a block, lanes 16 b to 16 b + 15 of a tile */
 
+/* Of a tile's surfaces themselves. */
+struct geometric_normals {
+    _Alignas(64) float x[PS_TILE_PIXELS];
+    float y[PS_TILE_PIXELS], z[PS_TILE_PIXELS];
+};
+
 struct interleaved_tile {
     _Alignas(64) float position_x[PS_TILE_PIXELS];
     float position_y[PS_TILE_PIXELS], position_z[PS_TILE_PIXELS];
     float normal_x[PS_TILE_PIXELS], normal_y[PS_TILE_PIXELS], normal_z[PS_TILE_PIXELS];
     float irradiance_r[PS_TILE_PIXELS], irradiance_g[PS_TILE_PIXELS], irradiance_b[PS_TILE_PIXELS];
     float weight[PS_TILE_PIXELS];
+    struct geometric_normals
+        *geometric; /* the interleaved pixels' own; NULL: the normals are those of the surfaces */
     struct bounds blocks;
 };
 
@@ -35,6 +43,8 @@ struct interleaved {
     uint32_t left, top;                /* the window's first column and row */
     size_t width, height;              /* where its columns and rows end, counted in the picture */
     struct interleaved_tile *tiles;    /* owned */
+    bool has_geometric_normals;
+    struct geometric_normals *geometric_normals; /* of each tile, owned; or NULL */
 };
 
 /* Interleaved pixels of a G-buffer's window, and no memory for it; `interleave` 1..PS_MOST_INTERLEAVE. */

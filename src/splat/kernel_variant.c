@@ -91,6 +91,7 @@ struct placed_block {
     float u[LANES], v[LANES];     /* across it, in radii */
     float t[LANES], above[LANES]; /* along it, from the centre and from the photon's plane */
     float facing[LANES]; /* cosine under which the light meets the surface; negative from behind */
+    float geometric_facing[LANES]; /* where the geometric normal is another; set by face_surfaces */
     float width[LANES], inverse_width[LANES]; /* h and 1 / h; set by choose_widths */
 };
 
@@ -147,6 +148,22 @@ static inline int choose_widths(const struct interleaved_tile *tile, int first,
     return lanes_mask(inside) != 0;
 }
 
+/* Cosines under which the light meets the surfaces themselves. */
+static inline const float *face_surfaces(const struct interleaved_tile *tile, int first,
+                                         const struct kernel_splat *splat,
+                                         struct placed_block *placed)
+{
+    const struct geometric_normals *normals = tile->geometric;
+    if (!normals)
+        return placed->facing;
+#pragma omp simd
+    for (int i = 0; i < LANES; i++)
+        placed->geometric_facing[i] =
+            -(normals->x[first + i] * splat->w.x + normals->y[first + i] * splat->w.y +
+              normals->z[first + i] * splat->w.z);
+    return placed->geometric_facing;
+}
+
 /* How deep the map sees at the texel that each pixel lies in, or the nearest one. */
 static inline void look_into_map(const struct placed_block *placed, const float *depths,
                                  int resolution, float *restrict seen)
@@ -178,9 +195,10 @@ static inline void look_into_profile(const struct placed_block *placed, const fl
 #define LEAST_COSINE (1.0f / sqrtf(1.0f + FOOTPRINT_STEEPEST * FOOTPRINT_STEEPEST))
 
 /* Returns how many pixels have weight. A pixel may lie past the map by the bias, c + s * tangent of the angle
- * under which the light meets it; both sides times the cosine need no root. */
-static inline int weigh(const struct placed_block *placed, const struct kernel_splat *splat,
-                        int resolution, const float *profile, struct block_light *restrict light)
+ * under which the light meets the surface itself; both sides times the cosine need no root. */
+static inline int weigh(const struct placed_block *placed, const float *surface_facing,
+                        const struct kernel_splat *splat, int resolution, const float *profile,
+                        struct block_light *restrict light)
 {
     const float slope2 = splat->bias_slope * splat->bias_slope;
     _Alignas(64) float seen[LANES];
@@ -194,11 +212,11 @@ static inline int weigh(const struct placed_block *placed, const struct kernel_s
         float u = placed->u[i], v = placed->v[i], t = placed->t[i], facing = placed->facing[i];
         float inverse_width = placed->inverse_width[i];
         float least_above = splat->clearance * ps_min(placed->width[i], 1.0f);
-        float cosine = clamp(facing, LEAST_COSINE, 1.0f);
+        float cosine = clamp(surface_facing[i], LEAST_COSINE, 1.0f);
         float past = ps_max(0.0f, t - seen[i] - splat->bias_constant) * cosine;
         int is_lit = (u * u + v * v < 1.0f) & (radius2[i] < 1.0f) & (facing > 0.0f) &
-                     (t >= splat->near_depth) & (t <= splat->far_depth) &
-                     (placed->above[i] >= least_above) &
+                     (surface_facing[i] > 0.0f) & (t >= splat->near_depth) &
+                     (t <= splat->far_depth) & (placed->above[i] >= least_above) &
                      (past * past <= slope2 * (1.0f - cosine * cosine));
         float narrowing = 1.0f + splat->by_width * (inverse_width * inverse_width - 1.0f);
         /* A product, not a choice, which would make the loop scalar. */
@@ -264,7 +282,8 @@ static inline int weigh_block(const struct interleaved_tile *tile, int first,
     _Alignas(64) struct placed_block placed;
     if (!place_block(tile, first, splat, &placed) || !choose_widths(tile, first, splat, &placed))
         return 0;
-    int lit = weigh(&placed, splat, resolution, profile->weights, light);
+    int lit = weigh(&placed, face_surfaces(tile, first, splat, &placed), splat, resolution,
+                    profile->weights, light);
     if (lit > 0 && splat->boundary_count > 0)
         make_up(&placed, splat, profile->beyond, light);
     return lit;

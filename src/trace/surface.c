@@ -167,15 +167,16 @@ static ps_vec3 bend(const struct shape *shape, const struct material *material,
 }
 
 /* Turns both normals to the side that the ray came from. */
-static void face_ray(const ps_ray *ray, ps_hit *hit)
+static void face_ray(const ps_ray *ray, bool diffuse, ps_hit *hit)
 {
     if (ps_dot(hit->geometric_normal, ray->direction) > 0.0f) {
         hit->geometric_normal = ps_scale(hit->geometric_normal, -1.0f);
         hit->normal = ps_scale(hit->normal, -1.0f);
         hit->flags |= PS_HIT_BACK;
     }
-    /* Near the outline of a coarse mesh a smoothed normal may turn away from who sees it. */
-    if (ps_dot(hit->normal, ray->direction) >= 0.0f)
+    /* Near the outline of a coarse mesh a smoothed normal may turn away from who sees it. What is diffuse alone looks the
+     * same from everywhere. */
+    if (!diffuse && ps_dot(hit->normal, ray->direction) >= 0.0f)
         hit->normal = hit->geometric_normal;
 }
 
@@ -203,7 +204,7 @@ ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray, const struc
             normal = bend(placed.shape, material, at, place, &hit, normal);
         hit.normal = normal_to_world(&placed, normal);
     }
-    face_ray(ray, &hit);
+    face_ray(ray, !material->specular, &hit);
     hit.albedo = material_albedo(material, scene->microfacets, &hit, ray->direction);
     hit.roughness = material->specular ? material_roughness(material, &hit) : 1.0f;
     return hit;

@@ -78,6 +78,7 @@ static void end_path(const struct view_pass *pass, uint32_t tile, const struct c
     uint32_t lane = paths->lanes[i];
     if (!pass->hits) {
         gbuffer_store(&pass->gbuffer->tiles[tile], lane, hit, throughput, travelled);
+        gbuffer_store_geometric_normal(pass->gbuffer, tile, lane, hit);
         if (pass->gbuffer->glossy)
             gbuffer_forget_mirror(&pass->gbuffer->glossy[tile], lane);
         return;

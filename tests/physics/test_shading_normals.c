@@ -28,7 +28,8 @@ struct method {
 static const struct method truth = {
     "pathtrace", {"estimator=pathtrace:samples=64", "bounces=all", NULL}, 0};
 
-/* The discs of a photon map follow the bent normal, and miss photons of a bumpy floor. */
+/* The discs of a photon map follow the bent normal, and miss photons of a bumpy floor: the more, the steeper it is. */
+enum { ANY_SLOPE = 3 }; /* how many of them know no such limit */
 static const struct method methods[] = {
     {"bdpt", {"estimator=bdpt:samples=32", "bounces=all", NULL}, 0.01},
     {"gather",
@@ -37,7 +38,7 @@ static const struct method methods[] = {
     {"splat",
      {"estimator=splat", "injection=photon:count=12000", "bounces=all",
       "visibility=shadowmap:radius=0.05", NULL},
-     0.02},
+     0.01},
     {"photonmap",
      {"estimator=photonmap:neighbours=40", "injection=photon:count=12000", "bounces=all", NULL},
      0.04},
@@ -99,6 +100,7 @@ static const char room[] =
     "materials:\n"
     "  white: {diffuse: 0.6}\n"
     "  bumpy: {diffuse: 0.6, bump: {noise: {colors: [0, 0.15], scale: 0.3, octaves: 2}}}\n"
+    "  craggy: {diffuse: 0.6, bump: {noise: {colors: [0, 0.5], scale: 0.3, octaves: 2}}}\n"
     "  coated: {glossy: {diffuse: 0.6, specular: 0.2, roughness: 0.4},\n"
     "           bump: {noise: {colors: [0, 0.15], scale: 0.3, octaves: 2}}}\n"
     "  metal: {metal: {color: 0.9, roughness: 0.4}}\n"
@@ -124,11 +126,10 @@ static struct estimate indirect_light(const char *floor, const char *object,
     return estimate_channel(text, method->choices, "indirect.G", SEEDS);
 }
 
-static void agree(const char *floor)
+static void agree(const char *floor, size_t first, size_t end)
 {
     struct estimate expected = indirect_light(floor, "", &truth);
-    size_t count = floor[0] == 'c' ? COUNT(methods) - 1 : COUNT(methods); /* vpl knows no gloss */
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = first; i < end; i++) {
         char what[128];
         snprintf(what, sizeof what, "%s floor, %s / path tracing", floor, methods[i].name);
         expect_agreement(what, indirect_light(floor, "", &methods[i]), expected, methods[i].bias);
@@ -138,8 +139,9 @@ static void agree(const char *floor)
 static void test_bumpy_floor(void **state)
 {
     (void)state;
-    agree("bumpy");
-    agree("coated");
+    agree("craggy", 0, ANY_SLOPE);
+    agree("bumpy", ANY_SLOPE, COUNT(methods));
+    agree("coated", 0, COUNT(methods) - 1); /* vpl knows no gloss */
 }
 
 /* A sphere that is scaled unevenly, by next to nothing, is made of smooth triangles. */

@@ -21,18 +21,21 @@ ps_rgb bdpt_scattered(uint32_t room, const struct scattering *a, const struct sc
     return room == 1 ? without(all, ps_rgb_multiply(a->diffuse, b->diffuse)) : all;
 }
 
-/* Light paths: what smoothed normals change (Veach 1997, section 5.3) is in the value. */
+/* As evaluate_bsdf does. What smoothed normals change of light paths (Veach 1997, section 5.3) is in the value. */
 static ps_bsdf_value evaluate_diffuse(ps_direction direction, const ps_ray *ray, const ps_hit *hit,
                                       ps_vec3 away)
 {
-    float cosine = ps_dot(away, hit->normal), true_cosine = ps_dot(away, hit->geometric_normal);
-    if (!(cosine > 0.0f && true_cosine > 0.0f))
+    float shading = ps_max(ps_dot(away, hit->normal), 0.0f) / PS_PI;
+    float geometric = ps_dot(away, hit->geometric_normal) / PS_PI;
+    float back_shading = ps_max(-ps_dot(ray->direction, hit->normal), 0.0f) / PS_PI;
+    float back_geometric = -ps_dot(ray->direction, hit->geometric_normal) / PS_PI;
+    if (!(geometric > 0.0f))
         return (ps_bsdf_value){{0, 0, 0}, 0, 0};
-    float back = ps_max(-ps_dot(ray->direction, hit->normal), 0.0f);
-    float seen = cosine;
-    if (direction == PS_FROM_LIGHT && !ps_same(hit->normal, hit->geometric_normal))
-        seen = true_cosine * back / -ps_dot(ray->direction, hit->geometric_normal);
-    return (ps_bsdf_value){ps_rgb_scale(hit->albedo, seen / PS_PI), cosine / PS_PI, back / PS_PI};
+    if (direction == PS_FROM_CAMERA)
+        return (ps_bsdf_value){ps_rgb_scale(hit->albedo, shading), shading, back_geometric};
+    float arrived =
+        ps_same(hit->normal, hit->geometric_normal) ? 1.0f : back_shading / back_geometric;
+    return (ps_bsdf_value){ps_rgb_scale(hit->albedo, geometric * arrived), geometric, back_shading};
 }
 
 void bdpt_evaluate(const struct bdpt *bdpt, ps_direction direction, const ps_ray *rays,
