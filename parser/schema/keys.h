@@ -50,7 +50,7 @@ struct placement_keys {
 };
 
 struct texture_keys {
-    const struct node *file;
+    const struct node *file, *layer;
     int32_t wrap, encoding;
     int32_t interpolate; /* 0 bilinear, 1 nearest */
 };
@@ -83,7 +83,7 @@ struct light_keys {
     struct light_description light;
     ps_rgb intensity, power, radiance, irradiance;
     struct point_list corners;
-    const struct node *file;
+    const struct node *file, *layer;
     int32_t both_sides, visible;
 };
 

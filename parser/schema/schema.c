@@ -114,6 +114,8 @@ static const char *fixed_text(enum schema_form form)
         return "name of a group";
     case SCHEMA_FILE:
         return "path of a file";
+    case SCHEMA_LAYER:
+        return "name of a layer";
     case SCHEMA_STRATEGY:
         return "NAME or {NAME: {PARAMETER: VALUE, ...}}";
     case SCHEMA_NAMED:

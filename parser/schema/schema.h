@@ -38,6 +38,7 @@ enum schema_form {
     SCHEMA_MATERIALS,      /* map from names in a mesh file to names of materials: node */
     SCHEMA_GROUP,          /* name of a group: node */
     SCHEMA_FILE,           /* path of a file: node */
+    SCHEMA_LAYER,          /* name of a layer of a picture: node */
     SCHEMA_STRATEGY,       /* plugin's name, or {name: {parameter: value, ...}} */
 
     /* These hold sections of the family, which who fills the description reads. */

@@ -228,6 +228,7 @@ void schema_json_alternatives(struct json_writer *writer, const struct schema_ro
     case SCHEMA_MATERIAL:
     case SCHEMA_GROUP:
     case SCHEMA_FILE:
+    case SCHEMA_LAYER:
         schema_json_reference(writer, "text");
         break;
     case SCHEMA_MATERIALS:

@@ -90,6 +90,8 @@ static const struct schema_row sky_rows[] = {
         .absent = "1 where a file is given"),
     ROW(SCHEMA_FILE, "file", offsetof(struct light_keys, file), PS_PARAM_STRING, "",
         "picture of the sky by longitude and latitude", ANY, .absent = "the sky is uniform"),
+    ROW(SCHEMA_LAYER, "layer", offsetof(struct light_keys, layer), PS_PARAM_STRING, "",
+        "which layer of an OpenEXR file", ANY, .absent = "its picture"),
     ROW(SCHEMA_VALUE, "rotate", LIGHT(rotate), PS_PARAM_NUMBER, "degrees",
         "turn of the picture about y", ANY, DEFAULT("0")),
     VISIBLE_ROW,

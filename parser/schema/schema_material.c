@@ -9,6 +9,8 @@ static const char *const channels[] = {"rgb", "r", "g", "b", "a", NULL};
 #define TEXTURE_ROWS(base)                                                                         \
     ROW(SCHEMA_FILE, "file", (base) + offsetof(struct texture_keys, file), PS_PARAM_STRING, "",    \
         "the picture", ANY),                                                                       \
+        ROW(SCHEMA_LAYER, "layer", (base) + offsetof(struct texture_keys, layer), PS_PARAM_STRING, \
+            "", "which layer of an OpenEXR file", ANY, .absent = "its picture"),                   \
         ROW(SCHEMA_VALUE, "wrap", (base) + offsetof(struct texture_keys, wrap), PS_PARAM_CHOICE,   \
             "", "what is outside of the picture", DEFAULT("repeat"), .param.choices = wraps),      \
         ROW(SCHEMA_VALUE, "encoding", (base) + offsetof(struct texture_keys, encoding),            \

@@ -125,6 +125,7 @@ static bool fill_row(struct walk *walk, const struct schema_row *row, const stru
         return fill_expect(reader, subject.key, node, NODE_MAP) && store_node(node, member);
     case SCHEMA_GROUP:
     case SCHEMA_FILE:
+    case SCHEMA_LAYER:
         return is_text(reader, subject, row, node) && store_node(node, member);
     case SCHEMA_STRATEGY:
         return strategy_read(reader, subject, node, member);

@@ -70,9 +70,11 @@ static bool set_rectangle(const struct reader *reader, const struct node *at,
 static void set_sky(struct reader *reader, const struct light_keys *keys,
                     struct light_description *light)
 {
-    struct texture_keys texture = {.file = keys->file, .wrap = WRAP_REPEAT};
+    struct texture_keys texture = {.file = keys->file, .layer = keys->layer, .wrap = WRAP_REPEAT};
     if (keys->file)
         light->texture = texture_add(reader, &texture);
+    else if (keys->layer)
+        reader_error(reader, keys->layer, "layer in sky: there is no 'file' that it could be of");
 }
 
 static bool check_spotlight(const struct reader *reader, const struct node *at,

@@ -142,11 +142,12 @@ bool pigment_read(struct reader *reader, struct subject subject, const struct sc
 /* What makes two textures the same, or NULL. */
 static char *identity(struct reader *reader, const struct texture_keys *keys, const char *path)
 {
-    size_t size = strlen(path) + 64;
+    const char *layer = keys->layer ? keys->layer->text : "";
+    size_t size = strlen(path) + strlen(layer) + 64;
     char *text = arena_allocate(reader->arena, size);
     if (text)
-        snprintf(text, size, "%d %d %d %s", (int)keys->wrap, (int)keys->encoding,
-                 (int)keys->interpolate, path);
+        snprintf(text, size, "%d %d %d %zu %s%s", (int)keys->wrap, (int)keys->encoding,
+                 (int)keys->interpolate, strlen(layer), layer, path);
     else
         reader->out_of_memory = true;
     return text;
@@ -158,13 +159,19 @@ static size_t append(struct reader *reader, const struct texture_keys *keys, cha
     struct texture_description *textures =
         reader_extend(reader, description->textures, description->texture_count, 1,
                       sizeof *description->textures);
-    if (!textures) {
+    char *layer = keys->layer ? strdup(keys->layer->text) : NULL;
+    if (keys->layer && !layer)
+        reader->out_of_memory = true;
+    if (textures)
+        description->textures = textures;
+    if (!textures || reader->out_of_memory) {
         free(path);
+        free(layer);
         return NO_INDEX;
     }
-    description->textures = textures;
     textures[description->texture_count] = (struct texture_description){
         .path = path,
+        .layer = layer,
         .wrap_u = keys->wrap,
         .wrap_v = keys->wrap,
         .encoding = keys->encoding,

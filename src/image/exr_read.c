@@ -5,8 +5,9 @@
  * search a damaged file for chunks that its table does not list; that is switched off, because half
  * a picture that looks whole is worse than an error. The first of the library's messages is the one
  * shown: the later ones follow from it. Rasters are read from memory, others from their file. Of tiles in several levels
- * the largest is read; of several parts, for rasters alone, the first with colours.
+ * the largest is read; of several parts, for rasters alone, the first with colours, or that of a layer.
  */
+#include "image/exr_layer.h"
 #include "image/raster_decode.h"
 
 #include <OpenEXR/openexr.h>
@@ -29,8 +30,7 @@ struct exr_source {
     exr_context_t context;
     int part;
     const char *path;
-    const struct raster_source *memory; /* NULL: from the file */
-    const char *const *channels;        /* those wanted; NULL: all */
+    const struct raster_source *memory; /* NULL: from the file, with all channels */
     struct error *error;
     char message[256]; /* the library's first complaint, or empty */
     struct image image;
@@ -129,10 +129,16 @@ static ps_result check_expansion(const struct exr_source *source)
 
 static bool is_wanted(const struct exr_source *source, const char *name)
 {
-    const char *const *wanted = source->channels;
-    while (wanted && *wanted && strcmp(*wanted, name) != 0)
-        wanted++;
-    return !wanted || *wanted;
+    return !source->memory ||
+           exr_layer_wants(source->memory->layer, source->facts.layer_is_part, name);
+}
+
+/* What a channel is called in its layer. */
+static const char *suffix_of(const struct exr_source *source, const char *name)
+{
+    bool is_prefix = source->memory && !source->facts.layer_is_part;
+    const char *suffix = exr_layer_suffix(is_prefix ? source->memory->layer : NULL, name);
+    return suffix ? suffix : name;
 }
 
 /* Whether a part has more of the channels that are wanted than alpha, and flat pixels. */
@@ -146,9 +152,36 @@ static bool has_wanted(const struct exr_source *source, int part)
         return false;
     for (int i = 0; i < list->num_channels; i++)
         if (is_wanted(source, list->entries[i].name.str) &&
-            strcmp(list->entries[i].name.str, "A") != 0)
+            strcmp(suffix_of(source, list->entries[i].name.str), "A") != 0)
             return true;
     return false;
+}
+
+static bool is_called(const struct exr_source *source, int part, const char *name)
+{
+    const char *own = NULL;
+    return exr_get_name(source->context, part, &own) == EXR_ERR_SUCCESS && own &&
+           strcmp(own, name) == 0;
+}
+
+/* The first part with channels of the layer, or else the first of that name. */
+static void choose_part(struct exr_source *source, int parts)
+{
+    const char *layer = source->memory ? source->memory->layer : NULL;
+    bool found = false;
+    for (int i = 0; i < parts && !found; i++) {
+        found = has_wanted(source, i);
+        if (found)
+            source->part = i;
+    }
+    source->facts.layer_is_part = !found && layer;
+    for (int i = 0; i < parts && layer && !found; i++) {
+        found = is_called(source, i, layer) && has_wanted(source, i);
+        if (found)
+            source->part = i;
+    }
+    source->facts.layer_is_part = source->facts.layer_is_part && found;
+    source->message[0] = '\0'; /* that a part has no name */
 }
 
 static ps_result check_form(struct exr_source *source, exr_storage_t *storage)
@@ -157,9 +190,7 @@ static ps_result check_form(struct exr_source *source, exr_storage_t *storage)
     exr_result_t code = exr_get_count(source->context, &parts);
     if (code == EXR_ERR_SUCCESS && parts != 1 && !source->memory)
         return refuse(source, "it has several parts (only one can be read)");
-    for (int i = parts; i-- > 0;)
-        if (has_wanted(source, i))
-            source->part = i;
+    choose_part(source, parts);
     if (code == EXR_ERR_SUCCESS)
         code = exr_get_storage(source->context, source->part, storage);
     if (code != EXR_ERR_SUCCESS)
@@ -285,7 +316,7 @@ static ps_result add_attributes(struct exr_source *source)
 static exr_result_t provide_spare(struct exr_source *source, const exr_chunk_info_t *chunk)
 {
     size_t count = (size_t)chunk->width * (size_t)chunk->height;
-    if (!source->channels || count <= source->spare_count)
+    if (!source->memory || count <= source->spare_count)
         return EXR_ERR_SUCCESS;
     free(source->spare);
     source->spare = malloc(count * sizeof *source->spare);
@@ -383,6 +414,17 @@ static ps_result read_tiles(struct exr_source *source)
     return explain(source, code);
 }
 
+/* Without the picture's own channels the file is read to its end, and the caller says what is missing. */
+static ps_result check_layer(const struct exr_source *source)
+{
+    char layers[256];
+    if (source->image.channel_count > 0 || !source->memory || !source->memory->layer)
+        return PS_OK;
+    exr_layer_list(source->context, layers, sizeof layers);
+    return error_set(source->error, PS_ERROR_INVALID, "%s: it has no layer '%s'; it has %s",
+                     source->path, source->memory->layer, layers);
+}
+
 static ps_result read_picture(struct exr_source *source)
 {
     exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
@@ -393,6 +435,8 @@ static ps_result read_picture(struct exr_source *source)
         result = check_expansion(source);
     if (result == PS_OK)
         result = add_channels(source);
+    if (result == PS_OK)
+        result = check_layer(source);
     if (result == PS_OK)
         result = add_attributes(source);
     if (result != PS_OK || source->image.channel_count == 0)
@@ -454,11 +498,10 @@ ps_result image_read_exr(const char *path, struct image *image, struct error *er
     return read_source(&source, image);
 }
 
-ps_result exr_read_channels(const struct raster_source *memory, const char *const *channels,
-                            struct image *image, struct exr_facts *facts, struct error *error)
+ps_result exr_read_layer(const struct raster_source *memory, struct image *image,
+                         struct exr_facts *facts, struct error *error)
 {
-    struct exr_source source = {
-        .path = memory->path, .memory = memory, .channels = channels, .error = error};
+    struct exr_source source = {.path = memory->path, .memory = memory, .error = error};
     ps_result result = read_source(&source, image);
     *facts = source.facts;
     return result;

@@ -181,8 +181,13 @@ static ps_result decode(const struct raster_source *source, struct raster *raste
     if (source->size == 0)
         return error_set(error, PS_ERROR_INVALID, "%s: it is empty", source->path);
     const struct format *format = find_format(source->bytes, source->size);
-    if (format && format->read)
+    if (format && format->read) {
+        if (source->layer && format->read != raster_read_exr)
+            return error_set(error, PS_ERROR_INVALID,
+                             "%s: it is %s, which has no layers (OpenEXR has)", source->path,
+                             format->name);
         return format->read(source, raster, error);
+    }
     if (format)
         return error_set(error, PS_ERROR_INVALID, "%s: it is %s, which cannot be read (%s can)",
                          source->path, format->name, raster_kinds);
@@ -205,8 +210,8 @@ static ps_result decode_or_release(const struct raster_source *source, struct ra
     return PS_OK;
 }
 
-static ps_result read_file(const char *path, const struct input_file *file, struct raster *raster,
-                           struct error *error)
+static ps_result read_file(const char *path, const char *layer, const struct input_file *file,
+                           struct raster *raster, struct error *error)
 {
     size_t size = (size_t)file->size;
     struct error reason;
@@ -219,29 +224,29 @@ static ps_result read_file(const char *path, const struct input_file *file, stru
     } else if (size < file->size) {
         result = error_set(error, PS_ERROR_IO, "%s: it became shorter while it was read", path);
     } else {
-        struct raster_source source = {path, bytes, size};
+        struct raster_source source = {path, bytes, size, layer};
         result = decode_or_release(&source, raster, error);
     }
     free(bytes);
     return result;
 }
 
-ps_result raster_read(const char *path, const char *folder, struct raster *raster,
-                      struct error *error)
+ps_result raster_read(const char *path, const char *layer, const char *folder,
+                      struct raster *raster, struct error *error)
 {
     struct input_file file;
     struct error reason;
     ps_result result = input_file_open(path, folder, &file, &reason);
     if (result != PS_OK)
         return error_set(error, result, "%s: %.1000s", path, reason.text);
-    result = read_file(path, &file, raster, error);
+    result = read_file(path, layer, &file, raster, error);
     close(file.descriptor);
     return result;
 }
 
-ps_result raster_decode(const char *path, const unsigned char *bytes, size_t size,
-                        struct raster *raster, struct error *error)
+ps_result raster_decode(const char *path, const char *layer, const unsigned char *bytes,
+                        size_t size, struct raster *raster, struct error *error)
 {
-    struct raster_source source = {path, bytes, size};
+    struct raster_source source = {path, bytes, size, layer};
     return decode_or_release(&source, raster, error);
 }

@@ -40,7 +40,8 @@ struct raster {
  * colour alpha, 1 to 4 bits become 8. Gamma and colour profiles are ignored.
  * JPEG: grey, YCbCr and RGB, 8 bits; CMYK is refused. Colour profiles and the orientation that EXIF
  * states are ignored.
- * OpenEXR: R, G, B or Y, with A where there is one, other channels are skipped; of several parts
+ * OpenEXR: R, G, B or Y, with A where there is one, other channels are skipped; or, where `layer` is not NULL, those of the
+ * layer of that name: R, G and B, or X, Y and Z, or one number, with A (exr_layer.h). Of several parts
  * the first with colours, of several levels the largest; what else image_read_exr refuses is refused here. The picture
  * is the display window, 0 outside of the data; it must not be more than 16 times as large as these. Colours of other primaries
  * (chromaticities) become Rec.709's, with Bradford's adaptation. Colours stay premultiplied by alpha, as
@@ -50,13 +51,13 @@ struct raster {
  * the header of a TGA says that it is none, is left out. BMP in runs is
  * refused. Radiance: linear floats, as they stand, lines in any order. WebP: one picture, 8 bits.
  *
- * PS_ERROR_IO: the file cannot be read, is truncated or damaged; PS_ERROR_INVALID: no picture of a
+ * Other kinds have no layers: PS_ERROR_INVALID. PS_ERROR_IO: the file cannot be read, is truncated or damaged; PS_ERROR_INVALID: no picture of a
  * known kind or size; PS_ERROR_MEMORY. Messages start with `path`. `raster` is written only on
  * success, and what it held is not released: pass an empty one. Any number of threads. */
-ps_result raster_read(const char *path, const char *folder, struct raster *raster,
-                      struct error *error);
-ps_result raster_decode(const char *path, const unsigned char *bytes, size_t size,
-                        struct raster *raster, struct error *error);
+ps_result raster_read(const char *path, const char *layer, const char *folder,
+                      struct raster *raster, struct error *error);
+ps_result raster_decode(const char *path, const char *layer, const unsigned char *bytes,
+                        size_t size, struct raster *raster, struct error *error);
 
 /* Whether a file that starts with these bytes, RASTER_MAGIC of them or the whole file, is of a kind that is read. */
 #define RASTER_MAGIC 34

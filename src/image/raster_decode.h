@@ -10,6 +10,7 @@ struct raster_source {
     const char *path; /* for messages */
     const unsigned char *bytes;
     size_t size;
+    const char *layer; /* of an OpenEXR file; NULL: its picture */
 };
 
 /* Each reads `source` into `raster`, as raster_read says; on failure the caller releases `raster`,
@@ -45,15 +46,16 @@ struct exr_facts {
     int64_t left,
         top; /* of the display window's upper left corner to that of the data window, in pixels */
     int64_t width, height; /* of the display window, as stated */
+    bool layer_is_part;    /* channels have their own names alone */
     bool has_chromaticities;
     struct chromaticities chromaticities;
 };
 
 /* As image_read_exr, from memory, with the limits of a raster, and with messages that start with
- * the path. Only the channels of the list, which NULL ends, that the file has; maybe none. Of several parts the first
- * that has some beside alpha. */
-ps_result exr_read_channels(const struct raster_source *source, const char *const *channels,
-                            struct image *image, struct exr_facts *facts, struct error *error);
+ * the path. Only the channels of the layer's picture (exr_layer.h), maybe none where it is the file's. Of several parts the
+ * first that has some beside alpha. */
+ps_result exr_read_layer(const struct raster_source *source, struct image *image,
+                         struct exr_facts *facts, struct error *error);
 
 /* chromaticities.c: makes the colours in planes of red, green and blue Rec.709's. No-op where the primaries are
  * those, or cannot be. */

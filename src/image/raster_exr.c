@@ -1,9 +1,10 @@
-/* raster_exr.c: an OpenEXR picture's colours.
+/* raster_exr.c: the colours of an OpenEXR picture, or of one of its layers.
  *
- * Layers are left out: "R" is read, "diffuse.R" is not. Most files hold half floats, which the
+ * Most files hold half floats, which the
  * reader widens; they are stored as half floats again where that loses nothing. The picture is the display window, as
  * viewers show it, and its colours are made Rec.709's.
  */
+#include "image/exr_layer.h"
 #include "image/half.h"
 #include "image/raster_decode.h"
 
@@ -13,12 +14,18 @@
 #define CHANNELS_AT_MOST 4
 #define DISPLAY_TO_DATA 16
 
-static const char *const wanted_channels[] = {"A", "B", "G", "R", "Y", NULL};
-
 /* The planes that make up the picture, in the raster's order. */
 struct planes {
     float *samples[CHANNELS_AT_MOST];
     uint32_t count;
+    bool colored; /* they are red, green and blue */
+};
+
+/* Where to look for them. */
+struct layer {
+    const struct image *image;
+    const char *prefix; /* of names of channels, or NULL */
+    bool is_whole;      /* the file's own picture */
 };
 
 static void add_plane(struct planes *planes, float *samples)
@@ -27,28 +34,40 @@ static void add_plane(struct planes *planes, float *samples)
         planes->samples[planes->count++] = samples;
 }
 
-static float *plane_of(const struct image *image, const char *name)
+static float *plane_of(const struct layer *layer, const char *name)
 {
-    for (size_t i = 0; i < image->channel_count; i++)
-        if (strcmp(image->channels[i].name, name) == 0)
-            return image->channels[i].samples;
+    for (size_t i = 0; i < layer->image->channel_count; i++) {
+        const char *suffix = exr_layer_suffix(layer->prefix, layer->image->channels[i].name);
+        if (suffix && strcmp(suffix, name) == 0)
+            return layer->image->channels[i].samples;
+    }
     return NULL;
 }
 
-static bool choose_planes(const struct image *image, struct planes *planes)
+static bool add_three(struct planes *planes, const struct layer *layer, const char *const names[3])
 {
-    float *red = plane_of(image, "R"), *green = plane_of(image, "G"), *blue = plane_of(image, "B");
-    bool colored = red && green && blue;
+    float *found[3];
+    for (int i = 0; i < 3; i++)
+        found[i] = plane_of(layer, names[i]);
+    bool all = found[0] && found[1] && found[2];
+    for (int i = 0; i < 3 && all; i++)
+        add_plane(planes, found[i]);
+    return all;
+}
+
+/* Colours, or a vector's coordinates, or else one number. */
+static bool choose_planes(const struct layer *layer, struct planes *planes)
+{
+    static const char *const rgb[] = {"R", "G", "B"}, *const xyz[] = {"X", "Y", "Z"};
+    static const char *const numbers[] = {"Y", "V", "Z", "X", "R", "G", "B", ""};
     *planes = (struct planes){.count = 0};
-    if (colored) {
-        add_plane(planes, red);
-        add_plane(planes, green);
-        add_plane(planes, blue);
-    } else {
-        add_plane(planes, plane_of(image, "Y"));
-    }
+    planes->colored = add_three(planes, layer, rgb);
+    size_t tried = layer->is_whole ? 1 : sizeof numbers / sizeof *numbers;
+    if (!planes->colored && !add_three(planes, layer, xyz))
+        for (size_t i = 0; i < tried && planes->count == 0; i++)
+            add_plane(planes, plane_of(layer, numbers[i]));
     bool visible = planes->count > 0;
-    add_plane(planes, plane_of(image, "A"));
+    add_plane(planes, plane_of(layer, "A"));
     return visible;
 }
 
@@ -118,21 +137,27 @@ static ps_result check_display(const char *path, const struct image *image,
     return result;
 }
 
-static ps_result interleave(const char *path, const struct image *image,
+static ps_result interleave(const struct raster_source *source, const struct image *image,
                             const struct exr_facts *facts, struct raster *raster,
                             struct error *error)
 {
+    const char *path = source->path;
+    const struct layer layer = {image, facts->layer_is_part ? NULL : source->layer, !source->layer};
     struct planes planes;
-    if (!choose_planes(image, &planes)) {
-        return error_set(error, PS_ERROR_INVALID,
-                         "%s: it has no colours (channels R, G and B, or Y)", path);
-    }
+    if (!choose_planes(&layer, &planes))
+        return source->layer
+                   ? error_set(error, PS_ERROR_INVALID, "%s: its layer '%s' has no colours", path,
+                               source->layer)
+                   : error_set(error, PS_ERROR_INVALID,
+                               "%s: it has no colours (channels R, G and B, or Y); 'layer' names "
+                               "one of its layers",
+                               path);
     ps_result result = check_display(path, image, facts, error);
     if (result != PS_OK)
         return result;
     size_t pixels = image->width * image->height;
     size_t mended = mend(&planes, pixels);
-    if (planes.count >= 3 && facts->has_chromaticities)
+    if (planes.colored && facts->has_chromaticities)
         chromaticities_to_rec709(&facts->chromaticities, planes.samples, pixels);
     raster->width = (uint32_t)facts->width;
     raster->height = (uint32_t)facts->height;
@@ -150,9 +175,9 @@ ps_result raster_read_exr(const struct raster_source *source, struct raster *ras
 {
     struct image image = {0};
     struct exr_facts facts;
-    ps_result result = exr_read_channels(source, wanted_channels, &image, &facts, error);
+    ps_result result = exr_read_layer(source, &image, &facts, error);
     if (result == PS_OK) {
-        result = interleave(source->path, &image, &facts, raster, error);
+        result = interleave(source, &image, &facts, raster, error);
         image_release(&image);
     }
     return result;

@@ -30,6 +30,7 @@ static void release_textures(struct scene_description *description)
 {
     for (size_t i = 0; i < description->texture_count; i++) {
         free(description->textures[i].path);
+        free(description->textures[i].layer);
         free(description->textures[i].bytes);
     }
     free(description->textures);

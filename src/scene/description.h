@@ -51,6 +51,7 @@ enum texture_encoding { ENCODING_AUTO, ENCODING_SRGB, ENCODING_LINEAR }; /* auto
 /* A picture file, or its bytes where it came inside of another file. */
 struct texture_description {
     char *path;           /* for messages too; relative to the working folder */
+    char *layer;          /* of an OpenEXR file; NULL: its picture */
     unsigned char *bytes; /* NULL: read the file */
     size_t byte_count;
     int32_t wrap_u, wrap_v; /* enum texture_wrap */

@@ -92,9 +92,9 @@ ps_result texture_load(const struct texture_description *description, const char
                              .wrap_v = description->wrap_v,
                              .nearest = description->nearest};
     ps_result result = description->bytes
-                           ? raster_decode(description->path, description->bytes,
-                                           description->byte_count, &loaded.raster, error)
-                           : raster_read(description->path, folder, &loaded.raster, error);
+                           ? raster_decode(description->path, description->layer,
+                                           description->bytes, description->byte_count, &loaded.raster, error)
+                           : raster_read(description->path, description->layer, folder, &loaded.raster, error);
     if (result != PS_OK)
         return result;
     bool srgb = description->encoding == ENCODING_SRGB ||

@@ -25,7 +25,7 @@ struct texture {
     bool clipped;               /* some material's reflectances are taken from it, and leave 0..1 */
 };
 
-/* Loads what raster_read can read. The encoding "auto" takes the colours of OpenEXR and Radiance
+/* Loads what raster_read can read, or a layer of it. The encoding "auto" takes the colours of OpenEXR and Radiance
  * files for linear, and others for sRGB (IEC 61966-2-1); pictures that hold no colours, such as normal
  * maps, want ENCODING_LINEAR. Alpha is linear, and colours are not divided by it: those of OpenEXR
  * are premultiplied. `folder`: the only one to read from (input_file.h), or NULL. Messages start with the description's path; codes are raster_read's. `texture`

@@ -42,4 +42,25 @@ expect_empty err
 scene sky.psd bright.exr broken.exr
 run 0 check sky.psd
 expect_text err "7:17: warning: broken.exr: 1 number is NaN or infinite: NaN counts as 0, infinity as 65504"
+
+# A layer of a picture that psplat made.
+scene plain.psd bright.exr bright.exr
+run 0 render plain.psd --quiet --size 16x9 --quality draft -o layers.exr
+scene layer.psd 'layers.exr, layer: albedo' 'layers.exr, layer: direct'
+run 0 check layer.psd
+expect_empty err
+run 0 render layer.psd --quiet --size 16x9 --quality draft -o layer.exr
+expect_picture layer.exr
+scene no-layer.psd 'layers.exr, layer: albdo' layers.exr
+run 2 render no-layer.psd --quiet -o no.exr
+expect_text err "no-layer.psd:4:34: error: layers.exr: it has no layer 'albdo'; it has "
+expect_text err "albedo"
+[ ! -e no.exr ] || fail "a picture in spite of the error"
+scene no-file.psd bright.exr 'bright.exr}
+  - sky: {radiance: 1, layer: albedo'
+run 2 check no-file.psd
+expect_text err "layer in sky: there is no 'file' that it could be of"
+scene list.psd 'bright.exr, layer: [a]' bright.exr
+run 2 check list.psd
+expect_text err "layer in image: expected the name of a layer, got a list"
 finish

@@ -145,6 +145,24 @@ static void test_mixes(void **state)
 
 #define START "psd: 1\n" CAMERA LIGHTS "materials:\n"
 
+static void test_layers(void **state)
+{
+    (void)state;
+    struct scene_description d =
+        parse_good("psd: 1\n" CAMERA "lights: [sky: {file: a.exr, layer: view.sky}]\n"
+                   "materials:\n"
+                   "  a: {diffuse: {image: {file: a.exr, layer: albedo}}}\n"
+                   "  b: {diffuse: {image: {file: a.exr}}, normal_map: {file: a.exr, layer: n}}\n"
+                   "  c: {diffuse: {image: {file: a.exr, layer: albedo}}}\n");
+    assert_int_equal(d.texture_count, 4);
+    assert_string_equal(d.textures[d.materials[0].color.texture].layer, "albedo");
+    assert_null(d.textures[d.materials[1].color.texture].layer);
+    assert_string_equal(d.textures[d.materials[1].normal_map.texture].layer, "n");
+    assert_int_equal(d.materials[2].color.texture, d.materials[0].color.texture);
+    assert_string_equal(d.textures[d.lights[0].texture].layer, "view.sky");
+    scene_description_release(&d);
+}
+
 static void test_wrong_kinds(void **state)
 {
     (void)state;
@@ -255,11 +273,11 @@ static void test_deep_mixes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cameras),        cmocka_unit_test(test_kinds),
-        cmocka_unit_test(test_patterns),       cmocka_unit_test(test_pictures),
-        cmocka_unit_test(test_mixes),          cmocka_unit_test(test_wrong_kinds),
-        cmocka_unit_test(test_wrong_patterns), cmocka_unit_test(test_wrong_mixes),
-        cmocka_unit_test(test_deep_mixes),
+        cmocka_unit_test(test_cameras),     cmocka_unit_test(test_kinds),
+        cmocka_unit_test(test_patterns),    cmocka_unit_test(test_pictures),
+        cmocka_unit_test(test_layers),      cmocka_unit_test(test_mixes),
+        cmocka_unit_test(test_wrong_kinds), cmocka_unit_test(test_wrong_patterns),
+        cmocka_unit_test(test_wrong_mixes), cmocka_unit_test(test_deep_mixes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -207,21 +207,87 @@ static void test_exr_floats(void **state)
 /* Of a picture with many layers no more is kept in memory than was asked for. */
 static void test_exr_wanted_channels(void **state)
 {
-    static const char *const names[] = {"A", "B", "G", "R", "Z", NULL};
+    static const char *const names[] = {"A", "B", "Z", "a.Y", "a.other", NULL};
     static const float samples[][2] = {{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 10}};
-    static const char *const wanted[] = {"G", "Z", "other", NULL};
     struct image image = {0};
     struct error error;
     size_t size;
     unsigned char *bytes = scratch_load(write_exr(state, names, samples), &size);
-    const struct raster_source source = {"some.exr", bytes, size};
+    struct raster_source source = {"some.exr", bytes, size, "a"};
     struct exr_facts facts;
-    assert_int_equal(exr_read_channels(&source, wanted, &image, &facts, &error), PS_OK);
+    assert_int_equal(exr_read_layer(&source, &image, &facts, &error), PS_OK);
+    assert_int_equal(image.channel_count, 1);
+    assert_memory_equal(image_channel(&image, "a.Y"), samples[3], sizeof samples[3]);
+    image_release(&image);
+    source.layer = NULL;
+    assert_int_equal(exr_read_layer(&source, &image, &facts, &error), PS_OK);
     assert_int_equal(image.channel_count, 2);
-    assert_memory_equal(image_channel(&image, "G"), samples[2], sizeof samples[2]);
-    assert_memory_equal(image_channel(&image, "Z"), samples[4], sizeof samples[4]);
     image_release(&image);
     free(bytes);
+}
+
+/* The first texel of a layer. */
+static void expect_layer(const char *path, const char *layer, float r, float g, float b, float a)
+{
+    char of[64];
+    float rgba[4];
+    snprintf(of, sizeof of, "%s", layer);
+    struct texture_description description = {.path = (char *)path, .layer = of};
+    struct texture texture = {0};
+    struct error error;
+    if (texture_load(&description, NULL, &texture, &error) != PS_OK)
+        fail_msg("%s", error.text);
+    texture_texel(&texture, 0, 0, rgba);
+    if (rgba[0] != r || rgba[1] != g || rgba[2] != b || rgba[3] != a)
+        fail_msg("%s: %g %g %g %g", layer, (double)rgba[0], (double)rgba[1], (double)rgba[2],
+                 (double)rgba[3]);
+    texture_release(&texture);
+}
+
+static void expect_no_layer(const char *path, const char *layer, const char *words)
+{
+    char of[64];
+    snprintf(of, sizeof of, "%s", layer);
+    struct texture_description description = {.path = (char *)path, .layer = of};
+    struct texture texture = {0};
+    struct error error;
+    assert_int_equal(texture_load(&description, NULL, &texture, &error), PS_ERROR_INVALID);
+    if (!strstr(error.text, words))
+        fail_msg("\"%s\" is not in \"%s\"", words, error.text);
+}
+
+static void test_exr_layers(void **state)
+{
+    static const char *const names[] = {"A",
+                                        "Z",
+                                        "albedo.B",
+                                        "albedo.G",
+                                        "albedo.R",
+                                        "mask.A",
+                                        "mask.Y",
+                                        "n.X",
+                                        "n.Y",
+                                        "n.Z",
+                                        "view.diffuse.A",
+                                        "view.diffuse.B",
+                                        "view.diffuse.G",
+                                        "view.diffuse.R",
+                                        NULL};
+    static const float samples[][2] = {{1, 1},   {2, 2},   {3, 3},   {4, 4},  {5, 5},
+                                       {6, 6},   {7, 7},   {8, 8},   {9, 9},  {10, 10},
+                                       {11, 11}, {12, 12}, {13, 13}, {14, 14}};
+    const char *path = write_exr(state, names, samples);
+    expect_layer(path, "albedo", 5, 4, 3, 1);
+    expect_layer(path, "Z", 2, 2, 2, 1);
+    expect_layer(path, "mask", 7, 7, 7, 6);
+    expect_layer(path, "n", 8, 9, 10, 1);
+    expect_layer(path, "view.diffuse", 14, 13, 12, 11);
+    expect_no_layer(path, "albed", "no layer 'albed'; it has A, Z, albedo, mask, n, view.diffuse");
+    expect_no_layer(path, "view", "no layer 'view'");
+    expect_no_layer(path, "", "no layer ''");
+    expect_no_layer(data_path("keyed.png"), "x", "it is PNG, which has no layers");
+    /* Of several parts, by the parts' names; the first part has positions alone. */
+    expect_no_layer(data_path("parts.exr"), "x", "no layer 'x'; it has positions,");
 }
 
 /* Within the range of half floats, but between two of them. */
@@ -575,6 +641,7 @@ int main(void)
         cmocka_unit_test(test_exr_halves),
         SCRATCH_TEST(test_exr_floats),
         SCRATCH_TEST(test_exr_wanted_channels),
+        SCRATCH_TEST(test_exr_layers),
         SCRATCH_TEST(test_exr_precision),
         SCRATCH_TEST(test_exr_brightness),
         SCRATCH_TEST(test_exr_without_numbers),
