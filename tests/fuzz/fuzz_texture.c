@@ -39,8 +39,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!bytes)
         return 0;
     memcpy(bytes, data, size);
+    bool is_exr = size > 4 && memcmp(data, "\x76\x2f\x31\x01", 4) == 0;
+    char layer[] = "P";
     struct texture_description description = {
         .path = "fuzz",
+        .layer = is_exr && size % 2 == 1 ? layer : NULL,
         .bytes = bytes,
         .byte_count = size,
         .wrap_u = (int32_t)(size % 3),
