@@ -377,15 +377,29 @@ static double signed_power(double base, double exponent)
     return copysign(pow(fabs(base), exponent), base);
 }
 
+struct point2 {
+    double x, y;
+};
+
+/* |x|^(2/e) + |y|^(2/e) = 1. The usual parameter, x = cos^e and y = sin^e, leaves the sides of near-squares without points and
+ * never comes to the middle of a side, as cos(pi / 2) is no 0; so these go by the angle at the centre. It in turn would
+ * leave the points of stars without any. */
+static struct point2 superellipse(double angle, double e)
+{
+    double c = cos(angle), s = sin(angle);
+    if (e >= 1.0)
+        return (struct point2){signed_power(c, e), signed_power(s, e)};
+    double radius = pow(pow(fabs(c), 2.0 / e) + pow(fabs(s), 2.0 / e), -0.5 * e);
+    return (struct point2){radius * c, radius * s};
+}
+
 /* |x|^(2/e) + |y|^(2/e), to the power of e/n, and |z|^(2/n) sum to 1. */
 static struct vector superellipsoid_point(const void *user, double u, double v)
 {
     const double *exponents = user;
-    double longitude = 2.0 * PI * u, latitude = PI * (v - 0.5);
-    double ring = signed_power(cos(latitude), exponents[1]);
-    return (struct vector){ring * signed_power(cos(longitude), exponents[0]),
-                           ring * signed_power(sin(longitude), exponents[0]),
-                           signed_power(sin(latitude), exponents[1])};
+    struct point2 around = superellipse(2.0 * PI * u, exponents[0]);
+    struct point2 up = superellipse(PI * (v - 0.5), exponents[1]);
+    return (struct vector){up.x * around.x, up.x * around.y, up.y};
 }
 
 static void add_surface(struct pov_reader *reader, struct pov_object *object,
