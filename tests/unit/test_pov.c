@@ -282,6 +282,58 @@ static void test_places_objects(void **state)
     expect_error("sphere { 0, 1 foo }", "expected a transform, texture or other modifier");
 }
 
+/* Vertices of the first mesh file. */
+static const float *vertices_of(const struct written_scene *scene, size_t *count)
+{
+    const char *bytes = scene->files[0].bytes, *line = strstr(bytes, "element vertex ");
+    const char *start = strstr(bytes, "end_header\n");
+    assert_true(line && start && line < start);
+    *count = strtoul(line + strlen("element vertex "), NULL, 10);
+    return (const void *)(start + strlen("end_header\n"));
+}
+
+/* A superellipsoid, however near to a box or a star, is closed at the six points on the axes. */
+static void expect_axes(const char *text)
+{
+    const struct pov_options options = {.folder = "/no/such/folder",
+                                        .base = "t",
+                                        .scene_folder = "",
+                                        .from_output = "",
+                                        .most_steps = 100000,
+                                        .most_memory = (size_t)1 << 24};
+    struct diagnostics *sink = diagnostics_create();
+    struct written_scene scene;
+    size_t count, found = 0;
+    assert_int_equal(pov_convert("t.pov", text, strlen(text), &options, sink, &scene), PS_OK);
+    const float *vertices = vertices_of(&scene, &count); /* x y z, nx ny nz, u v */
+    for (int axis = 0; axis < 6; axis++) {
+        double nearest = 1;
+        for (size_t i = 0; i < count; i++) {
+            double distance = 0;
+            for (int k = 0; k < 3; k++) {
+                float p;
+                memcpy(&p, (const char *)(vertices + 8 * i + k), sizeof p);
+                double wanted = k == axis / 2 ? (axis % 2 ? -1 : 1) : 0;
+                distance = fmax(distance, fabs((double)p - wanted));
+            }
+            nearest = fmin(nearest, distance);
+        }
+        found += nearest < 1e-6;
+    }
+    if (found != 6)
+        fail_msg("%s: %zu of 6", text, found);
+    written_scene_release(&scene);
+    diagnostics_destroy(sink);
+}
+
+static void test_superellipsoids_are_closed(void **state)
+{
+    (void)state;
+    expect_axes("superellipsoid { <0.1, 0.1> }");
+    expect_axes("superellipsoid { <0.3, 2> }");
+    expect_axes("superellipsoid { <1, 1> }");
+}
+
 static void test_mirrors_unless_the_camera_does(void **state)
 {
     (void)state;
@@ -538,6 +590,7 @@ int main(void)
         cmocka_unit_test(test_calls_macros),
         cmocka_unit_test(test_ends_what_does_not_end),
         cmocka_unit_test(test_places_objects),
+        cmocka_unit_test(test_superellipsoids_are_closed),
         cmocka_unit_test(test_mirrors_unless_the_camera_does),
         cmocka_unit_test(test_carries_lights),
         cmocka_unit_test(test_carries_textures),
