@@ -117,14 +117,21 @@ static void place(struct render *render, struct splatter *onto, struct placement
 
 void photons_place(struct render *render, const ps_photon *photons, size_t n, struct splat *splats)
 {
+    const struct photon_stream *stream = &render->photons;
+    const struct caustics caustics = {
+        .landings = stream->caustics,
+        .count = stream->caustic_count,
+        .scale = caustics_scale(stream->photons_per_caustic, render->pass.number),
+    };
     struct placement_scene scene = place_scene(render);
+    scene.caustics = &caustics;
     scene.interleave = render->has_splatter ? render->splatter.lit.interleave : 1;
     scene.gather_distance = render->gathered_light.distance;
     place(render, render->splatting ? &render->splatter : NULL, scene, photons, n, splats);
 }
 
-/* For points, whose light is averaged before it is seen: no pixel's size limits the radius, and no light from nearby
- * is left to gather rays. */
+/* For points, whose light is averaged before it is seen: no pixel's size limits the radius, no light from nearby
+ * is left to gather rays, and caustics are as wide as other light. */
 static void place_for_points(struct render *render, const ps_photon *photons, size_t n,
                              struct splat *splats)
 {

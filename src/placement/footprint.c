@@ -71,7 +71,7 @@ void footprint_stand_in(const ps_photon *photon, float distance, ps_hit *hit)
 /* Around a bundle that starts at its photon. Pixels with narrow parts of its disc take it from below the
  * start plane (kernel.h), so the box begins at the photon's plane itself. */
 static void place_full(const struct placement_scene *scene, const struct footprint_params *settings,
-                       const ps_photon *photon, float distance, struct splat *splat)
+                       const ps_photon *photon, float distance, float largest, struct splat *splat)
 {
     float cosine = footprint_cosine(photon);
     splat->bundle.start_slope_u = -ps_dot(photon->normal, splat->bundle.axis_u) / cosine;
@@ -84,13 +84,13 @@ static void place_full(const struct placement_scene *scene, const struct footpri
     splat->near_depth = ps_min(splat->photon_depth - slope * splat->bundle.radius, 0.0f);
     splat->bandwidth_scale = (float)fmin(settings->bandwidth_scale, 1e9);
     splat->blend_distance = radius_blend_distance(scene, photon);
-    splat->widest = radius_largest(scene, settings, photon);
+    splat->widest = largest;
     splat->narrowest = radius_smallest(scene, photon, distance, splat->widest);
 }
 
 struct splat footprint_place(const struct placement_scene *scene,
                              const struct footprint_params *settings, const ps_photon *photon,
-                             const ps_hit *hit, float radius)
+                             const ps_hit *hit, float largest, float radius)
 {
     assert(radius >= 0.0f && isfinite(radius));
     struct splat splat = {.power = photon->power, .merged = photon->merged, .path = photon->path};
@@ -104,7 +104,7 @@ struct splat footprint_place(const struct placement_scene *scene,
                                  ? radius_bounded(scene, settings->depth.number)
                                  : radius * slope + radius;
     if (settings->step_back.choice == STEP_BACK_FULL) {
-        place_full(scene, settings, photon, hit->distance, &splat);
+        place_full(scene, settings, photon, hit->distance, largest, &splat);
     } else {
         splat.near_depth = -step_back(settings, radius, hit->distance, slope);
         splat.bundle.start_depth = splat.near_depth;
@@ -186,8 +186,8 @@ static float extent_of(const struct placement *placement, const ps_photon *photo
         float extent = ps_min(MARGIN * aside, largest);
         if (extent <= least)
             break;
-        if (packet->tfar[i] < INFINITY &&
-            radius_at(&placement->scene, placement->settings, photon, packet->tfar[i]) > aside)
+        if (packet->tfar[i] < INFINITY && radius_at(&placement->scene, placement->settings, photon,
+                                                    largest, packet->tfar[i]) > aside)
             return extent;
     }
     return least;
@@ -210,14 +210,15 @@ static void find_one(const struct placement *placement, const ps_photon *photon,
 {
     _Alignas(64) ps_ray_packet packet;
     const struct placement_scene *scene = &placement->scene;
-    float largest = *radius, least = radius_at(scene, placement->settings, photon, hit->distance);
+    float largest = *radius;
+    float least = radius_at(scene, placement->settings, photon, largest, hit->distance);
     bool met = hit->distance < INFINITY;
     if (met && !(least < largest))
         return;
     trace_disc(placement, photon, largest, &packet);
     if (!met) {
         float nearest = nearest_of(&packet, photon);
-        least = radius_at(scene, placement->settings, photon, nearest);
+        least = radius_at(scene, placement->settings, photon, largest, nearest);
         /* Bundles start before half of that. */
         footprint_stand_in(photon, nearest < INFINITY ? ps_max(nearest, largest) : largest, hit);
     }

@@ -29,10 +29,10 @@ float footprint_clearance(float surface_offset, float radius, bool hollow);
 /* In place of the hit of a bundle that meets nothing: a point of its axis, with a normal of 0. */
 void footprint_stand_in(const ps_photon *photon, float distance, ps_hit *hit);
 
-/* Of a photon whose ray met `hit`. A radius of 0 makes a splat that lights nothing. */
+/* Of a photon whose ray met `hit`; `largest`: radius_largest. A radius of 0 makes a splat that lights nothing. */
 struct splat footprint_place(const struct placement_scene *scene,
                              const struct footprint_params *settings, const ps_photon *photon,
-                             const ps_hit *hit, float radius);
+                             const ps_hit *hit, float largest, float radius);
 
 /* Lessens the radii of n full bundles, which are the largest (or 0: left out), to what the pixels of anything that
  * the bundle meets may ask for (step 4 of placement.h). Each pixel takes its own part of a bundle's disc, as wide

@@ -14,7 +14,8 @@ struct placing {
     const ps_photon *photons;
     ps_hit *hits;
     size_t n;
-    float radii[PS_PATH_CHUNK]; /* 0: lights nothing */
+    float largest[PS_PATH_CHUNK]; /* radii */
+    float radii[PS_PATH_CHUNK];   /* 0: lights nothing */
 };
 
 static void place_footprints(const struct placing *placing, const ps_hit *hits,
@@ -23,7 +24,7 @@ static void place_footprints(const struct placing *placing, const ps_hit *hits,
     const struct placement *placement = placing->placement;
     for (size_t i = 0; i < placing->n; i++)
         splats[i] = footprint_place(&placement->scene, placement->settings, &placing->photons[i],
-                                    &hits[i], placing->radii[i]);
+                                    &hits[i], placing->largest[i], placing->radii[i]);
 }
 
 /* What lies past the first hit counts, since part of a bundle may pass beside it. */
@@ -62,9 +63,7 @@ static uint32_t place_full(struct placing *placing, struct splat *splats)
 {
     const struct placement *placement = placing->placement;
     uint32_t dropped = 0;
-    for (size_t i = 0; i < placing->n; i++)
-        placing->radii[i] =
-            radius_largest(&placement->scene, placement->settings, &placing->photons[i]);
+    memcpy(placing->radii, placing->largest, placing->n * sizeof *placing->radii);
     if (placement->may_light)
         dropped = drop_unseen_full(placing, splats);
     footprint_find_extents(placement, placing->photons, placing->n, placing->hits, placing->radii);
@@ -80,7 +79,7 @@ static uint32_t place_others(struct placing *placing, struct splat *splats)
     const struct placement *placement = placing->placement;
     for (size_t i = 0; i < placing->n; i++)
         placing->radii[i] = radius_at(&placement->scene, placement->settings, &placing->photons[i],
-                                      placing->hits[i].distance);
+                                      placing->largest[i], placing->hits[i].distance);
     place_footprints(placing, placing->hits, splats);
     return drop_unseen(placing, splats);
 }
@@ -90,6 +89,9 @@ uint32_t placement_place(const struct placement *placement, const ps_photon *pho
 {
     assert(n <= PS_PATH_CHUNK);
     struct placing placing = {.placement = placement, .photons = photons, .hits = hits, .n = n};
+    for (size_t i = 0; i < n; i++)
+        placing.largest[i] =
+            radius_largest(&placement->scene, placement->settings, &photons[i], &hits[i]);
     uint32_t dropped = placement->settings->step_back.choice == STEP_BACK_FULL
                            ? place_full(&placing, splats)
                            : place_others(&placing, splats);

@@ -22,6 +22,9 @@
  * 2. A photon that stands for m merged ones: R sqrt(m), at most max_merge_scale R. As many splats overlap
  *    as without merging, each as bright.
  *
+ *    Light that only mirrors, glass and gloss have sent lands in caustics, where R is less the denser its photons
+ *    lie (caustics.h).
+ *
  * 3. Light from close by changes over short ways. At distance t the radius is bandwidth_scale * t, within
  *    bounds (radius.h), as a photon differential's footprint (Schjoth et al. 2007): one for each pixel
  *    where bundles start at their photons (bandwidth.h), else one for the splat, at its first hit.
@@ -44,6 +47,7 @@
 #ifndef PLACEMENT_PLACEMENT_H
 #define PLACEMENT_PLACEMENT_H
 
+#include "placement/caustics.h"
 #include "placement/splat.h"
 #include "plugin/shared_params.h"
 #include "scene/camera.h"
@@ -58,8 +62,9 @@ struct placement_scene {
     float automatic_gather_distance;
     uint64_t seed; /* turns the frames */
     const struct camera *camera;
-    uint32_t interleave;   /* see interleaved.h */
-    float gather_distance; /* of the light that splats leave to gather rays; 0: none */
+    uint32_t interleave;             /* see interleaved.h */
+    float gather_distance;           /* of the light that splats leave to gather rays; 0: none */
+    const struct caustics *caustics; /* NULL: as other light */
 };
 
 struct placement {

@@ -71,30 +71,41 @@ static float merge_scale(const struct footprint_params *settings, const ps_photo
     return ps_min(sqrtf(photon->merged), (float)fmin(settings->max_merge_scale, 1e9));
 }
 
-float radius_largest(const struct placement_scene *scene, const struct footprint_params *settings,
-                     const ps_photon *photon)
-{
-    double radius = settings->radius.number > 0 ? radius_bounded(scene, settings->radius.number)
-                                                : scene->automatic_radius;
-    return radius_bounded(scene, radius * (double)merge_scale(settings, photon));
-}
-
-/* Smaller ones than n pixels, of which every n-th is lit, are noise that averaging them takes back in part. */
-float radius_smallest(const struct placement_scene *scene, const ps_photon *photon, float distance,
-                      float largest)
+/* Across n pixels, of which every n-th is lit. */
+static float size_of_pixels(const struct placement_scene *scene, const ps_photon *photon,
+                            float distance)
 {
     ps_vec3 lit =
         ps_add_scaled(photon->position, ps_min(distance, 4.0f * scene->radius), photon->direction);
-    float pixels = (float)scene->interleave * camera_pixel_size(scene->camera, lit);
+    return (float)scene->interleave * camera_pixel_size(scene->camera, lit);
+}
+
+float radius_largest(const struct placement_scene *scene, const struct footprint_params *settings,
+                     const ps_photon *photon, const ps_hit *hit)
+{
+    bool automatic = !(settings->radius.number > 0);
+    double single =
+        automatic ? scene->automatic_radius : radius_bounded(scene, settings->radius.number);
+    float radius = radius_bounded(scene, single * (double)merge_scale(settings, photon));
+    if (!automatic || !scene->caustics || photon->bounce > 0 || !(hit->distance < INFINITY))
+        return radius;
+    float least = size_of_pixels(scene, photon, hit->distance);
+    return ps_min(radius, ps_max(least, caustics_radius(scene->caustics, hit->position)));
+}
+
+/* Smaller ones than n pixels are noise that averaging them takes back in part. */
+float radius_smallest(const struct placement_scene *scene, const ps_photon *photon, float distance,
+                      float largest)
+{
+    float pixels = size_of_pixels(scene, photon, distance);
     bool is_wide = photon->bounce > 1 || radius_blend_distance(scene, photon) > 0.0f;
     float part = is_wide ? SMALLEST_LIT_BY_SURFACES : SMALLEST_LIT_BY_LIGHTS;
     return ps_max(part * largest, ps_min(pixels, largest));
 }
 
 float radius_at(const struct placement_scene *scene, const struct footprint_params *settings,
-                const ps_photon *photon, float distance)
+                const ps_photon *photon, float largest, float distance)
 {
-    float largest = radius_largest(scene, settings, photon);
     if (!(settings->bandwidth_scale > 0))
         return largest;
     return ps_max(ps_min(largest, (float)fmin(settings->bandwidth_scale, 1e9) * distance),

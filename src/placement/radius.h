@@ -15,17 +15,17 @@ float radius_automatic_gather_distance(float scene_radius, float light_spread, u
 float radius_gather_distance(const struct placement_scene *scene,
                              const struct footprint_params *settings, uint64_t paths);
 
-/* Of the disc that a photon's light may fill, however far it travels. */
+/* Of the disc that the light of a photon may fill that meets `hit`. */
 float radius_largest(const struct placement_scene *scene, const struct footprint_params *settings,
-                     const ps_photon *photon);
+                     const ps_photon *photon, const ps_hit *hit);
 
 /* Below which the radius at that distance does not fall. */
 float radius_smallest(const struct placement_scene *scene, const ps_photon *photon, float distance,
                       float largest);
 
-/* Where the light travels so far. */
+/* Where the light travels so far; `largest`: radius_largest. */
 float radius_at(const struct placement_scene *scene, const struct footprint_params *settings,
-                const ps_photon *photon, float distance);
+                const ps_photon *photon, float largest, float distance);
 
 /* From which distance on a splat gives all of the photon's light; 0: at every one. */
 float radius_blend_distance(const struct placement_scene *scene, const ps_photon *photon);

@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "base/parallel.h"
+#include "placement/caustics.h"
 #include "render/state.h"
 #include "stratify/stratify.h"
 #include <math.h>
@@ -42,9 +43,12 @@ ps_result photon_stream_create(struct render *render, struct photon_stream *stre
     *stream = (struct photon_stream){
         .render = render,
         .chunks = calloc(BATCH_CHUNKS, sizeof *stream->chunks),
+        .caustics = malloc(CAUSTIC_LANDINGS * sizeof *stream->caustics),
     };
-    if (!stream->chunks)
+    if (!stream->chunks || !stream->caustics) {
+        photon_stream_release(stream);
         return error_memory(error, BATCH_CHUNKS * sizeof *stream->chunks, "photons");
+    }
     photon_stream_rewind(stream);
     return PS_OK;
 }
@@ -54,6 +58,7 @@ void photon_stream_release(struct photon_stream *stream)
     for (int i = 0; i < BATCH_CHUNKS && stream->chunks; i++)
         free(stream->chunks[i].items);
     free(stream->chunks);
+    free(stream->caustics);
     free(stream->batch.items);
     *stream = (struct photon_stream){.chunks = NULL};
 }
@@ -196,6 +201,50 @@ static void find_spread(struct photon_stream *stream)
     stream->near_share = near > 0.0 ? near / landings : 1.0;
 }
 
+/* Every so many-th photon of the caustics, so that no more than CAUSTIC_LANDINGS are kept. */
+static size_t spacing_of_caustics(const struct photon_stream *stream)
+{
+    size_t count = 0;
+    for (int i = 0; i < BATCH_CHUNKS; i++)
+        for (size_t j = 0; j < stream->chunks[i].count; j++)
+            count += stream->chunks[i].items[j].bounce == 0;
+    return (count + CAUSTIC_LANDINGS - 1) / CAUSTIC_LANDINGS;
+}
+
+static void land(struct photon_stream *stream, const ps_ray *rays, size_t n)
+{
+    const ps_host *host = own_host(stream->render);
+    ps_hit hits[PS_PATH_CHUNK];
+    host->intersect(host, rays, n, hits);
+    for (size_t i = 0; i < n; i++)
+        if (hits[i].distance < INFINITY)
+            stream->caustics[stream->caustic_count++] = hits[i].position;
+}
+
+static void find_caustics(struct photon_stream *stream)
+{
+    ps_ray rays[PS_PATH_CHUNK];
+    size_t spacing = spacing_of_caustics(stream), number = 0, n = 0;
+    uint64_t first_paths = (uint64_t)BATCH_CHUNKS * PS_PATH_CHUNK;
+    uint64_t traced = stream->path_count < first_paths ? stream->path_count : first_paths;
+    stream->caustic_count = 0;
+    for (int i = 0; i < BATCH_CHUNKS; i++)
+        for (size_t j = 0; j < stream->chunks[i].count; j++) {
+            const ps_photon *photon = &stream->chunks[i].items[j];
+            if (photon->bounce > 0 || number++ % spacing > 0)
+                continue;
+            rays[n++] = ps_leave_surface(photon->position, photon->normal, photon->direction,
+                                         stream->render->scene->surface_offset);
+            if (n == PS_PATH_CHUNK) {
+                land(stream, rays, n);
+                n = 0;
+            }
+        }
+    land(stream, rays, n);
+    stream->photons_per_caustic =
+        traced > 0 ? (double)spacing * (double)stream->path_count / (double)traced : 1.0;
+}
+
 static ps_result prepare_injection(struct photon_stream *stream, struct error *error)
 {
     struct render *render = stream->render;
@@ -238,6 +287,7 @@ ps_result photon_stream_prepare(struct photon_stream *stream, struct error *erro
     if (result != PS_OK)
         return result;
     find_spread(stream);
+    find_caustics(stream);
     stream->prepared = true;
     return PS_OK;
 }

@@ -27,6 +27,11 @@ struct photon_stream {
      * none lands. And the part of the paths that lands there. */
     float spread;
     double near_share;
+    /* Where its first paths land that met mirrors, glass and gloss alone: caustic_count of them, owned; and how many
+     * such photons the pass has for each. */
+    ps_vec3 *caustics;
+    size_t caustic_count;
+    double photons_per_caustic;
     bool prepared; /* the injection, for this pass */
     bool filled;   /* the chunks, with the next paths' photons */
 };
@@ -38,7 +43,7 @@ void photon_stream_release(struct photon_stream *stream);
 /* Starts over, with the pass that the render now describes. */
 void photon_stream_rewind(struct photon_stream *stream);
 
-/* Makes the injection ready for the pass and injects its first paths, which tells path_count and spread; does
+/* Makes the injection ready for the pass and injects its first paths, which tells path_count, spread and caustics; does
  * so once a pass. */
 ps_result photon_stream_prepare(struct photon_stream *stream, struct error *error);
 

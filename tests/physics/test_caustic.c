@@ -10,6 +10,8 @@
  * with the cosine.
  *
  * A glass ball: path tracing is the truth. The camera does not see what is above the floor.
+ *
+ * The focus of a glass ball is as bright with the automatic radius as with a tiny one and many photons.
  */
 #include "support/render_scene.h"
 #include "support/statistics_of.h"
@@ -244,9 +246,51 @@ static void test_metal_ring(void **state)
                             " material: metal, camera: no}"));
 }
 
+/* --- focus ---------------------------------------------------------------------------------- */
+
+/* A ball of radius R and n = 1.5 has its focus 1.5 R from its centre. The scene is large, as rooms are. */
+static const char focus[] =
+    "psd: 1\n"
+    "camera: {location: [0, 0.1, 0], look_at: [0, 0, 0], up: [0, 0, -1],\n"
+    "         projection: orthographic, width: 1.2}\n"
+    "image: {width: 48, height: 48}\n"
+    "materials: {floor: {diffuse: 0.8}, glass: {dielectric: {ior: 1.5}}}\n"
+    "lights: [{sphere: {location: [0, 6, 0], radius: 0.2, power: 100}}]\n"
+    "objects:\n"
+    "  - quad: {corners: [[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-4, 0, -4]], material: floor}\n"
+    "  - sphere: {center: [0, 0.75, 0], radius: 0.5, material: glass}\n"
+    "render: {seed: %d, passes: 4, aa_samples: 1}\n";
+
+static double light_at_focus(const char *estimator, const char *injection, const char *visibility)
+{
+    const char *const choices[] = {estimator, injection, visibility, "bounces=1", NULL};
+    char text[2048];
+    snprintf(text, sizeof text, focus, 7);
+    struct rendering rendering = render_text(text, 2, choices);
+    double light = mean_of(&rendering.image, "indirect.G", 22, 22, 4, 4);
+    rendering_release(&rendering);
+    return light;
+}
+
+static void test_focus(void **state)
+{
+    (void)state;
+    double sharp = light_at_focus("estimator=splat", "injection=photon:count=1000000",
+                                  "visibility=raycast:radius=0.01");
+    static const char *const estimators[] = {"estimator=gather:samples=1", "estimator=splat",
+                                             "estimator=irradiance_cache:samples=16"};
+    for (size_t i = 0; i < COUNT(estimators); i++) {
+        double light =
+            light_at_focus(estimators[i], "injection=photon:count=50000", "visibility=shadowmap");
+        print_message("%s: %.3f of the light at the focus\n", estimators[i], light / sharp);
+        assert_true(light > 0.8 * sharp && light < 1.2 * sharp);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_focus),
         SLOW_TEST(test_mirror),
         cmocka_unit_test(test_mirror_and_point_light),
         cmocka_unit_test(test_absorbing_plate),

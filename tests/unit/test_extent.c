@@ -45,7 +45,7 @@ static struct bundle find(struct board *board, struct footprint_params settings,
     const ps_photon photon = {.normal = {0, 1, 0}, .direction = {0.70710678f, 0.70710678f, 0}};
     ps_host host = {.core = board, .intersect_packets = trace};
     const struct placement placement = {.scene = scene, .settings = &settings, .host = &host};
-    struct bundle bundle = {hit, radius_largest(&scene, &settings, &photon)};
+    struct bundle bundle = {hit, radius_largest(&scene, &settings, &photon, &hit)};
     footprint_find_extents(&placement, &photon, 1, &bundle.hit, &bundle.radius);
     return bundle;
 }

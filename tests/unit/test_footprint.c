@@ -33,8 +33,9 @@ static struct splat place_one(const struct placement_scene *own,
                               const struct footprint_params *settings, const ps_photon *photon,
                               const ps_hit *hit)
 {
-    float radius = radius_at(own, settings, photon, hit->distance);
-    return footprint_place(own, settings, photon, hit, radius);
+    float largest = radius_largest(own, settings, photon, hit);
+    float radius = radius_at(own, settings, photon, largest, hit->distance);
+    return footprint_place(own, settings, photon, hit, largest, radius);
 }
 
 /* A photon at the origin on a surface that faces up, whose light goes along w and arrives after
