@@ -94,9 +94,9 @@ struct object_keys {
     struct pair_list uv;
     struct triangle_list triangles;
     ps_number_or_choice extent, distance;
-    int32_t camera, open, smooth;
-    const struct node *file; /* mesh, height field */
-    const struct node *of;   /* instance */
+    int32_t camera, sides, open, smooth; /* sides: 0 both, 1 front */
+    const struct node *file;             /* mesh, height field */
+    const struct node *of;               /* instance */
     const struct node *materials;
     int32_t use; /* mesh: a bit for each word */
     double unit;

@@ -4,8 +4,12 @@
 #define KEYS(member) offsetof(struct object_keys, member)
 #define OBJECT(member) KEYS(object.member)
 
+static const char *const seen_sides[] = {"both", "front", NULL};
+
 #define PLACED_ROWS                                                                                \
     BOOL("camera", KEYS(camera), "yes", "whether the camera sees it; the light always does"),      \
+        VALUE(PS_CHOICE(struct object_keys, sides, "both", seen_sides,                             \
+                        "from which sides the camera sees it; light meets both")),                 \
         PLACEMENT_ROWS(KEYS(placement)), TRANSFORM_ROW
 
 /* What all shapes have. */

@@ -13,6 +13,7 @@ bool object_place(struct reader *reader, const struct item *item, const struct o
     struct affine own;
     *placed = *context;
     placed->hidden = context->hidden || !keys->camera;
+    placed->front_only = context->front_only || keys->sides == 1;
     if (!placement_read(reader, item->key, item->value, &keys->placement, &own))
         return false;
     placed->placement = affine_compose(&context->placement, &own);
@@ -38,7 +39,8 @@ bool object_append(struct reader *reader, const struct node *at,
     list->items = items;
     items[list->count] = *object;
     items[list->count].placement = affine_compose(&context->placement, &object->placement);
-    items[list->count++].hidden = context->hidden || object->hidden;
+    items[list->count].hidden = context->hidden || object->hidden;
+    items[list->count++].front_only = context->front_only || object->front_only;
     reader->object_count++;
     return true;
 }

@@ -18,7 +18,7 @@ struct object_list {
 struct object_context {
     struct object_list *list;
     struct affine placement;   /* of what surrounds them */
-    bool hidden;               /* as that is */
+    bool hidden, front_only;   /* as that is */
     struct group_entry *group; /* whose objects they are, or NULL: the file's (group.c) */
     int level;                 /* how many groups wait for this one */
 };

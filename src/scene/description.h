@@ -231,7 +231,8 @@ struct object_description {
     size_t texture;   /* height field */
     size_t mesh;
     size_t group;
-    bool hidden; /* from the camera, while it takes part in the light */
+    bool hidden;     /* from the camera, while it takes part in the light */
+    bool front_only; /* hidden in the same way where the camera is behind it */
     struct origin origin;
 };
 

@@ -30,6 +30,7 @@ struct instance {
     float front;       /* -1 where the placement mirrors, which turns windings, else 1 */
     uint32_t material; /* instead of its shapes', or NO_MATERIAL */
     bool hidden;       /* from the camera */
+    bool front_only;   /* that is, from behind */
     uint32_t first_object;
 };
 

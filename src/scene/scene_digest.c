@@ -97,6 +97,7 @@ void scene_digest_object(uint64_t *digest, const struct object_description *obje
     ADD(object->mesh);
     ADD(object->group);
     ADD(object->hidden);
+    ADD(object->front_only);
 }
 
 void scene_digest_camera(uint64_t *digest, const struct camera *camera)

@@ -191,6 +191,7 @@ static void add_instances(struct assembly *assembly)
             .front = affine_determinant(&object->placement) < 0.0f ? -1.0f : 1.0f,
             .material = object->material == NO_INDEX ? NO_MATERIAL : (uint32_t)object->material,
             .hidden = object->hidden,
+            .front_only = object->front_only,
         };
     }
 }

@@ -63,7 +63,9 @@ ps_result shape_create(const struct object_description *object,
                        const struct shape_surroundings *surroundings, struct shape *shape,
                        struct error *error)
 {
-    *shape = (struct shape){.material = (uint32_t)object->material, .hidden = object->hidden};
+    *shape = (struct shape){.material = (uint32_t)object->material,
+                            .hidden = object->hidden,
+                            .front_only = object->front_only};
     ps_result result = create(object, surroundings, shape, error);
     if (result != PS_OK)
         shape_release(shape);

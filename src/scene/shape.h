@@ -49,6 +49,7 @@ struct shape {
     enum shape_kind kind;
     uint32_t material;
     bool hidden;           /* from the camera */
+    bool front_only;       /* that is, from behind */
     ps_vec3 *vertices;     /* mesh; counter-clockwise triangles seen from the front */
     ps_vec3 *normals;      /* mesh: unit, of each vertex in use, on the front; NULL: flat */
     float (*uv)[2];        /* mesh: of each vertex; NULL: none */

@@ -91,10 +91,11 @@ ps_result texture_load(const struct texture_description *description, const char
     struct texture loaded = {.wrap_u = description->wrap_u,
                              .wrap_v = description->wrap_v,
                              .nearest = description->nearest};
-    ps_result result = description->bytes
-                           ? raster_decode(description->path, description->layer,
-                                           description->bytes, description->byte_count, &loaded.raster, error)
-                           : raster_read(description->path, description->layer, folder, &loaded.raster, error);
+    ps_result result =
+        description->bytes
+            ? raster_decode(description->path, description->layer, description->bytes,
+                            description->byte_count, &loaded.raster, error)
+            : raster_read(description->path, description->layer, folder, &loaded.raster, error);
     if (result != PS_OK)
         return result;
     bool srgb = description->encoding == ENCODING_SRGB ||

@@ -244,6 +244,14 @@ bool surface_is_opaque(const struct scene *scene, const struct intersection *at)
            (coverage > 0.0f && number_of_point(at, hit.texture_point) <= coverage);
 }
 
+bool surface_shows_side(const struct scene *scene, const struct intersection *at, ps_vec3 direction)
+{
+    struct placed placed = find(scene, at);
+    if (!placed.shape->front_only && !(placed.instance && placed.instance->front_only))
+        return true;
+    return ps_dot(at->normal, direction) <= 0.0f;
+}
+
 /* The position in the world of a point of a shape, and at->normal there. */
 static ps_vec3 place_of(const struct placed *placed, struct intersection *at)
 {

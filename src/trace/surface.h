@@ -27,4 +27,8 @@ ps_hit surface_at(const struct scene *scene, const ps_surface_point *point, ps_r
 /* Whether the surface is there at all, for materials with cut-outs; the distance does not matter. */
 bool surface_is_opaque(const struct scene *scene, const struct intersection *intersection);
 
+/* Whether the camera sees the side that a ray of that direction meets; the direction in the space of at->normal. */
+bool surface_shows_side(const struct scene *scene, const struct intersection *at,
+                        ps_vec3 direction);
+
 #endif

@@ -85,11 +85,12 @@ static struct intersection intersection_of(const struct scene *scene, uint32_t i
     };
 }
 
-/* Lets rays through where there is no surface. */
-static void filter_cutouts(const struct RTCFilterFunctionNArguments *arguments)
+/* Lets rays through where there is no surface, and those of the camera where it is not seen from behind. */
+static void filter_hits(const struct RTCFilterFunctionNArguments *arguments)
 {
     const struct scene *scene = ((const struct trace *)arguments->geometryUserPtr)->scene;
     const struct RTCHitN *hits = arguments->hit;
+    const struct RTCRayN *rays = arguments->ray;
     unsigned n = arguments->N;
     for (unsigned i = 0; i < n; i++) {
         if (arguments->valid[i] != -1)
@@ -101,28 +102,34 @@ static void filter_cutouts(const struct RTCFilterFunctionNArguments *arguments)
         at.v = shim_hit_v(hits, n, i);
         at.normal = (ps_vec3){shim_hit_normal(hits, n, i, 0), shim_hit_normal(hits, n, i, 1),
                               shim_hit_normal(hits, n, i, 2)};
-        if (!surface_is_opaque(scene, &at))
+        ps_vec3 direction = {shim_ray_direction(rays, n, i, 0), shim_ray_direction(rays, n, i, 1),
+                             shim_ray_direction(rays, n, i, 2)};
+        bool of_camera = shim_ray_mask(rays, n, i) == MASK_CAMERA;
+        if (!surface_is_opaque(scene, &at) ||
+            (of_camera && !surface_shows_side(scene, &at, direction)))
             arguments->valid[i] = 0;
     }
 }
 
-/* Whether instances give their groups materials with cut-outs, for each group; freed by the caller. */
-static bool *find_cutouts(const struct scene *scene)
+/* Whether instances give their groups materials with cut-outs, or show fronts alone, for each group; freed by the
+ * caller. */
+static bool *find_filtered(const struct scene *scene)
 {
-    bool *cutouts = calloc(scene->group_count + 1, sizeof *cutouts);
-    for (size_t i = 0; cutouts && i < scene->instance_count; i++) {
+    bool *filtered = calloc(scene->group_count + 1, sizeof *filtered);
+    for (size_t i = 0; filtered && i < scene->instance_count; i++) {
         const struct instance *instance = &scene->instances[i];
-        if (instance->material != NO_MATERIAL && scene->materials[instance->material].has_opacity)
-            cutouts[instance->group - scene->groups] = true;
+        if (instance->front_only ||
+            (instance->material != NO_MATERIAL && scene->materials[instance->material].has_opacity))
+            filtered[instance->group - scene->groups] = true;
     }
-    return cutouts;
+    return filtered;
 }
 
-static void set_cutouts(struct trace *trace, RTCGeometry geometry)
+static void set_filter(struct trace *trace, RTCGeometry geometry)
 {
     rtcSetGeometryUserData(geometry, trace);
-    rtcSetGeometryIntersectFilterFunction(geometry, filter_cutouts);
-    rtcSetGeometryOccludedFilterFunction(geometry, filter_cutouts);
+    rtcSetGeometryIntersectFilterFunction(geometry, filter_hits);
+    rtcSetGeometryOccludedFilterFunction(geometry, filter_hits);
 }
 
 static unsigned mask_of(bool hidden)
@@ -130,16 +137,16 @@ static unsigned mask_of(bool hidden)
     return hidden ? MASK_LIGHT : MASK_CAMERA | MASK_LIGHT;
 }
 
-/* Attaches a run of shapes to a scene, numbered from 0. `cutouts`: some of their materials, other than
- * their own, have holes. */
+/* Attaches a run of shapes to a scene, numbered from 0. `filtered`: some of their materials, other than
+ * their own, have holes, or they are seen from the front alone. */
 static void attach_shapes(struct trace *trace, RTCScene embree, size_t first, size_t count,
-                          bool cutouts)
+                          bool filtered)
 {
     for (size_t i = 0; i < count; i++) {
         const struct shape *shape = &trace->scene->shapes[first + i];
         RTCGeometry geometry = create_geometry(trace, shape);
-        if (cutouts || trace->scene->materials[shape->material].has_opacity)
-            set_cutouts(trace, geometry);
+        if (filtered || shape->front_only || trace->scene->materials[shape->material].has_opacity)
+            set_filter(trace, geometry);
         rtcSetGeometryMask(geometry, mask_of(shape->hidden));
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(embree, geometry, (unsigned)i);
@@ -169,12 +176,12 @@ static RTCScene new_scene(struct trace *trace, size_t first, size_t count)
     return embree;
 }
 
-static void build_groups(struct trace *trace, const bool *cutouts)
+static void build_groups(struct trace *trace, const bool *filtered)
 {
     for (size_t i = 0; i < trace->scene->group_count; i++) {
         const struct group *group = &trace->scene->groups[i];
         trace->groups[i] = new_scene(trace, group->first_shape, group->shape_count);
-        attach_shapes(trace, trace->groups[i], group->first_shape, group->shape_count, cutouts[i]);
+        attach_shapes(trace, trace->groups[i], group->first_shape, group->shape_count, filtered[i]);
         rtcCommitScene(trace->groups[i]);
     }
 }
@@ -201,13 +208,13 @@ static ps_result build(struct trace *trace, struct error *error)
 {
     const struct scene *scene = trace->scene;
     trace->groups = calloc(scene->group_count + 1, sizeof *trace->groups);
-    bool *cutouts = find_cutouts(scene);
-    if (!trace->groups || !cutouts) {
-        free(cutouts);
+    bool *filtered = find_filtered(scene);
+    if (!trace->groups || !filtered) {
+        free(filtered);
         return error_memory(error, scene->group_count * sizeof *trace->groups, "the ray tracer");
     }
-    build_groups(trace, cutouts);
-    free(cutouts);
+    build_groups(trace, filtered);
+    free(filtered);
     attach_shapes(trace, trace->embree, 0, scene->world_shape_count, false);
     attach_instances(trace);
     rtcCommitScene(trace->embree);
