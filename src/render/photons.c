@@ -3,14 +3,13 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "placement/caustics.h"
+#include "render/photon_pilot.h"
 #include "render/state.h"
 #include "stratify/stratify.h"
 #include <math.h>
 #include <psplat/math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define BATCH_CHUNKS 16 /* chunks of PS_PATH_CHUNK paths that are injected at a time */
 
 static ps_result reserve(struct photon_list *list, size_t count)
 {
@@ -42,12 +41,12 @@ ps_result photon_stream_create(struct render *render, struct photon_stream *stre
 {
     *stream = (struct photon_stream){
         .render = render,
-        .chunks = calloc(BATCH_CHUNKS, sizeof *stream->chunks),
+        .chunks = calloc(PHOTON_CHUNKS, sizeof *stream->chunks),
         .caustics = malloc(CAUSTIC_LANDINGS * sizeof *stream->caustics),
     };
     if (!stream->chunks || !stream->caustics) {
         photon_stream_release(stream);
-        return error_memory(error, BATCH_CHUNKS * sizeof *stream->chunks, "photons");
+        return error_memory(error, PHOTON_CHUNKS * sizeof *stream->chunks, "photons");
     }
     photon_stream_rewind(stream);
     return PS_OK;
@@ -55,7 +54,7 @@ ps_result photon_stream_create(struct render *render, struct photon_stream *stre
 
 void photon_stream_release(struct photon_stream *stream)
 {
-    for (int i = 0; i < BATCH_CHUNKS && stream->chunks; i++)
+    for (int i = 0; i < PHOTON_CHUNKS && stream->chunks; i++)
         free(stream->chunks[i].items);
     free(stream->chunks);
     free(stream->caustics);
@@ -130,119 +129,22 @@ static void inject_chunk(void *user, uint64_t index, uint32_t worker)
 /* Fills the chunks with the photons of the next paths, if they don't hold them yet. */
 static ps_result fill_chunks(struct photon_stream *stream, struct error *error)
 {
-    ps_result results[BATCH_CHUNKS], result = PS_OK;
-    uint64_t refused[BATCH_CHUNKS] = {0};
+    ps_result results[PHOTON_CHUNKS], result = PS_OK;
+    uint64_t refused[PHOTON_CHUNKS] = {0};
     struct injection injection = {stream, results, refused};
     struct render *render = stream->render;
     if (stream->filled)
         return PS_OK;
     double start = clock_seconds();
-    parallel_for(render->settings->workers, BATCH_CHUNKS, inject_chunk, &injection);
+    parallel_for(render->settings->workers, PHOTON_CHUNKS, inject_chunk, &injection);
     statistics_add_seconds(render->statistics, "inject", clock_seconds() - start);
-    for (int i = 0; i < BATCH_CHUNKS; i++) {
+    for (int i = 0; i < PHOTON_CHUNKS; i++) {
         result = result == PS_OK ? results[i] : result;
         render->refused.photons[0] += refused[i];
     }
     result = render_judge(render, PS_INJECTION, result, error);
     stream->filled = result == PS_OK;
     return result;
-}
-
-/* Flux, and first and second moments of where it lands. */
-struct landing {
-    double flux, x, y, z, distance2;
-};
-
-static void add_landing(const ps_photon *photon, struct landing *sum)
-{
-    double flux = (double)ps_luminance(photon->power);
-    double x = photon->position.x, y = photon->position.y, z = photon->position.z;
-    sum->flux += flux;
-    sum->x += flux * x;
-    sum->y += flux * y;
-    sum->z += flux * z;
-    sum->distance2 += flux * (x * x + y * y + z * z);
-}
-
-static float spread_of(const struct landing *sum)
-{
-    if (!(sum->flux > 0.0))
-        return 0.0f;
-    double x = sum->x / sum->flux, y = sum->y / sum->flux, z = sum->z / sum->flux;
-    return (float)sqrt(fmax(sum->distance2 / sum->flux - x * x - y * y - z * z, 0.0));
-}
-
-/* Whether the picture may see a place, straight or by one surface more. */
-static bool is_near(const struct importance *importance, ps_vec3 place)
-{
-    ps_vec3 from = ps_subtract(place, importance->center);
-    return !(importance->radius > 0.0f) ||
-           ps_dot(from, from) < importance->radius * importance->radius;
-}
-
-/* How wide light lands, and which part of the paths lands, where the picture may see it. */
-static void find_spread(struct photon_stream *stream)
-{
-    const struct importance *importance = &stream->render->importance;
-    struct landing sum = {.flux = 0.0};
-    double near = 0.0, landings = 0.0;
-    for (int i = 0; i < BATCH_CHUNKS; i++)
-        for (size_t j = 0; j < stream->chunks[i].count; j++) {
-            const ps_photon *photon = &stream->chunks[i].items[j];
-            if (photon->bounce != 1)
-                continue;
-            landings += 1.0;
-            if (is_near(importance, photon->position)) {
-                near += 1.0;
-                add_landing(photon, &sum);
-            }
-        }
-    stream->spread = spread_of(&sum);
-    stream->near_share = near > 0.0 ? near / landings : 1.0;
-}
-
-/* Every so many-th photon of the caustics, so that no more than CAUSTIC_LANDINGS are kept. */
-static size_t spacing_of_caustics(const struct photon_stream *stream)
-{
-    size_t count = 0;
-    for (int i = 0; i < BATCH_CHUNKS; i++)
-        for (size_t j = 0; j < stream->chunks[i].count; j++)
-            count += stream->chunks[i].items[j].bounce == 0;
-    return (count + CAUSTIC_LANDINGS - 1) / CAUSTIC_LANDINGS;
-}
-
-static void land(struct photon_stream *stream, const ps_ray *rays, size_t n)
-{
-    const ps_host *host = own_host(stream->render);
-    ps_hit hits[PS_PATH_CHUNK];
-    host->intersect(host, rays, n, hits);
-    for (size_t i = 0; i < n; i++)
-        if (hits[i].distance < INFINITY)
-            stream->caustics[stream->caustic_count++] = hits[i].position;
-}
-
-static void find_caustics(struct photon_stream *stream)
-{
-    ps_ray rays[PS_PATH_CHUNK];
-    size_t spacing = spacing_of_caustics(stream), number = 0, n = 0;
-    uint64_t first_paths = (uint64_t)BATCH_CHUNKS * PS_PATH_CHUNK;
-    uint64_t traced = stream->path_count < first_paths ? stream->path_count : first_paths;
-    stream->caustic_count = 0;
-    for (int i = 0; i < BATCH_CHUNKS; i++)
-        for (size_t j = 0; j < stream->chunks[i].count; j++) {
-            const ps_photon *photon = &stream->chunks[i].items[j];
-            if (photon->bounce > 0 || number++ % spacing > 0)
-                continue;
-            rays[n++] = ps_leave_surface(photon->position, photon->normal, photon->direction,
-                                         stream->render->scene->surface_offset);
-            if (n == PS_PATH_CHUNK) {
-                land(stream, rays, n);
-                n = 0;
-            }
-        }
-    land(stream, rays, n);
-    stream->photons_per_caustic =
-        traced > 0 ? (double)spacing * (double)stream->path_count / (double)traced : 1.0;
 }
 
 static ps_result prepare_injection(struct photon_stream *stream, struct error *error)
@@ -286,8 +188,7 @@ ps_result photon_stream_prepare(struct photon_stream *stream, struct error *erro
         result = fill_chunks(stream, error);
     if (result != PS_OK)
         return result;
-    find_spread(stream);
-    find_caustics(stream);
+    photon_pilot_find(stream);
     stream->prepared = true;
     return PS_OK;
 }
@@ -299,8 +200,8 @@ static ps_result inject(struct photon_stream *stream, struct error *error)
     if (result != PS_OK)
         return result;
     stream->filled = false;
-    stream->next_path += (uint64_t)BATCH_CHUNKS * PS_PATH_CHUNK;
-    for (int i = 0; i < BATCH_CHUNKS; i++) {
+    stream->next_path += (uint64_t)PHOTON_CHUNKS * PS_PATH_CHUNK;
+    for (int i = 0; i < PHOTON_CHUNKS; i++) {
         const struct photon_list *chunk = &stream->chunks[i];
         if (append(&stream->batch, chunk->items, chunk->count) != PS_OK)
             return error_memory(error, chunk->count * sizeof *chunk->items, "photons");
@@ -326,7 +227,7 @@ static ps_result stratify_batch(struct photon_stream *stream, struct error *erro
 static void measure(const struct photon_stream *stream)
 {
     size_t capacity = stream->batch.capacity;
-    for (int i = 0; i < BATCH_CHUNKS; i++)
+    for (int i = 0; i < PHOTON_CHUNKS; i++)
         capacity += stream->chunks[i].capacity;
     statistics_set_bytes(stream->render->statistics, "photons",
                          (double)(capacity * sizeof(ps_photon)));

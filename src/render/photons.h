@@ -12,6 +12,8 @@
 
 struct render;
 
+#define PHOTON_CHUNKS 16 /* of PS_PATH_CHUNK paths, that are injected at a time */
+
 struct photon_list {
     ps_photon *items; /* owned */
     size_t count, capacity;
