@@ -7,7 +7,7 @@
 #define NEIGHBOURS 6
 
 /* Photons that share a disc in the first pass: their noise against their blur. */
-#define CAUSTIC_PHOTONS 80.0
+#define CAUSTIC_PHOTONS 200.0
 
 float caustics_scale(double photons, uint32_t pass)
 {
