@@ -23,6 +23,7 @@
 #include "gather/surfels.h"
 #include "shared/gather_picture.h"
 #include "shared/photons.h"
+#include <string.h>
 
 #define MOST_PATHS 32       /* of a surfel, by default */
 #define FEWEST_SURFELS 2000 /* of a picture */
@@ -47,12 +48,15 @@ struct work {
 
 /* --- photons --- */
 
-/* Which photons are splatted where. */
+/* Which photons are splatted where. Those for the surfels that some mirror, glass or gloss has sent on are kept, and splatted
+ * when the others are corrected: paths would find a lamp behind glass seldom, and then far too much of it. */
 struct splatting {
     const ps_host *host;
     bool onto_pixels, onto_surfels;
     uint32_t most_bounces; /* of those onto surfels, which are one surface on */
     uint64_t thinning;
+    ps_photon *kept; /* with the power of all that they stand for */
+    size_t kept_count, kept_capacity;
 };
 
 typedef ps_result (*splatter)(const ps_host *host, const ps_photon *photons, size_t n);
@@ -71,6 +75,36 @@ static bool belongs_on_surfels(const void *opaque, const ps_photon *photon)
            photon->path / THINNED_TOGETHER % splatting->thinning == 0;
 }
 
+static bool is_diffuse_on_surfels(const void *opaque, const ps_photon *photon)
+{
+    return !photon->specular && belongs_on_surfels(opaque, photon);
+}
+
+static bool is_specular_on_surfels(const void *opaque, const ps_photon *photon)
+{
+    return photon->specular && belongs_on_surfels(opaque, photon);
+}
+
+static ps_result keep(struct splatting *splatting, const ps_photon *photons, size_t n)
+{
+    const ps_host *host = splatting->host;
+    if (splatting->kept_count + n > splatting->kept_capacity) {
+        size_t capacity = 2 * (splatting->kept_count + n);
+        ps_photon *kept = host->allocate(host, capacity * sizeof *kept, "photons kept");
+        if (!kept)
+            return PS_ERROR_MEMORY;
+        if (splatting->kept_count > 0)
+            memcpy(kept, splatting->kept, splatting->kept_count * sizeof *kept);
+        host->release(host, splatting->kept);
+        splatting->kept = kept;
+        splatting->kept_capacity = capacity;
+    }
+    splatting->kept_count +=
+        photons_choose(photons, n, is_specular_on_surfels, splatting, (float)splatting->thinning,
+                       splatting->kept + splatting->kept_count);
+    return PS_OK;
+}
+
 /* Splats those of n photons that are chosen, with `scale` times their power; `chosen` is room for n. */
 static ps_result splat_chosen(const struct splatting *splatting, photons_belong belong,
                               splatter splat, float scale, const ps_photon *photons, size_t n,
@@ -83,13 +117,15 @@ static ps_result splat_chosen(const struct splatting *splatting, photons_belong 
 /* A photons_take. */
 static ps_result splat_batch(void *opaque, const ps_photon *photons, size_t n)
 {
-    const struct splatting *splatting = opaque;
+    struct splatting *splatting = opaque;
     const ps_host *host = splatting->host;
     ps_photon *chosen = host->allocate(host, n * sizeof *chosen, "photons chosen");
     if (!chosen)
         return PS_ERROR_MEMORY;
-    ps_result result = splat_chosen(splatting, belongs_on_surfels, host->splat_points,
+    ps_result result = splat_chosen(splatting, is_diffuse_on_surfels, host->splat_points,
                                     (float)splatting->thinning, photons, n, chosen);
+    if (result == PS_OK && splatting->onto_surfels)
+        result = keep(splatting, photons, n);
     if (result == PS_OK)
         result = splat_chosen(splatting, belongs_on_pixels, host->splat, 1.0f, photons, n, chosen);
     host->release(host, chosen);
@@ -139,7 +175,7 @@ static ps_result correct_cache(struct work *work)
     struct work correcting = *work;
     pass.bounces -= pass.bounces != PS_ALL_BOUNCES; /* surfels are one surface on */
     correcting.setting = (struct gather_setting){
-        .paths = {host, &pass, work->setting.paths.roulette, false},
+        .paths = {host, &pass, work->setting.paths.roulette, false, true},
         .most = paths_of_surfel(work->state),
     };
     correcting.traced = host->allocate(host, 2 * count * sizeof(ps_rgb), "surfels");
@@ -155,14 +191,55 @@ static ps_result correct_cache(struct work *work)
     return result;
 }
 
-/* Splats the pass's photons onto pixels and surfels, and makes the cache. */
+/* Adds the light of the photons that were kept to the surfels. */
+static ps_result add_kept(const struct splatting *splatting, struct surfels *surfels)
+{
+    const ps_host *host = splatting->host;
+    if (splatting->kept_count == 0)
+        return PS_OK;
+    ps_rgb *more = host->allocate(host, surfels->count * sizeof *more, "surfels");
+    ps_result result = more ? PS_OK : PS_ERROR_MEMORY;
+    if (result == PS_OK)
+        result = host->begin_points(host, surfels->positions, surfels->normals, surfels->count);
+    if (result == PS_OK)
+        result = host->splat_points(host, splatting->kept, splatting->kept_count);
+    if (result == PS_OK)
+        result = host->end_points(host, more);
+    for (size_t i = 0; result == PS_OK && i < surfels->count; i++)
+        surfels->irradiance[i] = ps_rgb_add(surfels->irradiance[i], more[i]);
+    host->release(host, more);
+    return result;
+}
+
+/* Makes the cache of what photons have brought. */
+static ps_result finish_surfels(struct work *work, const struct splatting *splatting)
+{
+    const ps_host *host = work->setting.paths.host;
+    struct surfels *surfels = &work->surfels;
+    ps_result result = host->end_points(host, surfels->irradiance);
+    if (result == PS_OK && paths_of_surfel(work->state) > 0)
+        result = correct_cache(work);
+    if (result == PS_OK)
+        result = add_kept(splatting, surfels);
+    if (result == PS_OK)
+        result = surfels_build(surfels);
+    work->setting.lookup = surfels_lookup;
+    work->setting.cache = surfels;
+    return result;
+}
+
+/* Splats the pass's photons onto pixels and surfels. */
 static ps_result splat(struct work *work)
 {
     const ps_host *host = work->setting.paths.host;
     struct surfels *surfels = &work->surfels;
-    struct splatting splatting = {host, work->setting.paths.no_caustics, surfels->count > 0,
-                                  work->setting.paths.pass->bounces - 1,
-                                  (uint64_t)work->state->thinning};
+    struct splatting splatting = {
+        .host = host,
+        .onto_pixels = work->setting.paths.no_caustics,
+        .onto_surfels = surfels->count > 0,
+        .most_bounces = work->setting.paths.pass->bounces - 1,
+        .thinning = (uint64_t)work->state->thinning,
+    };
     ps_result result = PS_OK;
     if (splatting.onto_pixels)
         result = host->begin_splats(host, 0);
@@ -170,15 +247,9 @@ static ps_result splat(struct work *work)
         result = host->begin_points(host, surfels->positions, surfels->normals, surfels->count);
     if (result == PS_OK && (splatting.onto_pixels || splatting.onto_surfels))
         result = photons_for_each_batch(host, splat_batch, &splatting);
-    if (result != PS_OK || !splatting.onto_surfels)
-        return result;
-    result = host->end_points(host, surfels->irradiance);
-    if (result == PS_OK && paths_of_surfel(work->state) > 0)
-        result = correct_cache(work);
-    if (result == PS_OK)
-        result = surfels_build(surfels);
-    work->setting.lookup = surfels_lookup;
-    work->setting.cache = surfels;
+    if (result == PS_OK && splatting.onto_surfels)
+        result = finish_surfels(work, &splatting);
+    host->release(host, splatting.kept);
     return result;
 }
 
@@ -195,7 +266,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     const struct state *state = opaque;
     struct work work = {
         .state = state,
-        .setting = {.paths = {host, pass, (uint32_t)state->roulette, pass->specular != 0},
+        .setting = {.paths = {host, pass, (uint32_t)state->roulette, pass->specular != 0, false},
                     .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples},
         .surfels = {.host = host},
     };

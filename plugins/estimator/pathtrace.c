@@ -50,7 +50,7 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
 static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
 {
     const struct state *state = opaque;
-    struct work work = {state, {host, pass, (uint32_t)state->roulette, false}};
+    struct work work = {state, {host, pass, (uint32_t)state->roulette, false, false}};
     return host->for_each_tile(host, trace_tile, &work);
 }
 

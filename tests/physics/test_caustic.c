@@ -11,6 +11,8 @@
  *
  * A glass ball: path tracing is the truth. The camera does not see what is above the floor.
  *
+ * A room whose sun shines through a pane of glass has the light that photons bring.
+ *
  * The focus of a glass ball is as bright with the automatic radius as with a tiny one and many photons.
  */
 #include "support/render_scene.h"
@@ -287,9 +289,51 @@ static void test_focus(void **state)
     }
 }
 
+/* --- window --------------------------------------------------------------------------------- */
+
+/* A room that gets all of its light through a pane of glass: the sky's, and that of a sun, which paths find by chance. */
+static const char window[] =
+    "psd: 1\n"
+    "camera: {location: [0.2, 1.5, 2.7], look_at: [0, 1.1, -2], angle: 65}\n"
+    "image: {width: 32, height: 24}\n"
+    "materials: {wall: {diffuse: 0.7}, glass: {dielectric: {ior: 1.5}}}\n"
+    "lights:\n"
+    "  - sun: {direction: [0.8, -0.7, -0.3], irradiance: 3, angle: 0.5}\n"
+    "  - sky: {radiance: 0.3}\n"
+    "objects:\n"
+    "  - quad: {material: wall, corners: [[-2, 0, 3], [2, 0, 3], [2, 0, -3], [-2, 0, -3]]}\n"
+    "  - quad: {material: wall, corners: [[-2, 2.6, 3], [-2, 2.6, -3], [2, 2.6, -3], [2, 2.6, "
+    "3]]}\n"
+    "  - quad: {material: wall, corners: [[-2, 0, -3], [2, 0, -3], [2, 2.6, -3], [-2, 2.6, -3]]}\n"
+    "  - quad: {material: wall, corners: [[-2, 0, 3], [-2, 2.6, 3], [2, 2.6, 3], [2, 0, 3]]}\n"
+    "  - quad: {material: wall, corners: [[2, 0, 3], [2, 2.6, 3], [2, 2.6, -3], [2, 0, -3]]}\n"
+    "  - quad: {material: wall, corners: [[-2, 0, 3], [-2, 0, -3], [-2, 0.8, -3], [-2, 0.8, 3]]}\n"
+    "  - quad: {material: wall, corners: [[-2, 2.2, 3], [-2, 2.2, -3], [-2, 2.6, -3], [-2, 2.6, "
+    "3]]}\n"
+    "  - quad: {material: wall, corners: [[-2, 0.8, 3], [-2, 0.8, 1], [-2, 2.2, 1], [-2, 2.2, "
+    "3]]}\n"
+    "  - quad: {material: wall, corners: [[-2, 0.8, -1], [-2, 0.8, -3], [-2, 2.2, -3], [-2, 2.2, "
+    "-1]]}\n"
+    "  - box: {corners: [[-2.02, 0.8, -1], [-2.0, 2.2, 1]], material: glass}\n"
+    "render: {seed: %d, passes: 2, aa_samples: 1}\n";
+
+/* That of photons alone is the truth: single passes have neither too little of the sun nor, seldom, far too much. */
+static void test_window(void **state)
+{
+    (void)state;
+    static const char *const photons[] = {"estimator=splat", "injection=photon:count=100000",
+                                          "bounces=all", NULL};
+    static const char *const gather[] = {"estimator=gather", "injection=photon:count=100000",
+                                         "bounces=all", NULL};
+    struct estimate expected = estimate_channel(window, photons, "indirect.G", SEEDS);
+    struct estimate estimate = estimate_channel(window, gather, "indirect.G", SEEDS);
+    expect_agreement("sunlit window, gather / splat", estimate, expected, 0.03);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_window),
         cmocka_unit_test(test_focus),
         SLOW_TEST(test_mirror),
         cmocka_unit_test(test_mirror_and_point_light),

@@ -24,6 +24,7 @@ struct paths_setting {
     const ps_pass *pass;
     uint32_t roulette; /* bounce from which on paths may be ended */
     bool no_caustics;  /* on the points that paths start from: somebody else adds them */
+    bool diffuse_only; /* only light that all surfaces on its way have scattered diffusely */
 };
 
 /* The paths of one sample of a tile that are still under way; entry i belongs to pixel pixels[i]. */
@@ -182,7 +183,7 @@ static inline int paths_is_caustic(const struct paths *paths, size_t i)
     return paths->bounces[i] == 0;
 }
 
-/* Adds what surfaces that were met reflect of the lights; on the way of caustics diffusely alone. */
+/* Adds what surfaces that were met reflect of the lights; diffusely alone on the way of caustics, or on all. */
 static inline void paths_add_direct_without_caustics(const struct paths_setting *setting,
                                                      uint32_t number, const struct paths *paths,
                                                      struct paths_segment *segment, ps_rgb *sums)
@@ -190,7 +191,7 @@ static inline void paths_add_direct_without_caustics(const struct paths_setting 
     uint32_t flags[PS_TILE_PIXELS] = {0};
     for (size_t i = 0; i < paths->count; i++) {
         flags[i] = segment->hits[i].flags;
-        if (paths_is_caustic(paths, i))
+        if (setting->diffuse_only || paths_is_caustic(paths, i))
             segment->hits[i].flags &= ~PS_HIT_SPECULAR;
     }
     paths_add_direct(setting, number, paths, segment, sums);
@@ -209,7 +210,7 @@ static inline void paths_add_light(const struct paths_setting *setting, uint32_t
     paths_add_emission(setting, paths, segment, sums);
     paths_drop_lost(paths, segment);
     paths_find_indices(samples, paths, segment);
-    if (setting->no_caustics)
+    if (setting->no_caustics || setting->diffuse_only)
         paths_add_direct_without_caustics(setting, number, paths, segment, sums);
     else
         paths_add_direct(setting, number, paths, segment, sums);
@@ -226,7 +227,7 @@ static inline int paths_goes_on(const struct paths_setting *setting,
     if (!(likelihood > 0.0f))
         return 0;
     if (scattered->lobe != PS_DIFFUSE)
-        return ++paths->chain[i] <= PS_LONGEST_CHAIN;
+        return !setting->diffuse_only && ++paths->chain[i] <= PS_LONGEST_CHAIN;
     if (paths_is_last(setting, paths, i))
         return 0;
     paths->chain[i] = 0;
