@@ -70,7 +70,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     float clamp = virtual_lights_clamp(host, state->clamp);
     struct work work = {
         .cut = {host, pass, &work.tree, clamp, (float)state->error, (uint32_t)state->most_clusters},
-        .compensation = {{host, pass, COMPENSATION_ROULETTE, false},
+        .compensation = {{host, pass, COMPENSATION_ROULETTE, false, false},
                          (uint64_t)state->compensation,
                          clamp},
         .tree = {.host = host},

@@ -222,7 +222,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
         .pass = pass,
         .resolution = (uint32_t)state->resolution,
         .visibility = state->visibility,
-        .compensation = {{host, pass, COMPENSATION_ROULETTE, false},
+        .compensation = {{host, pass, COMPENSATION_ROULETTE, false, false},
                          (uint64_t)state->compensation,
                          virtual_lights_clamp(host, state->clamp)},
     };
