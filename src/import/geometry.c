@@ -13,7 +13,7 @@
 #define LARGEST_SQUARE 1e37
 
 /* Neither where a number is not finite: no comparison with NaN holds, nor infinity < a limit. */
-static bool has_area(ps_vec3 a, ps_vec3 b, ps_vec3 c)
+bool mesh_has_area(ps_vec3 a, ps_vec3 b, ps_vec3 c)
 {
     double u[3] = {(double)b.x - a.x, (double)b.y - a.y, (double)b.z - a.z};
     double v[3] = {(double)c.x - a.x, (double)c.y - a.y, (double)c.z - a.z};
@@ -30,7 +30,7 @@ static bool is_good_triangle(const struct aiMesh *mesh, const struct aiFace *fac
     ps_vec3 p[3];
     for (int i = 0; i < 3; i++)
         p[i] = mesh_vector(mesh->mVertices[face->mIndices[i]]);
-    return has_area(p[0], p[1], p[2]);
+    return mesh_has_area(p[0], p[1], p[2]);
 }
 
 /* Good triangles in their order; counts the others. */
@@ -70,6 +70,14 @@ static size_t compact(struct mesh_description *mesh, uint32_t *new_indices, size
     return count;
 }
 
+static void fill_vectors(const struct aiVector3D *source, size_t count, const uint32_t *new_indices,
+                         ps_vec3 *filled)
+{
+    for (size_t i = 0; i < count; i++)
+        if (new_indices[i] != UINT32_MAX)
+            filled[new_indices[i]] = mesh_vector(source[i]);
+}
+
 static void fill_uv(const struct aiMesh *source, unsigned set, const uint32_t *new_indices,
                     float (*filled)[2])
 {
@@ -106,30 +114,19 @@ static void mend_normals(struct mesh_description *mesh)
         }
 }
 
-static void fill_normals(const struct aiMesh *source, const ps_vec3 *smooth,
-                         const uint32_t *new_indices, struct mesh_description *mesh)
+ps_result mesh_settle_normals(struct mesh_job *job, struct mesh_description *mesh)
 {
-    for (unsigned i = 0; i < source->mNumVertices; i++)
-        if (new_indices[i] != UINT32_MAX)
-            mesh->normals[new_indices[i]] = smooth ? smooth[i] : mesh_vector(source->mNormals[i]);
-    mend_normals(mesh);
-}
-
-static ps_result smooth(struct mesh_job *job, struct mesh_description *mesh)
-{
-    ps_result result = mesh_smooth_by_angle(job, mesh, job->request->smooth_angle);
-    if (result == PS_OK)
+    double angle = job->request->smooth_angle;
+    ps_result result = PS_OK;
+    if (!mesh->normals && angle > 0 && mesh->triangle_count > 0)
+        result = mesh_smooth_by_angle(job, mesh, angle);
+    if (result == PS_OK && mesh->normals)
         mend_normals(mesh);
     return result;
 }
 
-/* What a mesh has besides positions. */
-struct parts {
-    bool normals, uv, second_uv, colors;
-};
-
-static bool allocate_vertices(struct mesh_description *mesh, size_t count,
-                              const struct parts *parts)
+ps_result mesh_allocate_vertices(struct mesh_job *job, struct mesh_description *mesh, size_t count,
+                                 const struct mesh_parts *parts)
 {
     mesh->vertex_count = count;
     mesh->vertices = malloc(count * sizeof *mesh->vertices);
@@ -137,14 +134,15 @@ static bool allocate_vertices(struct mesh_description *mesh, size_t count,
     mesh->uv = parts->uv ? malloc(count * sizeof *mesh->uv) : NULL;
     mesh->second_uv = parts->second_uv ? malloc(count * sizeof *mesh->second_uv) : NULL;
     mesh->colors = parts->colors ? malloc(count * sizeof *mesh->colors) : NULL;
-    return mesh->vertices && (mesh->normals || !parts->normals) && (mesh->uv || !parts->uv) &&
-           (mesh->second_uv || !parts->second_uv) && (mesh->colors || !parts->colors);
+    bool good = mesh->vertices && (mesh->normals || !parts->normals) && (mesh->uv || !parts->uv) &&
+                (mesh->second_uv || !parts->second_uv) && (mesh->colors || !parts->colors);
+    return good ? PS_OK : mesh_out_of_memory(job, count * sizeof *mesh->vertices);
 }
 
 /* STL's normals are those of its triangles, or zero. */
-static bool has_normals(const struct mesh_job *job, const struct mesh_geometry *geometry)
+static bool has_normals(const struct mesh_job *job, const struct aiMesh *source)
 {
-    return (geometry->mesh->mNormals && job->format != FORMAT_STL) || geometry->smooth;
+    return source->mNormals && job->format != FORMAT_STL;
 }
 
 ps_result mesh_fill(struct mesh_job *job, const struct mesh_geometry *geometry,
@@ -157,28 +155,25 @@ ps_result mesh_fill(struct mesh_job *job, const struct mesh_geometry *geometry,
         return mesh_out_of_memory(job, source->mNumFaces * sizeof *mesh->triangles);
     mesh->triangle_count = collect_triangles(source, mesh->triangles, dropped);
     size_t count = compact(mesh, new_indices, source->mNumVertices);
-    const struct parts parts = {
-        .normals = has_normals(job, geometry),
+    const struct mesh_parts parts = {
+        .normals = has_normals(job, source),
         .uv = source->mTextureCoords[0] != NULL,
         .second_uv = geometry->second_uv && source->mTextureCoords[1] != NULL,
         .colors = geometry->colors,
     };
     if (count == 0)
         return PS_OK;
-    if (!allocate_vertices(mesh, count, &parts))
-        return mesh_out_of_memory(job, count * sizeof *mesh->vertices);
-    for (unsigned i = 0; i < source->mNumVertices; i++)
-        if (new_indices[i] != UINT32_MAX)
-            mesh->vertices[new_indices[i]] = mesh_vector(source->mVertices[i]);
+    ps_result result = mesh_allocate_vertices(job, mesh, count, &parts);
+    if (result != PS_OK)
+        return result;
+    fill_vectors(source->mVertices, source->mNumVertices, new_indices, mesh->vertices);
+    if (parts.normals)
+        fill_vectors(source->mNormals, source->mNumVertices, new_indices, mesh->normals);
     if (parts.uv)
         fill_uv(source, 0, new_indices, mesh->uv);
     if (parts.second_uv)
         fill_uv(source, 1, new_indices, mesh->second_uv);
     if (parts.colors)
         mesh_fill_colors(job, geometry, new_indices, mesh->colors);
-    if (parts.normals)
-        fill_normals(source, geometry->smooth, new_indices, mesh);
-    else if (job->request->smooth_angle > 0)
-        return smooth(job, mesh);
-    return PS_OK;
+    return mesh_settle_normals(job, mesh);
 }

@@ -1,4 +1,4 @@
-/* geometry.h: triangles and normals of one of assimp's meshes. */
+/* geometry.h: the geometry of a mesh file: triangles, normals and colours of assimp's meshes, and of OBJ's parts. */
 #ifndef IMPORT_GEOMETRY_H
 #define IMPORT_GEOMETRY_H
 
@@ -8,8 +8,7 @@ struct mesh_geometry {
     const struct aiMesh *mesh;
     const struct json *primitive; /* glTF: as the file says; or NULL */
     bool second_uv, colors;
-    const ps_vec3 *smooth; /* normals in place of the mesh's, or NULL */
-    uint32_t *scratch;     /* as many as the mesh has vertices */
+    uint32_t *scratch; /* as many as the mesh has vertices */
 };
 
 /* Fills a zeroed mesh with the triangles that have an area and whose corners are finite, and counts the
@@ -17,10 +16,22 @@ struct mesh_geometry {
 ps_result mesh_fill(struct mesh_job *job, const struct mesh_geometry *geometry,
                     struct mesh_description *mesh, size_t *dropped);
 
-/* --- vertex_colors.c ---------------------------------------------------------------------------- */
+/* Whether a triangle has an area that floats can tell; not where a corner is not finite. */
+bool mesh_has_area(ps_vec3 a, ps_vec3 b, ps_vec3 c);
 
-/* Once, before those below: whether the file's colours can be assigned to its vertices. */
-void mesh_check_colors(struct mesh_job *job);
+/* What a mesh has besides positions. */
+struct mesh_parts {
+    bool normals, uv, second_uv, colors;
+};
+
+/* Room for what `count` vertices have, not filled. */
+ps_result mesh_allocate_vertices(struct mesh_job *job, struct mesh_description *mesh, size_t count,
+                                 const struct mesh_parts *parts);
+
+/* Gives corners without a normal that of their triangle, or a mesh without any those by the angle that was asked for. */
+ps_result mesh_settle_normals(struct mesh_job *job, struct mesh_description *mesh);
+
+/* --- vertex_colors.c ---------------------------------------------------------------------------- */
 
 /* Whether its vertices have colours other than white. */
 bool mesh_has_colors(struct mesh_job *job, const struct mesh_geometry *geometry);
@@ -29,15 +40,27 @@ bool mesh_has_colors(struct mesh_job *job, const struct mesh_geometry *geometry)
 void mesh_fill_colors(struct mesh_job *job, const struct mesh_geometry *geometry,
                       const uint32_t *new_indices, float (*filled)[4]);
 
+/* One colour of sRGB, as mesh_fill_colors makes it. */
+void mesh_fill_color(struct mesh_job *job, const float srgb[3], float rgba[4]);
+
 /* Notes what was left out of all of them. */
 void mesh_note_colors(struct mesh_job *job);
 
-/* --- smooth.c ------------------------------------------------------------------------------------ */
+/* --- obj_mesh.c ---------------------------------------------------------------------------------- */
 
-/* Normals by the smoothing groups of an OBJ file, one array for each of assimp's meshes, NULL
- * where the mesh has its own or is flat; NULL as a whole where there are none. */
-ps_result mesh_smooth_normals(struct mesh_job *job, ps_vec3 ***normals);
-void mesh_smooth_release(const struct mesh_job *job, ps_vec3 **normals);
+/* Of the parts of an OBJ file, one after the other. */
+struct obj_filling;
+
+/* Released with obj_filling_destroy, which takes NULL. NULL: out of memory. */
+struct obj_filling *obj_filling_create(struct mesh_job *job);
+void obj_filling_destroy(struct obj_filling *filling);
+
+/* mesh_fill for a part. `colors`: whether it takes those of its vertices. */
+ps_result obj_fill(struct obj_filling *filling, const struct obj_part *part, bool colors,
+                   struct mesh_description *mesh, size_t *dropped);
+
+/* mesh_has_colors for a part. */
+bool obj_has_colors(const struct mesh_job *job, const struct obj_part *part);
 
 /* --- smooth_angle.c ------------------------------------------------------------------------------ */
 

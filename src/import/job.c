@@ -132,6 +132,7 @@ static void release(struct mesh_job *job)
     if (job->scene)
         aiReleaseImport(job->scene);
     gltf_release(&job->gltf);
+    obj_release(&job->obj);
     mesh_files_release(&job->files);
     free(job->nodes);
     free(job->materials);

@@ -4,6 +4,7 @@
 
 #include "import/format.h"
 #include "import/gltf.h"
+#include "import/obj.h"
 #include <assimp/scene.h>
 
 /* Kinds of things that materials have and psplat has not. */
@@ -17,7 +18,6 @@ struct mesh_omission {
 
 /* What is wrong with colours of vertices, each noted once (vertex_colors.c). */
 struct mesh_color_faults {
-    bool partial; /* OBJ: not all vertices have one; then none counts */
     bool rejected, clamped, alpha_lost;
 };
 
@@ -46,6 +46,8 @@ struct mesh_job {
     struct mesh_file *library; /* OBJ: the last MTL file read, or NULL */
     char *missing_library;     /* OBJ: the first that could not be read, or NULL */
     struct gltf gltf;
+    struct obj obj;           /* OBJ: else zeroed */
+    struct mesh_file outline; /* of it */
     const struct aiScene *scene;
     struct mesh_node *nodes; /* each before its children */
     size_t node_count;

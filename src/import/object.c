@@ -13,71 +13,97 @@
 /* In place of a mesh's index: known to have no good triangle. */
 #define EMPTY (NO_INDEX - 1)
 
+/* Sources of meshes are assimp's, or the parts of an OBJ file. */
 struct builder {
     struct mesh_job *job;
-    ps_vec3 **smooth;  /* of mesh_smooth_normals */
-    size_t *meshes;    /* of the fragment, for each of assimp's; NO_INDEX: not yet; EMPTY */
-    size_t *dropped;   /* triangles of each of assimp's meshes */
-    uint32_t *scratch; /* room for a number for each vertex of any mesh */
+    struct obj_filling *obj; /* OBJ: or NULL */
+    size_t source_count;
+    size_t *meshes;    /* of the fragment, for each source; NO_INDEX: not yet; EMPTY */
+    size_t *dropped;   /* triangles of each source */
+    uint32_t *scratch; /* room for a number for each vertex of any of assimp's meshes */
     size_t object_capacity;
 };
 
-static const struct aiMesh *source_mesh(const struct builder *builder, size_t index)
+static const struct obj_part *part_of(const struct builder *builder, size_t source)
 {
-    return builder->job->scene->mMeshes[index];
+    return &builder->job->obj.parts[source];
 }
 
-static const ps_vec3 *smooth_of(const struct builder *builder, size_t index)
+/* Of the outline of an OBJ file, that with the same material. */
+static const struct aiMesh *source_mesh(const struct builder *builder, size_t source)
 {
-    return builder->smooth ? builder->smooth[index] : NULL;
+    if (builder->obj) {
+        size_t material = part_of(builder, source)->material;
+        source = material == NO_INDEX ? 0 : material + 1;
+    }
+    return builder->job->scene->mMeshes[source];
+}
+
+static size_t count_triangles(const struct builder *builder, size_t source)
+{
+    const struct aiMesh *mesh = source_mesh(builder, source);
+    size_t count = 0;
+    if (builder->obj)
+        return part_of(builder, source)->count;
+    for (unsigned i = 0; i < mesh->mNumFaces; i++)
+        count += mesh->mFaces[i].mNumIndices == 3;
+    return count;
 }
 
 /* The fragment's; NULL for a material that is not there. */
-static size_t *material_of(const struct builder *builder, const struct aiMesh *source)
+static size_t *material_of(const struct builder *builder, size_t source)
 {
     struct mesh_job *job = builder->job;
-    return source->mMaterialIndex < job->scene->mNumMaterials
-               ? &job->materials[source->mMaterialIndex]
-               : NULL;
+    unsigned material = source_mesh(builder, source)->mMaterialIndex;
+    return material < job->scene->mNumMaterials ? &job->materials[material] : NULL;
+}
+
+static ps_result fill_part(const struct builder *builder, size_t source,
+                           struct mesh_description *made)
+{
+    const struct mesh_job *job = builder->job;
+    const struct obj_part *part = part_of(builder, source);
+    bool colors =
+        material_of(builder, source) && job->request->materials && obj_has_colors(job, part);
+    return obj_fill(builder->obj, part, colors, made, &builder->dropped[source]);
 }
 
 /* With what its material looks up. */
-static struct mesh_geometry geometry_of(const struct builder *builder, size_t index)
+static ps_result fill_mesh(const struct builder *builder, size_t source,
+                           struct mesh_description *made)
 {
     struct mesh_job *job = builder->job;
-    const struct aiMesh *mesh = source_mesh(builder, index);
-    const size_t *material = material_of(builder, mesh);
+    const size_t *material = material_of(builder, source);
     struct mesh_geometry geometry = {
-        .mesh = mesh,
-        .primitive = gltf_primitive(&job->gltf, index, job->scene->mNumMeshes),
+        .mesh = source_mesh(builder, source),
+        .primitive = gltf_primitive(&job->gltf, source, job->scene->mNumMeshes),
         .second_uv =
             material && *material != NO_INDEX && mesh_material_has_second_uv(job, *material),
-        .smooth = smooth_of(builder, index),
         .scratch = builder->scratch,
     };
     geometry.colors = material && job->request->materials && mesh_has_colors(job, &geometry);
-    return geometry;
+    return mesh_fill(job, &geometry, made, &builder->dropped[source]);
 }
 
 /* The mesh in the fragment, made when it is first wanted; or EMPTY. */
-static ps_result want_mesh(struct builder *builder, size_t index, size_t *mesh)
+static ps_result want_mesh(struct builder *builder, size_t source, size_t *mesh)
 {
     struct scene_description *fragment = builder->job->fragment;
-    *mesh = builder->meshes[index];
+    *mesh = builder->meshes[source];
     if (*mesh != NO_INDEX)
         return PS_OK;
     struct mesh_description *made = &fragment->meshes[fragment->mesh_count++];
-    const struct mesh_geometry source = geometry_of(builder, index);
-    ps_result result = mesh_fill(builder->job, &source, made, &builder->dropped[index]);
+    ps_result result =
+        builder->obj ? fill_part(builder, source, made) : fill_mesh(builder, source, made);
     if (result == PS_OK && made->colors)
-        result = mesh_material_paint(builder->job, material_of(builder, source.mesh));
+        result = mesh_material_paint(builder->job, material_of(builder, source));
     if (result == PS_OK && made->triangle_count > 0) {
-        *mesh = builder->meshes[index] = fragment->mesh_count - 1;
+        *mesh = builder->meshes[source] = fragment->mesh_count - 1;
     } else if (result == PS_OK) {
         free(made->triangles);
         *made = (struct mesh_description){0};
         fragment->mesh_count--;
-        *mesh = builder->meshes[index] = EMPTY;
+        *mesh = builder->meshes[source] = EMPTY;
     }
     return result;
 }
@@ -97,7 +123,7 @@ static ps_result reserve_object(struct builder *builder)
     return PS_OK;
 }
 
-static ps_result add_object(struct builder *builder, const struct aiMesh *source, size_t mesh,
+static ps_result add_object(struct builder *builder, size_t source, size_t mesh,
                             const struct affine *placement)
 {
     struct mesh_job *job = builder->job;
@@ -121,25 +147,16 @@ static ps_result add_object(struct builder *builder, const struct aiMesh *source
     return PS_OK;
 }
 
-static size_t count_triangles(const struct aiMesh *mesh)
+static ps_result place_mesh(struct builder *builder, size_t source, const struct affine *placement)
 {
-    size_t count = 0;
-    for (unsigned i = 0; i < mesh->mNumFaces; i++)
-        count += mesh->mFaces[i].mNumIndices == 3;
-    return count;
-}
-
-static ps_result place_mesh(struct builder *builder, size_t index, const struct affine *placement)
-{
-    const struct aiMesh *source = source_mesh(builder, index);
     float determinant = affine_determinant(placement);
     size_t mesh;
     if (!isfinite(determinant) || !(fabsf(determinant) > 0) ||
         !mesh_is_finite(placement->translation)) {
-        builder->job->report->dropped_triangles += count_triangles(source);
+        builder->job->report->dropped_triangles += count_triangles(builder, source);
         return PS_OK;
     }
-    ps_result result = want_mesh(builder, index, &mesh);
+    ps_result result = want_mesh(builder, source, &mesh);
     if (result == PS_OK && mesh != EMPTY)
         result = add_object(builder, source, mesh, placement);
     return result;
@@ -181,9 +198,11 @@ static ps_result place_all(struct builder *builder)
 {
     const struct mesh_job *job = builder->job;
     ps_result result = PS_OK;
-    for (size_t i = 0; result == PS_OK && i < job->node_count; i++)
+    for (size_t i = 0; builder->obj && result == PS_OK && i < builder->source_count; i++)
+        result = place_mesh(builder, i, &job->to_scene);
+    for (size_t i = 0; !builder->obj && result == PS_OK && i < job->node_count; i++)
         result = place_instances(builder, i);
-    for (unsigned i = 0; i < job->scene->mNumMeshes; i++)
+    for (size_t i = 0; i < builder->source_count; i++)
         job->report->dropped_triangles += builder->dropped[i];
     return result;
 }
@@ -199,24 +218,36 @@ static size_t largest_mesh(const struct mesh_job *job)
 
 static ps_result prepare(struct builder *builder)
 {
-    struct scene_description *fragment = builder->job->fragment;
-    size_t meshes = builder->job->scene->mNumMeshes;
-    fragment->meshes = calloc(meshes + 1, sizeof *fragment->meshes);
-    builder->meshes = malloc((meshes + 1) * sizeof *builder->meshes);
-    builder->dropped = calloc(meshes + 1, sizeof *builder->dropped);
-    builder->scratch = malloc((largest_mesh(builder->job) + 1) * sizeof(uint32_t));
-    if (!fragment->meshes || !builder->meshes || !builder->dropped || !builder->scratch)
-        return mesh_out_of_memory(builder->job, meshes * sizeof *fragment->meshes);
-    for (size_t i = 0; i < meshes; i++)
+    struct mesh_job *job = builder->job;
+    struct scene_description *fragment = job->fragment;
+    bool is_obj = job->format == FORMAT_OBJ;
+    size_t count = is_obj ? job->obj.part_count : job->scene->mNumMeshes;
+    builder->source_count = count;
+    builder->obj = is_obj ? obj_filling_create(job) : NULL;
+    fragment->meshes = calloc(count + 1, sizeof *fragment->meshes);
+    builder->meshes = malloc((count + 1) * sizeof *builder->meshes);
+    builder->dropped = calloc(count + 1, sizeof *builder->dropped);
+    builder->scratch = malloc((largest_mesh(job) + 1) * sizeof(uint32_t));
+    if (!fragment->meshes || !builder->meshes || !builder->dropped || !builder->scratch ||
+        (is_obj && !builder->obj))
+        return mesh_out_of_memory(job, count * sizeof *fragment->meshes);
+    for (size_t i = 0; i < count; i++)
         builder->meshes[i] = NO_INDEX;
-    return mesh_smooth_normals(builder->job, &builder->smooth);
+    return PS_OK;
+}
+
+static void release(struct builder *builder)
+{
+    obj_filling_destroy(builder->obj);
+    free(builder->meshes);
+    free(builder->dropped);
+    free(builder->scratch);
 }
 
 ps_result mesh_read_objects(struct mesh_job *job)
 {
     struct builder builder = {.job = job};
     ps_result result = prepare(&builder);
-    mesh_check_colors(job);
     if (result == PS_OK)
         result = place_all(&builder);
     mesh_note_colors(job);
@@ -224,9 +255,6 @@ ps_result mesh_read_objects(struct mesh_job *job)
         result = error_set(job->error, PS_ERROR_INVALID, "%s: the file has no triangles%s",
                            job->request->path,
                            job->gltf.draco ? ", or this assimp does not unpack Draco" : "");
-    mesh_smooth_release(job, builder.smooth);
-    free(builder.meshes);
-    free(builder.dropped);
-    free(builder.scratch);
+    release(&builder);
     return result;
 }

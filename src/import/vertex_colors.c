@@ -4,51 +4,8 @@
  * reads them. Alpha counts in glTF alone.
  */
 #include "import/geometry.h"
-#include "import/text.h"
 
 #include "image/tonemap.h"
-
-/* --- OBJ ------------------------------------------------------------------------------------------- */
-
-static bool is_blank(char c)
-{
-    return c == ' ' || c == '\t';
-}
-
-static size_t count_words(const struct text_line *line)
-{
-    size_t count = 0;
-    for (const char *at = line->start; at < line->end && *at != '#';) {
-        count++;
-        while (at < line->end && !is_blank(*at))
-            at++;
-        while (at < line->end && is_blank(*at))
-            at++;
-    }
-    return count;
-}
-
-/* Whether some `v` lines have a colour, of six numbers, and others none. */
-static bool is_partly_colored(const struct mesh_file *file)
-{
-    const char *at = file->bytes, *end = at + file->length;
-    struct text_line line, words;
-    size_t count = 0, colored = 0;
-    while ((colored == 0 || colored == count) && text_next_line(&at, end, &line))
-        if (text_line_starts(&line, "v", &words)) {
-            colored += count_words(&words) >= 6;
-            count++;
-        }
-    return colored > 0 && colored < count;
-}
-
-/* --- all ------------------------------------------------------------------------------------------- */
-
-void mesh_check_colors(struct mesh_job *job)
-{
-    if (job->request->materials && job->format == FORMAT_OBJ && is_partly_colored(job->main_file))
-        job->colors.partial = true;
-}
 
 /* A COLOR_0 that assimp left out, since it has not as many elements as there are vertices. */
 static bool is_rejected(const struct mesh_geometry *geometry)
@@ -73,7 +30,7 @@ bool mesh_has_colors(struct mesh_job *job, const struct mesh_geometry *geometry)
     const struct aiMesh *source = geometry->mesh;
     bool alpha = has_alpha(job, geometry) && job->gltf.root;
     job->colors.rejected |= is_rejected(geometry);
-    if (!source->mColors[0] || job->colors.partial)
+    if (!source->mColors[0])
         return false;
     for (unsigned i = 0; i < source->mNumVertices; i++)
         if (!is_white(&source->mColors[0][i], alpha))
@@ -89,6 +46,13 @@ static float clamp(struct mesh_job *job, float value)
     return value > 0.0f ? 1.0f : 0.0f; /* NaN: 0 */
 }
 
+void mesh_fill_color(struct mesh_job *job, const float srgb[3], float rgba[4])
+{
+    for (int k = 0; k < 3; k++)
+        rgba[k] = (float)tonemap_linear((double)clamp(job, srgb[k]));
+    rgba[3] = 1.0f;
+}
+
 void mesh_fill_colors(struct mesh_job *job, const struct mesh_geometry *geometry,
                       const uint32_t *new_indices, float (*filled)[4])
 {
@@ -98,18 +62,19 @@ void mesh_fill_colors(struct mesh_job *job, const struct mesh_geometry *geometry
         if (new_indices[i] == UINT32_MAX)
             continue;
         const struct aiColor4D color = source->mColors[0][i];
-        const float parts[3] = {clamp(job, color.r), clamp(job, color.g), clamp(job, color.b)};
+        const float parts[4] = {color.r, color.g, color.b, alpha ? color.a : 1.0f};
         float *rgba = filled[new_indices[i]];
-        for (int k = 0; k < 3; k++)
-            rgba[k] = job->gltf.root ? parts[k] : (float)tonemap_linear((double)parts[k]);
-        rgba[3] = alpha && job->gltf.root ? clamp(job, color.a) : 1.0f;
-        job->colors.alpha_lost |= alpha && !job->gltf.root && color.a != 1.0f;
+        for (int k = 0; k < 4; k++)
+            rgba[k] = clamp(job, parts[k]);
+        if (!job->gltf.root)
+            mesh_fill_color(job, parts, rgba);
+        job->colors.alpha_lost |= !job->gltf.root && parts[3] != 1.0f;
     }
 }
 
 void mesh_note_colors(struct mesh_job *job)
 {
-    if (job->colors.partial)
+    if (job->obj.text.partly_colored && job->request->materials)
         mesh_note(job, "some vertices have colours and others none: the colours are left out");
     if (job->colors.rejected)
         mesh_note(job, "vertex colours that are not as many as the vertices are left out");

@@ -24,8 +24,4 @@ void pov_surface_finish(struct pov_surface *surface, struct pov_object *object);
 /* The same of a mesh, which is released. */
 void pov_surface_adopt(struct pov_reader *reader, struct mesh *mesh, struct pov_object *object);
 
-/* Cuts a simple polygon, whose corners may turn either way, into triangles of indices by clipping ears (G. Meisters,
- * "Polygons have ears", 1975): count - 2 of them, fewer where it crosses itself. Returns how many. */
-size_t pov_triangulate(const double (*points)[2], size_t count, uint32_t (*triangles)[3]);
-
 #endif

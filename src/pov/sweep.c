@@ -5,6 +5,7 @@
  */
 #include "pov/expression.h"
 #include "pov/surface.h"
+#include "scene/polygon.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -209,8 +210,11 @@ static void add_outline(struct pov_surface *surface, const struct sweep *sweep,
                         const double (*points)[2], size_t count)
 {
     uint32_t(*triangles)[3] = malloc((count + 1) * sizeof *triangles);
-    if (!triangles) {
+    uint32_t *ring = malloc((count + 1) * sizeof *ring);
+    if (!triangles || !ring) {
         pov_no_memory(surface->reader);
+        free(triangles);
+        free(ring);
         return;
     }
     for (size_t i = 0; i < count; i++) {
@@ -220,7 +224,7 @@ static void add_outline(struct pov_surface *surface, const struct sweep *sweep,
         pov_surface_triangle(surface, (const struct pov_corner[3]){a, b, c});
         pov_surface_triangle(surface, (const struct pov_corner[3]){a, c, d});
     }
-    size_t made = sweep->open ? 0 : pov_triangulate(points, count, triangles);
+    size_t made = sweep->open ? 0 : polygon_triangulate(points, count, ring, triangles);
     for (int end = 0; end < 2; end++)
         for (size_t i = 0; i < made; i++) {
             struct pov_corner corners[3];
@@ -229,6 +233,7 @@ static void add_outline(struct pov_surface *surface, const struct sweep *sweep,
             pov_surface_triangle(surface, corners);
         }
     free(triangles);
+    free(ring);
 }
 
 static bool is_same(const double a[2], const double b[2])
@@ -320,14 +325,15 @@ static void add_polygon(struct pov_surface *surface, const struct vector *points
     struct vector axes[2];
     double(*flat)[2] = malloc((count + 1) * sizeof *flat);
     uint32_t(*triangles)[3] = malloc((count + 1) * sizeof *triangles);
-    if (!flat || !triangles) {
+    uint32_t *ring = malloc((count + 1) * sizeof *ring);
+    if (!flat || !triangles || !ring) {
         pov_no_memory(surface->reader);
     } else if (plane_of(points, count, axes)) {
         for (size_t i = 0; i < count; i++) {
             flat[i][0] = vector_dot(points[i], axes[0]);
             flat[i][1] = vector_dot(points[i], axes[1]);
         }
-        size_t made = pov_triangulate((const double(*)[2])flat, count, triangles);
+        size_t made = polygon_triangulate((const double(*)[2])flat, count, ring, triangles);
         for (size_t i = 0; i < made; i++) {
             struct pov_corner corners[3];
             for (int k = 0; k < 3; k++)
@@ -337,6 +343,7 @@ static void add_polygon(struct pov_surface *surface, const struct vector *points
     }
     free(flat);
     free(triangles);
+    free(ring);
 }
 
 void pov_read_polygon(struct pov_reader *reader, struct pov_object *object)

@@ -180,18 +180,6 @@ static void smoothing_goes_across_materials_and_relative_indices(void **state)
     assert_int_equal(imported.fragment.object_count, 2);
     expect_near(fabs(normal_at(&imported, 0, 0, 1).y), 1, 1e-6);
     expect_near(fabs(normal_at(&imported, 1, 0, 1).y), 1, 1e-6);
-    assert_null(strstr(imported.report.notes, "smoothing"));
-    release_imported(&imported);
-}
-
-static void smoothing_that_cannot_be_followed_is_reported(void **state)
-{
-    (void)state;
-    struct imported imported =
-        import_text("m.obj", ROOF "s 1\nf 1 2 \\\n3\nf 3 2 4\n"); /* a statement over two lines */
-    expect_success(&imported);
-    assert_null(mesh_of(&imported, 0)->normals);
-    assert_non_null(strstr(imported.report.notes, "smoothing groups"));
     release_imported(&imported);
 }
 
@@ -279,7 +267,6 @@ int main(void)
         cmocka_unit_test(normals_of_the_file_are_kept),
         cmocka_unit_test(smoothing_group_smooths_within_itself),
         cmocka_unit_test(smoothing_goes_across_materials_and_relative_indices),
-        cmocka_unit_test(smoothing_that_cannot_be_followed_is_reported),
         cmocka_unit_test(ply_is_read),
         cmocka_unit_test(data_of_ply_are_no_header),
         cmocka_unit_test(stl_is_flat),
