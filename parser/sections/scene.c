@@ -3,6 +3,7 @@
  * Materials come before objects whatever the file's order, as objects refer to them.
  */
 #include "parser/sections/sections.h"
+#include "scene/repeated_meshes.h"
 
 #include "parser/sections/fill.h"
 #include "parser/sections/object.h"
@@ -81,6 +82,8 @@ static void read_sections(struct reader *reader, const struct node *root)
     groups_read(reader, root);
     read_objects(reader, root);
     read_map(reader, root, "render", &description->render, NULL);
+    if (diagnostics_error_count(reader->sink) == 0 && !scene_description_share_meshes(description))
+        reader->out_of_memory = true;
     warn_dark(reader, root);
 }
 

@@ -47,12 +47,18 @@ static const char *file_of(const struct part_list *list, const struct object_des
     return file;
 }
 
+/* Of a group that the scene names; other groups are meshes that repeat. */
+static bool is_instance(const struct part_list *list, const struct object_description *object)
+{
+    return object->kind == OBJECT_INSTANCE && list->description->groups[object->group].name;
+}
+
 static void print_parts(struct part_list *list)
 {
     const struct object_description *first = list->first;
     if (!first)
         return;
-    if (first->kind == OBJECT_INSTANCE)
+    if (is_instance(list, first))
         printf("  instance of %s", list->description->groups[first->group].name);
     else
         printf("  mesh %s", file_of(list, first));
@@ -66,8 +72,7 @@ static void add_part(void *user, const struct object_description *object, const 
 {
     struct part_list *list = user;
     const char *file = file_of(list, object);
-    if (!file || !list->first || object->kind == OBJECT_INSTANCE ||
-        file_of(list, list->first) != file)
+    if (!file || !list->first || is_instance(list, object) || file_of(list, list->first) != file)
         print_parts(list);
     if (!file)
         return;

@@ -34,11 +34,15 @@ static inline ps_vec3 box_center(const struct box *box)
     return ps_scale(ps_add(box->low, box->high), 0.5f);
 }
 
+/* Comparisons, since fminf is a call; a coordinate that is no number is passed over by both. */
 static inline void box_add_point(struct box *box, ps_vec3 p)
 {
-    box->low = (ps_vec3){fminf(box->low.x, p.x), fminf(box->low.y, p.y), fminf(box->low.z, p.z)};
-    box->high =
-        (ps_vec3){fmaxf(box->high.x, p.x), fmaxf(box->high.y, p.y), fmaxf(box->high.z, p.z)};
+    box->low.x = p.x < box->low.x ? p.x : box->low.x;
+    box->low.y = p.y < box->low.y ? p.y : box->low.y;
+    box->low.z = p.z < box->low.z ? p.z : box->low.z;
+    box->high.x = p.x > box->high.x ? p.x : box->high.x;
+    box->high.y = p.y > box->high.y ? p.y : box->high.y;
+    box->high.z = p.z > box->high.z ? p.z : box->high.z;
 }
 
 static inline void box_add_box(struct box *box, const struct box *other)

@@ -239,7 +239,7 @@ struct object_description {
 /* Objects that are placed together, any number of times; groups inside are resolved, so that none
  * of the objects is an instance. */
 struct group_description {
-    char *name;
+    char *name; /* NULL: of a mesh that repeats (repeated_meshes.h) */
     struct object_description *objects;
     size_t object_count;
 };

@@ -7,7 +7,7 @@ struct box scene_box_of_shapes(const struct scene *scene, size_t first, size_t c
 {
     struct box box = BOX_EMPTY;
     for (size_t i = first; i < first + count; i++)
-        shape_extend_bounds(&scene->shapes[i], &box.low, &box.high);
+        box_add_box(&box, &scene->shapes[i].box);
     return box;
 }
 
@@ -20,8 +20,7 @@ static struct box box_of_instance(const struct scene_description *description,
     struct box inside = BOX_EMPTY, box = BOX_EMPTY;
     for (size_t i = 0; i < group->object_count; i++)
         if (group->objects[i].kind != OBJECT_PLANE)
-            shape_extend_bounds(&scene->shapes[instance->group->first_shape + i], &inside.low,
-                                &inside.high);
+            box_add_box(&inside, &scene->shapes[instance->group->first_shape + i].box);
     box_add_placed(&box, &inside, &instance->placement);
     return box;
 }

@@ -38,6 +38,21 @@ static bool may_be_empty(const struct object_description *object)
     return object->kind == OBJECT_TRIANGLES || object->kind == OBJECT_MESH;
 }
 
+/* By triangles: a list may hold vertices that none of them uses. */
+static struct box box_of(const struct shape *shape)
+{
+    struct box box = BOX_EMPTY;
+    if (shape->kind == SHAPE_SPHERE) {
+        ps_vec3 extent = {shape->radius, shape->radius, shape->radius};
+        box_add_point(&box, ps_subtract(shape->center, extent));
+        box_add_point(&box, ps_add(shape->center, extent));
+    }
+    for (size_t i = 0; i < shape->triangle_count; i++)
+        for (int k = 0; k < 3; k++)
+            box_add_point(&box, shape->vertices[shape->triangles[i][k]]);
+    return box;
+}
+
 static ps_result create(const struct object_description *object,
                         const struct shape_surroundings *surroundings, struct shape *shape,
                         struct error *error)
@@ -67,7 +82,9 @@ ps_result shape_create(const struct object_description *object,
                             .hidden = object->hidden,
                             .front_only = object->front_only};
     ps_result result = create(object, surroundings, shape, error);
-    if (result != PS_OK)
+    if (result == PS_OK)
+        shape->box = box_of(shape);
+    else
         shape_release(shape);
     return result;
 }
@@ -86,7 +103,7 @@ ps_result shape_allocate(struct shape *shape, size_t vertices, size_t triangles,
         return error_set(error, PS_ERROR_INVALID,
                          "a mesh of %zu vertices and %zu triangles is more than can be traced",
                          vertices, triangles);
-    shape->vertices = allocate_array(vertices, sizeof *shape->vertices);
+    shape->vertices = allocate_array(vertices + 1, sizeof *shape->vertices); /* see shape.h */
     shape->triangles = allocate_array(triangles, sizeof *shape->triangles);
     if (parts & MESH_NORMALS)
         shape->normals = allocate_array(vertices, sizeof *shape->normals);
@@ -133,20 +150,4 @@ void shape_mesh_color(const struct shape *shape, const struct shape_point *point
         for (int i = 0; i < 3 && shape->colors; i++)
             rgba[k] += point->shares[i] * shape->colors[point->corners[i]][k];
     }
-}
-
-/* By triangles: a list may hold vertices that none of them uses. */
-void shape_extend_bounds(const struct shape *shape, ps_vec3 *low, ps_vec3 *high)
-{
-    struct box box = {*low, *high};
-    if (shape->kind == SHAPE_SPHERE) {
-        ps_vec3 extent = {shape->radius, shape->radius, shape->radius};
-        box_add_point(&box, ps_subtract(shape->center, extent));
-        box_add_point(&box, ps_add(shape->center, extent));
-    }
-    for (size_t i = 0; i < shape->triangle_count; i++)
-        for (int k = 0; k < 3; k++)
-            box_add_point(&box, shape->vertices[shape->triangles[i][k]]);
-    *low = box.low;
-    *high = box.high;
 }

@@ -48,17 +48,19 @@ enum shape_kind { SHAPE_MESH, SHAPE_SPHERE };
 struct shape {
     enum shape_kind kind;
     uint32_t material;
-    bool hidden;           /* from the camera */
-    bool front_only;       /* that is, from behind */
-    ps_vec3 *vertices;     /* mesh; counter-clockwise triangles seen from the front */
-    ps_vec3 *normals;      /* mesh: unit, of each vertex in use, on the front; NULL: flat */
-    float (*uv)[2];        /* mesh: of each vertex; NULL: none */
+    bool hidden;       /* from the camera */
+    bool front_only;   /* that is, from behind */
+    ps_vec3 *vertices; /* mesh; counter-clockwise triangles seen from the front; room for one more
+                              follows, since the ray tracer loads 16 bytes at each */
+    ps_vec3 *normals;  /* mesh: unit, of each vertex in use, on the front; NULL: flat */
+    float (*uv)[2];    /* mesh: of each vertex; NULL: none */
     float (*second_uv)[2]; /* mesh file: likewise */
     float (*colors)[4];    /* mesh file: linear colour and alpha of each vertex; NULL: none */
     size_t vertex_count;
     uint32_t (*triangles)[3]; /* mesh: none without an area */
     size_t triangle_count;    /* may be 0 for triangles and meshes, else at least 1 */
     size_t dropped;           /* mesh: triangles left out because they have no area */
+    struct box box;           /* around the triangles, or the sphere */
     ps_vec3 center;           /* sphere */
     float radius;             /* sphere */
     ps_vec3 axes[3]; /* sphere: unit; where its own x, y, z point: u goes round axes[1]. Left-handed
@@ -89,9 +91,6 @@ ps_result shape_create(const struct object_description *object,
                        const struct shape_surroundings *surroundings, struct shape *shape,
                        struct error *error);
 void shape_release(struct shape *shape);
-
-/* Grows the box [low, high] to hold the shape. */
-void shape_extend_bounds(const struct shape *shape, ps_vec3 *low, ps_vec3 *high);
 
 /* A point of a mesh's triangle: its corners, and the point's shares of them, whose sum is 1. */
 struct shape_point {

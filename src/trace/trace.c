@@ -48,29 +48,32 @@ static ps_result embree_error(struct trace *trace, const char *what, struct erro
     return error_set(error, result, "Embree failed to %s (error %d)", what, (int)code);
 }
 
-static void *fill_buffer(RTCGeometry geometry, enum RTCBufferType type, enum RTCFormat format,
-                         const void *data, size_t stride, size_t count)
+/* Triangles stay where the scene has them. */
+static RTCGeometry create_mesh(RTCDevice device, const struct shape *shape)
 {
-    void *buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, stride, count);
-    if (buffer)
-        memcpy(buffer, data, stride * count);
-    return buffer;
+    RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, shape->vertices,
+                               0, sizeof *shape->vertices, shape->vertex_count);
+    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, shape->triangles,
+                               0, sizeof *shape->triangles, shape->triangle_count);
+    return mesh;
 }
 
-static RTCGeometry create_geometry(struct trace *trace, const struct shape *shape)
+static RTCGeometry create_sphere(RTCDevice device, const struct shape *shape)
 {
-    if (shape->kind == SHAPE_SPHERE) {
-        RTCGeometry sphere = rtcNewGeometry(trace->device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-        float data[4] = {shape->center.x, shape->center.y, shape->center.z, shape->radius};
-        fill_buffer(sphere, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, data, sizeof data, 1);
-        return sphere;
-    }
-    RTCGeometry mesh = rtcNewGeometry(trace->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    fill_buffer(mesh, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, shape->vertices,
-                sizeof *shape->vertices, shape->vertex_count);
-    fill_buffer(mesh, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, shape->triangles,
-                sizeof *shape->triangles, shape->triangle_count);
-    return mesh;
+    RTCGeometry sphere = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    const float data[4] = {shape->center.x, shape->center.y, shape->center.z, shape->radius};
+    void *buffer = rtcSetNewGeometryBuffer(sphere, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                                           sizeof data, 1);
+    if (buffer)
+        memcpy(buffer, data, sizeof data);
+    return sphere;
+}
+
+static RTCGeometry create_geometry(const struct trace *trace, const struct shape *shape)
+{
+    return shape->kind == SHAPE_SPHERE ? create_sphere(trace->device, shape)
+                                       : create_mesh(trace->device, shape);
 }
 
 /* A hit as Embree tells it: instances are numbered after the world's shapes. */

@@ -168,7 +168,7 @@ true_of "preview.json" "$(number results/preview.json "d['scenes'][0]['picture']
 # --- bench/scaling ---
 
 measure 0 scaling --quick
-[ "$(wc -l <results/scaling.csv)" -eq 25 ] || fail "scaling.csv has not 24 points"
+[ "$(wc -l <results/scaling.csv)" -eq 33 ] || fail "scaling.csv has not 32 points"
 expect_match results/scaling.csv '^series,x,threads,photons,'
 expect_match results/scaling.csv '^pixels,32400,2,'
 # 64 times the lights; asked one by one they would cost more than ten times.
@@ -177,6 +177,18 @@ processor_seconds() {
 }
 true_of "lights" "$(processor_seconds lights 1024) < 4 * $(processor_seconds lights 16)"
 true_of "rooms" "$(processor_seconds rooms 9) < 5 * $(processor_seconds rooms 1)"
+true_of "instances" "$(processor_seconds instances 100000) < 20 * $(processor_seconds instances 1000)"
+# Bytes for each triangle that is added, with the ray tracer's tree and what it needs to build it; for each instance.
+bytes_each() {
+    awk -F, -v series="$1" '$1 == series && $3 == 1 { x[++n] = $2; bytes[n] = $9 } END { print (bytes[n] - bytes[1]) / (x[n] - x[1]) }' results/scaling.csv
+}
+is_on PSPLAT_SANITIZE || true_of "bytes of a triangle" "0 < $(bytes_each triangles) < 200"
+is_on PSPLAT_SANITIZE || true_of "bytes of an instance" "0 < $(bytes_each instances) < 1000"
+measure 0 scaling --quick --series instances --threads 1
+[ "$(wc -l <results/scaling.csv)" -eq 3 ] || fail "scaling.csv has not 2 points"
+measure 2 scaling --quick --series instances,dances
+expect_text results/scaling.md "| wall seconds with instances | 1000 to 100000 |"
+measure 0 scaling --quick --series paths,pixels,passes
 expect_text results/scaling.md "| indirect seconds with paths | 3162 to 10000 |"
 expect_drawing results/scaling.svg
 

@@ -115,11 +115,9 @@ static void test_box(void **state)
     ps_vec3 corners[2] = {{1, 2, 3}, {2, 4, 6}};
     struct object_description object = {.kind = OBJECT_BOX, .vertices = corners, .vertex_count = 2};
     struct shape shape = lone_shape(object);
-    ps_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
     expect_box(&shape, 1 * 2 * 3, 2 * (2 + 3 + 6));
-    shape_extend_bounds(&shape, &low, &high);
-    expect_vector(low, 1, 2, 3);
-    expect_vector(high, 2, 4, 6);
+    expect_vector(shape.box.low, 1, 2, 3);
+    expect_vector(shape.box.high, 2, 4, 6);
     shape_release(&shape);
     object.placement = affine_of((ps_vec3){2, 2, 2}, (ps_vec3){10, 20, 30}, (ps_vec3){7, 8, 9});
     shape = lone_shape(object);
@@ -137,10 +135,8 @@ static void test_box_turns_as_a_whole(void **state)
         .vertex_count = 2,
         .placement = affine_of((ps_vec3){1, 1, 1}, (ps_vec3){0, 90, 0}, (ps_vec3){5, 0, 0}),
     });
-    ps_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    shape_extend_bounds(&shape, &low, &high);
-    expect_vector(low, 5, 0, -1);
-    expect_vector(high, 8, 2, 0);
+    expect_vector(shape.box.low, 5, 0, -1);
+    expect_vector(shape.box.high, 8, 2, 0);
     shape_release(&shape);
 }
 
@@ -153,13 +149,11 @@ static void test_sphere(void **state)
         .radius = 2,
         .placement = affine_of((ps_vec3){-3, -3, -3}, (ps_vec3){0, 0, 90}, (ps_vec3){0, 0, 1}),
     });
-    ps_vec3 low = {-1, -1, -1}, high = {1, 1, 1};
     assert_int_equal(shape.kind, SHAPE_SPHERE);
     expect_vector(shape.center, 0, -3, 1);
     assert_true(fabsf(shape.radius - 6) < 1e-5f);
-    shape_extend_bounds(&shape, &low, &high); /* grows what is there */
-    expect_vector(low, -6, -9, -5);
-    expect_vector(high, 6, 3, 7);
+    expect_vector(shape.box.low, -6, -9, -5);
+    expect_vector(shape.box.high, 6, 3, 7);
     shape_release(&shape);
 }
 
