@@ -14,9 +14,11 @@
 
 static const struct option options[] = {
     {'o', "output", "FILE.png", "default: the scene's name, the view's, and .png"},
-    {0, "count", "N", "photons: dots at most (20000); maps: splats (12)"},
+    {0, "count", "N", "photons: dots at most (20000); maps: splats (12); pixel: photons (200)"},
+    {0, "pixel", "X,Y", "pixel: its column and row, from 0; default: the middle"},
     {0, "resolution", "N", "voxels: cells across the scene, not the stratification's own"},
-    {0, "top", "NUMBER", "photons, overlap: the scale's upper end; default: by what there is"},
+    {0, "top", "NUMBER",
+     "photons, overlap, pixel: the scale's upper end; default: by what there is"},
     {0, "color", "power|bounce", "photons: what the dots' colours tell; default: power"},
     RENDER_OPTIONS,
 };
@@ -57,6 +59,23 @@ static bool parse_color(const char *text, bool *by_bounce)
     return false;
 }
 
+static bool parse_pixel(const char *text, struct debug_options *chosen)
+{
+    const char *comma = strchr(text, ',');
+    double column, row;
+    chosen->has_pixel = comma && text_part_to_number(text, (size_t)(comma - text), &column) &&
+                        text_to_number(comma + 1, &row) && column >= 0 && row >= 0 &&
+                        column < 1e6 && row < 1e6 && floor(column) == column && floor(row) == row;
+    if (chosen->has_pixel) {
+        chosen->pixel[0] = (uint32_t)column;
+        chosen->pixel[1] = (uint32_t)row;
+        return true;
+    }
+    fprintf(stderr, "psplat: error: --pixel: expected a column and a row, as 120,80, got '%s'\n",
+            text);
+    return false;
+}
+
 static bool parse_count(const struct argument *argument, double most, uint32_t *count)
 {
     double number;
@@ -80,6 +99,8 @@ static bool take_option(struct job *job, const struct argument *argument)
         return parse_top(value, &chosen->top);
     else if (strcmp(name, "color") == 0)
         return parse_color(value, &chosen->by_bounce);
+    else if (strcmp(name, "pixel") == 0)
+        return parse_pixel(value, chosen);
     return true;
 }
 
@@ -225,7 +246,7 @@ static int run(const struct argument *arguments, size_t count)
 
 const struct command command_debug = {
     .name = "debug",
-    .operands = "photons|voxels|gbuffer[:LAYER]|maps|overlap SCENE.psd|MODEL",
+    .operands = "photons|voxels|gbuffer[:LAYER]|maps|overlap|pixel SCENE.psd|MODEL",
     .summary = "draws what goes on inside of a render",
     .options = options,
     .option_count = sizeof options / sizeof options[0],

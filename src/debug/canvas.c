@@ -51,6 +51,34 @@ void canvas_disc(struct canvas *canvas, float x, float y, float radius, struct c
     canvas_set(canvas, column, row, colour);
 }
 
+/* Narrows the part [*begin, *end] of a line to where `at + part * step` lies in 0..size (Liang and Barsky 1984). */
+static void clip(float at, float step, float size, float *begin, float *end)
+{
+    if (step == 0.0f) {
+        *end = at >= 0.0f && at <= size ? *end : -1.0f;
+        return;
+    }
+    float one = -at / step, other = (size - at) / step;
+    *begin = fmaxf(*begin, fminf(one, other));
+    *end = fminf(*end, fmaxf(one, other));
+}
+
+void canvas_line(struct canvas *canvas, float from_x, float from_y, float to_x, float to_y,
+                 struct colour colour)
+{
+    float dx = to_x - from_x, dy = to_y - from_y, begin = 0.0f, end = 1.0f;
+    clip(from_x, dx, (float)canvas->width, &begin, &end);
+    clip(from_y, dy, (float)canvas->height, &begin, &end);
+    if (!(begin <= end))
+        return;
+    long steps = lroundf(ceilf((end - begin) * fmaxf(fabsf(dx), fabsf(dy)))) + 1;
+    for (long i = 0; i <= steps; i++) {
+        float part = begin + (end - begin) * (float)i / (float)steps;
+        canvas_set(canvas, lroundf(floorf(from_x + part * dx)), lroundf(floorf(from_y + part * dy)),
+                   colour);
+    }
+}
+
 static void draw_letter(struct canvas *canvas, long x, long y, long scale, struct colour colour,
                         char letter)
 {

@@ -26,7 +26,11 @@ void canvas_fill(struct canvas *canvas, struct rectangle part, struct colour col
 /* All pixels whose centres lie within `radius` of the point; at least the one that it lies in. */
 void canvas_disc(struct canvas *canvas, float x, float y, float radius, struct colour colour);
 
-/* One line, its upper left corner at (x, y), in letters of font.h, `scale` times as large. */
+/* A straight line, a pixel wide. */
+void canvas_line(struct canvas *canvas, float from_x, float from_y, float to_x, float to_y,
+                 struct colour colour);
+
+/* One line of text, its upper left corner at (x, y), in letters of font.h, `scale` times as large. */
 void canvas_text(struct canvas *canvas, long x, long y, size_t scale, struct colour colour,
                  const char *text);
 size_t canvas_text_width(size_t scale, const char *text);

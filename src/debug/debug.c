@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct debug_view *const views[] = {&debug_photons, &debug_voxels, &debug_gbuffer,
-                                                 &debug_maps, &debug_overlap};
+static const struct debug_view *const views[] = {&debug_photons, &debug_voxels,  &debug_gbuffer,
+                                                 &debug_maps,    &debug_overlap, &debug_pixel};
 enum { VIEWS = sizeof views / sizeof views[0] };
 
 static ps_result report_unknown(const char *name, struct error *error)

@@ -11,10 +11,12 @@
 
 struct debug_options {
     double exposure;     /* of what shows light, in stops */
-    uint32_t count;      /* photons or maps at most; 0: the view's default */
+    uint32_t count;      /* photons, maps or sources at most; 0: the view's default */
     uint32_t resolution; /* cells across the scene; 0: the view's default */
     double top;          /* upper end of a scale; 0: by what there is */
     bool by_bounce;      /* photons coloured by bounce, not by power */
+    bool has_pixel;      /* else that in the middle of the picture */
+    uint32_t pixel[2];   /* column and row, whose light is explained */
 };
 
 struct debug_view {
@@ -41,6 +43,6 @@ ps_result debug_draw(const struct debug_request *request, const struct scene *sc
                      struct statistics *statistics, struct canvas *canvas, struct error *error);
 
 extern const struct debug_view debug_photons, debug_voxels, debug_gbuffer, debug_maps,
-    debug_overlap;
+    debug_overlap, debug_pixel;
 
 #endif

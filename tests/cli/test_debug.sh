@@ -34,16 +34,17 @@ gbuffer:direct 60x40
 gbuffer:emitted 60x40
 maps 72x86
 overlap 60x77
+pixel 60x77
 END
 rm out err
 cd .. || exit 1
 expect_files cornell-photons.png cornell-voxels.png cornell-gbuffer.png cornell-gbuffer-albedo.png \
     cornell-gbuffer-normal.png cornell-gbuffer-position.png cornell-gbuffer-depth.png \
     cornell-gbuffer-object.png cornell-gbuffer-material.png cornell-gbuffer-throughput.png \
-    cornell-gbuffer-direct.png cornell-gbuffer-emitted.png cornell-maps.png cornell-overlap.png
+    cornell-gbuffer-direct.png cornell-gbuffer-emitted.png cornell-maps.png cornell-overlap.png cornell-pixel.png
 
 # The same, to the last byte, for any number of threads and any batches.
-for view in photons voxels gbuffer maps overlap; do
+for view in photons voxels gbuffer maps overlap pixel; do
     run 0 debug $view $small -t 1 -o one.png
     run 0 debug $view $small -t 3 --batch 17 -o three.png -q
     expect_empty err
@@ -70,6 +71,11 @@ differs maps --exposure 2
 differs overlap --top 5000
 differs overlap -p visibility=none
 differs overlap -p injection=photon:count=2000
+differs pixel --pixel 20,30
+differs pixel --count 2
+differs pixel --top 10
+run 0 debug pixel $small --pixel 30,20 -o usual.png
+expect_same usual.png new/cornell-pixel.png
 run 0 debug voxels $small --resolution 16 -o usual.png
 expect_same usual.png new/cornell-voxels.png
 # The cells of the scene's own stratification, with its parameters; --resolution goes before it.
@@ -145,11 +151,16 @@ usage "expected a view and a scene" debug
 usage "expected a view and a scene" debug photons
 usage "expected a view and a scene" debug photons a.psd b.psd
 usage "there is no view 'fotons'; did you mean 'photons'?" debug fotons "$cornell"
-usage "there are: photons, voxels, gbuffer, maps, overlap" debug picture "$cornell"
+usage "there are: photons, voxels, gbuffer, maps, overlap, pixel" debug picture "$cornell"
 usage "the view gbuffer has no part 'red'; it has: albedo, normal" debug gbuffer:red "$cornell"
 usage "the view overlap has no parts" debug overlap:1 "$cornell"
 usage "overlap: the estimator vpl made no splats" debug overlap $small -p estimator=vpl
 usage "maps: the visibility none has no depth maps" debug maps $small -p visibility=none
+usage "pixel: (60, 5) is outside of the picture, which has 60x40 pixels" debug pixel $small --pixel 60,5
+usage "pixel: nothing is seen at (0, 20)" debug pixel $small --pixel 0,20
+for value in 5 5, ,5 5,6,7 -1,5 1.5,2 x,y ""; do
+    usage "--pixel: expected a column and a row, as 120,80, got '$value'" debug pixel --pixel "$value" $small
+done
 usage "--plugin: expected KIND=NAME" debug maps -p nothing "$cornell"
 usage "--size: expected WxH" debug maps --size 5 "$cornell"
 usage "--color: expected power or bounce, got 'red'" debug photons --color red "$cornell"

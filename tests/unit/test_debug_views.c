@@ -3,6 +3,7 @@
 #include "debug/debug.h"
 #include "debug/id_colour.h"
 #include "debug/legend.h"
+#include "debug/pixel_light.h"
 #include "debug/project.h"
 #include "host/photons.h"
 #include "support/render_scene.h"
@@ -192,6 +193,71 @@ static void test_overlap_needs_splats(void **state)
     free(text);
 }
 
+/* --- the light of a pixel --- */
+
+struct explained {
+    size_t x, y;
+    ps_rgb irradiance, by_estimator;
+};
+
+static ps_result explain_pixel(void *user, struct render *render, struct error *error)
+{
+    struct explained *explained = user;
+    struct pixel_light light;
+    ps_rgb sum = {0, 0, 0};
+    assert_int_equal(pixel_light_find(render, explained->x, explained->y, &light, error), PS_OK);
+    assert_true(light.source_count > 10 && light.source_count < light.photon_count);
+    for (size_t i = 0; i < light.source_count; i++) {
+        const struct pixel_source *source = &light.sources[i];
+        float brightness = ps_luminance(source->irradiance);
+        assert_true(i == 0 || brightness <= ps_luminance(source[-1].irradiance));
+        ps_vec3 there = ps_subtract(light.position, source->position);
+        assert_true(ps_dot(there, source->normal) >
+                    -60); /* in front of it, but for the splat's radius */
+        sum = ps_rgb_add(sum, source->irradiance);
+    }
+    assert_true(fabsf(sum.g - light.irradiance.g) <= 1e-4f * light.irradiance.g);
+    explained->irradiance = light.irradiance;
+    pixel_light_release(&light);
+    return PS_OK;
+}
+
+static ps_result estimate_pixel(void *user, struct render *render, struct error *error)
+{
+    struct explained *explained = user;
+    ps_result result = render_estimate(render, error);
+    for (uint32_t tile = 0; tile < render->gbuffer.tile_count; tile++)
+        for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+            const ps_tile *at = &render->gbuffer.tiles[tile];
+            uint32_t x, y;
+            if (gbuffer_pixel(&render->gbuffer, tile, lane, &x, &y) && x == explained->x &&
+                y == explained->y)
+                explained->by_estimator = (ps_rgb){at->irradiance_r[lane], at->irradiance_g[lane],
+                                                   at->irradiance_b[lane]};
+        }
+    return result;
+}
+
+/* On the floor, the back wall and a block. */
+static void test_light_of_a_pixel_is_the_estimators(void **state)
+{
+    (void)state;
+    const char *const choices[] = {"injection=photon:count=30000",
+                                   "estimator=splat:interleave=1,gather_rays=0",
+                                   "visibility=shadowmap:radius=60", NULL};
+    static const size_t pixels[][2] = {{24, 29}, {24, 6}, {20, 20}};
+    char *text = cornell_text(WIDTH, HEIGHT);
+    for (size_t i = 0; i < sizeof pixels / sizeof pixels[0]; i++) {
+        struct explained explained = {.x = pixels[i][0], .y = pixels[i][1]};
+        inspect_text(text, choices, explain_pixel, &explained);
+        inspect_text(text, choices, estimate_pixel, &explained);
+        ps_rgb one = explained.irradiance, other = explained.by_estimator;
+        assert_true(other.r > 0 && fabsf(one.r / other.r - 1) < 1e-4f);
+        assert_true(other.b > 0 && fabsf(one.b / other.b - 1) < 1e-4f);
+    }
+    free(text);
+}
+
 /* --- sight --- */
 
 static ps_result check_sight(void *user, struct render *render, struct error *error)
@@ -373,7 +439,7 @@ static void test_names_of_views(void **state)
     assert_ptr_equal(request.view, &debug_gbuffer);
     assert_int_equal(request.part, 1);
     expect_unknown("photon", "did you mean 'photons'?");
-    expect_unknown("everything", "there are: photons, voxels, gbuffer, maps, overlap");
+    expect_unknown("everything", "there are: photons, voxels, gbuffer, maps, overlap, pixel");
     expect_unknown("gbuffer:", "it has: albedo, normal");
     expect_unknown("gbuffer:colour", "no part 'colour'; it has: albedo, normal");
     expect_unknown("maps:1", "the view maps has no parts");
@@ -386,6 +452,7 @@ int main(void)
         cmocka_unit_test(test_overlap_is_the_weight_of_a_box),
         cmocka_unit_test(test_overlap_is_the_count_by_hand),
         cmocka_unit_test(test_overlap_needs_splats),
+        cmocka_unit_test(test_light_of_a_pixel_is_the_estimators),
         cmocka_unit_test(test_what_pixels_see_is_seen),
         cmocka_unit_test(test_voxels_are_cells_of_the_grid),
         cmocka_unit_test(test_voxels_are_cells_of_the_stratification),
