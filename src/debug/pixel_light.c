@@ -2,7 +2,6 @@
 
 #include "host/photons.h"
 #include "host/splats.h"
-#include "splat/point_tiles.h"
 #include <psplat/math.h>
 #include <psplat/tile.h>
 #include <stdlib.h>
@@ -66,7 +65,7 @@ static ps_result try_splat(struct search *search, const ps_photon *photon, struc
     ps_result result = splatter_add(splatter, splat, 1, error);
     if (result != PS_OK)
         return result;
-    point_tiles_read(&splatter->lit, &sum);
+    splats_read_points(search->render, &sum);
     const double now[3] = {(double)sum.r, (double)sum.g, (double)sum.b};
     const ps_rgb irradiance = {(float)(now[0] - search->before[0]),
                                (float)(now[1] - search->before[1]),

@@ -149,9 +149,14 @@ ps_result splats_begin_points(struct render *render, const ps_vec3 *positions,
     return PS_OK;
 }
 
-void splats_end_points(struct render *render, ps_rgb *irradiance)
+void splats_read_points(const struct render *render, ps_rgb *irradiance)
 {
     point_tiles_read(&render->points.lit, irradiance);
+}
+
+void splats_end_points(struct render *render, ps_rgb *irradiance)
+{
+    splats_read_points(render, irradiance);
     render_report_splatter(render->statistics, &render->points);
     splats_drop_points(render);
 }

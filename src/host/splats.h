@@ -15,6 +15,9 @@ ps_result splats_begin_points(struct render *render, const ps_vec3 *positions,
                               const ps_vec3 *normals, size_t n, struct error *error);
 void splats_end_points(struct render *render, ps_rgb *irradiance);
 
+/* The irradiance of the points by the splats so far, which goes on. */
+void splats_read_points(const struct render *render, ps_rgb *irradiance);
+
 /* Forgets points that an estimator left. */
 void splats_drop_points(struct render *render);
 
