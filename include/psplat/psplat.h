@@ -117,6 +117,35 @@ ps_result psplat_render(const psplat_scene *scene, const psplat_callbacks *callb
 ps_result psplat_rendering_picture(psplat_rendering *rendering, psplat_picture **picture,
                                    psplat_error *error);
 
+/* --- what lights a pixel ------------------------------------------------------------------------------ */
+
+#define PSPLAT_SOURCE_PROJECTED 1u /* before the camera: x and y are set */
+#define PSPLAT_SOURCE_SEEN 2u      /* and nothing hides it from there */
+
+typedef struct psplat_pixel_source {
+    float position[3];   /* of the photon, in the scene */
+    float irradiance[3]; /* that it brings, W/m^2 */
+    float x, y;          /* where it is in the picture, in pixels, or beside the picture */
+    unsigned flags;      /* PSPLAT_SOURCE_... */
+    unsigned bounce;     /* surfaces that scattered its light */
+} psplat_pixel_source;
+
+typedef struct psplat_pixel_light {
+    float position[3];   /* of what the pixel sees */
+    float irradiance[3]; /* the sum, W/m^2 */
+    size_t photon_count; /* of the pass */
+    size_t source_count;
+    const psplat_pixel_source *sources; /* the brightest first */
+} psplat_pixel_light;
+
+/* The photons of the first pass whose splats light a pixel, as `psplat debug pixel` has them (psplat-debug(1)). *light
+ * becomes the caller's, to be destroyed, or NULL. PS_ERROR_INVALID: the pixel sees no surface, too. Callbacks as of
+ * psplat_render, but `pass`, which is not called. */
+ps_result psplat_pixel_light_find(const psplat_scene *scene, unsigned x, unsigned y,
+                                  const psplat_callbacks *callbacks, psplat_pixel_light **light,
+                                  psplat_error *error);
+void psplat_pixel_light_destroy(psplat_pixel_light *light); /* NULL is nothing */
+
 /* --- pictures ---------------------------------------------------------------------------------------- */
 
 void psplat_picture_destroy(psplat_picture *picture); /* NULL is nothing */

@@ -1,24 +1,13 @@
 /* render.c: psplat_render: from a loaded scene to a picture. */
-#include "pipeline/render.h"
 #include "api/environment.h"
-#include "api/handles.h"
+#include "api/rendering.h"
 #include "api/report.h"
 #include "session/layers.h"
 #include "session/output.h"
 #include "session/remark.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-
-struct psplat_rendering {
-    const psplat_scene *scene;
-    struct psplat_callbacks callbacks;
-    struct render_settings settings;
-    struct statistics statistics;
-    pthread_mutex_t listening;
-    struct render *render; /* between passes */
-};
 
 static void tell(psplat_rendering *rendering, bool is_warning, const char *message)
 {
@@ -122,18 +111,13 @@ ps_result psplat_rendering_picture(psplat_rendering *rendering, psplat_picture *
     return result == PS_OK ? PS_OK : report_error(error, result, &reason);
 }
 
-static ps_result run(psplat_rendering *rendering, psplat_picture **picture, struct error *error)
+static ps_result run(psplat_rendering *rendering, const struct render_callbacks *callbacks,
+                     void *user, struct error *error)
 {
-    const struct render_callbacks callbacks = {
-        .user = rendering,
-        .progress = show_progress,
-        .log = log_message,
-        .cancelled = was_cancelled,
-        .next_pass = next_pass,
-    };
+    psplat_picture **picture = user;
     struct image image;
     char remark[REMARK_TEXT];
-    ps_result result = render_run(&rendering->scene->scene, &rendering->settings, &callbacks,
+    ps_result result = render_run(&rendering->scene->scene, &rendering->settings, callbacks,
                                   &rendering->statistics, NULL, &image, error);
     if (result == PS_CANCELLED)
         error_set(error, result, "cancelled: the picture holds what was done by then");
@@ -197,9 +181,16 @@ static ps_result take_callbacks(const psplat_callbacks *given, psplat_callbacks 
 }
 
 /* With settings of its own: strategies serve one render. */
-static ps_result start_and_run(psplat_rendering *rendering, psplat_picture **picture,
-                               psplat_error *error)
+static ps_result start(psplat_rendering *rendering, rendering_work work, void *user,
+                       psplat_error *error)
 {
+    const struct render_callbacks callbacks = {
+        .user = rendering,
+        .progress = show_progress,
+        .log = log_message,
+        .cancelled = was_cancelled,
+        .next_pass = next_pass,
+    };
     struct error reason;
     ps_result result = resolve(rendering, error);
     if (result != PS_OK)
@@ -207,20 +198,19 @@ static ps_result start_and_run(psplat_rendering *rendering, psplat_picture **pic
     set_wishes(rendering->scene, &rendering->settings);
     statistics_init(&rendering->statistics);
     pthread_mutex_init(&rendering->listening, NULL);
-    result = run(rendering, picture, &reason);
+    result = work(rendering, &callbacks, user, &reason);
     pthread_mutex_destroy(&rendering->listening);
     statistics_destroy(&rendering->statistics);
     settings_release(&rendering->settings);
     return result == PS_OK ? PS_OK : report_error(error, result, &reason);
 }
 
-ps_result psplat_render(const psplat_scene *scene, const psplat_callbacks *callbacks,
-                        psplat_picture **picture, psplat_error *error)
+ps_result rendering_do(const psplat_scene *scene, const psplat_callbacks *callbacks,
+                       rendering_work work, void *user, psplat_error *error)
 {
     psplat_rendering rendering = {.scene = scene};
     struct error reason;
     fenv_t caller;
-    *picture = NULL;
     ps_result result = take_callbacks(callbacks, &rendering.callbacks, &reason);
     if (result == PS_OK && !scene->is_loaded)
         result = error_set(&reason, PS_ERROR_INVALID,
@@ -228,7 +218,14 @@ ps_result psplat_render(const psplat_scene *scene, const psplat_callbacks *callb
     if (result != PS_OK)
         return report_error(error, result, &reason);
     environment_enter(&caller);
-    result = start_and_run(&rendering, picture, error);
+    result = start(&rendering, work, user, error);
     environment_leave(&caller);
     return result;
+}
+
+ps_result psplat_render(const psplat_scene *scene, const psplat_callbacks *callbacks,
+                        psplat_picture **picture, psplat_error *error)
+{
+    *picture = NULL;
+    return rendering_do(scene, callbacks, run, picture, error);
 }

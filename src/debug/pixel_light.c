@@ -1,5 +1,6 @@
 #include "debug/pixel_light.h"
 
+#include "debug/project.h"
 #include "host/photons.h"
 #include "host/splats.h"
 #include <psplat/math.h>
@@ -50,8 +51,10 @@ static ps_result add_source(struct search *search, const ps_photon *photon, ps_r
         light->sources = sources;
         search->capacity = capacity;
     }
-    light->sources[light->source_count++] =
-        (struct pixel_source){photon->position, photon->normal, irradiance, photon->bounce};
+    light->sources[light->source_count++] = (struct pixel_source){.position = photon->position,
+                                                                  .normal = photon->normal,
+                                                                  .irradiance = irradiance,
+                                                                  .bounce = photon->bounce};
     return PS_OK;
 }
 
@@ -101,6 +104,8 @@ static ps_result try_pass(struct search *search, struct splat *placed, struct er
             result = try_photons(search, photons, n, placed, error);
         search->light->photon_count += n;
         host->progress(host, photon_stream_progress(&render->photons));
+        if (result == PS_OK && host->cancelled(host))
+            result = error_set(error, PS_CANCELLED, "interrupted");
     } while (result == PS_OK && n > 0);
     return result;
 }
@@ -110,6 +115,19 @@ static int by_brightness(const void *a, const void *b)
     const struct pixel_source *p = a, *q = b;
     float one = ps_luminance(p->irradiance), other = ps_luminance(q->irradiance);
     return one != other ? (one > other ? -1 : 1) : 0;
+}
+
+static void look_at_sources(const struct render *render, struct pixel_light *light)
+{
+    for (size_t i = 0; i < light->source_count; i++) {
+        struct pixel_source *source = &light->sources[i];
+        if (project_visible(render, source->position, source->normal, &source->x, &source->y))
+            source->sight = SEEN;
+        else if (camera_project(&render->scene->camera, source->position, &source->x, &source->y))
+            source->sight = HIDDEN;
+        else
+            source->sight = BEHIND_CAMERA;
+    }
 }
 
 ps_result pixel_light_find(struct render *render, size_t x, size_t y, struct pixel_light *light,
@@ -133,6 +151,7 @@ ps_result pixel_light_find(struct render *render, size_t x, size_t y, struct pix
         splats_drop_points(render);
     if (light->source_count > 0)
         qsort(light->sources, light->source_count, sizeof *light->sources, by_brightness);
+    look_at_sources(render, light);
     return result;
 }
 

@@ -4,11 +4,15 @@
 
 #include "render/state.h"
 
+enum pixel_sight { BEHIND_CAMERA, HIDDEN, SEEN };
+
 struct pixel_source {
     ps_vec3 position; /* of the photon */
     ps_vec3 normal;   /* of the surface that it left */
     ps_rgb irradiance;
     unsigned bounce;
+    enum pixel_sight sight;
+    float x, y; /* in the picture, in pixels; unset behind the camera */
 };
 
 struct pixel_light {

@@ -5,7 +5,6 @@
 #include "debug/debug.h"
 #include "debug/legend.h"
 #include "debug/pixel_light.h"
-#include "debug/project.h"
 #include <psplat/math.h>
 #include <stdio.h>
 
@@ -13,7 +12,6 @@
 #define DARKEST 0.3 /* see legend_scale */
 
 struct view {
-    const struct render *render;
     struct legend_scale scale;
     float x, y; /* the middle of the pixel */
     struct canvas *canvas;
@@ -27,14 +25,14 @@ static struct colour dim(struct colour colour)
 
 static void draw_source(const struct view *view, const struct pixel_source *source)
 {
-    float x, y, radius = fmaxf(1.5f, (float)view->canvas->width / 300.0f);
+    float radius = fmaxf(1.5f, (float)view->canvas->width / 300.0f);
     struct colour colour = legend_colour(&view->scale, (double)ps_luminance(source->irradiance));
-    bool seen = project_visible(view->render, source->position, source->normal, &x, &y);
-    if (!seen && !camera_project(&view->render->scene->camera, source->position, &x, &y))
-        return; /* behind the camera */
-    canvas_line(view->canvas, x, y, view->x, view->y, seen ? colour : dim(colour));
-    if (seen)
-        canvas_disc(view->canvas, x, y, radius, colour);
+    if (source->sight == BEHIND_CAMERA)
+        return;
+    canvas_line(view->canvas, source->x, source->y, view->x, view->y,
+                source->sight == SEEN ? colour : dim(colour));
+    if (source->sight == SEEN)
+        canvas_disc(view->canvas, source->x, source->y, radius, colour);
 }
 
 static void mark_pixel(const struct view *view)
@@ -56,7 +54,6 @@ static void draw_picture(const struct render *render, const struct debug_options
     size_t drawn = light->source_count < most ? light->source_count : most;
     double brightest = drawn > 0 ? (double)ps_luminance(light->sources[0].irradiance) : 0.0;
     const struct view view = {
-        .render = render,
         .scale = {options->top > 0.0 ? options->top : legend_top(brightest), DARKEST},
         .x = (float)options->pixel[0] + 0.5f,
         .y = (float)options->pixel[1] + 0.5f,

@@ -20,6 +20,7 @@ bool handle_delete_view(const struct route_request *request, const char *rest);
 
 /* Of what is measured. */
 bool handle_get_pixel(const struct route_request *request, const char *rest);
+bool handle_get_light(const struct route_request *request, const char *rest);
 bool handle_get_compare(const struct route_request *request, const char *rest);
 bool handle_get_compare_map(const struct route_request *request, const char *rest);
 bool handle_get_history(const struct route_request *request, const char *rest);

@@ -14,6 +14,7 @@ static const struct row {
     {"PUT", "view/", handle_put_view},
     {"DELETE", "view/", handle_delete_view},
     {"GET", "pixel/", handle_get_pixel},
+    {"GET", "light/", handle_get_light},
     {"GET", "compare", handle_get_compare},
     {"GET", "compare_map", handle_get_compare_map},
     {"GET", "history", handle_get_history},

@@ -483,6 +483,24 @@ class Explore(unittest.TestCase):
         self.assertEqual(self.text("#probe-note"), "The first pass brings its values.")
         self.assertEqual(self.text("#probe-values"), "")
 
+    def test_light(self):
+        """Lines from the photons to the pixel that is probed."""
+        self.rest()
+        self.browser.drag(self.middle("a"), self.middle("a"))
+        self.wait("the pixel", lambda: self.is_seen("#probe") and "indirect" in self.text("#probe-values"))
+        plain = self.canvas_sum("a")
+        self.browser.click("#probe-light")
+        self.wait("the light", lambda: "photons of the first pass" in self.text("#probe-light-text"))
+        self.assertRegex(self.text("#probe-light-text"), r"^[\d.e-]+ W/m² by \d+ of \d+ photons")
+        self.wait("lines", lambda: self.canvas_sum("a") != plain)
+        self.browser.click("#probe-light")
+        self.wait("no lines", lambda: self.canvas_sum("a") == plain)
+        self.assertEqual(self.text("#probe-light-text"), "")
+        self.browser.click("#probe-light")
+        self.wait("lines again", lambda: self.canvas_sum("a") != plain)
+        self.browser.click("#probe-close")
+        self.wait("no pixel, no lines", lambda: self.canvas_sum("a") == plain)
+
     def test_colours(self):
         """An exposure of what is encoded already: 0.5 is 0.214 in linear light, and 0.428 is 0.686."""
         found = self.browser.run("""

@@ -238,6 +238,19 @@ def test_picture_is_the_command_s(server):
     pixel = server.json("pixel/a?x=32&y=30")["layers"]
     check_same(pixel["picture"], list(server.picture("picture")[4][3 * (30 * 64 + 32):][:3]), "a pixel")
     check_same(server.ask("GET", "pixel/a?x=64&y=30")[0], 404, "a pixel beyond")
+    light = server.json("light/a?x=32&y=30")
+    check(light["photons"] >= light["count"] > 0, "photons light the floor")
+    check_same(len(light["sources"]), min(light["count"], 500), "sources")
+    brought = [sum(source["irradiance"]) for source in light["sources"]]
+    check(all(a >= 0.99 * b for a, b in zip(brought, brought[1:])), "sources by brightness")
+    if light["count"] <= 500:
+        check(abs(sum(brought) / sum(light["irradiance"]) - 1) < 1e-3, "the sources make the light")
+    check(any("place" in source and source["seen"] for source in light["sources"]), "some are seen")
+    check_same(server.ask("GET", "light/a?x=64&y=30")[0], 422, "the light of a pixel beyond")
+    check_same(server.ask("GET", "light/a?x=32&y=0")[0], 422, "the light of nothing")
+    check_same(server.ask("GET", "light/b?x=32&y=30")[0], 422, "the light of a view that is not there")
+    check_same(server.ask("GET", "light/c?x=32&y=30")[0], 404, "the light of no view")
+    check_same(server.ask("GET", "light/a?x=1.5&y=30")[0], 404, "the light of no pixel")
     check_same(server.ask("GET", "picture/a?layer=none")[0], 404, "no such layer")
     check_same(server.ask("GET", "picture/a")[0], 404, "no layer")
 

@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <fenv.h>
+#include <math.h>
 #include <psplat/psplat.h>
 #include <pthread.h>
 #include <stdbool.h>
@@ -293,6 +294,45 @@ static void test_passes_as_they_come(void **state)
     expect_same_picture(watched, alone);
     psplat_picture_destroy(watched);
     psplat_picture_destroy(alone);
+    psplat_scene_destroy(scene);
+}
+
+static int stops_at_once(void *user)
+{
+    (void)user;
+    return 1;
+}
+
+static void test_light_of_a_pixel(void **state)
+{
+    (void)state;
+    psplat_scene *scene = psplat_scene_create();
+    psplat_pixel_light *light;
+    psplat_error error;
+    const psplat_callbacks stopping = {.size = sizeof stopping, .cancelled = stops_at_once};
+    assert_int_equal(psplat_pixel_light_find(scene, 0, 0, NULL, &light, &error), PS_ERROR_INVALID);
+    assert_non_null(strstr(error.message, "no scene is loaded"));
+    set(scene, "plugin", "injection=photon:count=2000");
+    load(scene, SCENE);
+    const unsigned x = 16, y = 15; /* on the floor, before the box */
+    assert_int_equal(psplat_pixel_light_find(scene, x, y, NULL, &light, &error), PS_OK);
+    assert_true(light->source_count > 0 && light->source_count < light->photon_count);
+    float sum = 0;
+    for (size_t i = 0; i < light->source_count; i++) {
+        const psplat_pixel_source *source = &light->sources[i];
+        sum += source->irradiance[1];
+        assert_true(source->bounce >= 1);
+        assert_true(source->flags == 0 || source->flags & PSPLAT_SOURCE_PROJECTED);
+    }
+    assert_true(fabsf(sum / light->irradiance[1] - 1) < 1e-3f);
+    psplat_pixel_light_destroy(light);
+    psplat_pixel_light_destroy(NULL);
+    assert_int_equal(psplat_pixel_light_find(scene, 99999, 0, NULL, &light, &error),
+                     PS_ERROR_INVALID);
+    assert_null(light);
+    assert_non_null(strstr(error.message, "outside of the picture"));
+    assert_int_equal(psplat_pixel_light_find(scene, x, y, &stopping, &light, &error), PS_CANCELLED);
+    assert_null(light);
     psplat_scene_destroy(scene);
 }
 
@@ -729,6 +769,7 @@ int main(void)
         cmocka_unit_test(test_wrong_options),
         cmocka_unit_test(test_wrong_assignments),
         cmocka_unit_test(test_no_threads),
+        cmocka_unit_test(test_light_of_a_pixel),
         cmocka_unit_test(test_many_problems),
         SCRATCH_TEST(test_wrong_scenes),
         cmocka_unit_test(test_wrong_strategies),

@@ -4,6 +4,7 @@
 import {takesExposure} from "./colour.js";
 import {Comparison} from "./comparison.js";
 import {fillSelect} from "./elements.js";
+import {Light} from "./light.js";
 import {short} from "./numbers.js";
 import {Panes} from "./panes.js";
 import {Probe} from "./probe.js";
@@ -58,6 +59,11 @@ const panes = new Panes(look, (what) => {
 });
 const probe = new Probe({root: by_id("probe"), title: by_id("probe-title"), table: by_id("probe-values"),
     note: by_id("probe-note")});
+const light = new Light(() => {
+    by_id("probe-light-text").textContent = light.text;
+    panes.viewports.a.draw();
+});
+panes.viewports.a.overlay = (context, at) => light.draw("a", context, at, () => panes.frame());
 const settings = new Settings(by_id("controls"), sendTo("a"));
 const comparison = new Comparison(Object.fromEntries(["metrics", "metrics_caption", "metrics_empty", "plot",
     "plot_empty", "plot_legend", "reference_form", "reference_kind", "reference_file", "reference_samples",
@@ -216,6 +222,7 @@ function showState(next) {
     showZoom();
     showValues();
     probe.show(state);
+    showLight();
     if (look.measure)
         comparison.show(state, look.layer);
 }
@@ -265,6 +272,12 @@ function nextLayer(step) {
 function probePointer() {
     probe.turnTo(panes.pointer);
     probe.show(state);
+    showLight();
+}
+
+// Of view A, where there are two.
+function showLight() {
+    light.turnTo("a", probe.place, state.views.a);
 }
 
 function changeExposure(exposure) {
@@ -332,7 +345,14 @@ function listen() {
     by_id("compare").addEventListener("click", toggleCompare);
     by_id("measure").addEventListener("click", keys.e);
     by_id("help").addEventListener("click", keys["?"]);
-    by_id("probe-close").addEventListener("click", () => probe.turnTo(null));
+    by_id("probe-close").addEventListener("click", () => {
+        probe.turnTo(null);
+        showLight();
+    });
+    by_id("probe-light").addEventListener("change", (event) => {
+        light.wanted = event.target.checked;
+        showLight();
+    });
     by_id("reset-all").addEventListener("click", () => settings.resetAll(reset_all));
     by_id("copy").addEventListener("click", copyCommand);
     by_id("settings").addEventListener("submit", (event) => event.preventDefault());

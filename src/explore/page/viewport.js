@@ -50,6 +50,7 @@ export class Viewport extends EventTarget {
         this.place = place;
         this.images = []; // one, or two under a slider; null where there is none
         this.split = 0.5;
+        this.overlay = null; // draws over the picture: (context, at), where at([x, y]) is where a pixel lies in the canvas
         this.frame = {width: 1, height: 1};
         this.due = false;
         place.addEventListener("change", () => this.draw());
@@ -108,6 +109,7 @@ export class Viewport extends EventTarget {
             context.drawImage(image, left, top, Math.round(w), Math.round(h));
             context.restore();
         });
+        this.overlay?.(context, ([x, y]) => [left + x * scale, top + y * scale]);
         if (this.images.length > 1) {
             context.fillStyle = "#000";
             context.fillRect(divider - 2 * ratio, 0, 4 * ratio, height);
