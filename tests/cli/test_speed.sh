@@ -186,7 +186,7 @@ is_on PSPLAT_SANITIZE || true_of "bytes of a triangle" "0 < $(bytes_each triangl
 is_on PSPLAT_SANITIZE || true_of "bytes of an instance" "0 < $(bytes_each instances) < 1000"
 measure 0 scaling --quick --series instances --threads 1
 [ "$(wc -l <results/scaling.csv)" -eq 3 ] || fail "scaling.csv has not 2 points"
-measure 2 scaling --quick --series instances,dances
+measure 1 scaling --quick --series instances,dances
 expect_text results/scaling.md "| wall seconds with instances | 1000 to 100000 |"
 measure 0 scaling --quick --series paths,pixels,passes
 expect_text results/scaling.md "| indirect seconds with paths | 3162 to 10000 |"
