@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PIECE ((size_t)1 << 20)
 #define MOST_ELEMENTS ((size_t)200 * 1000 * 1000) /* of each kind */
 
 struct reading {
@@ -71,11 +70,11 @@ static void join_lines(struct mesh_file *file)
 static bool cut_into_pieces(struct reading *reading, const struct mesh_file *file)
 {
     const char *at = file->bytes, *end = at + file->length;
-    reading->pieces = calloc(file->length / PIECE + 1, sizeof *reading->pieces);
+    reading->pieces = calloc(file->length / OBJ_PIECE + 1, sizeof *reading->pieces);
     while (reading->pieces && at < end) {
         struct obj_piece *piece = &reading->pieces[reading->piece_count++];
-        const char *stop = (size_t)(end - at) > PIECE
-                               ? memchr(at + PIECE, '\n', (size_t)(end - at) - PIECE)
+        const char *stop = (size_t)(end - at) > OBJ_PIECE
+                               ? memchr(at + OBJ_PIECE, '\n', (size_t)(end - at) - OBJ_PIECE)
                                : NULL;
         piece->start = at;
         at = piece->end = stop ? stop + 1 : end;

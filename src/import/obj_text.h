@@ -9,7 +9,8 @@
 #include "import/files.h"
 #include "import/text.h"
 
-#define OBJ_NONE UINT32_MAX /* in place of an index: a corner does not have it */
+#define OBJ_PIECE ((size_t)1 << 20) /* bytes, and up to the end of a line */
+#define OBJ_NONE UINT32_MAX         /* in place of an index: a corner does not have it */
 
 enum obj_statement_kind { OBJ_SECTION, OBJ_MATERIAL, OBJ_LIBRARY, OBJ_SMOOTHING };
 
