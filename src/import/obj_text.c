@@ -53,10 +53,12 @@ static void read_piece(void *user, uint64_t index, uint32_t worker)
 
 /* --- both ------------------------------------------------------------------------------------------ */
 
-/* Ends of lines behind a backslash become blanks, which still count as lines. */
-static void join_lines(struct mesh_file *file)
+/* A byte order mark becomes blanks, and so do ends of lines behind a backslash, which still count as lines. */
+static void blank_what_is_no_text(struct mesh_file *file)
 {
     char *at = file->bytes, *end = file->bytes + file->length;
+    if (file->length >= 3 && memcmp(at, "\xEF\xBB\xBF", 3) == 0)
+        memset(at, ' ', 3);
     while ((at = memchr(at, '\\', (size_t)(end - at))) != NULL) {
         char *next = at + 1 + (at + 1 < end && at[1] == '\r');
         if (next < end && *next == '\n') {
@@ -166,7 +168,7 @@ ps_result obj_text_read(struct mesh_file *file, struct workers *workers, struct 
 {
     struct reading reading = {.text = text};
     *text = (struct obj_text){0};
-    join_lines(file);
+    blank_what_is_no_text(file);
     ps_result result = read_pieces(&reading, file, workers, error);
     free(reading.pieces);
     return result;

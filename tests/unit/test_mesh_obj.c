@@ -19,6 +19,7 @@ static void all_ways_of_writing_are_read(void **state)
         "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n",
         "\t v\t0 0  0 \n  v 1 0 0 # one\nv 0 1 0 #\n# f 9 9 9\n\nf  1\t2 3 # 4\n",
         "v 0 0 \\\n0\nv 1 \\\r\n 0 0\nv 0 1 0\nf \\\n1 2 3\n",
+        "\xEF\xBB\xBF" TRIANGLE "f 1 2 3\n",
         "f 1 2 3\n" TRIANGLE, /* what comes later can be named, too */
         TRIANGLE "f -3 -2 -1\n",
         TRIANGLE "f 1/ 2// 3\n",
