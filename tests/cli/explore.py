@@ -17,6 +17,7 @@ import time
 
 for name in ("DISPLAY", "WAYLAND_DISPLAY"):
     os.environ.pop(name, None)
+os.environ["MALLOC_ARENA_MAX"] = "1"  # glibc: memory that is measured goes by what is kept, not by how many threads there were
 PSPLAT = os.environ["PSPLAT"]
 SLOW = float(os.environ.get("EXPLORE_PATIENCE", "60"))  # seconds that a busy machine may take
 failures = 0
