@@ -30,21 +30,19 @@ def write_glb(path, side, places):
     data = [positions.tobytes(), corners.tobytes(), places.tobytes()]
     starts = [sum(len(part) for part in data[:i]) for i in range(3)]
     node = {"mesh": 0}
-    if places:
-        node["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 2}}}
     views = range(3 if places else 2)
     accessors = [(5126, len(positions) // 3, "VEC3"), (5125, len(corners), "SCALAR"), (5126, len(places) // 3, "VEC3")]
     root = {
-        "asset": {"version": "2.0"}, "extensionsUsed": ["EXT_mesh_gpu_instancing"] if places else [],
-        "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [node],
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [node],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
         "buffers": [{"byteLength": sum(len(part) for part in data)}],
         "bufferViews": [{"buffer": 0, "byteOffset": starts[i], "byteLength": len(data[i])} for i in views],
         "accessors": [{"bufferView": i, "componentType": accessors[i][0], "count": accessors[i][1],
                        "type": accessors[i][2]} for i in views]}
+    if places:
+        root["extensionsUsed"] = ["EXT_mesh_gpu_instancing"]
+        node["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 2}}}
     root["accessors"][0].update({"min": [-1, -0.1, -1], "max": [1, 0.1, 1]})
-    if not places:
-        del root["extensionsUsed"]
     text = json.dumps(root).encode()
     text += b" " * (-len(text) % 4)
     length = root["buffers"][0]["byteLength"]
