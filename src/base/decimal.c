@@ -12,6 +12,15 @@ static bool is_digit(const char *at, const char *end)
     return at < end && *at >= '0' && *at <= '9';
 }
 
+/* Whether it is "-"; moves behind it, or a "+". */
+static bool read_sign(const char **at, const char *end)
+{
+    bool negative = *at < end && **at == '-';
+    if (*at < end && (**at == '-' || **at == '+'))
+        ++*at;
+    return negative;
+}
+
 /* What of a number has been read: digits times a power of ten. */
 struct digits {
     uint64_t mantissa;
@@ -41,10 +50,8 @@ static const char *read_digits(const char *at, const char *end, struct digits *d
 static const char *read_exponent(const char *at, const char *end, int *exponent)
 {
     const char *from = at + 1;
-    bool negative = from < end && *from == '-';
+    bool negative = read_sign(&from, end);
     int value = 0;
-    if (from < end && (*from == '-' || *from == '+'))
-        from++;
     if (!is_digit(from, end))
         return at;
     for (; is_digit(from, end); from++)
@@ -72,9 +79,7 @@ bool decimal_read(const char **at, const char *end, double *value)
 {
     struct digits digits = {0};
     const char *from = *at;
-    bool negative = from < end && *from == '-';
-    if (from < end && (*from == '-' || *from == '+'))
-        from++;
+    bool negative = read_sign(&from, end);
     from = read_digits(from, end, &digits, false);
     if (from < end && *from == '.')
         from = read_digits(from + 1, end, &digits, true);
@@ -91,9 +96,7 @@ bool decimal_read(const char **at, const char *end, double *value)
 bool decimal_read_integer(const char **at, const char *end, long long *value)
 {
     const char *from = *at;
-    bool negative = from < end && *from == '-';
-    if (from < end && (*from == '-' || *from == '+'))
-        from++;
+    bool negative = read_sign(&from, end);
     const char *first = from;
     for (*value = 0; is_digit(from, end) && from - first < 18; from++)
         *value = 10 * *value + (*from - '0');

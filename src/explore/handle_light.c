@@ -1,9 +1,9 @@
 /* handle_light.c: which photons light a pixel, in a scene that is loaded anew: the view's own belongs to its thread. */
-#include "base/text.h"
 #include "explore/explorer.h"
 #include "explore/handlers.h"
 
-#define MOST_SOURCES 500 /* that a page draws; the brightest */
+#define MOST_COORDINATE 1000000 /* of a pixel; the scene knows how many there are */
+#define MOST_SOURCES 500        /* that a page draws; the brightest */
 
 static void write_numbers(struct json_writer *writer, const char *key, const float *numbers, int n)
 {
@@ -68,7 +68,7 @@ static ps_result load(struct explorer *explorer, int view, psplat_scene **scene,
     return result;
 }
 
-static ps_result find_light(struct explorer *explorer, int view, const unsigned pixel[2],
+static ps_result find_light(struct explorer *explorer, int view, const size_t pixel[2],
                             psplat_pixel_light **light, psplat_error *error)
 {
     const psplat_callbacks callbacks = {
@@ -77,29 +77,20 @@ static ps_result find_light(struct explorer *explorer, int view, const unsigned 
     ps_result result = load(explorer, view, &scene, error);
     if (result != PS_OK)
         return result;
-    result = psplat_pixel_light_find(scene, pixel[0], pixel[1], &callbacks, light, error);
+    result = psplat_pixel_light_find(scene, (unsigned)pixel[0], (unsigned)pixel[1], &callbacks,
+                                     light, error);
     psplat_scene_destroy(scene);
     return result;
-}
-
-/* A whole number that a picture's column may be. */
-static bool read_coordinate(const char *text, unsigned *coordinate)
-{
-    double number;
-    if (!text || !text_to_number(text, &number) || !(number >= 0 && number < 1e6))
-        return false;
-    *coordinate = (unsigned)number;
-    return (double)*coordinate == number;
 }
 
 bool handle_get_light(const struct route_request *request, const char *rest)
 {
     int view = handle_view_named(rest);
-    unsigned pixel[2];
+    size_t pixel[2];
     psplat_pixel_light *light;
     psplat_error told;
-    if (view < 0 || !read_coordinate(handle_argument(request, "x"), &pixel[0]) ||
-        !read_coordinate(handle_argument(request, "y"), &pixel[1]))
+    if (view < 0 || !handle_coordinate(request, "x", MOST_COORDINATE, &pixel[0]) ||
+        !handle_coordinate(request, "y", MOST_COORDINATE, &pixel[1]))
         return handle_unknown(request);
     ps_result result = find_light(request->explorer, view, pixel, &light, &told);
     if (result != PS_OK)

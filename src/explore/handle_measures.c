@@ -1,5 +1,4 @@
 /* handle_measures.c: pixels, comparisons and the reference. */
-#include "base/text.h"
 #include "explore/comparison.h"
 #include "explore/handlers.h"
 #include "explore/state.h"
@@ -39,24 +38,13 @@ static char *pixel_text(const struct shown_picture *shown, size_t index)
     return json_buffer_end(&buffer);
 }
 
-/* A whole number below `limit`. */
-static bool read_coordinate(const char *text, size_t limit, size_t *coordinate)
-{
-    double number;
-    if (!text || !text_to_number(text, &number) || number < 0.0 || number >= (double)limit)
-        return false;
-    *coordinate = (size_t)number;
-    return (double)*coordinate == number;
-}
-
 bool handle_get_pixel(const struct route_request *request, const char *rest)
 {
     int view = handle_view_named(rest);
     size_t x, y;
     struct shown_picture *shown = view < 0 ? NULL : explorer_picture(request->explorer, view);
-    bool found = shown &&
-                 read_coordinate(handle_argument(request, "x"), shown_picture_width(shown), &x) &&
-                 read_coordinate(handle_argument(request, "y"), shown_picture_height(shown), &y);
+    bool found = shown && handle_coordinate(request, "x", shown_picture_width(shown), &x) &&
+                 handle_coordinate(request, "y", shown_picture_height(shown), &y);
     bool good = found ? answer_json(request->connection, MHD_HTTP_OK,
                                     pixel_text(shown, y * shown_picture_width(shown) + x))
                       : handle_unknown(request);

@@ -18,6 +18,17 @@ const char *handle_argument(const struct route_request *request, const char *nam
     return MHD_lookup_connection_value(request->connection, MHD_GET_ARGUMENT_KIND, name);
 }
 
+bool handle_coordinate(const struct route_request *request, const char *name, size_t limit,
+                       size_t *coordinate)
+{
+    const char *text = handle_argument(request, name);
+    double number;
+    if (!text || !text_to_number(text, &number) || number < 0.0 || number >= (double)limit)
+        return false;
+    *coordinate = (size_t)number;
+    return (double)*coordinate == number;
+}
+
 int handle_view_named(const char *name)
 {
     return strcmp(name, "a") == 0 ? VIEW_A : strcmp(name, "b") == 0 ? VIEW_B : -1;

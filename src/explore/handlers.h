@@ -35,6 +35,10 @@ bool handle_unknown(const struct route_request *request);
 /* What follows '?' by that name; NULL: nothing. */
 const char *handle_argument(const struct route_request *request, const char *name);
 
+/* A whole number from 0 on and below `limit` that follows '?' by that name; false: there is none. */
+bool handle_coordinate(const struct route_request *request, const char *name, size_t limit,
+                       size_t *coordinate);
+
 /* The view of that name, or -1. */
 int handle_view_named(const char *name);
 

@@ -118,7 +118,7 @@ ps_result mesh_settle_normals(struct mesh_job *job, struct mesh_description *mes
 {
     double angle = job->request->smooth_angle;
     ps_result result = PS_OK;
-    if (!mesh->normals && angle > 0 && mesh->triangle_count > 0)
+    if (!mesh->normals && angle > 0)
         result = mesh_smooth_by_angle(job, mesh, angle);
     if (result == PS_OK && mesh->normals)
         mend_normals(mesh);

@@ -28,7 +28,8 @@ struct mesh_parts {
 ps_result mesh_allocate_vertices(struct mesh_job *job, struct mesh_description *mesh, size_t count,
                                  const struct mesh_parts *parts);
 
-/* Gives corners without a normal that of their triangle, or a mesh without any those by the angle that was asked for. */
+/* Of a mesh that has triangles: gives corners without a normal that of their triangle, or a mesh without any those by the
+ * angle that was asked for. */
 ps_result mesh_settle_normals(struct mesh_job *job, struct mesh_description *mesh);
 
 /* --- vertex_colors.c ---------------------------------------------------------------------------- */

@@ -46,8 +46,7 @@ struct mesh_job {
     struct mesh_file *library; /* OBJ: the last MTL file read, or NULL */
     char *missing_library;     /* OBJ: the first that could not be read, or NULL */
     struct gltf gltf;
-    struct obj obj;           /* OBJ: else zeroed */
-    struct mesh_file outline; /* of it */
+    struct obj obj; /* OBJ: else zeroed */
     const struct aiScene *scene;
     struct mesh_node *nodes; /* each before its children */
     size_t node_count;

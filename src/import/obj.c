@@ -155,14 +155,14 @@ static bool find_parts(struct obj *obj)
 
 static void write_line(struct obj *obj, const char *keyword, const struct text_line *words)
 {
-    char *to = obj->outline + obj->outline_length;
+    char *to = obj->outline.bytes + obj->outline.length;
     size_t length = words ? (size_t)(words->end - words->start) : 0,
            keyword_length = strlen(keyword);
     memcpy(to, keyword, keyword_length);
     if (length > 0)
         memcpy(to + keyword_length, words->start, length);
     to[keyword_length + length] = '\n';
-    obj->outline_length += keyword_length + length + 1;
+    obj->outline.length += keyword_length + length + 1;
 }
 
 /* Libraries come first, as if they stood at the head of the file. */
@@ -175,8 +175,8 @@ static bool write_outline(struct obj *obj)
         const struct text_line *words = &obj->text.statements[i].words;
         size += sizeof use + sizeof face + (size_t)(words->end - words->start);
     }
-    obj->outline = malloc(size + 1);
-    if (!obj->outline)
+    obj->outline.bytes = malloc(size + 1);
+    if (!obj->outline.bytes)
         return false;
     for (size_t i = 0; i < obj->text.statement_count; i++)
         if (obj->text.statements[i].kind == OBJ_LIBRARY)
@@ -186,7 +186,7 @@ static bool write_outline(struct obj *obj)
         write_line(obj, use, &obj->materials[i]);
         write_line(obj, face, NULL);
     }
-    obj->outline[obj->outline_length] = '\0';
+    obj->outline.bytes[obj->outline.length] = '\0';
     return true;
 }
 
@@ -207,7 +207,7 @@ static ps_result read_text(struct obj *obj, struct mesh_file *file, struct error
 
 ps_result obj_open(struct obj *obj, struct mesh_file *file, struct error *error)
 {
-    *obj = (struct obj){.parts = NULL};
+    *obj = (struct obj){.outline.path = file->path};
     ps_result result = read_text(obj, file, error);
     if (result != PS_OK)
         return result;
@@ -224,6 +224,6 @@ void obj_release(struct obj *obj)
     free(obj->parts);
     free(obj->runs);
     free(obj->materials);
-    free(obj->outline);
+    free(obj->outline.bytes);
     *obj = (struct obj){.parts = NULL};
 }

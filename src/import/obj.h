@@ -26,9 +26,9 @@ struct obj {
     size_t run_count;
     struct text_line *materials; /* each name once, in the order of their first parts */
     size_t material_count;
-    char *
-        outline; /* an OBJ text: the libraries, a triangle without a material, and one for each material; or NULL */
-    size_t outline_length;
+    /* An OBJ text by the file's name: the libraries, a triangle without a material, and one for each material. Owns its bytes
+     * alone. */
+    struct mesh_file outline;
 };
 
 /* Cuts the polygons of the text anew, in place (obj_polygon.c). False: out of memory. */

@@ -124,7 +124,7 @@ static struct mesh_file *find_file(struct mesh_job *job, const char *path)
 {
     char clean[LONGEST_PATH];
     if (strcmp(path, job->main_file->path) == 0)
-        return job->format == FORMAT_OBJ ? &job->outline : job->main_file;
+        return job->format == FORMAT_OBJ ? &job->obj.outline : job->main_file;
     return clean_path(path, clean) ? find_companion(job, clean) : NULL;
 }
 
@@ -145,7 +145,7 @@ static struct aiFile *open_stream(struct aiFileIO *io, const char *path, const c
         miss_library(job, path);
     if (!file)
         return NULL;
-    if (job->format == FORMAT_OBJ && file != &job->outline) {
+    if (job->format == FORMAT_OBJ && file != &job->obj.outline) {
         mtl_blank_preamble(file);
         job->library = file;
     }
@@ -189,18 +189,6 @@ static ps_result report_assimp(struct mesh_job *job)
                      length > 0 ? text : "the file cannot be read as a mesh");
 }
 
-/* assimp gets an outline in place of the file, for its materials; their meshes are asked for by number. */
-static ps_result open_obj(struct mesh_job *job)
-{
-    ps_result result = obj_open(&job->obj, job->main_file, job->error);
-    job->outline = (struct mesh_file){
-        .path = job->main_file->path,
-        .bytes = job->obj.outline,
-        .length = job->obj.outline_length,
-    };
-    return result;
-}
-
 ps_result mesh_source_open(struct mesh_job *job)
 {
     struct aiFileIO io = {open_stream, close_stream, (aiUserData)(void *)job};
@@ -214,7 +202,7 @@ ps_result mesh_source_open(struct mesh_job *job)
     if (result == PS_OK && job->format == FORMAT_PLY)
         result = ply_guard_data(job->main_file, job->error);
     if (result == PS_OK && job->format == FORMAT_OBJ)
-        result = open_obj(job);
+        result = obj_open(&job->obj, job->main_file, job->error);
     if (result != PS_OK)
         return result;
     job->scene = aiImportFileEx(job->request->path, 0, &io);

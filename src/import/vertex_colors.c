@@ -64,11 +64,13 @@ void mesh_fill_colors(struct mesh_job *job, const struct mesh_geometry *geometry
         const struct aiColor4D color = source->mColors[0][i];
         const float parts[4] = {color.r, color.g, color.b, alpha ? color.a : 1.0f};
         float *rgba = filled[new_indices[i]];
+        if (!job->gltf.root) {
+            mesh_fill_color(job, parts, rgba);
+            job->colors.alpha_lost |= parts[3] != 1.0f;
+            continue;
+        }
         for (int k = 0; k < 4; k++)
             rgba[k] = clamp(job, parts[k]);
-        if (!job->gltf.root)
-            mesh_fill_color(job, parts, rgba);
-        job->colors.alpha_lost |= !job->gltf.root && parts[3] != 1.0f;
     }
 }
 
