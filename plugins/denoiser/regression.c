@@ -28,6 +28,7 @@
  * nothing about the light, and is taken for the mean of its other channels. What gloss mirrors is fitted along
  * the glossy surface, as if it were irradiance, and is blurred as far as noise asks.
  */
+#include "regression/bounds.h"
 #include "regression/box.h"
 #include "regression/fit.h"
 
@@ -458,6 +459,7 @@ static void denoise(struct work *work)
     work->camera = (ps_camera){.size = sizeof work->camera};
     host->camera(host, &work->camera);
     host->parallel_for(host, work->height, take_row, work);
+    regression_bounds_find(&work->guides);
     regression_fit(&work->guides, FIRST, work->light, work->fine);
     work->least = 0.1f * mean_brightness(work, work->fine) + 1e-18f; /* its square is no 0 */
     if (work->image->even_r)
@@ -520,9 +522,11 @@ static ps_result filter(const void *opaque, const ps_host *host, const ps_image_
         .height = work.height,
         .bend_scale = (float)(1 / (1 - cos(state->normal * (double)PS_PI / 180))),
         .distance = state->distance.choice >= 0 ? 0.0f : (float)state->distance.number,
+        .bounds =
+            host->allocate(host, regression_bounds_bytes(work.width, work.height), "denoiser"),
         .fits = host->allocate(host, regression_fits_bytes(work.width, work.height), "denoiser"),
     };
-    ps_result result = memory && work.guides.fits ? PS_OK : PS_ERROR_MEMORY;
+    ps_result result = memory && work.guides.bounds && work.guides.fits ? PS_OK : PS_ERROR_MEMORY;
     if (result == PS_OK) {
         memset(memory, 0, floats * sizeof(float));
         lay_out_all(&work, memory, with_margin, pixels);
@@ -530,6 +534,7 @@ static ps_result filter(const void *opaque, const ps_host *host, const ps_image_
         result = host->cancelled(host) ? PS_CANCELLED : PS_OK;
     }
     host->release(host, work.guides.fits);
+    host->release(host, work.guides.bounds);
     host->release(host, memory);
     return result;
 }
@@ -547,7 +552,8 @@ static const ps_denoiser_vtable vtable = {
     .size = sizeof vtable,
     .flags = PS_DENOISER_HALVES | PS_DENOISER_DIRECT | PS_DENOISER_ERROR,
     .filter = filter,
-    .pixel_bytes = (PLANES_WITH_MARGIN + PLANES + 1) * sizeof(float) + REGRESSION_FITS_PIXEL,
+    .pixel_bytes = (PLANES_WITH_MARGIN + PLANES + 1) * sizeof(float) + REGRESSION_BOUNDS_PIXEL +
+                   REGRESSION_FITS_PIXEL,
 };
 
 static const ps_descriptor descriptor = {

@@ -2,27 +2,19 @@
  * as many sums, so that a compiler makes vectors of them without changing the order of any sum. */
 #include "fit.h"
 
-#include <stdbool.h>
+#include "weights.h"
+
 #include <string.h>
 
-#define WIDEST_OF_REST 24 /* bandwidth, in pixels */
-#define LANES 16
-#define MARGIN (REGRESSION_LARGEST + LANES)
-#define BLOCK 64         /* side of the squares of pixels that workers take */
-#define LEAST_FIT 0.5f   /* weight of blended fits below which a pixel becomes a centre */
-#define RIDGE 1e-3f      /* of the slopes, of the fit's weight */
-#define ROOM 0.2f        /* D over R, in pixels' sizes */
-#define MOST_GLOSS 0.25f /* G */
+#define MARGIN REGRESSION_MARGIN
+#define BLOCK 64       /* side of the squares of pixels that workers take */
+#define RIDGE 1e-3f    /* of the slopes, of the fit's weight */
+#define ROOM 0.2f      /* D over R, in pixels' sizes */
+#define LEAST_FIT 0.5f /* weight of blended fits below which a pixel becomes a centre */
 
-/* A plane for each value: a + b u + c v. */
-struct regression_fit {
-    float normal[3], position[3], u[3], v[3]; /* the tangent plane; u and v are over R */
-    float height_scale;                       /* 1 / D^2 */
-    float gloss;
-    float plane[REGRESSION_VALUES][3];
-    int x, y;
-    bool valid; /* its centre shows a surface */
-};
+#define NARROW 24  /* the largest bandwidth around such a pixel, in pixels */
+#define FEW 4.0f   /* weight of its fit below which it gets SLACK, if the bandwidth is that */
+#define SLACK 4.0f /* times D and 1 - cos(normal) */
 
 struct work {
     const struct regression *to;
@@ -32,25 +24,28 @@ struct work {
     size_t columns, rows; /* of fits */
 };
 
-static size_t stride(size_t width)
+_Static_assert(MARGIN % BOUNDS_STEP == 0, "rows begin where bounds do");
+
+size_t regression_stride(size_t width)
 {
-    return width + (size_t)2 * MARGIN;
+    size_t steps = (width + BOUNDS_STEP - 1) / BOUNDS_STEP;
+    return steps * BOUNDS_STEP + (size_t)2 * MARGIN;
 }
 
 size_t regression_plane_size(size_t width, size_t height)
 {
-    return stride(width) * (height + (size_t)2 * MARGIN);
+    return regression_stride(width) * (height + (size_t)2 * MARGIN);
 }
 
 size_t regression_at(const struct regression *regression, size_t x, size_t y)
 {
-    return (y + MARGIN) * stride(regression->width) + x + MARGIN;
+    return (y + MARGIN) * regression_stride(regression->width) + x + MARGIN;
 }
 
 /* Of a pixel that may lie in the margin. */
 static size_t place_of(const struct work *work, int x, int y)
 {
-    return (size_t)(y + MARGIN) * stride(work->to->width) + (size_t)(x + MARGIN);
+    return (size_t)(y + MARGIN) * regression_stride(work->to->width) + (size_t)(x + MARGIN);
 }
 
 static bool shows_surface(const struct work *work, int x, int y)
@@ -58,13 +53,12 @@ static bool shows_surface(const struct work *work, int x, int y)
     return work->to->size[place_of(work, x, y)] > 0.0f;
 }
 
-/* --- weights --- */
-
-static void set_tangent_plane(const struct work *work, size_t at, struct regression_fit *fit)
+static void set_tangent_plane(const struct work *work, size_t at, float slack,
+                              struct regression_fit *fit)
 {
     const struct regression *to = work->to;
     float width = (float)work->bandwidth * to->size[at], scale = 1.0f / width;
-    float distance = to->distance > 0.0f ? to->distance : ROOM * width;
+    float distance = slack * (to->distance > 0.0f ? to->distance : ROOM * width);
     ps_vec3 u, v, n = {to->normal[0][at], to->normal[1][at], to->normal[2][at]};
     ps_frame(n, &u, &v);
     const float us[3] = {u.x * scale, u.y * scale, u.z * scale};
@@ -76,39 +70,8 @@ static void set_tangent_plane(const struct work *work, size_t at, struct regress
         fit->v[i] = vs[i];
     }
     fit->height_scale = 1.0f / (distance * distance);
+    fit->bend_scale = ps_max(to->bend_scale / slack, 1.0f); /* normals of no surface are upright */
     fit->gloss = to->gloss[at];
-}
-
-/* max(s, 0) without a comparison, which keeps compilers from making vectors. */
-static inline float above_zero(float s)
-{
-    return 0.5f * (s + fabsf(s));
-}
-
-/* Weights by geometry, and places in the tangent plane, of LANES pixels from `from` on. */
-static inline void weigh(const struct regression *to, const struct regression_fit *fit, size_t from,
-                         float *restrict weight, float *restrict u, float *restrict v)
-{
-    const float *restrict nx = to->normal[0] + from, *restrict px = to->position[0] + from;
-    const float *restrict ny = to->normal[1] + from, *restrict py = to->position[1] + from;
-    const float *restrict nz = to->normal[2] + from, *restrict pz = to->position[2] + from;
-    const float *restrict gloss = to->gloss + from;
-    float bend_scale = to->bend_scale, height_scale = fit->height_scale;
-    for (int i = 0; i < LANES; i++) {
-        float dx = px[i] - fit->position[0];
-        float dy = py[i] - fit->position[1];
-        float dz = pz[i] - fit->position[2];
-        float cosine = nx[i] * fit->normal[0] + ny[i] * fit->normal[1] + nz[i] * fit->normal[2];
-        float over = dx * fit->normal[0] + dy * fit->normal[1] + dz * fit->normal[2];
-        float under = dx * nx[i] + dy * ny[i] + dz * nz[i];
-        float bend = above_zero(1.0f - (1.0f - cosine) * bend_scale);
-        float other = (gloss[i] - fit->gloss) * (1.0f / MOST_GLOSS);
-        float like =
-            above_zero(1.0f - (over * over + under * under) * height_scale - other * other);
-        weight[i] = bend * bend * like * like;
-        u[i] = dx * fit->u[0] + dy * fit->u[1] + dz * fit->u[2];
-        v[i] = dx * fit->v[0] + dy * fit->v[1] + dz * fit->v[2];
-    }
 }
 
 /* --- one fit --- */
@@ -122,12 +85,17 @@ struct sums {
 
 /* Adds LANES pixels of a row, from the one at `from`, which is dx to the right and sqrt(row) above or below the
  * centre. */
-static inline void add_pixels(const struct work *work, const struct regression_fit *fit,
-                              size_t from, int dx, float row, struct sums *sums)
+static INLINED void add_pixels(const struct work *work, const struct regression_fit *fit,
+                               size_t from, int dx, float row, struct sums *sums)
 {
     _Alignas(64) float w[LANES], u[LANES], v[LANES], wu[LANES], wv[LANES];
     float scale = 1.0f / (((float)work->bandwidth + 0.5f) * ((float)work->bandwidth + 0.5f));
-    weigh(work->to, fit, from, w, u, v);
+    if (weigh_nothing(work->to, fit, from))
+        return;
+    weigh(work->to, fit, from, w);
+    if (all_zero(w))
+        return;
+    locate(work->to, fit, from, u, v);
     for (int i = 0; i < LANES; i++) {
         float x = (float)(dx + i), near = above_zero(1.0f - (x * x + row) * scale);
         w[i] *= near * near;
@@ -166,6 +134,7 @@ static void solve(const struct sums *sums, struct regression_fit *fit)
     float m[MOMENTS];
     for (int i = 0; i < MOMENTS; i++)
         m[i] = total(sums->moments[i]);
+    fit->weight = m[W];
     float ridge = RIDGE * m[W] + 0.02f; /* a weight of 0.02 pixels at least */
     float l00 = 1.0f / sqrtf(m[W]), l10 = m[WU] * l00, l20 = m[WV] * l00;
     float l11 = 1.0f / sqrtf(ps_max(m[WUU] + ridge - l10 * l10, 1e-20f));
@@ -182,7 +151,8 @@ static void solve(const struct sums *sums, struct regression_fit *fit)
     }
 }
 
-static void make_fit(const struct work *work, int x, int y, struct regression_fit *fit)
+EVERY_ISA static void make_fit(const struct work *work, int x, int y, float slack,
+                               struct regression_fit *fit)
 {
     float reach = ((float)work->bandwidth + 0.5f) * ((float)work->bandwidth + 0.5f);
     struct sums sums;
@@ -190,7 +160,7 @@ static void make_fit(const struct work *work, int x, int y, struct regression_fi
     if (!fit->valid)
         return;
     memset(&sums, 0, sizeof sums);
-    set_tangent_plane(work, place_of(work, x, y), fit);
+    set_tangent_plane(work, place_of(work, x, y), slack, fit);
     for (int dy = -work->bandwidth; dy <= work->bandwidth; dy++) {
         if (y + dy < 0 || y + dy >= (int)work->to->height)
             continue;
@@ -236,7 +206,7 @@ static void make_row_of_fits(void *user, uint64_t row, uint32_t worker)
     if (to->host->cancelled(to->host))
         return;
     for (size_t i = 0; i < work->columns; i++)
-        make_fit(work, centre_at(work, i, to->width), centre_at(work, row, to->height),
+        make_fit(work, centre_at(work, i, to->width), centre_at(work, row, to->height), 1.0f,
                  &to->fits[row * work->columns + i]);
 }
 
@@ -251,24 +221,30 @@ struct block {
 
 /* What a fit says of LANES pixels, in proportion to its weight there: one by geometry, times a tent that ends at
  * the centres next to it. */
-static inline void add_prediction(const struct work *work, const struct regression_fit *fit, int x,
-                                  int y, struct block *block)
+static INLINED void add_prediction(const struct work *work, const struct regression_fit *fit, int x,
+                                   int y, struct block *block)
 {
     _Alignas(64) float w[LANES], u[LANES], v[LANES];
     int column = x - block->x, row = y - block->y;
     float scale = 1.0f / (float)spacing(work->bandwidth);
     float down = 1.0f - fabsf((float)(y - fit->y)) * scale;
     float *restrict weight = &block->weight[row][column];
-    weigh(work->to, fit, place_of(work, x, y), w, u, v);
+    size_t from = place_of(work, x, y);
+    if (weigh_nothing(work->to, fit, from))
+        return;
+    weigh(work->to, fit, from, w);
+    if (all_zero(w))
+        return;
+    locate(work->to, fit, from, u, v);
     for (int i = 0; i < LANES; i++) {
         w[i] *= down * above_zero(1.0f - fabsf((float)(x + i - fit->x)) * scale);
         weight[i] += w[i];
     }
     for (int c = 0; c < REGRESSION_VALUES; c++) {
-        const float *plane = fit->plane[c];
+        float a = fit->plane[c][0], b = fit->plane[c][1], d = fit->plane[c][2];
         float *restrict sum = &block->values[c][row][column];
         for (int i = 0; i < LANES; i++)
-            sum[i] += w[i] * (plane[0] + plane[1] * u[i] + plane[2] * v[i]);
+            sum[i] += w[i] * (a + b * u[i] + d * v[i]);
     }
 }
 
@@ -282,7 +258,8 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-static void blend(const struct work *work, const struct regression_fit *fit, struct block *block)
+EVERY_ISA static void blend(const struct work *work, const struct regression_fit *fit,
+                            struct block *block)
 {
     int reach = spacing(work->bandwidth) - 1;
     int left = larger(fit->x - reach, block->x);
@@ -317,20 +294,28 @@ static void blend_grid(const struct work *work, struct block *block)
     }
 }
 
-/* Pixels of thin things, which no centre shows, become centres, in their order. They are many where edges are smooth,
- * and little of a wide surrounding is like them: their fits are narrow. */
-static void blend_rest(const struct work *work, struct block *block)
+/* A fit around a pixel of something thin, which no centre is like. There are many where edges are smooth, and little of a
+ * wide surrounding is like them: their fits are narrow. Some mix surfaces, and are like no other pixel: what is about as far
+ * away and about as steep tells more about their light than their own few samples do. Bands tell, as elsewhere, whether the
+ * pixel's own light is signal. */
+static void blend_one(const struct work *work, int x, int y, struct block *block)
 {
     struct work narrow = *work;
-    narrow.bandwidth = smaller(work->bandwidth, WIDEST_OF_REST);
+    struct regression_fit fit;
+    narrow.bandwidth = smaller(work->bandwidth, NARROW);
+    make_fit(&narrow, x, y, 1.0f, &fit);
+    if (fit.weight < FEW && narrow.bandwidth == NARROW)
+        make_fit(&narrow, x, y, SLACK, &fit);
+    blend(&narrow, &fit, block);
+}
+
+static void blend_rest(const struct work *work, struct block *block)
+{
     for (int row = 0; row < block->rows; row++)
         for (int column = 0; column < block->columns; column++) {
             int x = block->x + column, y = block->y + row;
-            struct regression_fit fit;
-            if (block->weight[row][column] >= LEAST_FIT || !shows_surface(work, x, y))
-                continue;
-            make_fit(&narrow, x, y, &fit);
-            blend(&narrow, &fit, block);
+            if (block->weight[row][column] < LEAST_FIT && shows_surface(work, x, y))
+                blend_one(work, x, y, block);
         }
 }
 

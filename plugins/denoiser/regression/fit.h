@@ -11,7 +11,8 @@
  * with u, v the place of p in the tangent plane of c, r its distance in pixels, R the bandwidth, h^2 the sum of
  * squares of either point's distance from the other's tangent plane, and g the share of the reflectance that is
  * gloss. A slope of E costs no bias, as it would a mean.
- * Centres lie 2/3 R apart; between them planes are blended.
+ * Centres lie 2/3 R apart; between them planes are blended. Pixels that no centre is like become centres; if hardly any
+ * pixel is like one, D and 1 - cos(normal) are four times as large around it.
  *
  * Pictures are planes of floats with a margin, so that no loop asks for bounds: pixel (x, y) is regression_at().
  */
@@ -21,25 +22,31 @@
 #include <psplat/plugin.h>
 
 enum { REGRESSION_SMALLEST = 3, REGRESSION_LARGEST = 64 }; /* bandwidths, in pixels */
+enum { REGRESSION_LANES = 16 }; /* pixels of a row that are taken at a time */
 
 /* Values that are fitted together: three colours, and one more. */
 enum { REGRESSION_COLOURS = 3, REGRESSION_VALUES };
 
+struct regression_bounds;
 struct regression_fit;
 
-/* A picture's surfaces, and how fits stop at them. The planes and `fits` are the caller's. */
+/* A picture's surfaces, and how fits stop at them. The planes, `bounds` and `fits` are the caller's. */
 struct regression {
     const ps_host *host;
     size_t width, height;
     float *normal[3], *position[3]; /* of length 1; in the scene's units */
     float *gloss;                   /* share of the reflectance that is not diffuse */
-    float *size;                 /* of a pixel there, in the scene's units; 0: no surface is seen */
-    float bend_scale;            /* 1 / (1 - cos(normal)) */
-    float distance;              /* D, in the scene's units; 0: in proportion to R */
-    struct regression_fit *fits; /* room for regression_fits_bytes() */
+    float *size;      /* of a pixel there, in the scene's units; 0: no surface is seen */
+    float bend_scale; /* 1 / (1 - cos(normal)) */
+    float distance;   /* D, in the scene's units; 0: in proportion to R */
+    struct regression_bounds *bounds; /* regression_bounds_find() */
+    struct regression_fit *fits;      /* room for regression_fits_bytes() */
 };
 
-/* Floats of a plane with its margin, which are 0 where there is no pixel, and the place of a pixel in it. */
+/* Floats of a plane with its margin, which are 0 where there is no pixel, and of a row of it; and the place of a pixel
+ * in it. */
+#define REGRESSION_MARGIN (REGRESSION_LARGEST + REGRESSION_LANES)
+size_t regression_stride(size_t width);
 size_t regression_plane_size(size_t width, size_t height);
 size_t regression_at(const struct regression *regression, size_t x, size_t y);
 

@@ -1,0 +1,119 @@
+/* weights.h: what pixels count for a fit (fit.h), LANES of a row at a time.
+ *
+ * These loops are to be inlined into functions that are EVERY_ISA.
+ */
+#ifndef PSPLAT_DENOISER_REGRESSION_WEIGHTS_H
+#define PSPLAT_DENOISER_REGRESSION_WEIGHTS_H
+
+#include "bounds.h"
+#include "fit.h"
+
+#include <stdbool.h>
+
+/* Such functions are compiled for several instruction sets, of which one is picked as the plugin is loaded. All give the
+ * same result to the last bit: no multiplication is joined with an addition. */
+#ifndef __has_feature
+#define __has_feature(feature) 0
+#endif
+#if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__) &&                              \
+    !defined(__SANITIZE_ADDRESS__) && !__has_feature(address_sanitizer)
+#define EVERY_ISA __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
+#define INLINED inline __attribute__((always_inline))
+#else
+#define EVERY_ISA
+#define INLINED inline
+#endif
+#ifdef __clang__
+#pragma STDC FP_CONTRACT OFF
+#endif
+
+enum { LANES = REGRESSION_LANES };
+_Static_assert(BOUNDS_PIXELS >= BOUNDS_STEP + LANES - 1,
+               "a run of pixels lies in one of the bounds");
+
+#define MOST_GLOSS 0.25f /* G */
+
+/* A plane for each value: a + b u + c v. */
+struct regression_fit {
+    float normal[3], position[3], u[3], v[3]; /* the tangent plane; u and v are over R */
+    float height_scale, bend_scale;           /* 1 / D^2, 1 / (1 - cos(normal)) */
+    float gloss;
+    float weight; /* of its pixels */
+    float plane[REGRESSION_VALUES][3];
+    int x, y;
+    bool valid; /* its centre shows a surface */
+};
+
+/* max(s, 0) without a comparison, which keeps compilers from making vectors. */
+static INLINED float above_zero(float s)
+{
+    return 0.5f * (s + fabsf(s));
+}
+
+/* Whether none of LANES pixels from `from` on has any weight, by their bounds. */
+static INLINED bool weigh_nothing(const struct regression *to, const struct regression_fit *fit,
+                                  size_t from)
+{
+    const struct regression_bounds *of = &to->bounds[from / BOUNDS_STEP];
+    float cosine = 0.0f, height = 0.0f, extent = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        float n = fit->normal[i];
+        cosine += n * of->normal[i] + fabsf(n) * of->normal_extent[i];
+        height += n * (of->position[i] - fit->position[i]);
+        extent += fabsf(n) * of->position_extent[i];
+    }
+    float over = above_zero(fabsf(height) - extent);
+    float other = above_zero(fabsf(of->gloss - fit->gloss) - of->gloss_extent);
+    other *= 1.0f / MOST_GLOSS;
+    return (1.0f - cosine) * fit->bend_scale >= 1.0f ||
+           over * over * fit->height_scale + other * other >= 1.0f;
+}
+
+static INLINED bool all_zero(const float weight[LANES])
+{
+    int above = 0;
+    for (int i = 0; i < LANES; i++)
+        above |= weight[i] > 0.0f;
+    return !above;
+}
+
+/* Weights by geometry of LANES pixels from `from` on. */
+static INLINED void weigh(const struct regression *to, const struct regression_fit *fit,
+                          size_t from, float *restrict weight)
+{
+    const float *restrict nx = to->normal[0] + from, *restrict px = to->position[0] + from;
+    const float *restrict ny = to->normal[1] + from, *restrict py = to->position[1] + from;
+    const float *restrict nz = to->normal[2] + from, *restrict pz = to->position[2] + from;
+    const float *restrict gloss = to->gloss + from;
+    float bend_scale = fit->bend_scale, height_scale = fit->height_scale;
+    for (int i = 0; i < LANES; i++) {
+        float dx = px[i] - fit->position[0];
+        float dy = py[i] - fit->position[1];
+        float dz = pz[i] - fit->position[2];
+        float cosine = nx[i] * fit->normal[0] + ny[i] * fit->normal[1] + nz[i] * fit->normal[2];
+        float over = dx * fit->normal[0] + dy * fit->normal[1] + dz * fit->normal[2];
+        float under = dx * nx[i] + dy * ny[i] + dz * nz[i];
+        float bend = above_zero(1.0f - (1.0f - cosine) * bend_scale);
+        float other = (gloss[i] - fit->gloss) * (1.0f / MOST_GLOSS);
+        float like =
+            above_zero(1.0f - (over * over + under * under) * height_scale - other * other);
+        weight[i] = bend * bend * like * like;
+    }
+}
+
+/* Their places in the tangent plane. */
+static INLINED void locate(const struct regression *to, const struct regression_fit *fit,
+                           size_t from, float *restrict u, float *restrict v)
+{
+    const float *restrict px = to->position[0] + from, *restrict py = to->position[1] + from,
+                          *restrict pz = to->position[2] + from;
+    for (int i = 0; i < LANES; i++) {
+        float dx = px[i] - fit->position[0];
+        float dy = py[i] - fit->position[1];
+        float dz = pz[i] - fit->position[2];
+        u[i] = dx * fit->u[0] + dy * fit->u[1] + dz * fit->u[2];
+        v[i] = dx * fit->v[0] + dy * fit->v[1] + dz * fit->v[2];
+    }
+}
+
+#endif

@@ -1,0 +1,163 @@
+/* test_regression_fit.c: fits of the denoiser `regression`, which pass over pixels by bounds of what those show. */
+#include "../../plugins/denoiser/regression/bounds.h"
+#include "../../plugins/denoiser/regression/fit.h"
+#include "support/one_strategy.h"
+#include "support/random.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { WIDTH = 133, HEIGHT = 41, PIXELS = WIDTH * HEIGHT };
+
+struct fixture {
+    struct bare_host bare;
+    struct regression surfaces;
+    float *values[REGRESSION_VALUES];
+};
+
+static float *new_plane(void)
+{
+    float *plane = calloc(regression_plane_size(WIDTH, HEIGHT), sizeof *plane);
+    assert_non_null(plane);
+    return plane;
+}
+
+/* Boxes of a few pixels at random heights, slanted at random, of two kinds of gloss; some show nothing. */
+static void set_pixel(struct fixture *fixture, struct random *random, int x, int y)
+{
+    struct regression *surfaces = &fixture->surfaces;
+    size_t at = regression_at(surfaces, (size_t)x, (size_t)y);
+    struct random box = {(uint64_t)(x / 5 + 1000 * (y / 9))};
+    float angle = random_between(&box, 0, 2 * PS_PI), tilt = random_between(&box, 0, 0.6f);
+    if (random_between(&box, 0, 1) < 0.1f)
+        return;
+    for (int c = 0; c < REGRESSION_VALUES; c++)
+        fixture->values[c][at] = random_between(random, 0, 1);
+    surfaces->normal[0][at] = sinf(tilt) * cosf(angle);
+    surfaces->normal[1][at] = sinf(tilt) * sinf(angle);
+    surfaces->normal[2][at] = cosf(tilt);
+    surfaces->position[0][at] = 0.1f * (float)x;
+    surfaces->position[1][at] = 0.1f * (float)y;
+    surfaces->position[2][at] = random_between(&box, 0, 1) < 0.5f ? 0 : random_between(&box, 0, 2);
+    surfaces->gloss[at] = random_between(&box, 0, 1) < 0.5f ? 0 : 0.2f;
+    surfaces->size[at] = 0.1f;
+}
+
+static void create(struct fixture *fixture, float degrees)
+{
+    struct regression *surfaces = &fixture->surfaces;
+    struct random random = {4};
+    bare_host_create(&fixture->bare, 2);
+    *surfaces = (struct regression){
+        .host = &fixture->bare.host,
+        .width = WIDTH,
+        .height = HEIGHT,
+        .gloss = new_plane(),
+        .size = new_plane(),
+        .bend_scale = 1 / (1 - cosf(degrees * PS_PI / 180)),
+        .bounds = malloc(regression_bounds_bytes(WIDTH, HEIGHT)),
+        .fits = malloc(regression_fits_bytes(WIDTH, HEIGHT)),
+    };
+    assert_non_null(surfaces->bounds);
+    assert_non_null(surfaces->fits);
+    for (int i = 0; i < 3; i++) {
+        surfaces->normal[i] = new_plane();
+        surfaces->position[i] = new_plane();
+    }
+    for (int c = 0; c < REGRESSION_VALUES; c++)
+        fixture->values[c] = new_plane();
+    for (int i = 0; i < PIXELS; i++)
+        set_pixel(fixture, &random, i % WIDTH, i / WIDTH);
+}
+
+static void destroy(struct fixture *fixture)
+{
+    struct regression *surfaces = &fixture->surfaces;
+    for (int c = 0; c < REGRESSION_VALUES; c++)
+        free(fixture->values[c]);
+    for (int i = 0; i < 3; i++) {
+        free(surfaces->normal[i]);
+        free(surfaces->position[i]);
+    }
+    free(surfaces->gloss);
+    free(surfaces->size);
+    free(surfaces->bounds);
+    free(surfaces->fits);
+    bare_host_release(&fixture->bare);
+}
+
+/* Bounds that hold everything, so that no pixel is passed over. */
+static void make_bounds_endless(struct regression *surfaces)
+{
+    size_t count = regression_bounds_bytes(WIDTH, HEIGHT) / sizeof *surfaces->bounds;
+    for (size_t i = 0; i < count; i++) {
+        surfaces->bounds[i] = (struct regression_bounds){.gloss_extent = 1e10f};
+        for (int c = 0; c < 3; c++)
+            surfaces->bounds[i].normal_extent[c] = surfaces->bounds[i].position_extent[c] = 1e10f;
+    }
+}
+
+static void expect_no_difference(float degrees, int bandwidth)
+{
+    static float with[REGRESSION_VALUES][PIXELS], without[REGRESSION_VALUES][PIXELS];
+    float *const a[] = {with[0], with[1], with[2], with[3]};
+    float *const b[] = {without[0], without[1], without[2], without[3]};
+    struct fixture fixture;
+    create(&fixture, degrees);
+    regression_bounds_find(&fixture.surfaces);
+    regression_fit(&fixture.surfaces, bandwidth, fixture.values, a);
+    make_bounds_endless(&fixture.surfaces);
+    regression_fit(&fixture.surfaces, bandwidth, fixture.values, b);
+    assert_memory_equal(with, without, sizeof with);
+    destroy(&fixture);
+}
+
+static void test_bounds_change_nothing(void **state)
+{
+    (void)state;
+    static const int bandwidths[] = {3, 12, 24, 64};
+    for (size_t i = 0; i < sizeof bandwidths / sizeof bandwidths[0]; i++) {
+        expect_no_difference(20, bandwidths[i]);
+        expect_no_difference(90, bandwidths[i]);
+    }
+}
+
+/* Each run of 16 pixels lies within the bounds that are its. */
+static void test_bounds_hold_their_pixels(void **state)
+{
+    (void)state;
+    struct fixture fixture;
+    create(&fixture, 30);
+    const struct regression *surfaces = &fixture.surfaces;
+    regression_bounds_find(surfaces);
+    for (size_t y = 0; y < HEIGHT; y++)
+        for (size_t x = 0; x < WIDTH; x++)
+            for (size_t i = 0; i < REGRESSION_LANES && x + i < WIDTH; i++) {
+                size_t from = regression_at(surfaces, x, y), at = from + i;
+                const struct regression_bounds *of = &surfaces->bounds[from / BOUNDS_STEP];
+                if (!(surfaces->size[at] > 0))
+                    continue;
+                for (int c = 0; c < 3; c++) {
+                    float off = fabsf(surfaces->position[c][at] - of->position[c]);
+                    float bend = fabsf(surfaces->normal[c][at] - of->normal[c]);
+                    assert_true(off <= of->position_extent[c]);
+                    assert_true(bend <= of->normal_extent[c]);
+                }
+                assert_true(fabsf(surfaces->gloss[at] - of->gloss) <= of->gloss_extent);
+            }
+    destroy(&fixture);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bounds_change_nothing),
+        cmocka_unit_test(test_bounds_hold_their_pixels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
