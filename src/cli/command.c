@@ -26,17 +26,24 @@ void print_warning(const char *message)
     fprintf(stderr, "psplat: warning: %s\n", message);
 }
 
-static bool usage_error(const struct command *command, const char *what, const char *word)
+static bool usage_error(const struct command *command, const char *what, const char *word,
+                        const char *hint)
+{
+    fprintf(stderr, "psplat: error: %s '%s'%s\nTry 'psplat %s --help'.\n", what, word, hint,
+            command->name);
+    return false;
+}
+
+static bool unknown_option(const struct command *command, const char *word)
 {
     bool is_long = strncmp(word, "--", 2) == 0;
+    char hint[80] = "";
     struct suggestion suggestion = suggestion_start(is_long ? word + 2 : "");
     for (size_t i = 0; i < command->option_count && is_long; i++)
         suggestion_consider(&suggestion, command->options[i].name);
-    fprintf(stderr, "psplat: error: %s '%s'", what, word);
     if (suggestion.best)
-        fprintf(stderr, "; did you mean '--%s'?", suggestion.best);
-    fprintf(stderr, "\nTry 'psplat %s --help'.\n", command->name);
-    return false;
+        snprintf(hint, sizeof hint, "; did you mean '--%s'?", suggestion.best);
+    return usage_error(command, "unknown option", word, hint);
 }
 
 static const struct option *find_long(const struct command *command, const char *name,
@@ -58,6 +65,15 @@ static const struct option *find_letter(const struct command *command, char lett
     return NULL;
 }
 
+/* Of the command, written alone: no value of another option, which begins with '-' for a number at most. */
+static bool is_option(const struct command *command, const char *word)
+{
+    if (word[0] != '-' || !word[1])
+        return false;
+    return word[1] == '-' ? find_long(command, word + 2, strlen(word + 2)) != NULL
+                          : !word[2] && find_letter(command, word[1]);
+}
+
 /* Reads one option at words[0] (and its value at words[1], or behind '='); returns the words used,
  * 0 on an error. */
 static size_t parse_option(const struct command *command, char *const words[], size_t left,
@@ -73,11 +89,11 @@ static size_t parse_option(const struct command *command, char *const words[], s
         attached = word[2] ? word + 2 : NULL;
     }
     if (!argument->option)
-        return usage_error(command, "unknown option", word);
+        return unknown_option(command, word);
     if (!argument->option->argument)
-        return attached ? usage_error(command, "a value is given to option", word) : 1;
-    if (!attached && left < 2)
-        return usage_error(command, "a value is missing after option", word);
+        return attached ? usage_error(command, "a value is given to option", word, "") : 1;
+    if (!attached && (left < 2 || is_option(command, words[1])))
+        return usage_error(command, "a value is missing after option", word, "");
     argument->value = attached ? attached : words[1];
     return attached ? 1 : 2;
 }

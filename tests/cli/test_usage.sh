@@ -23,6 +23,8 @@ usage "unknown option '-z'" -z "$cornell"
 usage "a value is given to option '--quiet=yes'" --quiet=yes "$cornell"
 usage "a value is missing after option '--size'" "$cornell" --size
 usage "a value is missing after option '-o'" "$cornell" -o
+usage "a value is missing after option '--stats'" "$cornell" --stats -o picture.exr
+usage "a value is missing after option '-p'" "$cornell" -p --quiet
 usage "unknown option '--passes'" plugins --passes 3
 
 for value in 0 1000001 -1 1.5 1e7 x "" 0x10 nan inf; do

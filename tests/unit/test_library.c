@@ -8,6 +8,7 @@
 #include <math.h>
 #include <psplat/psplat.h>
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -373,6 +374,33 @@ static void test_cancelled_from_the_start(void **state)
         assert_string_equal(psplat_picture_attribute(picture, "psplat.passes"), "0");
     psplat_picture_destroy(picture);
     psplat_scene_destroy(scene);
+}
+
+static int stops_after_a_while(void *user)
+{
+    atomic_int *calls = user;
+    return atomic_fetch_add(calls, 1) >= 2000;
+}
+
+/* A pass that would take hours is left where it is. */
+static void test_cancelled_within_a_pass(void **state)
+{
+    (void)state;
+    static const char *const estimators[] = {"estimator=pathtrace:samples=1048576",
+                                             "estimator=gather:samples=65536",
+                                             "estimator=bdpt:samples=1048576"};
+    for (size_t i = 0; i < sizeof estimators / sizeof estimators[0]; i++) {
+        atomic_int calls = 0;
+        const psplat_callbacks callbacks = {
+            .size = sizeof callbacks, .user = &calls, .cancelled = stops_after_a_while};
+        psplat_picture *picture;
+        psplat_scene *scene = psplat_scene_create();
+        set(scene, "plugin", estimators[i]);
+        load(scene, SCENE);
+        assert_int_equal(psplat_render(scene, &callbacks, &picture, NULL), PS_CANCELLED);
+        psplat_picture_destroy(picture);
+        psplat_scene_destroy(scene);
+    }
 }
 
 static void test_callbacks_of_other_versions(void **state)
@@ -765,6 +793,7 @@ int main(void)
         cmocka_unit_test(test_passes_as_they_come),
         cmocka_unit_test(test_cancelled_between_passes),
         cmocka_unit_test(test_cancelled_from_the_start),
+        cmocka_unit_test(test_cancelled_within_a_pass),
         cmocka_unit_test(test_callbacks_of_other_versions),
         cmocka_unit_test(test_wrong_options),
         cmocka_unit_test(test_wrong_assignments),

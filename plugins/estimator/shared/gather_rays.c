@@ -225,7 +225,8 @@ static void take_round(struct gather *gather, const struct round *round)
         add_first(gather, round);
     for (size_t i = 0; i < gather->points.count; i++)
         gather->samples[i] = first + ps_lane_along_curve(gather->points.lanes[i]) * round->samples;
-    for (uint64_t number = 0; number < round->samples; number++)
+    const ps_host *host = setting->paths.host;
+    for (uint64_t number = 0; number < round->samples && !host->cancelled(host); number++)
         take_sample(gather, round, number);
     gather->done += round->samples;
 }
