@@ -521,6 +521,7 @@ static ps_result filter(const void *opaque, const ps_host *host, const ps_image_
         .width = work.width,
         .height = work.height,
         .bend_scale = (float)(1 / (1 - cos(state->normal * (double)PS_PI / 180))),
+        .mixed = image->even_r != NULL,
         .distance = state->distance.choice >= 0 ? 0.0f : (float)state->distance.number,
         .bounds =
             host->allocate(host, regression_bounds_bytes(work.width, work.height), "denoiser"),

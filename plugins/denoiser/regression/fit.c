@@ -12,9 +12,11 @@
 #define ROOM 0.2f      /* D over R, in pixels' sizes */
 #define LEAST_FIT 0.5f /* weight of blended fits below which a pixel becomes a centre */
 
-#define NARROW 24  /* the largest bandwidth around such a pixel, in pixels */
-#define FEW 4.0f   /* weight of its fit below which it gets SLACK, if the bandwidth is that */
-#define SLACK 4.0f /* times D and 1 - cos(normal) */
+#define NARROW 24   /* the largest bandwidth around such a pixel, in pixels */
+#define WIDE 48     /* the same in one pass, if a narrow fit's pixels weigh less in all than */
+#define THIN 256.0f /* this */
+#define FEW 4.0f    /* weight below which a fit of NARROW or WIDE gets SLACK */
+#define SLACK 4.0f  /* times D and 1 - cos(normal) */
 
 struct work {
     const struct regression *to;
@@ -294,19 +296,23 @@ static void blend_grid(const struct work *work, struct block *block)
     }
 }
 
-/* A fit around a pixel of something thin, which no centre is like. There are many where edges are smooth, and little of a
- * wide surrounding is like them: their fits are narrow. Some mix surfaces, and are like no other pixel: what is about as far
- * away and about as steep tells more about their light than their own few samples do. Bands tell, as elsewhere, whether the
- * pixel's own light is signal. */
+/* A fit around a pixel that no centre is like. By creases, where a surface ends, a narrow window is best. What is thin has few
+ * pixels in it, and needs a wide one; but several passes mix what pixels show at edges, and more of a wide window seems to
+ * be like them than is. Pixels that are like hardly any other learn more about their light from what is about as far away
+ * and about as steep than from their own few samples. */
 static void blend_one(const struct work *work, int x, int y, struct block *block)
 {
-    struct work narrow = *work;
+    struct work rest = *work;
     struct regression_fit fit;
-    narrow.bandwidth = smaller(work->bandwidth, NARROW);
-    make_fit(&narrow, x, y, 1.0f, &fit);
-    if (fit.weight < FEW && narrow.bandwidth == NARROW)
-        make_fit(&narrow, x, y, SLACK, &fit);
-    blend(&narrow, &fit, block);
+    rest.bandwidth = smaller(work->bandwidth, NARROW);
+    make_fit(&rest, x, y, 1.0f, &fit);
+    if (fit.weight < THIN && work->bandwidth > NARROW && !work->to->mixed) {
+        rest.bandwidth = smaller(work->bandwidth, WIDE);
+        make_fit(&rest, x, y, 1.0f, &fit);
+    }
+    if (fit.weight < FEW && rest.bandwidth >= NARROW)
+        make_fit(&rest, x, y, SLACK, &fit);
+    blend(&rest, &fit, block);
 }
 
 static void blend_rest(const struct work *work, struct block *block)

@@ -20,6 +20,7 @@
 #define PSPLAT_DENOISER_REGRESSION_FIT_H
 
 #include <psplat/plugin.h>
+#include <stdbool.h>
 
 enum { REGRESSION_SMALLEST = 3, REGRESSION_LARGEST = 64 }; /* bandwidths, in pixels */
 enum { REGRESSION_LANES = 16 }; /* pixels of a row that are taken at a time */
@@ -38,6 +39,7 @@ struct regression {
     float *gloss;                   /* share of the reflectance that is not diffuse */
     float *size;      /* of a pixel there, in the scene's units; 0: no surface is seen */
     float bend_scale; /* 1 / (1 - cos(normal)) */
+    bool mixed;       /* what pixels show may be means over several passes */
     float distance;   /* D, in the scene's units; 0: in proportion to R */
     struct regression_bounds *bounds; /* regression_bounds_find() */
     struct regression_fit *fits;      /* room for regression_fits_bytes() */
