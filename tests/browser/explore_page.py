@@ -415,6 +415,12 @@ class Explore(unittest.TestCase):
         self.put_options("a", ("plugin", "denoiser=regression"), ("seed", "8"))
         self.rest()
         self.assertEqual(self.browser.run("return document.querySelector('#layer').value"), "error")
+        self.put_options("a")
+        self.put_options("b", ("plugin", "denoiser=regression"))
+        self.wait("word of it", lambda: "has no layer error" in self.text("figcaption[data-view=a]"))
+        self.rest()
+        self.assertEqual(self.browser.run("return document.querySelector('#layer').value"), "error")
+        self.assertNotEqual(self.canvas_sum("b"), 0)
 
     def test_maps_and_metrics_are_of_what_is_shown(self):
         self.compare()

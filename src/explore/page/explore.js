@@ -155,9 +155,12 @@ function showProblem() {
     }
 }
 
+// Those of both views, in their order.
 function showLayers() {
-    const {layers, preview} = state.views.a;
-    const select = by_id("layer"), names = layers.map(({name}) => name);
+    const views = Object.values(state.views).filter(Boolean);
+    const preview = views.some((view) => view.preview);
+    const names = [...new Set(views.flatMap(({layers}) => layers.map(({name}) => name)))];
+    const select = by_id("layer");
     const listed = Array.from(select.options, (option) => option.value);
     // A preview may have fewer layers than what follows it.
     if (names.length > 0 && names.join() !== listed.join() && !(preview && listed.length > 0))
