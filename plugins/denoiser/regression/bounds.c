@@ -24,7 +24,7 @@ static void find_bounds_of_row(void *user, uint64_t row, uint32_t worker)
     (void)worker;
     const struct regression *of = user;
     size_t first = regression_at(of, 0, row) - REGRESSION_MARGIN;
-    size_t end = first + regression_stride(of->width) - BOUNDS_PIXELS;
+    size_t end = first + regression_stride(of->width) - BOUNDS_PIXELS; /* no run begins later */
     for (size_t at = first; at <= end; at += BOUNDS_STEP) {
         struct regression_bounds *bounds = &of->bounds[at / BOUNDS_STEP];
         const float *size = of->size + at;

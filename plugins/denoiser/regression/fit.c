@@ -12,11 +12,13 @@
 #define ROOM 0.2f      /* D over R, in pixels' sizes */
 #define LEAST_FIT 0.5f /* weight of blended fits below which a pixel becomes a centre */
 
-#define NARROW 24   /* the largest bandwidth around such a pixel, in pixels */
-#define WIDE 48     /* the same in one pass, if a narrow fit's pixels weigh less in all than */
-#define THIN 256.0f /* this */
-#define FEW 4.0f    /* weight below which a fit of NARROW or WIDE gets SLACK */
-#define SLACK 4.0f  /* times D and 1 - cos(normal) */
+/* The largest bandwidth around such a pixel. In one pass it is WIDE if the pixels of a narrow fit weigh less than THIN. */
+enum { NARROW = 24, WIDE = 48 };
+#define THIN 256.0f
+
+/* If the pixels of such a fit weigh less than FEW, D and 1 - cos(normal) are SLACK times as large. */
+#define FEW 4.0f
+#define SLACK 4.0f
 
 struct work {
     const struct regression *to;
@@ -92,12 +94,8 @@ static INLINED void add_pixels(const struct work *work, const struct regression_
 {
     _Alignas(64) float w[LANES], u[LANES], v[LANES], wu[LANES], wv[LANES];
     float scale = 1.0f / (((float)work->bandwidth + 0.5f) * ((float)work->bandwidth + 0.5f));
-    if (weigh_nothing(work->to, fit, from))
+    if (!take_pixels(work->to, fit, from, w, u, v))
         return;
-    weigh(work->to, fit, from, w);
-    if (all_zero(w))
-        return;
-    locate(work->to, fit, from, u, v);
     for (int i = 0; i < LANES; i++) {
         float x = (float)(dx + i), near = above_zero(1.0f - (x * x + row) * scale);
         w[i] *= near * near;
@@ -231,13 +229,8 @@ static INLINED void add_prediction(const struct work *work, const struct regress
     float scale = 1.0f / (float)spacing(work->bandwidth);
     float down = 1.0f - fabsf((float)(y - fit->y)) * scale;
     float *restrict weight = &block->weight[row][column];
-    size_t from = place_of(work, x, y);
-    if (weigh_nothing(work->to, fit, from))
+    if (!take_pixels(work->to, fit, place_of(work, x, y), w, u, v))
         return;
-    weigh(work->to, fit, from, w);
-    if (all_zero(w))
-        return;
-    locate(work->to, fit, from, u, v);
     for (int i = 0; i < LANES; i++) {
         w[i] *= down * above_zero(1.0f - fabsf((float)(x + i - fit->x)) * scale);
         weight[i] += w[i];

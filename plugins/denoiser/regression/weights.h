@@ -50,9 +50,9 @@ static INLINED float above_zero(float s)
     return 0.5f * (s + fabsf(s));
 }
 
-/* Whether none of LANES pixels from `from` on has any weight, by their bounds. */
-static INLINED bool weigh_nothing(const struct regression *to, const struct regression_fit *fit,
-                                  size_t from)
+/* Whether their bounds tell that none of LANES pixels from `from` on has any weight. */
+static INLINED bool are_unlike(const struct regression *to, const struct regression_fit *fit,
+                               size_t from)
 {
     const struct regression_bounds *of = &to->bounds[from / BOUNDS_STEP];
     float cosine = 0.0f, height = 0.0f, extent = 0.0f;
@@ -77,7 +77,7 @@ static INLINED bool all_zero(const float weight[LANES])
     return !above;
 }
 
-/* Weights by geometry of LANES pixels from `from` on. */
+/* Their weights by geometry. */
 static INLINED void weigh(const struct regression *to, const struct regression_fit *fit,
                           size_t from, float *restrict weight)
 {
@@ -114,6 +114,20 @@ static INLINED void locate(const struct regression *to, const struct regression_
         u[i] = dx * fit->u[0] + dy * fit->u[1] + dz * fit->u[2];
         v[i] = dx * fit->v[0] + dy * fit->v[1] + dz * fit->v[2];
     }
+}
+
+/* All of that. False: none of the pixels has any weight, and the rest is not set. */
+static INLINED bool take_pixels(const struct regression *to, const struct regression_fit *fit,
+                                size_t from, float *restrict weight, float *restrict u,
+                                float *restrict v)
+{
+    if (are_unlike(to, fit, from))
+        return false;
+    weigh(to, fit, from, weight);
+    if (all_zero(weight))
+        return false;
+    locate(to, fit, from, u, v);
+    return true;
 }
 
 #endif
