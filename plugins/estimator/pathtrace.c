@@ -41,8 +41,8 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
     ps_points points;
     ps_rgb irradiance[PS_TILE_PIXELS];
     ps_collect_points(tile, &points);
-    paths_average(host, work->setting.pass, index, &points, (uint64_t)work->state->samples,
-                  trace_sample, work, irradiance);
+    paths_average(&work->setting, index, &points, (uint64_t)work->state->samples, trace_sample,
+                  work, irradiance);
     for (size_t i = 0; i < points.count; i++)
         ps_add_irradiance(tile, points.lanes[i], irradiance[i]);
 }

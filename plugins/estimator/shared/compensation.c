@@ -35,8 +35,8 @@ void compensation_add(const struct compensation *compensation, uint64_t tile,
     ps_rgb left_out[PS_TILE_PIXELS];
     if (compensation->rays == 0 || !(compensation->clamp > 0.0f))
         return;
-    paths_average(compensation->paths.host, compensation->paths.pass, tile, points,
-                  compensation->rays, trace_sample, compensation, left_out);
+    paths_average(&compensation->paths, tile, points, compensation->rays, trace_sample,
+                  compensation, left_out);
     for (size_t i = 0; i < points->count; i++)
         irradiance[i] = ps_rgb_add(irradiance[i], left_out[i]);
 }

@@ -296,14 +296,15 @@ typedef void (*paths_trace)(const void *user, const ps_points *points, const uin
 
 /* The mean of `count` samples for each point, those of a pass that ps_tile_sample() chooses. Means nothing after the host
  * was cancelled. */
-static inline void paths_average(const ps_host *host, const ps_pass *pass, uint64_t tile,
+static inline void paths_average(const struct paths_setting *setting, uint64_t tile,
                                  const ps_points *points, uint64_t count, paths_trace trace,
                                  const void *user, ps_rgb *irradiance)
 {
+    const ps_host *host = setting->host;
     uint64_t samples[PS_TILE_PIXELS];
     ps_rgb sums[PS_TILE_PIXELS] = {{0, 0, 0}};
     for (size_t i = 0; i < points->count; i++)
-        samples[i] = ps_tile_sample(tile, points->lanes[i], pass->number, count);
+        samples[i] = ps_tile_sample(tile, points->lanes[i], setting->pass->number, count);
     for (uint64_t sample = 0; sample < count && !host->cancelled(host); sample++) {
         trace(user, points, samples, sums);
         for (size_t i = 0; i < points->count; i++)
