@@ -52,7 +52,7 @@ static void find_shares(void *user, uint64_t index, uint32_t worker)
 /* One sample of each of the tile's pixels; false when out of memory. */
 static int trace_sample(struct work *work, uint32_t tile, const ps_points *points,
                         const uint64_t *samples, struct light_vertices *vertices,
-                        struct splat_list *splats, ps_rgb *sums)
+                        struct splat_list *splats, struct tile_sums *sums)
 {
     const struct bdpt *bdpt = &work->bdpt;
     const struct sight *sights = &bdpt->sights[(size_t)tile * PS_TILE_PIXELS];
@@ -71,7 +71,7 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
     uint32_t tile_index = work->first_tile + (uint32_t)index;
     ps_tile *tile = work->bdpt.host->tile(work->bdpt.host, tile_index);
     uint64_t samples[PS_TILE_PIXELS];
-    ps_rgb sums[PS_TILE_PIXELS] = {{0, 0, 0}};
+    struct tile_sums sums = {.samples = 0};
     ps_points points;
     ps_collect_points(tile, &points);
     for (uint64_t i = work->first_sample; i < work->end; i++) {
@@ -79,12 +79,13 @@ static void trace_tile(void *user, uint64_t index, uint32_t worker)
             samples[lane] =
                 ps_tile_sample(tile_index, lane, work->bdpt.pass->number, work->samples) + i;
         if (!trace_sample(work, tile_index, &points, samples, &work->vertices[worker],
-                          &work->splats[index], sums))
+                          &work->splats[index], &sums))
             work->failed[index] = 1;
+        sums.samples++;
     }
     for (size_t i = 0; i < points.count; i++) {
         uint32_t lane = points.lanes[i];
-        ps_add_irradiance(tile, lane, ps_rgb_scale(sums[lane], 1.0f / (float)work->samples));
+        ps_add_irradiance(tile, lane, ps_rgb_scale(sums.lanes[lane], 1.0f / (float)work->samples));
         tile->weight[lane] = 1.0f;
     }
 }

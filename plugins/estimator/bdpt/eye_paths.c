@@ -1,7 +1,5 @@
 #include "eye_paths.h"
 
-#include "connections.h"
-
 /* Sets of PS_STREAM_PATH that choose points on lights; directions take 1, 2, 3, ... */
 #define LIGHT_SETS 0x10000u
 
@@ -10,13 +8,13 @@ struct eye_work {
     const ps_points *points;
     const struct sight *sights;
     const uint64_t *samples;
-    ps_rgb *sums; /* of lanes */
+    struct tile_sums *sums;
     struct walk walk;
 };
 
 static void add(struct eye_work *work, uint32_t lane, ps_rgb irradiance)
 {
-    work->sums[lane] = ps_rgb_add(work->sums[lane], irradiance);
+    work->sums->lanes[lane] = ps_rgb_add(work->sums->lanes[lane], irradiance);
 }
 
 /* --- emission that is met --- */
@@ -184,13 +182,15 @@ static void forget_own_surfaces(struct eye_work *work)
 }
 
 void eye_paths_trace(const struct bdpt *bdpt, const ps_points *points, const struct sight *sights,
-                     const uint64_t *samples, const struct light_vertices *vertices, ps_rgb *sums)
+                     const uint64_t *samples, const struct light_vertices *vertices,
+                     struct tile_sums *sums)
 {
     struct eye_work work = {
         .bdpt = bdpt, .points = points, .sights = sights, .samples = samples, .sums = sums};
+    struct connecting connecting = {bdpt, vertices, samples, sums, connections_small(sums), 0};
     struct walk *walk = &work.walk;
     start_at_points(&work);
-    connect_to_lights(bdpt, walk, 1, vertices, sums);
+    connect_to_lights(&connecting, walk, 1);
     leave_points(&work);
     for (uint32_t number = 1; walk->count > 0; number++) {
         bdpt->host->intersect(bdpt->host, walk->rays, walk->count, walk->hits);
@@ -201,7 +201,7 @@ void eye_paths_trace(const struct bdpt *bdpt, const ps_points *points, const str
         walk_drop_lost(walk);
         walk_arrive(bdpt, walk);
         add_direct(&work, number);
-        connect_to_lights(bdpt, walk, 0, vertices, sums);
+        connect_to_lights(&connecting, walk, 0);
         walk_scatter(bdpt, PS_FROM_CAMERA, PS_STREAM_PATH, number + 1, samples, walk);
     }
 }

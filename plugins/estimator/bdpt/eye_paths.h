@@ -8,11 +8,12 @@
 #ifndef PSPLAT_ESTIMATOR_EYE_PATHS_H
 #define PSPLAT_ESTIMATOR_EYE_PATHS_H
 
-#include "light_paths.h"
+#include "connections.h"
 
-/* One path from each point: adds its irradiance (W/m^2) to sums, which go by lanes. `samples`: the index of each lane's
- * random numbers; `sights`: of the tile. */
+/* One path from each point: adds its irradiance to the sums. `samples`: the index of each lane's random numbers; `sights`:
+ * of the tile. */
 void eye_paths_trace(const struct bdpt *bdpt, const ps_points *points, const struct sight *sights,
-                     const uint64_t *samples, const struct light_vertices *vertices, ps_rgb *sums);
+                     const uint64_t *samples, const struct light_vertices *vertices,
+                     struct tile_sums *sums);
 
 #endif

@@ -21,9 +21,8 @@ ps_rgb bdpt_scattered(uint32_t room, const struct scattering *a, const struct sc
     return room == 1 ? without(all, ps_rgb_multiply(a->diffuse, b->diffuse)) : all;
 }
 
-/* As evaluate_bsdf does. What smoothed normals change of light paths (Veach 1997, section 5.3) is in the value. */
-static ps_bsdf_value evaluate_diffuse(ps_direction direction, const ps_ray *ray, const ps_hit *hit,
-                                      ps_vec3 away)
+ps_bsdf_value bdpt_evaluate_diffuse(ps_direction direction, const ps_ray *ray, const ps_hit *hit,
+                                    ps_vec3 away)
 {
     float shading = ps_max(ps_dot(away, hit->normal), 0.0f) / PS_PI;
     float geometric = ps_dot(away, hit->geometric_normal) / PS_PI;
@@ -49,7 +48,7 @@ void bdpt_evaluate(const struct bdpt *bdpt, ps_direction direction, const ps_ray
         return;
     }
     for (size_t i = 0; i < n; i++)
-        values[i] = evaluate_diffuse(direction, &rays[i], &hits[i], directions[i]);
+        values[i] = bdpt_evaluate_diffuse(direction, &rays[i], &hits[i], directions[i]);
 }
 
 /* That of a surface with other lobes depends on the direction: a short ray from there meets it again. */

@@ -115,6 +115,11 @@ static inline ps_vec3 bdpt_origin(const struct bdpt *bdpt, const ps_hit *hit)
     return ps_add_scaled(hit->position, bdpt->pass->surface_offset, hit->geometric_normal);
 }
 
+/* As host->evaluate_bsdf, of a diffuse surface. What smoothed normals change of light paths (Veach 1997, section 5.3) is in
+ * the value. */
+ps_bsdf_value bdpt_evaluate_diffuse(ps_direction direction, const ps_ray *ray, const ps_hit *hit,
+                                    ps_vec3 away);
+
 /* As host->evaluate_bsdf, sooner where all of the surfaces are diffuse. */
 void bdpt_evaluate(const struct bdpt *bdpt, ps_direction direction, const ps_ray *rays,
                    const ps_hit *hits, const ps_vec3 *directions, size_t n, ps_bsdf_value *values);
