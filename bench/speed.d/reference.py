@@ -64,6 +64,15 @@ def _words(scene, samples, smooth):
     return [*scene.words, "--plugin", f"estimator=pathtrace:samples={max(1, samples // 2 // scene.passes)}"]
 
 
+def make_picture(psplat, folder, scene, size, bounces, samples, say):
+    """One to look at, denoised, with as many samples as a half."""
+    path = os.path.join(folder, f"{scene.name}-{size}-{bounces}-picture.exr")
+    words = [word for word in _words(scene, samples, False) if word != "--plugin=denoiser=none"]
+    run = psplat.render([*words, "--plugin", "denoiser=regression", "--size", size, "--bounces", bounces], path)
+    say(f"reference {os.path.basename(path)}: {run.wall:.1f} s")
+    return path
+
+
 def make(psplat, folder, scene, size, bounces, samples, say, smooth=False):
     """Reads the reference from the folder, or renders what of it is not there (or no longer right)."""
     name = f"{scene.name}-{size}-{bounces}{'-smooth' if smooth else ''}"

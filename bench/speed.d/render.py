@@ -106,6 +106,9 @@ class Psplat:
         words = [word for choice in choices for word in ("--plugin", choice)]
         self._wait([self.program, "resolve", "--quiet", film, *words, "--output", picture])
 
+    def view(self, picture, output, *options):
+        self._wait([self.program, "view", picture, *options, "--output", output])
+
     def info(self, path):
         return self._wait([self.program, "info", path])[2]
 

@@ -1,4 +1,5 @@
 """report.py: what bench/speed found, as Markdown."""
+import equal
 from climb import rung_text
 from curve import error_at, ratio_text, reach_text, time_to
 
@@ -91,6 +92,11 @@ def _counted(bounces):
     return {"1": "1 bounce"}.get(bounces, f"{bounces} bounces")
 
 
+def _equal(group):
+    rows = equal.rows(group, lambda point: seconds_of(point, group["threads"]))
+    return markdown_table(["method", "rung", "seconds", "error", "bias", "own MB"], rows)
+
+
 def _reference(group, targets):
     reference = group["reference"]
     text = (f"Reference: path tracing, two halves of {reference['samples'] // 2} samples; noise of their mean "
@@ -102,7 +108,8 @@ def _reference(group, targets):
 
 def group_title(group):
     return (f"{group['scene']}, {group['size']}, {_counted(group['bounces'])}, {group['threads']} "
-            f"thread{'s' if group['threads'] != 1 else ''}")
+            f"thread{'s' if group['threads'] != 1 else ''}"
+            f"{', denoiser=' + group['denoiser'] if group['denoiser'] else ''}")
 
 
 def markdown(results):
@@ -124,4 +131,6 @@ def markdown(results):
         if ratios:
             lines += ["How many times as long the other takes:", ""] + ratios
         lines += ["All points:", ""] + _points(group)
+        if "equal" in group:
+            lines += ["Steps in between, at about equal time:", ""] + _equal(group)
     return "\n".join(lines)

@@ -2,7 +2,7 @@
 # group. Columns: number of the group, method, seconds, error in percent.
 set datafile separator ','
 groups = words(titles)
-columns = groups < 3 ? groups : 3
+columns = groups < 3 ? groups : groups == 4 ? 2 : 3
 rows = (groups + columns - 1) / columns
 many = words(methods) > 6 # than colours; their names do not fit into the panels
 set terminal svg size (many ? 600 : 420) * columns, 330 * rows font 'sans,11' noenhanced background 'white'

@@ -1,5 +1,6 @@
 """table.py: the tables of scenes and methods (scenes.ini, methods.ini, marks.ini; they say how to read them)."""
 import configparser
+import copy
 import fnmatch
 import os
 import sys
@@ -65,6 +66,12 @@ class Method:
         self.name = name
         self.options = section["options"].split()
         self.ladders = {key: value for key, value in section.items() if key != "options"}
+
+    def denoised_by(self, denoiser):
+        """The same method, through another denoiser."""
+        other = copy.copy(self)
+        other.options = [word for word in self.options if not word.startswith("denoiser=")] + [f"denoiser={denoiser}"]
+        return other
 
     def rungs(self, scene):
         """From cheap to dear; empty where the method has none for this scene."""

@@ -41,6 +41,7 @@ import math
 from types import SimpleNamespace
 
 from curve import AT, NEVER, WITHIN, Reach, error_at, ratio_text, reach_text, time_to
+from equal import rung_at
 from render import Run
 
 slope = [(1.0, 0.4), (4.0, 0.2), (16.0, 0.1)]  # error = 0.4 / sqrt(time)
@@ -58,6 +59,13 @@ assert error_at(slope, 0.9) is None and error_at(slope, 17.0) is None
 # There and back, and there sooner: the least time counts.
 twice = [(10.0, 0.4), (40.0, 0.2), (1.0, 0.4), (4.0, 0.2)]
 assert abs(time_to(twice, 0.2).seconds - 4) < 1e-9
+
+# Between two steps of a ladder: a quarter of the way in the logarithms. Never past its ends.
+ladder = [(1.0, {"n": "100", "x": "0.2", "of": "cone"}), (16.0, {"n": "1600", "x": "0.2", "of": "box"})]
+assert rung_at(ladder, 2.0) == {"n": "200", "x": "0.2", "of": "cone"}, rung_at(ladder, 2.0)
+assert rung_at(ladder, 0.5) == ladder[0][1] and rung_at(ladder, 20.0) == ladder[1][1]
+assert rung_at([(1.0, {"x": "1e-4"}), (4.0, {"x": "4e-4"})], 2.0) == {"x": "0.0002"}
+assert rung_at([(1.0, {"n": "1"})], 2.0) == {"n": "1"}
 
 assert reach_text(Reach(AT, 2.0)) == "2 s"
 assert reach_text(Reach(WITHIN, 2.0)) == "<= 2 s"
@@ -100,6 +108,23 @@ measure 0 speed --quick --methods pathtrace --rungs 1 --repeats 2
     fail "not two repeats"
 expect_no_text results/speed.md "| splat"
 
+# Each method by both denoisers, and pictures at equal time.
+measure 0 speed --quick --methods pathtrace,photonmap --denoisers none,regression --pictures 0.01
+for denoiser in none regression; do
+    expect_text results/speed.md "## cornell, 96x54, 1 bounce, 1 thread, denoiser=$denoiser"
+    for picture in pathtrace photonmap reference; do
+        [ -s results/cornell-1-1-$denoiser-$picture.png ] || fail "no picture $denoiser-$picture"
+    done
+    if command -v montage >/dev/null; then
+        [ -s results/cornell-1-1-$denoiser.jpg ] || fail "no sheet of pictures"
+    else
+        expect_text err "there is no montage"
+    fi
+done
+[ "$(number results/speed.json 'len(d["groups"][1]["equal"])')" = 2 ] || fail "not two methods at equal time"
+true_of "denoised path tracing has less error" "$(number results/speed.json 'd["groups"][1]["equal"][0]["error"]') < \
+    0.9 * $(number results/speed.json 'd["groups"][0]["equal"][0]["error"]')"
+
 # A noisy reference finds the error that a good one finds; as it stands, it would be half as large again.
 error_with() {
     measure 0 speed --quick --methods splat-best --rungs 1 --reference-samples "$1"
@@ -117,6 +142,8 @@ measure 1 speed --quick --scenes nowhere
 expect_text err "speed: error: no scene 'nowhere'; there are: cornell, cornell-area, cornell-spheres, "
 measure 1 speed --quick --methods guess
 expect_text err "no method 'guess'; there are: gather"
+measure 1 speed --quick --methods pathtrace --denoisers nothing
+expect_text err "no denoiser 'nothing'"
 measure 1 speed --quick --psplat /nowhere/psplat
 expect_text err "no program '/nowhere/psplat'"
 measure 2 speed --quick --targets 0
