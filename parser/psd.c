@@ -65,6 +65,7 @@ static void prepare(struct reader *reader, const char *name, const struct psd_op
     reader->file = reader_add_file(reader, name);
     if (options->folder)
         reader->description->folder = reader_copy(reader, options->folder);
+    reader->cache = options->cache;
     reader->allow_plugin_paths = options->allow_plugin_paths;
 }
 

@@ -41,7 +41,7 @@ static int write_scene(const char *path, const char *model)
     struct error error;
     char *text = NULL;
     ps_result result =
-        model ? model_scene_make(model, path, NULL, &text, &error) : first_scene(&text, &error);
+        model ? model_scene_make(model, path, NULL, NULL, &text, &error) : first_scene(&text, &error);
     if (result == PS_OK)
         result = write_text(path, text, &error);
     free(text);

@@ -6,6 +6,7 @@
 #include "import/files.h"
 
 #include "base/input_file.h"
+#include <assert.h>
 #include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
@@ -108,8 +109,15 @@ ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mes
     if (result != PS_OK || !read) {
         if (read)
             destroy_file(read);
+        mesh_looks_add(&files->looks, (struct mesh_look){.kind = LOOK_WHOLE}, path);
         return result;
     }
+    if (files->looks.wanted)
+        mesh_looks_add(&files->looks,
+                       (struct mesh_look){.kind = LOOK_WHOLE,
+                                          .there = true,
+                                          .digest = mesh_digest(read->bytes, read->length)},
+                       path);
     read->bytes[read->length] = '\0';
     read->next = files->read;
     files->read = read;
@@ -133,10 +141,13 @@ ps_result mesh_files_add(struct mesh_files *files, const char *path, char *bytes
     return PS_OK;
 }
 
-bool mesh_files_exist(const struct mesh_files *files, const char *path)
+bool mesh_files_exist(struct mesh_files *files, const char *path)
 {
-    return files->memory ? find_in_memory(files, path) != NULL
-                         : input_file_exists(path, files->folder);
+    if (files->memory)
+        return find_in_memory(files, path) != NULL;
+    bool there = input_file_exists(path, files->folder);
+    mesh_looks_add(&files->looks, (struct mesh_look){.kind = LOOK_EXISTS, .there = there}, path);
+    return there;
 }
 
 /* --- letter case ------------------------------------------------------------------------------- */
@@ -197,11 +208,27 @@ static bool match_in_memory(const struct mesh_files *files, char *path)
     return best != NULL;
 }
 
-bool mesh_files_match_case(const struct mesh_files *files, char *path, size_t folder)
+static bool look_for_case(struct mesh_files *files, char *path, size_t folder)
 {
-    if (files->memory)
-        return match_in_memory(files, path);
-    return match_on_disk(path, folder, files->folder) && mesh_files_exist(files, path);
+    char *asked = files->looks.wanted ? strdup(path) : NULL;
+    bool there =
+        match_on_disk(path, folder, files->folder) && input_file_exists(path, files->folder);
+    if (asked)
+        mesh_looks_add(&files->looks,
+                       (struct mesh_look){.kind = LOOK_CASE,
+                                          .there = there,
+                                          .size = folder,
+                                          .digest = mesh_digest(path, strlen(path))},
+                       asked);
+    else
+        files->looks.incomplete = true;
+    free(asked);
+    return there;
+}
+
+bool mesh_files_match_case(struct mesh_files *files, char *path, size_t folder)
+{
+    return files->memory ? match_in_memory(files, path) : look_for_case(files, path, folder);
 }
 
 /* --- the first bytes --------------------------------------------------------------------------- */
@@ -218,11 +245,22 @@ static size_t peek_on_disk(const char *path, const char *folder, unsigned char *
     return size;
 }
 
-size_t mesh_files_peek(const struct mesh_files *files, const char *path, unsigned char *bytes,
+static size_t look_at_first(struct mesh_files *files, const char *path, unsigned char *bytes,
+                            size_t size)
+{
+    size_t found = peek_on_disk(path, files->folder, bytes, size);
+    const struct mesh_look look = {
+        .kind = LOOK_FIRST, .there = true, .size = size, .digest = mesh_digest(bytes, found)};
+    mesh_looks_add(&files->looks, look, path);
+    return found;
+}
+
+size_t mesh_files_peek(struct mesh_files *files, const char *path, unsigned char *bytes,
                        size_t size)
 {
+    assert(size <= MESH_PEEK_MOST);
     if (!files->memory)
-        return peek_on_disk(path, files->folder, bytes, size);
+        return look_at_first(files, path, bytes, size);
     const struct mesh_memory_file *source = find_in_memory(files, path);
     if (!source || source->length < size)
         size = source ? source->length : 0;
@@ -233,6 +271,7 @@ size_t mesh_files_peek(const struct mesh_files *files, const char *path, unsigne
 
 void mesh_files_release(struct mesh_files *files)
 {
+    mesh_looks_release(&files->looks);
     while (files->read) {
         struct mesh_file *file = files->read;
         files->read = file->next;

@@ -3,8 +3,10 @@
 #define IMPORT_FILES_H
 
 #include "import/import.h"
+#include "import/looks.h"
 
 #define MESH_FILE_LARGEST ((size_t)4 * 1024 * 1024 * 1024)
+#define MESH_PEEK_MOST 64 /* bytes */
 
 struct mesh_file {
     struct mesh_file *next;
@@ -14,12 +16,13 @@ struct mesh_file {
     bool made; /* by mesh_files_add */
 };
 
-/* Zeroed but for `memory`: files on the disk. */
+/* Zeroed but for `memory`: files on the disk; and for `looks.wanted`: what was asked of the disk is kept. */
 struct mesh_files {
     const struct mesh_memory_file *memory; /* NULL: the disk */
     size_t memory_count;
     const char *folder;     /* the only one to read from (input_file.h), or NULL */
     struct mesh_file *read; /* the newest first */
+    struct mesh_looks looks;
 };
 
 /* The file of that path, read once. PS_ERROR_IO (absent, not a regular file), _INVALID (too large)
@@ -33,14 +36,14 @@ ps_result mesh_files_add(struct mesh_files *files, const char *path, char *bytes
                          struct error *error);
 
 /* Whether there is a regular file of that path. */
-bool mesh_files_exist(const struct mesh_files *files, const char *path);
+bool mesh_files_exist(struct mesh_files *files, const char *path);
 
 /* Whether there is one whose path has other letter case beyond the first `folder` bytes; `path` becomes that: of several
  * the first by strcmp. */
-bool mesh_files_match_case(const struct mesh_files *files, char *path, size_t folder);
+bool mesh_files_match_case(struct mesh_files *files, char *path, size_t folder);
 
-/* The first bytes of such a file, at most `size`: how many. */
-size_t mesh_files_peek(const struct mesh_files *files, const char *path, unsigned char *bytes,
+/* The first bytes of such a file, at most `size` (up to MESH_PEEK_MOST): how many. */
+size_t mesh_files_peek(struct mesh_files *files, const char *path, unsigned char *bytes,
                        size_t size);
 
 void mesh_files_release(struct mesh_files *files);

@@ -8,10 +8,12 @@
 #include "import/import.h"
 
 #include "base/machine.h"
+#include "import/cache.h"
 #include "import/child.h"
 #include "import/job.h"
 #include "import/transfer.h"
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -37,6 +39,7 @@ static void work(void *context)
         .report = &task->outcome->report,
         .error = &task->outcome->error,
         .files = task->files,
+        .looks = &task->outcome->looks,
     };
     task->outcome->result = mesh_job_run(&job);
     mesh_outcome_send(task->outcome, task->transfer);
@@ -54,11 +57,38 @@ static ps_result import(struct task *task, struct error *error)
                          request->path, reason.text);
     if (result != PS_OK)
         return error_set(error, result, "%s: %.1000s", request->path, reason.text);
-    if (!mesh_outcome_receive(task->outcome, task->transfer))
+    if (lseek(task->transfer, 0, SEEK_SET) != 0 ||
+        !mesh_outcome_receive(task->outcome, task->transfer))
         return error_set(error, PS_ERROR_MEMORY, "%s: out of memory", request->path);
     if (task->outcome->result != PS_OK)
         *error = task->outcome->error;
     return task->outcome->result;
+}
+
+/* What cannot be stored is told, and made again the next time. */
+static void store(const struct task *task, const struct mesh_cache_entry *entry)
+{
+    char *notes = task->outcome->report.notes;
+    size_t length = strlen(notes), size = sizeof task->outcome->report.notes;
+    struct error reason;
+    if (!task->outcome->looks.incomplete &&
+        mesh_cache_store(entry, task->transfer, &reason) != PS_OK)
+        snprintf(notes + length, size - length, "%sit is not kept in the cache: %.1000s",
+                 length > 0 ? "\n" : "", reason.text);
+}
+
+static ps_result import_by_cache(struct task *task, struct error *error)
+{
+    struct mesh_cache_entry entry = mesh_cache_entry(task->request);
+    ps_result result = PS_OK;
+    if (!entry.path || !mesh_cache_load(&entry, task->request, task->outcome)) {
+        result = import(task, error);
+        if (entry.path && result == PS_OK)
+            store(task, &entry);
+    }
+    mesh_looks_release(&task->outcome->looks);
+    free(entry.path);
+    return result;
 }
 
 static ps_result import_files(const struct mesh_request *request, struct mesh_files files,
@@ -74,7 +104,7 @@ static ps_result import_files(const struct mesh_request *request, struct mesh_fi
     ps_result result = task.transfer < 0
                            ? error_set(error, PS_ERROR_IO, "%s: no file in memory: %s",
                                        request->path, strerror(errno))
-                           : import(&task, error);
+                           : import_by_cache(&task, error);
     if (task.transfer >= 0)
         close(task.transfer);
     *fragment = outcome->fragment;
@@ -86,7 +116,8 @@ static ps_result import_files(const struct mesh_request *request, struct mesh_fi
 ps_result mesh_import(const struct mesh_request *request, struct scene_description *fragment,
                       struct mesh_report *report, struct error *error)
 {
-    const struct mesh_files disk = {.folder = request->folder};
+    const struct mesh_files disk = {.folder = request->folder,
+                                    .looks.wanted = request->cache != NULL};
     return import_files(request, disk, fragment, report, error);
 }
 

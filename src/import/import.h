@@ -18,6 +18,7 @@
 struct mesh_request {
     const char *path;
     const char *folder; /* the only one to read from (input_file.h), or NULL */
+    const char *cache;  /* a folder for what was made of files (cache.h), or NULL */
     bool geometry, materials, camera, lights; /* what to use */
     double unit;                              /* scene units for each unit of the file */
     int32_t up;        /* which axis of the file points upwards: 0 x, 1 y, 2 z */

@@ -133,6 +133,8 @@ static void release(struct mesh_job *job)
         aiReleaseImport(job->scene);
     gltf_release(&job->gltf);
     obj_release(&job->obj);
+    *job->looks = job->files.looks;
+    job->files.looks = (struct mesh_looks){.wanted = false};
     mesh_files_release(&job->files);
     free(job->nodes);
     free(job->materials);

@@ -42,6 +42,7 @@ struct mesh_job {
     struct error *error;
     enum mesh_format format;
     struct mesh_files files;
+    struct mesh_looks *looks; /* where those of the files go at the end */
     struct mesh_file *main_file;
     struct mesh_file *library; /* OBJ: the last MTL file read, or NULL */
     char *missing_library;     /* OBJ: the first that could not be read, or NULL */

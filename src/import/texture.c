@@ -57,14 +57,14 @@ static bool make_path(const struct mesh_job *job, const char *name, char *path, 
     return length > 0 && length < LONGEST_PATH;
 }
 
-static bool try_path(const struct mesh_job *job, const char *name, char *path)
+static bool try_path(struct mesh_job *job, const char *name, char *path)
 {
     size_t folder;
     return make_path(job, name, path, &folder) && mesh_files_exist(&job->files, path);
 }
 
 /* Of absolute paths only the last part is looked for. */
-static bool try_other_case(const struct mesh_job *job, const char *name, char *path)
+static bool try_other_case(struct mesh_job *job, const char *name, char *path)
 {
     size_t folder;
     return name[0] != '/' && make_path(job, name, path, &folder) &&
@@ -73,7 +73,7 @@ static bool try_other_case(const struct mesh_job *job, const char *name, char *p
 
 enum found { FOUND_NOTHING, FOUND, FOUND_IN_OTHER_CASE };
 
-static enum found find_path(const struct mesh_job *job, char *name, char *path)
+static enum found find_path(struct mesh_job *job, char *name, char *path)
 {
     for (char *c = name; *c; c++)
         if (*c == '\\')

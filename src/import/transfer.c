@@ -125,19 +125,27 @@ static void move_cameras(struct transfer *transfer, struct scene_description *fr
         move_text(transfer, &fragment->cameras[i].name);
 }
 
+static void move_looks(struct transfer *transfer, struct mesh_looks *looks)
+{
+    move_structs(transfer, &looks->items, &looks->count, sizeof *looks->items);
+    for (size_t i = 0; i < looks->count; i++)
+        move_text(transfer, &looks->items[i].path);
+}
+
 /* Of a mesh file, lights and objects own nothing. */
 static void move_outcome(struct transfer *transfer, struct mesh_outcome *outcome)
 {
     struct scene_description *fragment = &outcome->fragment;
     move_bytes(transfer, outcome, sizeof *outcome);
     if (transfer->receives && transfer->failed)
-        outcome->fragment = (struct scene_description){0};
+        *outcome = (struct mesh_outcome){.result = PS_ERROR_IO};
     move_meshes(transfer, fragment);
     move_structs(transfer, &fragment->objects, &fragment->object_count, sizeof *fragment->objects);
     move_materials(transfer, fragment);
     move_textures(transfer, fragment);
     move_cameras(transfer, fragment);
     move_structs(transfer, &fragment->lights, &fragment->light_count, sizeof *fragment->lights);
+    move_looks(transfer, &outcome->looks);
 }
 
 bool mesh_outcome_send(struct mesh_outcome *outcome, int file)
@@ -150,10 +158,15 @@ bool mesh_outcome_send(struct mesh_outcome *outcome, int file)
 bool mesh_outcome_receive(struct mesh_outcome *outcome, int file)
 {
     struct transfer transfer = {.file = file, .receives = true};
-    transfer.failed = lseek(file, 0, SEEK_SET) != 0;
     move_outcome(&transfer, outcome);
     if (!transfer.failed)
         return true;
-    scene_description_release(&outcome->fragment);
+    mesh_outcome_release(outcome);
     return false;
+}
+
+void mesh_outcome_release(struct mesh_outcome *outcome)
+{
+    scene_description_release(&outcome->fragment);
+    mesh_looks_release(&outcome->looks);
 }

@@ -8,6 +8,7 @@
 #define IMPORT_TRANSFER_H
 
 #include "import/import.h"
+#include "import/looks.h"
 
 /* What an import gives. */
 struct mesh_outcome {
@@ -15,6 +16,7 @@ struct mesh_outcome {
     struct error error;
     struct mesh_report report;
     struct scene_description fragment;
+    struct mesh_looks looks; /* empty where the request names no cache */
 };
 
 /* An open file without a name, in memory where the system has such; -1: none. */
@@ -23,8 +25,10 @@ int mesh_transfer_open(void);
 /* Writes all of it; false: not all could be written. */
 bool mesh_outcome_send(struct mesh_outcome *outcome, int file);
 
-/* Reads it from the file's start. False where not all is there, or there is no memory for it; `outcome` then
- * holds no fragment. */
+/* Reads it from where the file stands. False where not all is there, or there is no memory for it; `outcome` then
+ * holds nothing. */
 bool mesh_outcome_receive(struct mesh_outcome *outcome, int file);
+
+void mesh_outcome_release(struct mesh_outcome *outcome);
 
 #endif

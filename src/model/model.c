@@ -50,11 +50,13 @@ static bool shines(const struct scene_description *fragment)
     return some;
 }
 
-ps_result model_read(const char *path, const char *folder, struct model *model, struct error *error)
+ps_result model_read(const char *path, const char *folder, const char *cache, struct model *model,
+                     struct error *error)
 {
     const struct mesh_request request = {
         .path = path,
         .folder = folder,
+        .cache = cache,
         .geometry = true,
         .materials = true,
         .camera = true,

@@ -63,10 +63,10 @@ static ps_result write_text(const struct model *model, const char *file, char **
 }
 
 ps_result model_scene_make(const char *model_path, const char *scene_path, const char *folder,
-                           char **text, struct error *error)
+                           const char *cache, char **text, struct error *error)
 {
     struct model model;
-    ps_result result = model_read(model_path, folder, &model, error);
+    ps_result result = model_read(model_path, folder, cache, &model, error);
     if (result != PS_OK)
         return result;
     char *file = relative_path(model_path, scene_path);

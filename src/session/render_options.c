@@ -52,6 +52,11 @@ static ps_result set_camera(struct render_options *options, const char *value, s
     return word_replace(&options->scene.camera, value, error);
 }
 
+static ps_result set_cache(struct render_options *options, const char *value, struct error *error)
+{
+    return scene_options_cache(&options->scene, value, error);
+}
+
 static ps_result set_restrict(struct render_options *options, const char *value,
                               struct error *error)
 {
@@ -194,11 +199,14 @@ static const struct row {
     bool is_flag;
     ps_result (*set)(struct render_options *options, const char *value, struct error *error);
 } rows[] = {
+    /* the scene as it is read */
     {"param", false, set_parameter},
     {"set", false, set_set},
     {"camera", false, set_camera},
     {"restrict", false, set_restrict},
+    {"cache", false, set_cache},
     {"allow-scene-plugins", true, set_allow_plugins},
+    /* what it is rendered with */
     {"plugin", false, set_plugin},
     {"size", false, set_size},
     {"crop", false, set_crop},

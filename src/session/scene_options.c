@@ -3,9 +3,11 @@
 #include "base/input_file.h"
 #include "base/suggestion.h"
 #include "session/option_value.h"
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* The parser's view of the lists, which may have moved. */
 static void refer_to_words(struct scene_options *options)
@@ -64,8 +66,23 @@ ps_result scene_options_restrict(struct scene_options *options, const char *path
     return PS_OK;
 }
 
+ps_result scene_options_cache(struct scene_options *options, const char *path, struct error *error)
+{
+    struct error reason;
+    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+        return error_set(error, PS_ERROR_IO, "--cache: cannot make the folder %.1000s: %s", path,
+                         strerror(errno));
+    char *cache = input_folder_resolve(path, &reason);
+    if (!cache)
+        return error_set(error, PS_ERROR_IO, "--cache: %.4000s", reason.text);
+    free(options->cache);
+    options->psd.cache = options->cache = cache;
+    return PS_OK;
+}
+
 void scene_options_release(struct scene_options *options)
 {
+    free(options->cache);
     word_list_release(&options->parameters);
     word_list_release(&options->sets);
     free(options->folder);

@@ -11,6 +11,7 @@ struct scene_options {
     struct psd_options psd; /* of the following */
     struct word_list parameters, sets;
     char *folder; /* owned; NULL: any */
+    char *cache;  /* owned; NULL: none */
     char *camera; /* owned; NULL: the first */
 };
 
@@ -25,6 +26,9 @@ ps_result scene_options_add_set(struct scene_options *options, size_t index, con
 ps_result scene_options_restrict(struct scene_options *options, const char *path,
                                  struct error *error);
 ps_result scene_options_allow_plugins(struct scene_options *options, struct error *error);
+
+/* A folder that keeps what is made of mesh files; it is made where it is not there, its parent is. PS_ERROR_IO. */
+ps_result scene_options_cache(struct scene_options *options, const char *path, struct error *error);
 
 void scene_options_release(struct scene_options *options);
 

@@ -152,7 +152,7 @@ static struct mesh_outcome *outcome_of_a_mesh(void)
 
 static void destroy(struct mesh_outcome *outcome)
 {
-    scene_description_release(&outcome->fragment);
+    mesh_outcome_release(outcome);
     free(outcome);
 }
 
@@ -164,6 +164,7 @@ static void what_is_sent_is_received(void **state)
     assert_true(file >= 0);
     assert_true(mesh_outcome_send(sent, file));
     destroy(sent);
+    assert_int_equal(lseek(file, 0, SEEK_SET), 0);
     assert_true(mesh_outcome_receive(received, file));
     const struct scene_description *fragment = &received->fragment;
     assert_true(fragment->meshes[0].vertices[2].z == 3);
@@ -186,6 +187,7 @@ static void what_is_cut_is_nothing(void **state)
     off_t whole = lseek(file, 0, SEEK_CUR);
     for (off_t length = whole - 1; length >= 0; length--) {
         assert_int_equal(ftruncate(file, length), 0);
+        assert_int_equal(lseek(file, 0, SEEK_SET), 0);
         assert_false(mesh_outcome_receive(received, file));
         assert_null(received->fragment.meshes);
         assert_null(received->fragment.materials);
