@@ -11,7 +11,6 @@ import subprocess
 from climb import rung_text
 from render import median_run
 
-EXPOSURE = "1.5"
 COLUMNS = 3
 
 
@@ -63,12 +62,12 @@ def rows(group, seconds_of):
 class Views:
     """Indirect light of pictures, as PNG files in a folder."""
 
-    def __init__(self, psplat, folder, prefix):
-        self.psplat, self.folder, self.prefix = psplat, folder, prefix
+    def __init__(self, psplat, folder, prefix, exposure):
+        self.psplat, self.folder, self.prefix, self.exposure = psplat, folder, prefix, exposure
 
     def keep(self, picture, name):
         path = os.path.join(self.folder, f"{self.prefix}-{name}.png")
-        self.psplat.view(picture, path, "--layer", "indirect", "--exposure", EXPOSURE)
+        self.psplat.view(picture, path, "--layer", "indirect", "--exposure", self.exposure)
         return path
 
     def sheet(self, path, labelled, say):

@@ -42,6 +42,7 @@ class Scene:
         self.needs = section.get("needs")
         self.mesh = os.path.abspath(mesh) if mesh else None
         self.passes = int(section.get("passes", 1))
+        self.exposure = section.get("exposure", "1.5")
         options = section.get("options", "").split() + [f"--passes={self.passes}"]
         self.words = [self.file, *BASE] + [word.format(mesh=self.mesh) for word in options]
 
