@@ -54,19 +54,18 @@ static size_t collect_triangles(const struct aiMesh *mesh, uint32_t (*triangles)
     return count;
 }
 
-/* Numbers the vertices in use, in their order, and renames them in the triangles. */
-static size_t compact(struct mesh_description *mesh, uint32_t *new_indices, size_t old_count)
+size_t mesh_number_vertices(struct mesh_description *mesh, uint32_t *numbers, size_t old_count)
 {
     size_t count = 0;
-    memset(new_indices, 0, old_count * sizeof *new_indices);
+    memset(numbers, 0, old_count * sizeof *numbers);
     for (size_t i = 0; i < mesh->triangle_count; i++)
         for (int k = 0; k < 3; k++)
-            new_indices[mesh->triangles[i][k]] = 1;
+            numbers[mesh->triangles[i][k]] = 1;
     for (size_t i = 0; i < old_count; i++)
-        new_indices[i] = new_indices[i] ? (uint32_t)count++ : UINT32_MAX;
+        numbers[i] = numbers[i] ? (uint32_t)count++ : UINT32_MAX;
     for (size_t i = 0; i < mesh->triangle_count; i++)
         for (int k = 0; k < 3; k++)
-            mesh->triangles[i][k] = new_indices[mesh->triangles[i][k]];
+            mesh->triangles[i][k] = numbers[mesh->triangles[i][k]];
     return count;
 }
 
@@ -154,7 +153,7 @@ ps_result mesh_fill(struct mesh_job *job, const struct mesh_geometry *geometry,
     if (!mesh->triangles)
         return mesh_out_of_memory(job, source->mNumFaces * sizeof *mesh->triangles);
     mesh->triangle_count = collect_triangles(source, mesh->triangles, dropped);
-    size_t count = compact(mesh, new_indices, source->mNumVertices);
+    size_t count = mesh_number_vertices(mesh, new_indices, source->mNumVertices);
     const struct mesh_parts parts = {
         .normals = has_normals(job, source),
         .uv = source->mTextureCoords[0] != NULL,

@@ -1,4 +1,5 @@
-/* geometry.h: the geometry of a mesh file: triangles, normals and colours of assimp's meshes, and of OBJ's parts. */
+/* geometry.h: the geometry of a mesh file: triangles, normals and colours of assimp's meshes, of OBJ's parts, and of
+ * PLY. */
 #ifndef IMPORT_GEOMETRY_H
 #define IMPORT_GEOMETRY_H
 
@@ -23,6 +24,10 @@ bool mesh_has_area(ps_vec3 a, ps_vec3 b, ps_vec3 c);
 struct mesh_parts {
     bool normals, uv, second_uv, colors;
 };
+
+/* Numbers the vertices that triangles have, of `old_count`, in their order, and renames them in the triangles: how many.
+ * A vertex that none has gets UINT32_MAX. */
+size_t mesh_number_vertices(struct mesh_description *mesh, uint32_t *numbers, size_t old_count);
 
 /* Room for what `count` vertices have, not filled. */
 ps_result mesh_allocate_vertices(struct mesh_job *job, struct mesh_description *mesh, size_t count,
@@ -62,6 +67,15 @@ ps_result obj_fill(struct obj_filling *filling, const struct obj_part *part, boo
 
 /* mesh_has_colors for a part. */
 bool obj_has_colors(const struct mesh_job *job, const struct obj_part *part);
+
+/* --- ply_mesh.c ---------------------------------------------------------------------------------- */
+
+/* mesh_fill for a PLY file that is read here; takes its triangles. */
+ps_result ply_fill(struct mesh_job *job, bool colors, struct mesh_description *mesh,
+                   size_t *dropped);
+
+/* mesh_has_colors for such a file. */
+bool ply_has_colors(const struct mesh_job *job);
 
 /* --- smooth_angle.c ------------------------------------------------------------------------------ */
 

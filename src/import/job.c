@@ -133,6 +133,7 @@ static void release(struct mesh_job *job)
         aiReleaseImport(job->scene);
     gltf_release(&job->gltf);
     obj_release(&job->obj);
+    ply_release(&job->ply);
     *job->looks = job->files.looks;
     job->files.looks = (struct mesh_looks){.wanted = false};
     mesh_files_release(&job->files);

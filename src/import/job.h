@@ -5,6 +5,7 @@
 #include "import/format.h"
 #include "import/gltf.h"
 #include "import/obj.h"
+#include "import/ply.h"
 #include <assimp/scene.h>
 
 /* Kinds of things that materials have and psplat has not. */
@@ -48,6 +49,7 @@ struct mesh_job {
     char *missing_library;     /* OBJ: the first that could not be read, or NULL */
     struct gltf gltf;
     struct obj obj; /* OBJ: else zeroed */
+    struct ply ply; /* PLY: likewise */
     const struct aiScene *scene;
     struct mesh_node *nodes; /* each before its children */
     size_t node_count;

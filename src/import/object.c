@@ -13,7 +13,7 @@
 /* In place of a mesh's index: known to have no good triangle. */
 #define EMPTY (NO_INDEX - 1)
 
-/* Sources of meshes are assimp's, or the parts of an OBJ file. */
+/* Sources of meshes are assimp's, the parts of an OBJ file, or all of a PLY file. */
 struct builder {
     struct mesh_job *job;
     struct obj_filling *obj; /* OBJ: or NULL */
@@ -45,6 +45,8 @@ static size_t count_triangles(const struct builder *builder, size_t source)
     size_t count = 0;
     if (builder->obj)
         return part_of(builder, source)->count;
+    if (builder->job->ply.is_read)
+        return builder->job->ply.triangle_count;
     for (unsigned i = 0; i < mesh->mNumFaces; i++)
         count += mesh->mFaces[i].mNumIndices == 3;
     return count;
@@ -66,6 +68,14 @@ static ps_result fill_part(const struct builder *builder, size_t source,
     bool colors =
         material_of(builder, source) && job->request->materials && obj_has_colors(job, part);
     return obj_fill(builder->obj, part, colors, made, &builder->dropped[source]);
+}
+
+static ps_result fill_ply(const struct builder *builder, size_t source,
+                          struct mesh_description *made)
+{
+    struct mesh_job *job = builder->job;
+    bool colors = material_of(builder, source) && job->request->materials && ply_has_colors(job);
+    return ply_fill(job, colors, made, &builder->dropped[source]);
 }
 
 /* With what its material looks up. */
@@ -93,8 +103,9 @@ static ps_result want_mesh(struct builder *builder, size_t source, size_t *mesh)
     if (*mesh != NO_INDEX)
         return PS_OK;
     struct mesh_description *made = &fragment->meshes[fragment->mesh_count++];
-    ps_result result =
-        builder->obj ? fill_part(builder, source, made) : fill_mesh(builder, source, made);
+    ps_result result = builder->obj                ? fill_part(builder, source, made)
+                       : builder->job->ply.is_read ? fill_ply(builder, source, made)
+                                                   : fill_mesh(builder, source, made);
     if (result == PS_OK && made->colors)
         result = mesh_material_paint(builder->job, material_of(builder, source));
     if (result == PS_OK && made->triangle_count > 0) {

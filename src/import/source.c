@@ -124,7 +124,9 @@ static struct mesh_file *find_file(struct mesh_job *job, const char *path)
 {
     char clean[LONGEST_PATH];
     if (strcmp(path, job->main_file->path) == 0)
-        return job->format == FORMAT_OBJ ? &job->obj.outline : job->main_file;
+        return job->format == FORMAT_OBJ ? &job->obj.outline
+               : job->ply.is_read        ? &job->ply.outline
+                                         : job->main_file;
     return clean_path(path, clean) ? find_companion(job, clean) : NULL;
 }
 
@@ -200,6 +202,8 @@ ps_result mesh_source_open(struct mesh_job *job)
         result = gltf_open(&job->gltf, job->main_file, &job->files, job->format == FORMAT_GLB,
                            job->error);
     if (result == PS_OK && job->format == FORMAT_PLY)
+        result = ply_open(&job->ply, job->main_file, job->error);
+    if (result == PS_OK && job->format == FORMAT_PLY && !job->ply.is_read)
         result = ply_guard_data(job->main_file, job->error);
     if (result == PS_OK && job->format == FORMAT_OBJ)
         result = obj_open(&job->obj, job->main_file, job->error);
