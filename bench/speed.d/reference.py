@@ -64,9 +64,16 @@ def _words(scene, samples, smooth):
     return [*scene.words, "--plugin", f"estimator=pathtrace:samples={max(1, samples // 2 // scene.passes)}"]
 
 
+def picture_path(folder, scene, size, bounces):
+    return os.path.join(folder, f"{scene.name}-{size}-{bounces}-picture.exr")
+
+
 def make_picture(psplat, folder, scene, size, bounces, samples, say):
-    """One to look at, denoised, with as many samples as a half."""
-    path = os.path.join(folder, f"{scene.name}-{size}-{bounces}-picture.exr")
+    """One to look at, denoised, with as many samples as a half of the reference that `make` has made."""
+    path = picture_path(folder, scene, size, bounces)
+    if os.path.exists(path):
+        say(f"reference {os.path.basename(path)}: reused")
+        return path
     words = [word for word in _words(scene, samples, False) if word != "--plugin=denoiser=none"]
     run = psplat.render([*words, "--plugin", "denoiser=regression", "--size", size, "--bounces", bounces], path)
     say(f"reference {os.path.basename(path)}: {run.wall:.1f} s")
@@ -85,7 +92,7 @@ def make(psplat, folder, scene, size, bounces, samples, say, smooth=False):
         with open(stamp_path, encoding="utf-8") as file:
             known = json.load(file)
     if known != stamp:
-        for path in [stamp_path] + halves:
+        for path in [stamp_path, picture_path(folder, scene, size, bounces)] + halves:
             if os.path.exists(path):
                 os.remove(path)
         with open(stamp_path, "w", encoding="utf-8") as file:

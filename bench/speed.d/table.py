@@ -22,7 +22,8 @@ def _read(path):
 
 
 def choose(all_names, wanted, what):
-    """The wanted names, in the table's order; all where none is wanted."""
+    """The wanted names, in the table's order; all where none, or "all", is wanted."""
+    wanted = [] if wanted == ["all"] else wanted
     unknown = [name for name in wanted or [] if name not in all_names]
     if unknown:
         fail(f"no {what} '{unknown[0]}'; there are: {', '.join(all_names)}")

@@ -87,6 +87,8 @@ ps_result ply_open(struct ply *ply, const struct mesh_file *file, struct error *
 {
     struct ply_header header;
     *ply = (struct ply){.is_read = false};
+    if (!ply_header_ends(file))
+        return error_set(error, PS_ERROR_INVALID, "%s: the header has no end_header", file->path);
     if (!ply_header_read(file, &header))
         return PS_OK;
     ps_result result = read_data(ply, file, &header, error);

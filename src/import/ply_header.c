@@ -235,6 +235,16 @@ static bool are_plain_faces(const struct ply_element *faces)
     return lists == 1;
 }
 
+bool ply_header_ends(const struct mesh_file *file)
+{
+    const char *at = file->bytes, *end = at + file->length;
+    struct text_line line, rest;
+    while (text_next_line(&at, end, &line))
+        if (text_line_starts(&line, "end_header", &rest))
+            return true;
+    return false;
+}
+
 bool ply_header_read(const struct mesh_file *file, struct ply_header *header)
 {
     const char *at = file->bytes, *end = at + file->length;

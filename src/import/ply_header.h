@@ -56,6 +56,9 @@ struct ply_header {
     size_t data; /* where they start in the file */
 };
 
+/* Whether the file has an end of its header; assimp looks for one without end. */
+bool ply_header_ends(const struct mesh_file *file);
+
 /* False where the file is not of the kind that ply.h says. */
 bool ply_header_read(const struct mesh_file *file, struct ply_header *header);
 

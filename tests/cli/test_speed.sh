@@ -140,6 +140,8 @@ measure 0 speed --quick --scenes conference --mesh /nowhere/conference.obj
 expect_text results/speed.md "Left out: conference: there is no /nowhere/conference.obj."
 measure 1 speed --quick --scenes nowhere
 expect_text err "speed: error: no scene 'nowhere'; there are: cornell, cornell-area, cornell-spheres, "
+measure 0 speed --quick --scenes cornell --methods all --rungs 1
+expect_text results/speed.md "| lightcuts |"
 measure 1 speed --quick --methods guess
 expect_text err "no method 'guess'; there are: gather"
 measure 1 speed --quick --methods pathtrace --denoisers nothing

@@ -276,6 +276,17 @@ static void what_is_cut_is_refused(void **state)
     expect_failure(&imported, PS_ERROR_INVALID, "m.ply: a face has a vertex that the file lacks");
 }
 
+static void a_header_without_end_is_refused(void **state)
+{
+    (void)state;
+    struct writing file = begin(0, "element vertex 4\n" PLACES FACES(1));
+    const char *end = strstr((const char *)file.bytes, "end_header");
+    for (size_t length = 4; length <= (size_t)((const unsigned char *)end - file.bytes); length++) {
+        struct imported imported = import_bytes(file.bytes, length);
+        expect_failure(&imported, PS_ERROR_INVALID, "m.ply: the header has no end_header");
+    }
+}
+
 static void impossible_counts_are_refused(void **state)
 {
     (void)state;
@@ -318,6 +329,7 @@ int main(void)
         cmocka_unit_test(polygons),
         cmocka_unit_test(many),
         cmocka_unit_test(what_is_cut_is_refused),
+        cmocka_unit_test(a_header_without_end_is_refused),
         cmocka_unit_test(impossible_counts_are_refused),
         cmocka_unit_test(other_elements),
     };
