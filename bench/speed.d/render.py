@@ -37,6 +37,25 @@ class Run:
         return own + self.counters.get("photon tree bytes", 0)
 
 
+def run_process(words, log):
+    """Wall seconds, resource usage, and what was written to either stream, which goes to the file `log`."""
+    with open(log, "wb") as file:
+        start = time.perf_counter()
+        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=file, stderr=file)
+        try:
+            _, status, usage = os.wait4(process.pid, 0)
+        except KeyboardInterrupt:
+            process.kill()
+            raise
+        wall = time.perf_counter() - start
+    process.returncode = os.waitstatus_to_exitcode(status)
+    with open(log, encoding="utf-8", errors="replace") as file:
+        text = file.read()
+    if process.returncode != 0:
+        fail(f"status {process.returncode} of {' '.join(words)}\n{text}")
+    return wall, usage, text
+
+
 class Psplat:
     """The program, and a folder for what it writes."""
 
@@ -56,23 +75,7 @@ class Psplat:
         return _instructions(text) is not None
 
     def _wait(self, words):
-        """Wall seconds, resource usage and what was written to the standard error stream."""
-        log = os.path.join(self.folder, "log.txt")
-        with open(log, "wb") as file:
-            start = time.perf_counter()
-            process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=file, stderr=file)
-            try:
-                _, status, usage = os.wait4(process.pid, 0)
-            except KeyboardInterrupt:
-                process.kill()
-                raise
-            wall = time.perf_counter() - start
-        process.returncode = os.waitstatus_to_exitcode(status)
-        with open(log, encoding="utf-8", errors="replace") as file:
-            text = file.read()
-        if process.returncode != 0:
-            fail(f"status {process.returncode} of {' '.join(words)}\n{text}")
-        return wall, usage, text
+        return run_process(words, os.path.join(self.folder, "log.txt"))
 
     def render(self, words, output):
         """`words`: scene and options; `output`: the EXR file."""

@@ -99,27 +99,6 @@ struct mesh_cache_entry mesh_cache_entry(const struct mesh_request *request)
 
 /* --- loading --------------------------------------------------------------------------------------- */
 
-/* Of what follows in the file, whose size it becomes; false: out of memory, or no more can be read. */
-static bool digest_rest(int file, uint64_t *size, uint64_t *digest)
-{
-    const struct input_file input = {.descriptor = file};
-    unsigned char *block = malloc(BLOCK);
-    XXH3_state_t *state = XXH3_createState();
-    struct error ignored;
-    size_t length = BLOCK;
-    bool good = block && state && XXH3_64bits_reset(state) == XXH_OK;
-    *size = 0;
-    while (good && length == BLOCK) {
-        good = input_file_read(&input, block, &length, &ignored) == PS_OK &&
-               XXH3_64bits_update(state, block, length) == XXH_OK;
-        *size += length;
-    }
-    *digest = good ? XXH3_64bits_digest(state) : 0;
-    XXH3_freeState(state);
-    free(block);
-    return good;
-}
-
 static bool is_whole(int file)
 {
     const struct input_file input = {.descriptor = file};
@@ -129,8 +108,8 @@ static bool is_whole(int file)
     uint64_t size, digest;
     return input_file_read(&input, &header, &length, &ignored) == PS_OK &&
            length == sizeof header && memcmp(header.magic, magic, sizeof magic) == 0 &&
-           digest_rest(file, &size, &digest) && size == header.size && digest == header.digest &&
-           lseek(file, sizeof header, SEEK_SET) == sizeof header;
+           mesh_digest_rest(file, &size, &digest) && size == header.size &&
+           digest == header.digest && lseek(file, sizeof header, SEEK_SET) == sizeof header;
 }
 
 /* Names in origins were the other process's. */
@@ -191,7 +170,8 @@ static ps_result write_entry(int transfer, struct output_file *file, struct erro
 {
     struct header header = {.size = 0};
     memcpy(header.magic, magic, sizeof magic);
-    if (lseek(transfer, 0, SEEK_SET) != 0 || !digest_rest(transfer, &header.size, &header.digest) ||
+    if (lseek(transfer, 0, SEEK_SET) != 0 ||
+        !mesh_digest_rest(transfer, &header.size, &header.digest) ||
         lseek(transfer, 0, SEEK_SET) != 0)
         return error_set(error, PS_ERROR_IO, "a file in memory cannot be read");
     ps_result result = output_file_write(file, 0, &header, sizeof header, error);

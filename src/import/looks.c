@@ -35,14 +35,23 @@ uint64_t mesh_digest(const void *bytes, size_t size)
     return XXH3_64bits(bytes, size);
 }
 
-static bool digest_blocks(const struct input_file *input, unsigned char *block, XXH3_state_t *state)
+bool mesh_digest_rest(int file, uint64_t *size, uint64_t *digest)
 {
+    const struct input_file input = {.descriptor = file};
+    unsigned char *block = malloc(BLOCK);
+    XXH3_state_t *state = XXH3_createState();
     struct error ignored;
-    size_t size = BLOCK;
-    bool good = XXH3_64bits_reset(state) == XXH_OK;
-    while (good && size == BLOCK)
-        good = input_file_read(input, block, &size, &ignored) == PS_OK &&
-               XXH3_64bits_update(state, block, size) == XXH_OK;
+    size_t length = BLOCK;
+    bool good = block && state && XXH3_64bits_reset(state) == XXH_OK;
+    *size = 0;
+    while (good && length == BLOCK) {
+        good = input_file_read(&input, block, &length, &ignored) == PS_OK &&
+               XXH3_64bits_update(state, block, length) == XXH_OK;
+        *size += length;
+    }
+    *digest = good ? XXH3_64bits_digest(state) : 0;
+    XXH3_freeState(state);
+    free(block);
     return good;
 }
 
@@ -50,15 +59,12 @@ bool mesh_file_digest(const char *path, const char *folder, uint64_t *digest)
 {
     struct input_file input;
     struct error ignored;
+    uint64_t size;
+    *digest = 0;
     if (input_file_open(path, folder, &input, &ignored) != PS_OK)
         return false;
-    unsigned char *block = malloc(BLOCK);
-    XXH3_state_t *state = XXH3_createState();
     bool good =
-        block && state && input.size <= MESH_FILE_LARGEST && digest_blocks(&input, block, state);
-    *digest = good ? XXH3_64bits_digest(state) : 0;
-    XXH3_freeState(state);
-    free(block);
+        input.size <= MESH_FILE_LARGEST && mesh_digest_rest(input.descriptor, &size, digest);
     close(input.descriptor);
     return good;
 }

@@ -39,6 +39,9 @@ void mesh_looks_release(struct mesh_looks *looks);
 
 uint64_t mesh_digest(const void *bytes, size_t size);
 
+/* The digest of what follows in an open file, and how much it is. False: out of memory, or it cannot be read. */
+bool mesh_digest_rest(int file, uint64_t *size, uint64_t *digest);
+
 /* The digest of a whole file in the folder (input_file.h), which is read for it alone; false: it cannot be read. */
 bool mesh_file_digest(const char *path, const char *folder, uint64_t *digest);
 

@@ -1,4 +1,4 @@
-# The measurements of bench/speed, bench/marks, bench/preview, bench/scaling, bench/passes, bench/ranks, bench/throughput, bench/occlusion and bench/methods run, at small
+# The measurements of bench/speed, bench/marks, bench/preview, bench/scaling, bench/passes, bench/ranks, bench/renderers, bench/throughput, bench/occlusion and bench/methods run, at small
 # sizes, and say what they should of times that are made up. No time is asserted.
 . "$PSPLAT_SOURCE/tests/cli/lib.sh"
 
@@ -239,6 +239,20 @@ if command -v mpirun >/dev/null && [ -n "$(find "$PSPLAT_BUILD" -path '*/psplat/
     expect_match results/ranks.md '^\| 2 \| [0-9.]+ s \| [0-9.]+ s \| [0-9.]+ \|$'
     expect_match results/ranks.md '^\| 100 \| [0-9.]+% \| [0-9]+ \| (0\.9|1\.0)[0-9]+ \|' # the model, beside the simulation
 fi
+
+# --- bench/renderers: beside those that there are ---
+
+measure 0 renderers --quick
+expect_match results/renderers.md '^\| 1000 \| [0-9.]+ s, [0-9]+ MB, [0-9.]+ % \|'
+expect_match results/renderers.md '^\| 10 \| [0-9.]+ s, [0-9]+ MB, [0-9.]+ % \|'
+for pair in povray:povray Cycles:blender; do
+    if command -v "${pair#*:}" >/dev/null; then
+        [ "$(number results/renderers.json "sum(p['renderer'] == '${pair%:*}' for p in d['points'])")" = 2 ] || fail "not two pictures by $pair"
+    else
+        expect_text results/renderers.md "Left out: ${pair%:*}: there is no ${pair#*:}."
+    fi
+done
+measure 2 renderers --lights few
 
 # --- bench/throughput ---
 
