@@ -56,8 +56,8 @@ void psplat_scene_destroy(psplat_scene *scene); /* NULL is nothing */
 /* Gives an option of `psplat render` a value, by its long name without dashes:
  *
  *     param, set, plugin             add to those given before
- *     camera, restrict, allow-scene-plugins, size, quality, bounces, passes, seed, threads, isa, batch, crop,
- *     direct, direct-resolution, exposure, memory-limit, layers, compression, preview
+ *     camera, restrict, cache, allow-scene-plugins, size, quality, bounces, passes, seed, threads, isa, batch,
+ *     crop, direct, direct-resolution, exposure, memory-limit, layers, compression, preview
  *                                    the last counts
  *
  * Values are those of the command line; NULL for preview and allow-scene-plugins, which take none. What was loaded is
