@@ -19,9 +19,8 @@ struct psd_options {
     const char *const *sets; /* "KEY.KEY=VALUE": values to put into the tree */
     size_t set_count;
     const struct psd_files *files; /* NULL: the file system */
-    const char *folder; /* the only one to read files from (input_folder_resolve), or NULL */
-    const char
-        *cache; /* a folder that keeps what is made of mesh files (import/cache.h), or NULL */
+    const char *folder;      /* the only one to read files from (input_folder_resolve), or NULL */
+    const char *cache;       /* keeps what is made of mesh files (import/cache.h), or NULL */
     bool allow_plugin_paths; /* whether the scene may name plugins, which are programs, by path */
     size_t most_values;      /* 0: 4 million */
 };

@@ -45,7 +45,7 @@ static ps_result add(struct mesh_job *job, struct camera_description camera, con
     struct scene_description *fragment = job->fragment;
     size_t bytes = (fragment->camera_count + 1) * sizeof *fragment->cameras;
     if (!is_sound(&camera)) {
-        mesh_note(job, "camera %.100s cannot be used", name);
+        mesh_note(job->report, "camera %.100s cannot be used", name);
         return PS_OK;
     }
     struct camera_description *cameras = realloc(fragment->cameras, bytes);

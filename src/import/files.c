@@ -6,6 +6,7 @@
 #include "import/files.h"
 
 #include "base/input_file.h"
+#include "base/parallel.h"
 #include <assert.h>
 #include <dirent.h>
 #include <stdlib.h>
@@ -109,11 +110,11 @@ ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mes
     if (result != PS_OK || !read) {
         if (read)
             destroy_file(read);
-        mesh_looks_add(&files->looks, (struct mesh_look){.kind = LOOK_WHOLE}, path);
+        mesh_looks_add(files->looks, (struct mesh_look){.kind = LOOK_WHOLE}, path);
         return result;
     }
-    if (files->looks.wanted)
-        mesh_looks_add(&files->looks,
+    if (files->looks)
+        mesh_looks_add(files->looks,
                        (struct mesh_look){.kind = LOOK_WHOLE,
                                           .there = true,
                                           .digest = mesh_digest(read->bytes, read->length)},
@@ -123,6 +124,13 @@ ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mes
     files->read = read;
     *file = read;
     return PS_OK;
+}
+
+ps_result mesh_file_workers(const struct mesh_file *file, struct workers **workers,
+                            struct error *error)
+{
+    size_t pieces = (file->length >> 20) + 1, processors = parallel_processor_count();
+    return workers_create((uint32_t)(pieces < processors ? pieces : processors), workers, error);
 }
 
 ps_result mesh_files_add(struct mesh_files *files, const char *path, char *bytes, size_t length,
@@ -146,7 +154,7 @@ bool mesh_files_exist(struct mesh_files *files, const char *path)
     if (files->memory)
         return find_in_memory(files, path) != NULL;
     bool there = input_file_exists(path, files->folder);
-    mesh_looks_add(&files->looks, (struct mesh_look){.kind = LOOK_EXISTS, .there = there}, path);
+    mesh_looks_add(files->looks, (struct mesh_look){.kind = LOOK_EXISTS, .there = there}, path);
     return there;
 }
 
@@ -210,18 +218,18 @@ static bool match_in_memory(const struct mesh_files *files, char *path)
 
 static bool look_for_case(struct mesh_files *files, char *path, size_t folder)
 {
-    char *asked = files->looks.wanted ? strdup(path) : NULL;
+    char *asked = files->looks ? strdup(path) : NULL;
     bool there =
         match_on_disk(path, folder, files->folder) && input_file_exists(path, files->folder);
     if (asked)
-        mesh_looks_add(&files->looks,
+        mesh_looks_add(files->looks,
                        (struct mesh_look){.kind = LOOK_CASE,
                                           .there = there,
                                           .size = folder,
                                           .digest = mesh_digest(path, strlen(path))},
                        asked);
-    else
-        files->looks.incomplete = true;
+    else if (files->looks)
+        files->looks->incomplete = true;
     free(asked);
     return there;
 }
@@ -251,7 +259,7 @@ static size_t look_at_first(struct mesh_files *files, const char *path, unsigned
     size_t found = peek_on_disk(path, files->folder, bytes, size);
     const struct mesh_look look = {
         .kind = LOOK_FIRST, .there = true, .size = size, .digest = mesh_digest(bytes, found)};
-    mesh_looks_add(&files->looks, look, path);
+    mesh_looks_add(files->looks, look, path);
     return found;
 }
 
@@ -271,7 +279,6 @@ size_t mesh_files_peek(struct mesh_files *files, const char *path, unsigned char
 
 void mesh_files_release(struct mesh_files *files)
 {
-    mesh_looks_release(&files->looks);
     while (files->read) {
         struct mesh_file *file = files->read;
         files->read = file->next;

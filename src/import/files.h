@@ -8,6 +8,8 @@
 #define MESH_FILE_LARGEST ((size_t)4 * 1024 * 1024 * 1024)
 #define MESH_PEEK_MOST 64 /* bytes */
 
+struct workers;
+
 struct mesh_file {
     struct mesh_file *next;
     char *path;
@@ -16,19 +18,23 @@ struct mesh_file {
     bool made; /* by mesh_files_add */
 };
 
-/* Zeroed but for `memory`: files on the disk; and for `looks.wanted`: what was asked of the disk is kept. */
+/* Zeroed but for `memory`: files on the disk. */
 struct mesh_files {
     const struct mesh_memory_file *memory; /* NULL: the disk */
     size_t memory_count;
-    const char *folder;     /* the only one to read from (input_file.h), or NULL */
-    struct mesh_file *read; /* the newest first */
-    struct mesh_looks looks;
+    const char *folder;       /* the only one to read from (input_file.h), or NULL */
+    struct mesh_file *read;   /* the newest first */
+    struct mesh_looks *looks; /* what is asked of the disk goes there; NULL: nowhere */
 };
 
 /* The file of that path, read once. PS_ERROR_IO (absent, not a regular file), _INVALID (too large)
  * or _MEMORY. */
 ps_result mesh_files_read(struct mesh_files *files, const char *path, struct mesh_file **file,
                           struct error *error);
+
+/* As many threads as reading the file keeps busy: one for each MiB, and no more than there are processors. */
+ps_result mesh_file_workers(const struct mesh_file *file, struct workers **workers,
+                            struct error *error);
 
 /* Adds one of that path, which hides one that may be there; `bytes` come from malloc, with a zero after them, and are
  * taken over in any case. */

@@ -13,7 +13,6 @@
 #include "import/job.h"
 #include "import/transfer.h"
 #include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -39,7 +38,6 @@ static void work(void *context)
         .report = &task->outcome->report,
         .error = &task->outcome->error,
         .files = task->files,
-        .looks = &task->outcome->looks,
     };
     task->outcome->result = mesh_job_run(&job);
     mesh_outcome_send(task->outcome, task->transfer);
@@ -68,19 +66,18 @@ static ps_result import(struct task *task, struct error *error)
 /* What cannot be stored is told, and made again the next time. */
 static void store(const struct task *task, const struct mesh_cache_entry *entry)
 {
-    char *notes = task->outcome->report.notes;
-    size_t length = strlen(notes), size = sizeof task->outcome->report.notes;
     struct error reason;
     if (!task->outcome->looks.incomplete &&
         mesh_cache_store(entry, task->transfer, &reason) != PS_OK)
-        snprintf(notes + length, size - length, "%sit is not kept in the cache: %.1000s",
-                 length > 0 ? "\n" : "", reason.text);
+        mesh_note(&task->outcome->report, "it is not kept in the cache: %.1000s", reason.text);
 }
 
 static ps_result import_by_cache(struct task *task, struct error *error)
 {
     struct mesh_cache_entry entry = mesh_cache_entry(task->request);
     ps_result result = PS_OK;
+    if (entry.path)
+        task->files.looks = &task->outcome->looks;
     if (!entry.path || !mesh_cache_load(&entry, task->request, task->outcome)) {
         result = import(task, error);
         if (entry.path && result == PS_OK)
@@ -116,8 +113,7 @@ static ps_result import_files(const struct mesh_request *request, struct mesh_fi
 ps_result mesh_import(const struct mesh_request *request, struct scene_description *fragment,
                       struct mesh_report *report, struct error *error)
 {
-    const struct mesh_files disk = {.folder = request->folder,
-                                    .looks.wanted = request->cache != NULL};
+    const struct mesh_files disk = {.folder = request->folder};
     return import_files(request, disk, fragment, report, error);
 }
 

@@ -2,8 +2,8 @@
  *
  * assimp reads the file (OBJ with MTL, glTF 2, PLY, STL and a few more; format.h lists them), but for the geometry of
  * OBJ and of binary PLY (obj.h, ply.h), in a child process: a file on which it crashes, or takes too long, is an error
- * like any other. Texture coordinates come with v upwards; normals are the file's, or those of its smoothing groups, or by the angle of edges, or none. Cameras and
- * lights are carried into the scene. Where request maps change lengths by a factor s, intensities change
+ * like any other. Texture coordinates come with v upwards; normals are the file's, or those of its smoothing groups, or
+ * by the angle of edges, or none. Cameras and lights are carried into the scene. Where request maps change lengths by a factor s, intensities change
  * by s^2, so that the picture stays the same; radiances and a sun's irradiance stay. Colours are linear,
  * those of textures as their encoding says. No state outside of the arguments; may run in several threads
  * at once.

@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-void mesh_note(struct mesh_job *job, const char *format, ...)
+void mesh_note(struct mesh_report *report, const char *format, ...)
 {
-    char *notes = job->report->notes;
-    size_t size = sizeof job->report->notes, before = strlen(notes);
+    char *notes = report->notes;
+    size_t size = sizeof report->notes, before = strlen(notes);
     size_t start = before > 0 && before + 1 < size ? before + 1 : before;
     va_list arguments;
     va_start(arguments, format);
@@ -134,8 +134,6 @@ static void release(struct mesh_job *job)
     gltf_release(&job->gltf);
     obj_release(&job->obj);
     ply_release(&job->ply);
-    *job->looks = job->files.looks;
-    job->files.looks = (struct mesh_looks){.wanted = false};
     mesh_files_release(&job->files);
     free(job->nodes);
     free(job->materials);

@@ -43,7 +43,6 @@ struct mesh_job {
     struct error *error;
     enum mesh_format format;
     struct mesh_files files;
-    struct mesh_looks *looks; /* where those of the files go at the end */
     struct mesh_file *main_file;
     struct mesh_file *library; /* OBJ: the last MTL file read, or NULL */
     char *missing_library;     /* OBJ: the first that could not be read, or NULL */
@@ -69,7 +68,7 @@ struct mesh_job {
 };
 
 /* Adds a line to the report's notes, where there is room for the whole of it. */
-void mesh_note(struct mesh_job *job, const char *format, ...) PRINTF_LIKE(2, 3);
+void mesh_note(struct mesh_report *report, const char *format, ...) PRINTF_LIKE(2, 3);
 
 ps_result mesh_out_of_memory(struct mesh_job *job, size_t bytes);
 

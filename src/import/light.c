@@ -44,7 +44,7 @@ static bool is_sound(const struct light_description *light)
 static void drop(struct mesh_job *job, const char *name, const char *why)
 {
     if (job->report->dropped_lights++ == 0)
-        mesh_note(job, "light %.100s %s", name, why);
+        mesh_note(job->report, "light %.100s %s", name, why);
 }
 
 static void set_cone(struct light_description *light, const struct source_light *source)

@@ -11,7 +11,7 @@
 
 void mesh_looks_add(struct mesh_looks *looks, struct mesh_look look, const char *path)
 {
-    if (!looks->wanted || looks->incomplete)
+    if (!looks || looks->incomplete)
         return;
     struct mesh_look *items = realloc(looks->items, (looks->count + 1) * sizeof *items);
     look.path = items ? strdup(path) : NULL;
@@ -27,7 +27,7 @@ void mesh_looks_release(struct mesh_looks *looks)
     for (size_t i = 0; i < looks->count; i++)
         free(looks->items[i].path);
     free(looks->items);
-    *looks = (struct mesh_looks){.wanted = false};
+    *looks = (struct mesh_looks){.count = 0};
 }
 
 uint64_t mesh_digest(const void *bytes, size_t size)

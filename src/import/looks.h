@@ -25,15 +25,14 @@ struct mesh_look {
     uint64_t digest; /* of the bytes; LOOK_CASE: of the path that was found */
 };
 
-/* Zeroed but for `wanted`. */
+/* Zeroed: none. */
 struct mesh_looks {
-    bool wanted;
     bool incomplete; /* out of memory: not all are there */
     struct mesh_look *items;
     size_t count;
 };
 
-/* Adds one where looks are wanted; `path` is copied. */
+/* Adds one; `path` is copied. NULL: nothing is kept. */
 void mesh_looks_add(struct mesh_looks *looks, struct mesh_look look, const char *path);
 void mesh_looks_release(struct mesh_looks *looks);
 

@@ -155,10 +155,11 @@ void mesh_note_omissions(struct mesh_job *job)
     for (size_t i = 0; i < MESH_OMISSIONS && job->omissions[i].what; i++) {
         const struct mesh_omission *omission = &job->omissions[i];
         if (omission->count > 1)
-            mesh_note(job, "%s of material %s and %zu more is left out", omission->what,
+            mesh_note(job->report, "%s of material %s and %zu more is left out", omission->what,
                       omission->material, omission->count - 1);
         else
-            mesh_note(job, "%s of material %s is left out", omission->what, omission->material);
+            mesh_note(job->report, "%s of material %s is left out", omission->what,
+                      omission->material);
     }
 }
 
@@ -191,7 +192,7 @@ static bool is_of_the_file(struct mesh_job *job, unsigned index, const char *nam
     if (job->library && mtl_has_material(job->library, name))
         return true;
     if (!is_default)
-        mesh_note(job,
+        mesh_note(job->report,
                   job->library ? "its library lacks material %.100s"
                                : "there is no library for material %.100s",
                   name);

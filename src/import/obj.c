@@ -195,9 +195,7 @@ static bool write_outline(struct obj *obj)
 static ps_result read_text(struct obj *obj, struct mesh_file *file, struct error *error)
 {
     struct workers *workers;
-    size_t pieces = file->length / OBJ_PIECE + 1, processors = parallel_processor_count();
-    ps_result result =
-        workers_create((uint32_t)(pieces < processors ? pieces : processors), &workers, error);
+    ps_result result = mesh_file_workers(file, &workers, error);
     if (result != PS_OK)
         return result;
     result = obj_text_read(file, workers, &obj->text, error);

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PIECE ((size_t)1 << 20) /* bytes, for a thread of its own */
-
 /* --- outline --------------------------------------------------------------------------------------- */
 
 static void copy_comments(const struct mesh_file *file, size_t length, FILE *stream)
@@ -69,10 +67,8 @@ static ps_result read_data(struct ply *ply, const struct mesh_file *file,
 {
     struct workers *workers;
     struct obj_polygon *polygons = NULL;
-    size_t polygon_count = 0, pieces = file->length / PIECE + 1,
-           processors = parallel_processor_count();
-    ps_result result =
-        workers_create((uint32_t)(pieces < processors ? pieces : processors), &workers, error);
+    size_t polygon_count = 0;
+    ps_result result = mesh_file_workers(file, &workers, error);
     if (result != PS_OK)
         return result;
     result = ply_data_read(file, header, workers, ply, &polygons, &polygon_count, error);

@@ -214,10 +214,10 @@ ps_result mesh_source_open(struct mesh_job *job)
         return mesh_out_of_memory(job, sizeof(struct stream));
     if (job->scene && job->gltf.draco_integers)
         mesh_note(
-            job,
+            job->report,
             "normals or texture coordinates that are integers compressed by Draco are left out");
     if (job->scene && job->missing_library && !job->library && job->request->materials)
-        mesh_note(job, "cannot read its library %.1000s", job->missing_library);
+        mesh_note(job->report, "cannot read its library %.1000s", job->missing_library);
     if (job->scene && job->format == FORMAT_OBJ &&
         job->scene->mNumMeshes != job->obj.material_count + 1)
         return error_set(job->error, PS_ERROR_INVALID, "%s: not all of the materials were read",

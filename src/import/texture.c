@@ -236,15 +236,16 @@ void mesh_note_textures(struct mesh_job *job)
 {
     const char *kind = job->unknown_kind ? job->unknown_kind : "of an unknown kind";
     if (job->unknown_textures == 1)
-        mesh_note(job, "texture %s is left out: it is %s (%s are read)", job->unknown_name, kind,
-                  raster_kinds);
+        mesh_note(job->report, "texture %s is left out: it is %s (%s are read)", job->unknown_name,
+                  kind, raster_kinds);
     else if (job->unknown_textures > 1)
-        mesh_note(job, "texture %s, which is %s, and %zu more are left out (%s are read)",
+        mesh_note(job->report, "texture %s, which is %s, and %zu more are left out (%s are read)",
                   job->unknown_name, kind, job->unknown_textures - 1, raster_kinds);
     const struct mesh_names *other = &job->other_case;
     if (other->count > 0)
-        mesh_note(job, "%zu texture%s found under a name of other letter case (%.*s)", other->count,
-                  other->count > 1 ? "s are" : " is", MESH_MISSING_LENGTH, other->names[0]);
+        mesh_note(job->report, "%zu texture%s found under a name of other letter case (%.*s)",
+                  other->count, other->count > 1 ? "s are" : " is", MESH_MISSING_LENGTH,
+                  other->names[0]);
 }
 
 static ps_result locate_inside(struct mesh_job *job, const struct aiTexture *embedded,

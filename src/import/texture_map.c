@@ -17,7 +17,7 @@ static void choose_set(struct mesh_job *job, size_t set, struct pigment_descript
 {
     pigment->uv_set = set == 1;
     if (set >= SETS && !job->third_uv)
-        mesh_note(job,
+        mesh_note(job->report,
                   "a texture by a third set of coordinates, or one beyond, is laid by the first");
     job->third_uv |= set >= SETS;
 }

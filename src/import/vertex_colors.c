@@ -77,11 +77,12 @@ void mesh_fill_colors(struct mesh_job *job, const struct mesh_geometry *geometry
 void mesh_note_colors(struct mesh_job *job)
 {
     if (job->obj.text.partly_colored && job->request->materials)
-        mesh_note(job, "some vertices have colours and others none: the colours are left out");
+        mesh_note(job->report,
+                  "some vertices have colours and others none: the colours are left out");
     if (job->colors.rejected)
-        mesh_note(job, "vertex colours that are not as many as the vertices are left out");
+        mesh_note(job->report, "vertex colours that are not as many as the vertices are left out");
     if (job->colors.clamped)
-        mesh_note(job, "what is below 0 or above 1 in vertex colours is left out");
+        mesh_note(job->report, "what is below 0 or above 1 in vertex colours is left out");
     if (job->colors.alpha_lost)
-        mesh_note(job, "the alpha of vertex colours is left out");
+        mesh_note(job->report, "the alpha of vertex colours is left out");
 }

@@ -52,32 +52,37 @@ ps_result scene_options_allow_plugins(struct scene_options *options, struct erro
     return PS_OK;
 }
 
+/* The absolute path of an option's folder takes the place of an earlier one. */
+static ps_result take_folder(const char *option, const char *path, char **folder,
+                             struct error *error)
+{
+    struct error reason;
+    char *resolved = input_folder_resolve(path, &reason);
+    if (!resolved)
+        return error_set(error, PS_ERROR_IO, "--%s: %.4000s", option, reason.text);
+    free(*folder);
+    *folder = resolved;
+    return PS_OK;
+}
+
 ps_result scene_options_restrict(struct scene_options *options, const char *path,
                                  struct error *error)
 {
     if (options->psd.allow_plugin_paths)
         return refuse_both(error);
-    struct error reason;
-    char *folder = input_folder_resolve(path, &reason);
-    if (!folder)
-        return error_set(error, PS_ERROR_IO, "--restrict: %.4000s", reason.text);
-    free(options->folder);
-    options->psd.folder = options->folder = folder;
-    return PS_OK;
+    ps_result result = take_folder("restrict", path, &options->folder, error);
+    options->psd.folder = options->folder;
+    return result;
 }
 
 ps_result scene_options_cache(struct scene_options *options, const char *path, struct error *error)
 {
-    struct error reason;
     if (mkdir(path, 0777) != 0 && errno != EEXIST)
         return error_set(error, PS_ERROR_IO, "--cache: cannot make the folder %.1000s: %s", path,
                          strerror(errno));
-    char *cache = input_folder_resolve(path, &reason);
-    if (!cache)
-        return error_set(error, PS_ERROR_IO, "--cache: %.4000s", reason.text);
-    free(options->cache);
-    options->psd.cache = options->cache = cache;
-    return PS_OK;
+    ps_result result = take_folder("cache", path, &options->cache, error);
+    options->psd.cache = options->cache;
+    return result;
 }
 
 void scene_options_release(struct scene_options *options)
