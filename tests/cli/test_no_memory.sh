@@ -8,7 +8,7 @@ LD_PRELOAD=./failing_allocation.so FAIL_COUNT=count "$PSPLAT" --version >out 2>e
 
 # Every allocation of a command takes minutes: every so many of them, and in the whole run more.
 stride=29
-[ -n "${PSPLAT_QUICK:-}" ] || stride=3
+[ -n "${PSPLAT_QUICK:-}" ] || stride=10
 ! is_on PSPLAT_SANITIZE || stride=$((stride * 5))
 
 # fill_new: files of an earlier run, that no failure may touch.
