@@ -345,7 +345,8 @@ static int load_and_render(struct job *job)
 {
     struct scene_input input;
     struct render_settings settings;
-    int status = STATUS_USAGE;
+    /* Where it has no scene, or fails to load what that names, the first process tells. */
+    int status = long_job_is_first(&job->passes) ? STATUS_USAGE : STATUS_OK;
     if (render_arguments_load(&job->taken, &input, &settings)) {
         job->settings = &settings;
         job->description = &input.description;
@@ -386,7 +387,13 @@ static int run_job(struct job *job)
     job->passes.show_picture = show_picture;
     job->passes.schedule.shows = job->display != NULL;
     job->passes.user = job;
-    return check_outputs(job) ? load_and_render(job) : STATUS_FAILED;
+    if (job->passes.transport.size > 1)
+        job->taken.transport = &job->passes.transport;
+    if (check_outputs(job))
+        return load_and_render(job);
+    if (job->taken.transport)
+        scene_input_share_none(job->taken.transport);
+    return STATUS_FAILED;
 }
 
 static int run(const struct argument *arguments, size_t count)

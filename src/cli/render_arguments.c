@@ -36,15 +36,25 @@ void print_problems(const struct scene_input *input)
     diagnostics_print(input->sink, stderr);
 }
 
+static ps_result read_scene(const struct render_arguments *taken, const char *path,
+                            struct scene_input *input)
+{
+    const struct scene_options *options = &taken->options.scene;
+    return taken->transport ? scene_input_share(input, path, options, taken->transport)
+                            : scene_input_read(input, path, options);
+}
+
 bool render_arguments_read(const struct render_arguments *taken, const char *path,
                            struct scene_input *input)
 {
     struct error error;
     if (scene_input_create(input, &error) != PS_OK) {
         print_error(error.text);
+        if (taken->transport)
+            scene_input_share_none(taken->transport);
         return false;
     }
-    ps_result result = scene_input_read(input, path, &taken->options.scene);
+    ps_result result = read_scene(taken, path, input);
     if (result == PS_OK)
         result = render_options_lay_over(&taken->options, input);
     if (result != PS_OK)

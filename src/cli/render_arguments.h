@@ -41,6 +41,7 @@ struct render_arguments {
     const char *scene_path;        /* borrowed; for the caller, since operands differ */
     struct render_options options; /* but for layers and compression, which output_list.h takes */
     bool quiet;
+    const struct transport *transport; /* to processes that take part; borrowed; NULL: none do */
 };
 
 /* Picks them from the arguments. False, printed, where one is wrong; to be released in any case. */
@@ -51,7 +52,7 @@ void render_arguments_release(struct render_arguments *taken);
 /* Prints what a step of the input had to say. */
 void print_problems(const struct scene_input *input);
 
-/* Reads a scene and lays the options over it. False, printed, where that fails; the input is to be released in any
+/* Reads a scene, for all processes that take part, and lays the options over it. False, printed, where that fails; the input is to be released in any
  * case. */
 bool render_arguments_read(const struct render_arguments *taken, const char *path,
                            struct scene_input *input);

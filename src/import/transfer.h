@@ -1,8 +1,7 @@
 /* transfer.h: a mesh file's content by way of a file in memory, from the child that read it.
  *
- * One walk over the description serves both ends: structs go as they are, each array that a pointer owns
- * after the struct that holds the pointer. Both ends are one program, so layouts are the same, and pointers
- * to what the caller had before the fork (names in origins) hold on both sides.
+ * The way of scene/transfer.h. Both ends are one program, and pointers to what the caller had before the fork (names in
+ * origins) hold on both sides.
  */
 #ifndef IMPORT_TRANSFER_H
 #define IMPORT_TRANSFER_H

@@ -5,8 +5,6 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-enum tag { TAG_REQUEST, TAG_ORDER, TAG_FILM, TAG_DIGEST, TAG_VERDICT };
-
 /* Of a rank that asks for work. */
 struct request {
     uint32_t done;    /* 1: it has rendered what it was last dealt */

@@ -9,6 +9,9 @@
 #include "base/error.h"
 #include <stddef.h>
 
+/* What a message is about. */
+enum transport_tag { TAG_REQUEST, TAG_ORDER, TAG_FILM, TAG_DIGEST, TAG_VERDICT, TAG_SCENE };
+
 struct transport {
     int rank, size; /* 0 <= rank < size */
     /* Returns when `bytes` may change. Any size. */

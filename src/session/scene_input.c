@@ -1,5 +1,6 @@
 #include "session/scene_input.h"
 
+#include "job/scene_message.h"
 #include "model/model.h"
 #include "model/model_scene.h"
 #include "session/option_value.h"
@@ -46,6 +47,33 @@ ps_result scene_input_read_text(struct scene_input *input, const char *name, con
         psd_read_text_with(name, text, length, &options->psd, input->sink, &input->description);
     return result == PS_OK ? scene_options_choose_camera(options, &input->description, input->sink)
                            : result;
+}
+
+static ps_result receive(struct scene_input *input, const struct transport *transport)
+{
+    struct error error;
+    ps_result result = scene_message_receive(transport, &input->description, &error);
+    if (result != PS_OK)
+        diagnostics_report(input->sink, SEVERITY_ERROR, NULL, 0, "%s", error.text);
+    return result;
+}
+
+ps_result scene_input_share(struct scene_input *input, const char *path,
+                            const struct scene_options *options, const struct transport *transport)
+{
+    if (transport->rank > 0)
+        return receive(input, transport);
+    ps_result result = scene_input_read(input, path, options);
+    scene_message_send(transport, result == PS_OK ? &input->description : NULL);
+    return result;
+}
+
+void scene_input_share_none(const struct transport *transport)
+{
+    if (transport->rank > 0)
+        scene_message_skip(transport);
+    else
+        scene_message_send(transport, NULL);
 }
 
 ps_result scene_input_override(struct scene_input *input, const char *text)

@@ -4,6 +4,7 @@
 #ifndef SESSION_SCENE_INPUT_H
 #define SESSION_SCENE_INPUT_H
 
+#include "job/transport.h"
 #include "render/settings.h"
 #include "scene/scene.h"
 #include "session/scene_options.h"
@@ -22,6 +23,13 @@ ps_result scene_input_read(struct scene_input *input, const char *path,
                            const struct scene_options *options);
 ps_result scene_input_read_text(struct scene_input *input, const char *name, const char *text,
                                 size_t length, const struct scene_options *options);
+
+/* Reads the scene by the first of some processes, and gives it to all of them. */
+ps_result scene_input_share(struct scene_input *input, const char *path,
+                            const struct scene_options *options, const struct transport *transport);
+
+/* What a process that does not come so far calls instead: the others wait for it. */
+void scene_input_share_none(const struct transport *transport);
 
 /* Lays "KIND=NAME[:KEY=VALUE,...]" over the scene's settings. */
 ps_result scene_input_override(struct scene_input *input, const char *text);

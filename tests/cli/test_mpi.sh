@@ -56,6 +56,72 @@ run_ranks 0 2 -q $job --passes 1000 --error 4% --checkpoint error.exr -o error.p
 run 0 info error.exr
 expect_match out '^psplat.pass_set: 0:[0-9]+$'
 
+# --- one process reads the scene ---
+
+# The others stand in a folder without it, and without what it names.
+mkdir empty
+cp "$PSPLAT_SOURCE/tests/data/blender.glb" "$PSPLAT_SOURCE/tests/data/baseline.jpg" "$PSPLAT_SOURCE/tests/data/rgb8.png" .
+cat >box.mtl <<MTL
+newmtl painted
+map_Kd rgb8.png
+MTL
+cat >box.obj <<OBJ
+mtllib box.mtl
+v 0 0 0
+v 1 0 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 0 1
+usemtl painted
+f 1/1 2/2 3/3
+OBJ
+cat >rest.psd <<PSD
+psd: 1
+parameters: {height: {default: 0}}
+materials: {floor: {diffuse: {image: {file: rgb8.png}}}}
+groups: {pair: [box: {corners: [[0, 0, 0], [1, 1, 1]], material: floor}]}
+PSD
+cat >files.psd <<PSD
+psd: 1
+include: rest.psd
+camera: {location: [5, 3, -8], look_at: [0, 0, 0]}
+lights: [sky: {file: baseline.jpg}]
+objects:
+  - mesh: {file: blender.glb}
+  - mesh: {file: box.obj}
+  - instance: {of: pair, translate: [2, "=height", 0]}
+  - quad: {corners: [[-5, -1, -5], [-5, -1, 5], [5, -1, 5], [5, -1, -5]], material: floor}
+PSD
+# apart STATUS SCENE WORD...: by three processes.
+apart() {
+    expected=$1 scene=$2
+    shift 2
+    last="three processes, of which one can read $scene; $*"
+    # shellcheck disable=SC2086
+    timeout 200 mpirun -n 1 "$PSPLAT" -q $job "$@" "$scene" : -n 2 --wdir empty "$PSPLAT" -q $job "$@" "$scene" >out 2>err <rest_of_input
+    check_status $? "$expected"
+}
+: >rest_of_input
+# shellcheck disable=SC2086
+run 0 -q ${job#--mpi} --param height=0.5 --checkpoint alone.exr -o alone.png files.psd
+apart 0 files.psd --param height=0.5 --checkpoint apart.exr -o apart.png
+expect_same alone.exr apart.exr
+expect_same alone.png apart.png
+# From standard input, which mpirun gives to the first alone.
+cp "$glossy" rest_of_input
+ln -s "$PSPLAT_SOURCE/scenes/library" library
+# shellcheck disable=SC2086
+"$PSPLAT" -q ${job#--mpi} -o input_alone.png - <rest_of_input
+apart 0 - -o input_apart.png
+expect_same input_alone.png input_apart.png
+# What the first cannot read, or will not write, ends all.
+apart 1 files.psd -o none/no.png
+expect_match err "can't write 'none/no.png'"
+rm baseline.jpg
+apart 1 files.psd -o no.png
+[ "$(grep -c 'baseline.jpg: cannot open' err)" -eq 1 ] || fail "it was said by more than one, or none"
+
 # --- two hosts ---
 
 # Two network namespaces with a wire between them, whose processes have a host name each and reach each other by TCP alone.
