@@ -103,6 +103,14 @@ expect_part whole.exr part.exr R indirect weight
     run 0 -q --size 144x144 $few -p estimator=splat:interleave=8 -p denoiser=none --crop 32,64,16,16 -o part.exr "$area"
 }
 expect_part whole.exr part.exr R indirect weight
+# Of a picture so large that some of its tiles stand for it.
+large="-q --size 2000x2000 $few -p estimator=gather:samples=8,paths=0 -p denoiser=none"
+# shellcheck disable=SC2086
+{
+    run 0 $large --crop 901,900,47,48 -o whole.exr "$area"
+    run 0 $large --crop 917,905,16,16 -o part.exr "$area"
+}
+expect_part whole.exr part.exr R indirect
 run 0 -q --size 64x64 -p estimator=ambient -o whole.exr "$cornell" # nothing is infinitely far away
 run 0 -q --size 64x64 -p estimator=ambient --crop 3,50,7,14 -o part.exr "$cornell"
 expect_part whole.exr part.exr Z

@@ -1,4 +1,5 @@
 #include "surfels.h"
+#include "../shared/sampled_tiles.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -22,7 +23,10 @@ struct finding {
     struct surfels *surfels;
     const ps_pass *pass;
     uint32_t rays;
+    uint32_t *places; /* of the tiles' rays, in tiles; or NO_PLACE */
 };
+
+#define NO_PLACE UINT32_MAX
 
 /* One ray from each of some pixels of a tile, chosen by lot. Lengths of 0 are no surfels. */
 static void find_in_tile(void *user, uint64_t index, uint32_t worker)
@@ -31,7 +35,9 @@ static void find_in_tile(void *user, uint64_t index, uint32_t worker)
     const struct finding *work = user;
     struct surfels *surfels = work->surfels;
     const ps_host *host = surfels->host;
-    size_t first = index * work->rays;
+    if (work->places[index] == NO_PLACE)
+        return;
+    size_t first = (size_t)work->places[index] * work->rays;
     ps_tile tile;
     ps_points points;
     ps_ray rays[PS_TILE_PIXELS];
@@ -108,28 +114,48 @@ static ps_result sort(struct surfels *surfels, size_t n)
     return failed ? PS_ERROR_MEMORY : PS_OK;
 }
 
+/* Gives places to the tiles whose rays find surfels; returns how many. */
+static size_t choose_tiles(const struct finding *work)
+{
+    uint32_t tiles = work->pass->tile_count, chosen = 0;
+    for (uint32_t i = 0; i < tiles; i++)
+        work->places[i] =
+            tile_is_sampled(i, tiles, MOST_SURFELS / work->rays) ? chosen++ : NO_PLACE;
+    return chosen;
+}
+
+static ps_result find(struct finding *work)
+{
+    struct surfels *surfels = work->surfels;
+    const ps_host *host = surfels->host;
+    size_t n = choose_tiles(work) * work->rays;
+    surfels->positions = host->allocate(host, n * sizeof(ps_vec3), "surfels");
+    surfels->normals = host->allocate(host, n * sizeof(ps_vec3), "surfels");
+    surfels->lengths = host->allocate(host, n * sizeof(float), "surfels");
+    surfels->irradiance = host->allocate(host, n * sizeof(ps_rgb), "surfels");
+    if (!surfels->positions || !surfels->normals || !surfels->lengths || !surfels->irradiance)
+        return PS_ERROR_MEMORY;
+    ps_result result = host->for_each_picture_tile(host, find_in_tile, work);
+    return result == PS_OK ? sort(surfels, n) : result;
+}
+
 ps_result surfels_find(const ps_host *host, const ps_pass *pass, uint32_t rays,
                        struct surfels *surfels)
 {
-    size_t n = (size_t)pass->tile_count * rays;
     float radius;
     ps_vec3 center;
     host->scene_bounds(host, &center, &radius);
     *surfels = (struct surfels){
         .host = host,
-        .positions = host->allocate(host, n * sizeof(ps_vec3), "surfels"),
-        .normals = host->allocate(host, n * sizeof(ps_vec3), "surfels"),
-        .lengths = host->allocate(host, n * sizeof(float), "surfels"),
-        .irradiance = host->allocate(host, n * sizeof(ps_rgb), "surfels"),
         .origin = {center.x - 1.0371f * radius, center.y - 1.0719f * radius,
                    center.z - 1.0533f * radius},
         .largest = LARGEST * radius,
     };
-    if (!surfels->positions || !surfels->normals || !surfels->lengths || !surfels->irradiance)
-        return PS_ERROR_MEMORY;
-    struct finding work = {surfels, pass, rays};
-    ps_result result = host->for_each_picture_tile(host, find_in_tile, &work);
-    return result == PS_OK ? sort(surfels, n) : result;
+    struct finding work = {surfels, pass, rays, NULL};
+    work.places = host->allocate(host, pass->tile_count * sizeof *work.places, "surfels");
+    ps_result result = work.places ? find(&work) : PS_ERROR_MEMORY;
+    host->release(host, work.places);
+    return result;
 }
 
 void surfels_release(struct surfels *surfels)

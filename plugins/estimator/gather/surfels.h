@@ -13,6 +13,8 @@
 #include <psplat/plugin.h>
 #include <stdbool.h>
 
+#define MOST_SURFELS (1 << 18)
+
 struct surfel_cell;
 
 struct surfels {
@@ -27,7 +29,8 @@ struct surfels {
     size_t capacity; /* of the table, a power of two */
 };
 
-/* Finds surfels with so many rays from each tile of the pass. PS_ERROR_MEMORY or PS_CANCELLED: release all the same. */
+/* Finds surfels with so many rays from each tile of the pass, or of some where the picture is large: there are at most
+ * about MOST_SURFELS. What a surfel stands for is told by the rays' lengths, so more pixels do not need more. PS_ERROR_MEMORY or PS_CANCELLED: release all the same. */
 ps_result surfels_find(const ps_host *host, const ps_pass *pass, uint32_t rays,
                        struct surfels *surfels);
 

@@ -69,37 +69,43 @@ static float error_of(const struct tile_pilot *pilot, float brightness)
     return scale > 0.0f ? cbrtf(pilot->noise * bends) / sqrtf(scale) : 0.0f;
 }
 
-/* Those of a tile of that error, where it is `scale` times as many. */
-static uint64_t samples_by(double scale, float error, uint64_t least, uint64_t most)
+static uint64_t samples_by(const struct allocation *allocation, float error)
 {
-    double wanted = scale * (double)error;
-    uint64_t samples = (uint64_t)(wanted < (double)most ? wanted : (double)most);
-    return samples > least ? samples : least;
+    double wanted = allocation->scale * (double)error, most = (double)allocation->most;
+    uint64_t samples = (uint64_t)(wanted < most ? wanted : most);
+    return samples > allocation->least ? samples : allocation->least;
 }
 
-void allocate_samples(struct tile_pilot *pilots, size_t n, uint64_t least, uint64_t samples,
-                      uint64_t most, uint32_t *allocated)
+struct allocation allocation_for(struct tile_pilot *pilots, size_t n, uint64_t least,
+                                 uint64_t samples, uint64_t most)
 {
-    float brightness = mean_brightness(pilots, n), largest = 0.0f;
+    struct allocation allocation = {
+        .brightness = mean_brightness(pilots, n), .least = least, .most = most};
+    float largest = 0.0f;
     double points = 0.0;
     for (size_t i = 0; i < n; i++) {
-        pilots[i].error = error_of(&pilots[i], brightness);
+        pilots[i].error = error_of(&pilots[i], allocation.brightness);
         largest = ps_max(largest, pilots[i].error);
         points += (double)pilots[i].points;
     }
     if (!(largest > 0.0f))
-        least = samples;
+        allocation.least = samples;
     double low = 0.0, high = largest > 0.0f ? 1e6 * (double)most / (double)largest : 0.0;
     for (int step = 0; step < STEPS; step++) {
-        double middle = 0.5 * (low + high), sum = 0.0;
+        double sum = 0.0;
+        allocation.scale = 0.5 * (low + high);
         for (size_t i = 0; i < n; i++)
-            sum +=
-                (double)pilots[i].points * (double)samples_by(middle, pilots[i].error, least, most);
+            sum += (double)pilots[i].points * (double)samples_by(&allocation, pilots[i].error);
         if (sum > points * (double)samples)
-            high = middle;
+            high = allocation.scale;
         else
-            low = middle;
+            low = allocation.scale;
     }
-    for (size_t i = 0; i < n; i++)
-        allocated[i] = (uint32_t)samples_by(low, pilots[i].error, least, most);
+    allocation.scale = low;
+    return allocation;
+}
+
+uint32_t allocated_samples(const struct allocation *allocation, const struct tile_pilot *pilot)
+{
+    return (uint32_t)samples_by(allocation, error_of(pilot, allocation->brightness));
 }

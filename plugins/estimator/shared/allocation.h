@@ -18,7 +18,7 @@ struct tile_pilot {
     float brightness; /* mean */
     float noise;      /* variance of a point's noise */
     float variation;  /* variance of the means of its blocks of 4x4 pixels, without their noise */
-    float error;      /* for allocate_samples() */
+    float error;      /* for allocation_for() */
 };
 
 /* `found`: what the first round found at each of `count` lanes, and `half` what the first half of it did, both of the
@@ -26,9 +26,19 @@ struct tile_pilot {
 struct tile_pilot tile_pilot(const uint32_t *lanes, const float *found, const float *half,
                              size_t count);
 
-/* Samples of each point of n tiles: from `least` to `most`, and `samples` in the mean over all points as nearly as whole
- * numbers allow. */
-void allocate_samples(struct tile_pilot *pilots, size_t n, uint64_t least, uint64_t samples,
-                      uint64_t most, uint32_t *allocated);
+/* By what tiles of a picture are given samples. */
+struct allocation {
+    float brightness; /* mean of the picture */
+    double scale;     /* samples for each unit of error */
+    uint64_t least, most;
+};
+
+/* The one by which n tiles have `samples` of each point in the mean over all points, as nearly as whole numbers allow, and
+ * `least` to `most` each. */
+struct allocation allocation_for(struct tile_pilot *pilots, size_t n, uint64_t least,
+                                 uint64_t samples, uint64_t most);
+
+/* Samples of each point of a tile. */
+uint32_t allocated_samples(const struct allocation *allocation, const struct tile_pilot *pilot);
 
 #endif

@@ -1,15 +1,22 @@
 #include "gather_picture.h"
 
 #include "allocation.h"
+#include "sampled_tiles.h"
+#include <string.h>
+
+#define MOST_PILOTS 8192 /* tiles by which the picture's need is told */
 
 struct work {
     const struct gather_setting *setting;
     uint64_t samples; /* of each point, on average */
-    /* When tiles take samples by their need: what the first round found in each, and how many it takes. The need is that
-     * of all of the picture; what was found is kept for the tiles that are there, `places` being their places. */
+    /* When tiles take samples by their need: what the first round found in each tile that is there, and in those that stand for
+     * the picture. It is kept for the former, `places` being their places. */
+    bool is_shared_out;
+    struct allocation allocation;
     struct gather_first *first_rounds;
-    struct tile_pilot *pilots;
-    uint32_t *allocated, *places;
+    struct tile_pilot
+        *pilots; /* of the picture's tiles; of those that were not looked at, without points */
+    uint32_t *places;
 };
 
 #define NO_PLACE UINT32_MAX
@@ -37,14 +44,20 @@ static struct tile_pilot pilot_of(const struct gather *gather, const ps_tile *ti
     return tile_pilot(gather->points.lanes, found, half, gather->points.count);
 }
 
+static bool stands_for_picture(const struct work *work, uint64_t tile)
+{
+    return tile_is_sampled((uint32_t)tile, work->setting->paths.pass->tile_count, MOST_PILOTS);
+}
+
 static void take_first_round(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
+    if (work->places[index] == NO_PLACE && !stands_for_picture(work, index))
+        return;
     const ps_host *host = work->setting->paths.host;
     ps_tile tile;
     struct gather gather;
-    work->pilots[index] = (struct tile_pilot){0};
     host->tile_surfaces(host, (uint32_t)index, sizeof tile, &tile);
     if (!begin_tile(work, index, &tile, &gather))
         return;
@@ -60,11 +73,13 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     const struct work *work = user;
     const ps_host *host = work->setting->paths.host;
     ps_tile *tile = host->tile(host, (uint32_t)index);
-    uint64_t samples = work->allocated ? work->allocated[index] : work->samples;
+    uint64_t samples = work->is_shared_out
+                           ? allocated_samples(&work->allocation, &work->pilots[index])
+                           : work->samples;
     struct gather gather;
     if (!begin_tile(work, index, tile, &gather))
         return;
-    if (work->allocated)
+    if (work->is_shared_out)
         gather_resume(&gather, &work->first_rounds[work->places[index]]);
     gather_samples(&gather, samples);
     for (size_t i = 0; i < gather.points.count; i++)
@@ -97,23 +112,34 @@ static ps_result make_places(struct work *work)
     return work->first_rounds || result != PS_OK ? result : PS_ERROR_MEMORY;
 }
 
-/* The first round may have missed all that there is to be found in a tile, and has much more noise than guided rays: half of
- * those are taken everywhere. */
+/* By the tiles that stand for the picture, which `pilots` then begins with. */
+static struct allocation allocation_of(const struct work *work, struct tile_pilot *pilots)
+{
+    size_t tiles = work->setting->paths.pass->tile_count, count = 0;
+    /* The first round may have missed all that there is to be found in a tile, and has much more noise than guided rays:
+     * half of those are taken everywhere. */
+    uint64_t least = GATHER_FIRST + (work->samples - GATHER_FIRST + 1) / 2;
+    for (size_t i = 0; i < tiles; i++)
+        if (stands_for_picture(work, i))
+            pilots[count++] = work->pilots[i];
+    return allocation_for(pilots, count, least, work->samples, work->setting->most);
+}
+
 static ps_result share_out_samples(struct work *work)
 {
     const ps_host *host = work->setting->paths.host;
-    size_t tiles = work->setting->paths.pass->tile_count;
-    work->pilots = host->allocate(host, tiles * sizeof *work->pilots, "first round");
-    work->allocated = host->allocate(host, tiles * sizeof *work->allocated, "first round");
-    if (!work->pilots || !work->allocated)
-        return PS_ERROR_MEMORY;
-    ps_result result = make_places(work);
-    if (result == PS_OK)
+    size_t tiles = work->setting->paths.pass->tile_count, bytes = tiles * sizeof *work->pilots;
+    struct tile_pilot *chosen = host->allocate(host, bytes, "first round");
+    work->pilots = host->allocate(host, bytes, "first round");
+    ps_result result = chosen && work->pilots ? make_places(work) : PS_ERROR_MEMORY;
+    if (result == PS_OK) {
+        memset(work->pilots, 0, bytes);
         result = host->for_each_picture_tile(host, take_first_round, work);
-    uint64_t least = GATHER_FIRST + (work->samples - GATHER_FIRST + 1) / 2;
+    }
     if (result == PS_OK)
-        allocate_samples(work->pilots, tiles, least, work->samples, work->setting->most,
-                         work->allocated);
+        work->allocation = allocation_of(work, chosen);
+    work->is_shared_out = result == PS_OK;
+    host->release(host, chosen);
     return result;
 }
 
@@ -127,6 +153,5 @@ ps_result gather_picture(const struct gather_setting *setting, uint64_t samples,
     host->release(host, work.first_rounds);
     host->release(host, work.places);
     host->release(host, work.pilots);
-    host->release(host, work.allocated);
     return result;
 }
