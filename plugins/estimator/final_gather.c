@@ -168,7 +168,8 @@ static ps_result gather(const struct state *state, struct work *work)
         .lookup = work->cache.irradiance ? look_up : NULL,
         .cache = &work->cache,
     };
-    ps_result result = gather_picture(&setting, (uint64_t)state->samples, state->adaptive);
+    struct gather_shares shares = {.are_known = false};
+    ps_result result = gather_picture(&setting, (uint64_t)state->samples, state->adaptive, &shares);
     if (result == PS_OK && work->caustics.index)
         result = photon_map_light_pixels(&work->caustics, &work->how);
     return result;

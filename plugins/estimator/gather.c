@@ -29,6 +29,17 @@
 #define FEWEST_SURFELS 2000 /* of a picture */
 #define THINNED_TOGETHER 4  /* paths */
 
+#define MOST_KEPT 4 /* passes */
+
+/* What a pass found of the whole picture, for the next part of it. */
+struct whole {
+    bool is_taken;
+    uint32_t pass;
+    bool has_cache; /* of surfels, if there are any */
+    struct surfels surfels;
+    struct gather_shares shares;
+};
+
 struct state {
     int64_t samples;
     int64_t surfels;
@@ -36,12 +47,13 @@ struct state {
     ps_number_or_choice paths;
     int64_t roulette;
     int32_t adaptive;
+    struct whole kept[MOST_KEPT]; /* of the passes of a picture in parts */
 };
 
 struct work {
     const struct state *state;
     struct gather_setting setting;
-    struct surfels surfels;
+    struct surfels *surfels;
     /* When they are corrected: the surfels' irradiance by paths, and by the first half of each one's paths. */
     ps_rgb *traced, *half;
 };
@@ -139,7 +151,7 @@ static void trace_group(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
-    const struct surfels *surfels = &work->surfels;
+    const struct surfels *surfels = work->surfels;
     const struct paths_setting *paths = &work->setting.paths;
     size_t first = index * SURFELS_GROUP;
     struct gather gather = {.setting = &work->setting, .index = paths->pass->tile_count + index};
@@ -170,7 +182,7 @@ static uint64_t paths_of_surfel(const struct state *state)
 static ps_result correct_cache(struct work *work)
 {
     const ps_host *host = work->setting.paths.host;
-    size_t count = work->surfels.count;
+    size_t count = work->surfels->count;
     ps_pass pass = *work->setting.paths.pass;
     struct work correcting = *work;
     pass.bounces -= pass.bounces != PS_ALL_BOUNCES; /* surfels are one surface on */
@@ -186,7 +198,7 @@ static ps_result correct_cache(struct work *work)
     host->parallel_for(host, groups, trace_group, &correcting);
     ps_result result = host->cancelled(host) ? PS_CANCELLED : PS_OK;
     if (result == PS_OK)
-        result = surfels_correct(&work->surfels, correcting.traced, correcting.half);
+        result = surfels_correct(work->surfels, correcting.traced, correcting.half);
     host->release(host, correcting.traced);
     return result;
 }
@@ -215,28 +227,24 @@ static ps_result add_kept(const struct splatting *splatting, struct surfels *sur
 static ps_result finish_surfels(struct work *work, const struct splatting *splatting)
 {
     const ps_host *host = work->setting.paths.host;
-    struct surfels *surfels = &work->surfels;
+    struct surfels *surfels = work->surfels;
     ps_result result = host->end_points(host, surfels->irradiance);
     if (result == PS_OK && paths_of_surfel(work->state) > 0)
         result = correct_cache(work);
     if (result == PS_OK)
         result = add_kept(splatting, surfels);
-    if (result == PS_OK)
-        result = surfels_build(surfels);
-    work->setting.lookup = surfels_lookup;
-    work->setting.cache = surfels;
-    return result;
+    return result == PS_OK ? surfels_build(surfels) : result;
 }
 
-/* Splats the pass's photons onto pixels and surfels. */
-static ps_result splat(struct work *work)
+/* Splats the pass's photons onto pixels, and onto surfels that lack their light. */
+static ps_result splat(struct work *work, bool onto_surfels)
 {
     const ps_host *host = work->setting.paths.host;
-    struct surfels *surfels = &work->surfels;
+    struct surfels *surfels = work->surfels;
     struct splatting splatting = {
         .host = host,
         .onto_pixels = work->setting.paths.no_caustics,
-        .onto_surfels = surfels->count > 0,
+        .onto_surfels = onto_surfels && surfels->count > 0,
         .most_bounces = work->setting.paths.pass->bounces - 1,
         .thinning = (uint64_t)work->state->thinning,
     };
@@ -261,25 +269,75 @@ static uint32_t surfels_of_tile(const struct state *state, const ps_pass *pass)
     return (uint32_t)(rays < PS_TILE_PIXELS ? rays : PS_TILE_PIXELS);
 }
 
+static void forget(struct whole *whole)
+{
+    surfels_release(&whole->surfels);
+    *whole = (struct whole){.surfels = {.host = whole->surfels.host}};
+}
+
+/* What is known of a pass's whole picture, or room for it: in the state where another part may ask for it. */
+static struct whole *whole_of(struct state *state, const ps_pass *pass, struct whole *own)
+{
+    struct whole *room = own;
+    for (int i = 0; pass->parts > 1 && i < MOST_KEPT; i++) {
+        if (state->kept[i].is_taken && state->kept[i].pass == pass->number)
+            return &state->kept[i];
+        if (!state->kept[i].is_taken && room == own)
+            room = &state->kept[i];
+    }
+    room->is_taken = true;
+    room->pass = pass->number;
+    return room;
+}
+
+/* The cache, where it is wanted, and the light that rays do not find. */
+static ps_result splat_pass(struct work *work, struct whole *whole)
+{
+    const ps_pass *pass = work->setting.paths.pass;
+    const ps_host *host = work->setting.paths.host;
+    const struct state *state = work->state;
+    bool finds = pass->bounces > 1 && state->surfels > 0 && !whole->has_cache;
+    ps_result result = PS_OK;
+    if (finds)
+        result = surfels_find(host, pass, surfels_of_tile(state, pass), &whole->surfels);
+    if (result == PS_OK)
+        result = splat(work, finds);
+    whole->has_cache |= finds;
+    if (whole->surfels.count > 0) {
+        work->setting.lookup = surfels_lookup;
+        work->setting.cache = &whole->surfels;
+    }
+    return result;
+}
+
 static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
 {
-    const struct state *state = opaque;
+    struct state *state = opaque;
+    struct whole own = {.surfels = {.host = host}}, *whole = whole_of(state, pass, &own);
+    whole->surfels.host = host;
     struct work work = {
         .state = state,
         .setting = {.paths = {host, pass, (uint32_t)state->roulette, pass->specular != 0, false},
                     .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples},
-        .surfels = {.host = host},
+        .surfels = &whole->surfels,
     };
-    ps_result result = PS_OK;
-    if (pass->bounces > 1 && state->surfels > 0)
-        result = surfels_find(host, pass, surfels_of_tile(state, pass), &work.surfels);
+    ps_result result = splat_pass(&work, whole);
+    host->count(host, "surfels", (double)whole->surfels.count);
     if (result == PS_OK)
-        result = splat(&work);
-    host->count(host, "surfels", (double)work.surfels.count);
-    if (result == PS_OK)
-        result = gather_picture(&work.setting, (uint64_t)state->samples, state->adaptive);
-    surfels_release(&work.surfels);
+        result = gather_picture(&work.setting, (uint64_t)state->samples, state->adaptive,
+                                &whole->shares);
+    if (whole == &own || result != PS_OK)
+        forget(whole);
     return result;
+}
+
+static void destroy(void *opaque, const ps_host *host)
+{
+    struct state *state = opaque;
+    for (int i = 0; i < MOST_KEPT; i++) {
+        state->kept[i].surfels.host = host;
+        forget(&state->kept[i]);
+    }
 }
 
 /* --- the strategy --- */
@@ -322,6 +380,7 @@ static const ps_descriptor descriptor = {
     .param_count = sizeof params / sizeof params[0],
     .param_size = sizeof params[0],
     .state_size = sizeof(struct state),
+    .destroy = destroy,
     .vtable = &vtable,
 };
 

@@ -8,8 +8,10 @@
 #include "cli/render_arguments.h"
 #include "cli/viewer.h"
 #include "session/layers.h"
+#include "session/option_value.h"
 #include "session/output.h"
 #include "session/remark.h"
+#include "session/tiled_render.h"
 
 #include <math.h>
 #include <signal.h>
@@ -22,6 +24,7 @@ static const struct option options[] = {
     OUTPUT_OPTIONS,
     RENDER_OPTIONS,
     {0, "crop", "X,Y,W,H", "render this part of the picture alone, in pixels"},
+    {0, "tile", "SIDE", "render tiles of so many pixels a side, one by one, in little memory"},
     {0, "preview", NULL, "a quick look: small, few light paths, coarse shadows"},
     LONG_JOB_OPTIONS,
     PROGRESS_OPTION,
@@ -35,6 +38,7 @@ struct job {
     struct output_list outputs;
     struct long_job passes;
     const char *stats_path;
+    double tile;         /* --tile; 0: none */
     const char *display; /* NULL: no viewer */
     struct tev_address display_address;
     struct viewer *viewer; /* while it renders */
@@ -83,8 +87,22 @@ static bool was_interrupted(void *user)
     return (interrupted != 0 && !job->has_stopped) || long_job_was_stopped(&job->passes);
 }
 
+static bool take_tile(struct job *job, const char *value)
+{
+    struct error error;
+    ps_result result = option_whole_number("tile", value, TILE_STEP, 65536, &job->tile, &error);
+    if (result == PS_OK && fmod(job->tile, TILE_STEP) != 0)
+        result = error_set(&error, PS_ERROR_INVALID, "--tile: %s is no multiple of %d", value,
+                           TILE_STEP);
+    if (result != PS_OK)
+        print_error(error.text);
+    return result == PS_OK;
+}
+
 static bool take_option(struct job *job, const struct argument *argument)
 {
+    if (argument_is(argument, "tile"))
+        return take_tile(job, argument->value);
     if (argument_is(argument, "stats"))
         job->stats_path = argument->value;
     else if (argument_is(argument, "display"))
@@ -111,6 +129,22 @@ static bool take_arguments(struct job *job, const struct argument *arguments, si
     if (!job->taken.scene_path)
         print_error("which scene? Try 'psplat --help'.");
     return job->taken.scene_path != NULL;
+}
+
+/* Tiles are done one after the other, so there is no picture, and no film, before the last. */
+static bool suits_tiles(const struct job *job)
+{
+    const struct long_job *passes = &job->passes;
+    const char *other = job->taken.options.crop.width > 0        ? "--crop"
+                        : passes->checkpoint                     ? "--checkpoint"
+                        : passes->wants_mpi                      ? "--mpi"
+                        : long_job_has_budget(passes)            ? "--time and --error"
+                        : isfinite(passes->schedule.write_every) ? "--write-every"
+                        : job->display                           ? "--display"
+                                                                 : NULL;
+    if (job->tile > 0 && other)
+        fprintf(stderr, "psplat: error: --tile does not go with %s\n", other);
+    return job->tile == 0 || !other;
 }
 
 /* Part of the passes makes no picture that anybody waits for, unless it is named. */
@@ -208,6 +242,13 @@ static ps_result end_passes(void *user, ps_result result, struct error *error)
     return long_job_end_passes(&job->passes, result, error);
 }
 
+static ps_result write_statistics(const struct job *job, struct statistics *statistics,
+                                  struct error *error)
+{
+    statistics_add_seconds(statistics, "total", clock_seconds() - job->progress.start);
+    return job->stats_path ? statistics_write(statistics, job->stats_path, error) : PS_OK;
+}
+
 /* What can be written is; the error is the first one's. */
 static ps_result write_files(struct job *job, struct image *image, struct statistics *statistics,
                              struct error *error)
@@ -226,8 +267,44 @@ static ps_result write_files(struct job *job, struct image *image, struct statis
     if (first != PS_OK)
         return first;
     statistics_add_seconds(statistics, "write", clock_seconds() - start);
-    statistics_add_seconds(statistics, "total", clock_seconds() - job->progress.start);
-    return job->stats_path ? statistics_write(statistics, job->stats_path, error) : PS_OK;
+    return write_statistics(job, statistics, error);
+}
+
+static ps_result render_tiles(struct job *job, const struct scene *scene,
+                              struct statistics *statistics, struct error *error)
+{
+    const struct render_callbacks callbacks = {
+        .user = job,
+        .progress = show_progress,
+        .log = show_message,
+        .cancelled = was_interrupted,
+    };
+    const struct tiled_render tiled = {
+        .scene = scene,
+        .scene_path = job->description->path,
+        .scene_options = &job->taken.options.scene,
+        .settings = job->settings,
+        .callbacks = &callbacks,
+        .statistics = statistics,
+        .paths = job->outputs.paths,
+        .path_count = job->outputs.count,
+        .output = &job->outputs.options,
+    };
+    struct error reason;
+    handle_signals(interrupt);
+    ps_result result = tiled_render_run(&tiled, error);
+    progress_clear(&job->progress);
+    if (result != PS_OK && result != PS_CANCELLED)
+        return result;
+    tell_of_dark_pixels(job, statistics);
+    if (result == PS_CANCELLED)
+        error_set(error, PS_CANCELLED, "interrupted: the picture holds the tiles done by then");
+    else
+        output_list_tell(&job->outputs, job->taken.quiet);
+    ps_result written = write_statistics(job, statistics, &reason);
+    if (result == PS_OK && written != PS_OK)
+        *error = reason;
+    return result == PS_OK ? written : result;
 }
 
 static ps_result render_and_write(struct job *job, const struct scene *scene,
@@ -241,6 +318,8 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
         .next_pass = next_pass,
         .end_passes = end_passes,
     };
+    if (job->settings->tile > 0)
+        return render_tiles(job, scene, statistics, error);
     struct image image = {0};
     struct film_sum *film = long_job_keeps_film(&job->passes) ? &job->passes.film : NULL;
     handle_signals(interrupt);
@@ -285,6 +364,13 @@ static ps_result render_and_show(struct job *job, const struct scene *scene,
 static ps_result check_size(const struct job *job, const struct scene_input *input,
                             struct error *error)
 {
+    const struct image_description *image = &input->description.image;
+    job->settings->tile = (uint32_t)job->tile;
+    ps_result result = job->tile > 0 ? tiled_render_prepare(job->settings, (size_t)image->width,
+                                                            (size_t)image->height, error)
+                                     : PS_OK;
+    if (result != PS_OK)
+        return result;
     return render_options_check_size(&input->description.image, job->settings,
                                      long_job_keeps_film(&job->passes), error);
 }
@@ -403,7 +489,7 @@ static int run(const struct argument *arguments, size_t count)
     if (render_arguments_take(&job.taken, arguments, count) &&
         output_list_take(&job.outputs, arguments, count) &&
         long_job_take(&job.passes, arguments, count, &job.taken.options.passes) &&
-        take_arguments(&job, arguments, count) && choose_outputs(&job)) {
+        take_arguments(&job, arguments, count) && suits_tiles(&job) && choose_outputs(&job)) {
         status = STATUS_FAILED;
         if (long_job_join(&job.passes))
             status = run_job(&job);

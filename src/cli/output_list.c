@@ -136,3 +136,9 @@ ps_result output_list_write(const struct output_list *list, const struct image *
     }
     return first;
 }
+
+void output_list_tell(const struct output_list *list, bool quiet)
+{
+    for (size_t i = 0; i < list->count && !quiet; i++)
+        fprintf(stderr, "psplat: wrote %s\n", list->paths[i]);
+}

@@ -53,4 +53,7 @@ bool output_list_suits(const struct output_list *list, const struct render_setti
 ps_result output_list_write(const struct output_list *list, const struct image *image,
                             struct workers *workers, bool quiet, struct error *error);
 
+/* Says that all of them were written unless `quiet`. */
+void output_list_tell(const struct output_list *list, bool quiet);
+
 #endif

@@ -93,8 +93,10 @@ static uint32_t interleave_of(const struct render *render, uint32_t n, uint32_t 
     return n < PS_MOST_INTERLEAVE ? n : PS_MOST_INTERLEAVE;
 }
 
-static void drop_splatter(struct render *render)
+void splats_drop_pixels(struct render *render)
 {
+    if (!render->has_splatter)
+        return;
     render_report_splatter(render->statistics, &render->splatter);
     count_lit(render, &render->splatter, -1.0);
     splatter_release(&render->splatter);
@@ -111,8 +113,7 @@ static ps_result begin_interleaved(struct render *render, uint32_t n, struct err
     n = render->counts_splats ? 1 : interleave_of(render, n, most);
     if (render->has_splatter && render->splatter.lit.interleave == n)
         return PS_OK;
-    if (render->has_splatter)
-        drop_splatter(render);
+    splats_drop_pixels(render);
     ps_result result =
         create_splatter(render, interleaved_layout(&render->gbuffer, n), &render->splatter, error);
     render->has_splatter = result == PS_OK;

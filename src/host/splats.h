@@ -18,7 +18,8 @@ void splats_end_points(struct render *render, ps_rgb *irradiance);
 /* The irradiance of the points by the splats so far, which goes on. */
 void splats_read_points(const struct render *render, ps_rgb *irradiance);
 
-/* Forgets points that an estimator left. */
+/* Forgets the splatter onto pixels, if there is one, and points that an estimator left. */
+void splats_drop_pixels(struct render *render);
 void splats_drop_points(struct render *render);
 
 #endif

@@ -10,16 +10,17 @@
  * shorter and takes a fifth more time.
  */
 #include "base/output_file.h"
-#include "image/image.h"
+#include "image/png_rows.h"
 
 #include <png.h>
 #include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
 #define KEY_LIMIT 79 /* of a text chunk's key, by the PNG specification */
 
-struct png_job {
+struct png_rows {
     struct output_file file;
     uint64_t offset;
     struct error *error;
@@ -27,16 +28,13 @@ struct png_job {
     png_infop info;
     ps_result result; /* what to return after a jump */
     size_t width, height;
-    const uint8_t *rgb;
-    const struct image_attribute *texts;
-    size_t text_count;
 };
 
 static void fail(png_structp png, png_const_charp message)
 {
-    struct png_job *job = png_get_error_ptr(png);
-    job->result =
-        error_set(job->error, PS_ERROR_INVALID, "cannot write '%s': %s", job->file.path, message);
+    struct png_rows *rows = png_get_error_ptr(png);
+    rows->result =
+        error_set(rows->error, PS_ERROR_INVALID, "cannot write '%s': %s", rows->file.path, message);
     png_longjmp(png, 1);
 }
 
@@ -48,11 +46,11 @@ static void drop_warning(png_structp png, png_const_charp message)
 
 static void write_bytes(png_structp png, png_bytep bytes, size_t size)
 {
-    struct png_job *job = png_get_io_ptr(png);
-    job->result = output_file_write(&job->file, job->offset, bytes, size, job->error);
-    if (job->result != PS_OK)
+    struct png_rows *rows = png_get_io_ptr(png);
+    rows->result = output_file_write(&rows->file, rows->offset, bytes, size, rows->error);
+    if (rows->result != PS_OK)
         png_longjmp(png, 1);
-    job->offset += size;
+    rows->offset += size;
 }
 
 static void flush_nothing(png_structp png)
@@ -61,7 +59,7 @@ static void flush_nothing(png_structp png)
 }
 
 /* tEXt is Latin-1 by definition; what goes beyond ASCII is UTF-8 here, which iTXt is for. */
-static void set_text(struct png_job *job, const struct image_attribute *text)
+static void set_text(struct png_rows *rows, const struct image_attribute *text)
 {
     bool ascii = true;
     for (const char *c = text->value; *c; c++)
@@ -72,26 +70,23 @@ static void set_text(struct png_job *job, const struct image_attribute *text)
         .text = text->value,
         .text_length = strlen(text->value),
     };
-    png_set_text(job->png, job->info, &chunk, 1);
+    png_set_text(rows->png, rows->info, &chunk, 1);
 }
 
-static void write_chunks(struct png_job *job)
+static void begin(struct png_rows *rows, const struct image_attribute *texts, size_t text_count)
 {
-    if (setjmp(png_jmpbuf(job->png)))
+    if (setjmp(png_jmpbuf(rows->png)))
         return;
-    png_set_write_fn(job->png, job, write_bytes, flush_nothing);
-    png_set_IHDR(job->png, job->info, (png_uint_32)job->width, (png_uint_32)job->height, 8,
+    png_set_write_fn(rows->png, rows, write_bytes, flush_nothing);
+    png_set_IHDR(rows->png, rows->info, (png_uint_32)rows->width, (png_uint_32)rows->height, 8,
                  PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    png_set_compression_strategy(job->png, Z_RLE);
-    png_set_filter(job->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
-    png_set_sRGB(job->png, job->info, PNG_sRGB_INTENT_PERCEPTUAL);
-    for (size_t i = 0; i < job->text_count; i++)
-        set_text(job, &job->texts[i]);
-    png_write_info(job->png, job->info);
-    for (size_t y = 0; y < job->height; y++)
-        png_write_row(job->png, job->rgb + 3 * y * job->width);
-    png_write_end(job->png, job->info);
+    png_set_compression_strategy(rows->png, Z_RLE);
+    png_set_filter(rows->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
+    png_set_sRGB(rows->png, rows->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    for (size_t i = 0; i < text_count; i++)
+        set_text(rows, &texts[i]);
+    png_write_info(rows->png, rows->info);
 }
 
 /* libpng would change other keys without an error. */
@@ -103,59 +98,117 @@ static bool is_key(const char *key)
     return key[length] == '\0' && length > 0 && length <= KEY_LIMIT;
 }
 
-static ps_result check_arguments(const struct png_job *job, const char *path)
+static ps_result check_arguments(const char *path, size_t width, size_t height,
+                                 const struct image_attribute *texts, size_t text_count,
+                                 struct error *error)
 {
-    if (job->width == 0 || job->height == 0 || job->width > PNG_USER_WIDTH_MAX ||
-        job->height > PNG_USER_HEIGHT_MAX) {
+    if (width == 0 || height == 0 || width > PNG_USER_WIDTH_MAX || height > PNG_USER_HEIGHT_MAX) {
         return error_set(
-            job->error, PS_ERROR_INVALID,
+            error, PS_ERROR_INVALID,
             "cannot write '%s': a PNG of %zu x %zu pixels cannot be (1 to %d each way)", path,
-            job->width, job->height, PNG_USER_WIDTH_MAX);
+            width, height, PNG_USER_WIDTH_MAX);
     }
-    for (size_t i = 0; i < job->text_count; i++) {
-        if (!is_key(job->texts[i].name)) {
-            return error_set(job->error, PS_ERROR_INVALID,
+    for (size_t i = 0; i < text_count; i++) {
+        if (!is_key(texts[i].name)) {
+            return error_set(error, PS_ERROR_INVALID,
                              "cannot write '%s': the text key '%s' must be 1 to %d printable "
                              "characters",
-                             path, job->texts[i].name, KEY_LIMIT);
+                             path, texts[i].name, KEY_LIMIT);
         }
     }
     return PS_OK;
 }
 
-static ps_result write_picture(struct png_job *job)
+static void destroy(struct png_rows *rows)
 {
-    job->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, job, fail, drop_warning);
-    job->info = job->png ? png_create_info_struct(job->png) : NULL;
-    if (job->info) {
-        job->result = PS_OK;
-        write_chunks(job);
-    } else {
-        job->result = error_memory(job->error, job->width * 3, "a PNG writer");
+    png_destroy_write_struct(&rows->png, &rows->info);
+    free(rows);
+}
+
+void png_rows_discard(struct png_rows *rows)
+{
+    if (!rows)
+        return;
+    output_file_discard(&rows->file);
+    destroy(rows);
+}
+
+ps_result png_rows_create(const char *path, size_t width, size_t height,
+                          const struct image_attribute *texts, size_t text_count,
+                          struct png_rows **created, struct error *error)
+{
+    *created = NULL;
+    ps_result result = check_arguments(path, width, height, texts, text_count, error);
+    if (result != PS_OK)
+        return result;
+    struct png_rows *rows = calloc(1, sizeof *rows);
+    if (!rows) {
+        error_memory(error, sizeof *rows, "a PNG writer");
+        return PS_ERROR_MEMORY;
     }
-    png_destroy_write_struct(&job->png, &job->info);
-    return job->result;
+    *rows = (struct png_rows){.error = error, .width = width, .height = height};
+    result = output_file_open(&rows->file, path, error);
+    if (result != PS_OK) {
+        free(rows);
+        return result;
+    }
+    rows->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, rows, fail, drop_warning);
+    rows->info = rows->png ? png_create_info_struct(rows->png) : NULL;
+    if (rows->info)
+        begin(rows, texts, text_count);
+    else
+        rows->result = error_memory(error, width * 3, "a PNG writer");
+    result = rows->result;
+    if (result == PS_OK)
+        *created = rows;
+    else
+        png_rows_discard(rows);
+    return result;
+}
+
+ps_result png_rows_add(struct png_rows *rows, const uint8_t *rgb, size_t count, struct error *error)
+{
+    rows->error = error;
+    if (setjmp(png_jmpbuf(rows->png)))
+        return rows->result;
+    for (size_t y = 0; y < count; y++)
+        png_write_row(rows->png, rgb + 3 * y * rows->width);
+    return PS_OK;
+}
+
+static ps_result end(struct png_rows *rows)
+{
+    if (setjmp(png_jmpbuf(rows->png)))
+        return rows->result;
+    png_write_end(rows->png, rows->info);
+    return PS_OK;
+}
+
+ps_result png_rows_finish(struct png_rows *rows, struct error *error)
+{
+    rows->error = error;
+    ps_result result = end(rows);
+    if (result != PS_OK) {
+        png_rows_discard(rows);
+        return result;
+    }
+    result = output_file_commit(&rows->file, error);
+    destroy(rows);
+    return result;
 }
 
 ps_result image_write_png(const char *path, size_t width, size_t height, const uint8_t *rgb,
                           const struct image_attribute *texts, size_t text_count,
                           struct error *error)
 {
-    struct png_job job = {.error = error,
-                          .width = width,
-                          .height = height,
-                          .rgb = rgb,
-                          .texts = texts,
-                          .text_count = texts ? text_count : 0};
-    ps_result result = check_arguments(&job, path);
-    if (result == PS_OK)
-        result = output_file_open(&job.file, path, error);
+    struct png_rows *rows;
+    ps_result result =
+        png_rows_create(path, width, height, texts, texts ? text_count : 0, &rows, error);
     if (result != PS_OK)
         return result;
-    result = write_picture(&job);
-    if (result != PS_OK) {
-        output_file_discard(&job.file);
-        return result;
-    }
-    return output_file_commit(&job.file, error);
+    result = png_rows_add(rows, rgb, height, error);
+    if (result == PS_OK)
+        return png_rows_finish(rows, error);
+    png_rows_discard(rows);
+    return result;
 }

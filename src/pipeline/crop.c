@@ -11,6 +11,12 @@
 
 #include <stdio.h>
 
+/* By which option a part is rendered. */
+static const char *option_of(const struct render_settings *settings)
+{
+    return settings->tile > 0 ? "--tile" : "--crop";
+}
+
 ps_result render_check_crop(const struct render_settings *settings, size_t width, size_t height,
                             struct error *error)
 {
@@ -24,36 +30,50 @@ ps_result render_check_crop(const struct render_settings *settings, size_t width
                          crop->x, crop->y, crop->width, crop->height, width, height);
     if (!(estimator->table.estimator.flags & PS_ESTIMATOR_CROPS))
         return error_set(error, PS_ERROR_INVALID,
-                         "--crop: estimator %.80s does not say that it can render a part of a "
+                         "%s: estimator %.80s does not say that it can render a part of a "
                          "picture (PS_ESTIMATOR_CROPS); psplat(1) tells which cannot",
-                         estimator->name);
+                         option_of(settings), estimator->name);
     return PS_OK;
 }
 
-static bool goes_by_others(const struct render *render, ps_kind kind)
+static bool goes_by_others(const struct render_settings *settings, ps_kind kind)
 {
-    const struct strategy *strategy = strategy_in(render, kind);
+    const struct strategy *strategy = &settings->strategies[kind];
     const union strategy_table *table = &strategy->type->table;
     if (kind == PS_NORMALIZATION)
         return !(table->normalization.flags & PS_NORMALIZATION_CROPS);
     if (kind == PS_DENOISER)
         return table->denoiser.filter != NULL;
-    if (!render->settings->display)
+    if (!settings->display)
         return false;
     if (kind == PS_BLOOM)
         return table->bloom.spread != NULL;
     return ((const struct tonemap_params *)strategy_shared(strategy))->exposure.choice >= 0;
 }
 
+ps_result render_check_parts(const struct render_settings *settings, size_t width, size_t height,
+                             struct error *error)
+{
+    ps_result result = render_check_crop(settings, width, height, error);
+    for (int kind = PS_NORMALIZATION; kind < PS_KINDS && result == PS_OK; kind++)
+        if (kind != PS_DENOISER && goes_by_others(settings, (ps_kind)kind))
+            result = error_set(error, PS_ERROR_INVALID,
+                               "%s: %s %.80s goes by all of the picture, of which there are parts",
+                               option_of(settings), kinds[kind].name,
+                               settings->strategies[kind].type->name);
+    return result;
+}
+
 void crop_warn(const struct render *render)
 {
     const struct film *film = &render->film;
     const ps_host *host = own_host(render);
-    if (film->width >= film->window.picture_width && film->height >= film->window.picture_height)
+    if (render->parts > 1 ||
+        (film->width >= film->window.picture_width && film->height >= film->window.picture_height))
         return;
     for (int kind = PS_NORMALIZATION; kind < PS_KINDS; kind++) {
         char warning[400];
-        if (!goes_by_others(render, (ps_kind)kind))
+        if (!goes_by_others(render->settings, (ps_kind)kind))
             continue;
         snprintf(warning, sizeof warning,
                  "--crop: %s %.80s may go by other pixels, and sees those of this part alone: "

@@ -103,7 +103,8 @@ static ps_result check(const struct render_settings *settings, size_t width, siz
         return PS_OK;
     return error_set(error, PS_ERROR_MEMORY,
                      "a picture of %zux%zu pixels takes %.1f GiB of memory to render, and %s "
-                     "%.1f GiB; a smaller one is had by --size, a part of it by --crop",
+                     "%.1f GiB; a smaller one is had by --size, a part of it by --crop, all of it "
+                     "in parts by --tile",
                      film.width, film.height, wanted / GIB,
                      is_limited ? "--memory-limit is" : "this machine has", there / GIB);
 }

@@ -227,6 +227,8 @@ void pass_describe(struct render *render, uint32_t number)
         .specular = render->scene->microfacets != NULL,
         .shares_places = shares_places(render->settings),
         .bounces = render->settings->bounces,
+        .part = render->part,
+        .parts = render->parts,
     };
 }
 

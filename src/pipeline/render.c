@@ -81,11 +81,9 @@ static ps_result run_passes(struct render *render, struct error *error)
             *error = reason;
         }
     }
-    uint32_t passes = render_passes_done(render);
-    if (result != PS_OK && result != PS_CANCELLED && passes > 0)
+    if (result != PS_OK && result != PS_CANCELLED && render_passes_done(render) > 0)
         own_host(render)->log(own_host(render), PS_LOG_WARNING,
                               "a pass failed; the picture holds those before it");
-    statistics_count(render->statistics, "passes", passes);
     return result;
 }
 
@@ -107,6 +105,23 @@ ps_result render_picture(struct render *render, bool display, struct image *imag
     return resolve_image(render, display && render->settings->display, image, error);
 }
 
+/* The passes of a render, or of its part, and their picture. */
+static ps_result make_picture(struct render *render, struct image *image, struct error *error)
+{
+    *image = (struct image){0};
+    ps_result result = run_passes(render, error);
+    if (render_passes_done(render) == 0 && !render->unfinished)
+        return result;
+    struct error reason;
+    ps_result resolved = render_picture(render, true, image, &reason);
+    statistics_count(render->statistics, "pixels without weight", render->dark_pixels);
+    if (resolved != PS_OK && (result == PS_OK || image->width == 0)) {
+        result = resolved;
+        *error = reason;
+    }
+    return result;
+}
+
 ps_result render_run(const struct scene *scene, struct render_settings *settings,
                      const struct render_callbacks *callbacks, struct statistics *statistics,
                      struct film_sum *film, struct image *image, struct error *error)
@@ -116,6 +131,7 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
         .settings = settings,
         .callbacks = callbacks,
         .statistics = statistics,
+        .parts = 1,
         .sum = film,
     };
     *image = (struct image){0};
@@ -125,20 +141,64 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
     ps_result result = render_create(&render, error);
     if (result == PS_OK)
         result = check_film(&render, error);
-    bool sound = result == PS_OK;
-    if (sound)
-        result = run_passes(&render, error);
-    if (sound && (render_passes_done(&render) > 0 || render.unfinished)) {
-        struct error reason;
-        ps_result resolved = render_picture(&render, true, image, &reason);
-        statistics_count(statistics, "pixels without weight", render.dark_pixels);
-        if (resolved != PS_OK && (result == PS_OK || image->width == 0)) {
-            result = resolved;
-            *error = reason;
-        }
+    if (result == PS_OK) {
+        result = make_picture(&render, image, error);
+        statistics_count(statistics, "passes", render_passes_done(&render));
     }
-    if (render.has_splatter)
-        render_report_splatter(statistics, &render.splatter);
+    render_report_refused(&render);
+    render_destroy(&render);
+    return result;
+}
+
+static struct rectangle largest_of(const struct render_parts *parts)
+{
+    struct rectangle largest = parts->places[0];
+    for (uint32_t i = 1; i < parts->count; i++)
+        if (parts->places[i].width * parts->places[i].height > largest.width * largest.height)
+            largest = parts->places[i];
+    return largest;
+}
+
+/* Whatever there is of the part is handed over. */
+static ps_result make_part(struct render *render, const struct render_parts *parts,
+                           struct error *error)
+{
+    struct image image;
+    struct error reason;
+    render->settings->crop = parts->places[render->part];
+    ps_result result = render_turn_to_part(render, error), taken = PS_OK;
+    if (result != PS_OK)
+        return result;
+    result = make_picture(render, &image, error);
+    if (image.width > 0)
+        taken = parts->take(parts->user, render->part, &image, &reason);
+    image_release(&image);
+    if (taken == PS_OK)
+        return result;
+    *error = reason;
+    return taken;
+}
+
+ps_result render_run_parts(const struct scene *scene, struct render_settings *settings,
+                           const struct render_callbacks *callbacks, struct statistics *statistics,
+                           const struct render_parts *parts, struct error *error)
+{
+    struct render render = {
+        .scene = scene,
+        .settings = settings,
+        .callbacks = callbacks,
+        .statistics = statistics,
+        .parts = parts->count,
+    };
+    if (settings_pass_count(settings) > 1)
+        render.sum = &render.own_sum;
+    settings->crop = largest_of(parts);
+    host_create(&render);
+    ps_result result = render_create(&render, error);
+    for (; result == PS_OK && render.part < parts->count; render.part++)
+        result = make_part(&render, parts, error);
+    if (result == PS_OK)
+        statistics_count(statistics, "passes", settings_pass_count(settings));
     render_report_refused(&render);
     render_destroy(&render);
     return result;
@@ -173,6 +233,7 @@ ps_result render_resolve(struct film_sum *film, const struct scene *seen,
         .settings = settings,
         .callbacks = callbacks,
         .statistics = statistics,
+        .parts = 1,
         .sum = film,
     };
     *image = (struct image){0};
@@ -197,6 +258,7 @@ ps_result render_display(float *const planes[3], size_t width, size_t height,
         .settings = settings,
         .callbacks = callbacks,
         .statistics = &statistics,
+        .parts = 1,
     };
     statistics_init(&statistics);
     host_create(&render);
@@ -220,6 +282,7 @@ ps_result render_inspect(const struct scene *scene, struct render_settings *sett
         .settings = settings,
         .callbacks = callbacks,
         .statistics = statistics,
+        .parts = 1,
     };
     settings->first_pass = 0;
     settings->passes = settings->aa_samples = 1;
@@ -243,6 +306,7 @@ ps_result render_try(const struct scene *scene, struct render_settings *settings
         .settings = settings,
         .callbacks = callbacks,
         .statistics = &statistics,
+        .parts = 1,
     };
     statistics_init(&statistics);
     host_create(&render);

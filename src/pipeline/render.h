@@ -26,6 +26,11 @@ ps_result render_check_memory(const struct render_settings *settings, size_t wid
 ps_result render_check_crop(const struct render_settings *settings, size_t width, size_t height,
                             struct error *error);
 
+/* The same for a picture that is put together of such parts: PS_ERROR_INVALID as well where normalization, bloom or tone map go by
+ * all of it. */
+ps_result render_check_parts(const struct render_settings *settings, size_t width, size_t height,
+                             struct error *error);
+
 /* The layers of a picture, beside R, G and B. */
 #define RENDER_LAYERS "albedo, direct, display, error, indirect, N, P, weight, Z"
 
@@ -42,6 +47,23 @@ bool render_makes_layer(const char *name, size_t length);
 ps_result render_run(const struct scene *scene, struct render_settings *settings,
                      const struct render_callbacks *callbacks, struct statistics *statistics,
                      struct film_sum *film, struct image *image, struct error *error);
+
+/* Parts of a picture, which may overlap. */
+struct render_parts {
+    const struct rectangle *places;
+    uint32_t count; /* at least one */
+    /* Is given the picture of each, in their order; it may take the channels out of it. A failure ends the render. */
+    ps_result (*take)(void *user, uint32_t part, struct image *image, struct error *error);
+    void *user;
+};
+
+/* Renders the parts one after the other, each with all passes, as render_run does where the settings' crop is that part; what
+ * the scene and its light need is made once. Memory is that of one part. The settings' crop is the last one's when it
+ * returns. When cancelled, or where a part fails, what there is of that part has been handed over, and the others are not
+ * made. */
+ps_result render_run_parts(const struct scene *scene, struct render_settings *settings,
+                           const struct render_callbacks *callbacks, struct statistics *statistics,
+                           const struct render_parts *parts, struct error *error);
 
 struct render;
 

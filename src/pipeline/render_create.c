@@ -107,22 +107,51 @@ static ps_result create_edges(struct render *render, struct error *error)
     return render->edges ? PS_OK : error_memory(error, count * sizeof *render->edges, "edges");
 }
 
+static struct planes wanted(const struct render *render)
+{
+    bool sums = render->sum != NULL, keeps_film = sums && render->sum != &render->own_sum;
+    return planes_wanted(render->settings, render->scene, sums, keeps_film);
+}
+
+static ps_result check_memory(const struct render *render, struct error *error)
+{
+    const struct planes planes = wanted(render);
+    bool keeps_film = render->sum && render->sum != &render->own_sum;
+    return memory_check(render->settings, &planes, render->scene->width, render->scene->height,
+                        keeps_film, error);
+}
+
 /* All that is kept of pixels. */
 static ps_result create_planes(struct render *render, struct error *error)
 {
-    bool sums = render->sum != NULL, keeps_film = sums && render->sum != &render->own_sum;
-    struct planes planes = planes_wanted(render->settings, render->scene, sums, keeps_film);
-    ps_result result = check_join(render, error);
-    if (result == PS_OK)
-        result = memory_check(render->settings, &planes, render->scene->width,
-                              render->scene->height, keeps_film, error);
-    if (result == PS_OK)
-        result = create_gbuffer_and_film(render, &planes, error);
+    const struct planes planes = wanted(render);
+    ps_result result = create_gbuffer_and_film(render, &planes, error);
     if (result == PS_OK)
         result = add_to_gbuffer(render, &planes, error);
     if (result == PS_OK)
         result = add_to_film(render, &planes, error);
     return result == PS_OK && planes.edges ? create_edges(render, error) : result;
+}
+
+static void release_planes(struct render *render)
+{
+    splats_drop_pixels(render);
+    splats_drop_points(render);
+    free(render->placed);
+    render->placed = NULL;
+    gathered_light_release(&render->gathered_light);
+    free(render->edges);
+    render->edges = NULL;
+    film_sum_release(&render->own_sum);
+    film_release(&render->film);
+    gbuffer_release(&render->gbuffer);
+}
+
+ps_result render_turn_to_part(struct render *render, struct error *error)
+{
+    release_planes(render);
+    render->unfinished = false;
+    return create_planes(render, error);
 }
 
 ps_result render_create(struct render *render, struct error *error)
@@ -137,6 +166,10 @@ ps_result render_create(struct render *render, struct error *error)
     statistics_add_seconds(render->statistics, "build", clock_seconds() - start);
     if (result == PS_OK)
         result = create_shadow_maps(render, error);
+    if (result == PS_OK)
+        result = check_join(render, error);
+    if (result == PS_OK)
+        result = check_memory(render, error);
     if (result == PS_OK)
         result = create_planes(render, error);
     if (result == PS_OK)
@@ -154,20 +187,12 @@ ps_result render_create(struct render *render, struct error *error)
 
 void render_destroy(struct render *render)
 {
-    if (render->has_splatter)
-        splatter_release(&render->splatter);
-    splats_drop_points(render);
-    free(render->placed);
-    gathered_light_release(&render->gathered_light);
+    release_planes(render);
     photon_stream_release(&render->photons);
     importance_release(&render->importance);
     for (int kind = 0; kind < PS_KINDS; kind++)
         strategy_stop(&render->settings->strategies[kind]);
     render_report_kept(render);
-    free(render->edges);
-    film_sum_release(&render->own_sum);
-    film_release(&render->film);
-    gbuffer_release(&render->gbuffer);
     shadow_maps_destroy(render->shadow_maps);
     trace_destroy(render->trace);
 }

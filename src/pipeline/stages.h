@@ -11,6 +11,9 @@
 ps_result render_create(struct render *render, struct error *error);
 void render_destroy(struct render *render);
 
+/* Turns a render to the part that its settings now name, without passes. */
+ps_result render_turn_to_part(struct render *render, struct error *error);
+
 /* Starts the strategies of this kind and those after it, bloom and tone map only for a display; destroying the render
  * stops them. */
 ps_result render_start_strategies(struct render *render, ps_kind first, struct error *error);

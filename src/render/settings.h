@@ -21,8 +21,9 @@ struct render_settings {
     bool discontinuity_buffer;   /* see discontinuity_buffer.h */
     uint32_t aa_samples;         /* of a pixel at an edge, in each pass; 1: as everywhere */
     uint64_t seed;
-    double memory_limit;     /* bytes; 0: what the machine lends */
-    struct rectangle crop;   /* the part of the picture that is rendered; no width: all of it */
+    double memory_limit;   /* bytes; 0: what the machine lends */
+    struct rectangle crop; /* the part of the picture that is rendered; no width: all of it */
+    uint32_t tile;         /* side of the parts that it is rendered in, one by one; 0: it is one */
     struct workers *workers; /* owned */
     const char *isa; /* instruction set, a name of kernel.h, borrowed; NULL: the best there is */
     size_t batch;    /* splats at a time; changes memory, not the picture */

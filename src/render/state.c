@@ -12,7 +12,8 @@ uint32_t render_passes_done(const struct render *render)
 
 double render_fraction(const struct render *render, double of_pass)
 {
-    return (render_passes_done(render) + of_pass) / settings_pass_count(render->settings);
+    double of_part = (render_passes_done(render) + of_pass) / settings_pass_count(render->settings);
+    return (render->part + of_part) / render->parts;
 }
 
 /* The first one counts. */

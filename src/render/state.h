@@ -51,8 +51,9 @@ struct render {
         *sum; /* of the passes; NULL where there is one pass, which the film itself holds */
     struct film_sum own_sum; /* where the caller has none; owned */
     bool unfinished; /* the film holds a pass without its indirect light, or without smooth edges */
-    double dark_pixels; /* of the last picture: without weight */
-    bool *edges;        /* pixels that take several samples (edges.h), owned; NULL: none does */
+    double dark_pixels;   /* of the last picture: without weight */
+    bool *edges;          /* pixels that take several samples (edges.h), owned; NULL: none does */
+    uint32_t part, parts; /* see ps_pass */
     struct photon_stream photons;
     struct importance importance; /* made when light paths are first asked for */
     bool has_importance;

@@ -78,21 +78,29 @@ static ps_result write_png(const struct image *image, const char *path, struct w
     return result;
 }
 
-/* A picture of those channels that the list keeps, which stay the other's. */
+ps_result output_kept_layers(const struct image *image, const struct output_options *options,
+                             struct image *kept, struct error *error)
+{
+    size_t bytes = image->channel_count * sizeof *image->channels;
+    *kept = *image;
+    kept->channels = malloc(bytes + 1);
+    kept->channel_count = 0;
+    if (!kept->channels)
+        return error_memory(error, bytes, "the picture's channels");
+    for (size_t i = 0; i < image->channel_count; i++)
+        if (layers_keep(output_options_layers(options), image->channels[i].name))
+            kept->channels[kept->channel_count++] = image->channels[i];
+    return PS_OK;
+}
+
 static ps_result write_exr(const struct image *image, const char *path,
                            const struct output_options *options, struct workers *workers,
                            struct error *error)
 {
-    size_t bytes = image->channel_count * sizeof *image->channels;
-    struct image kept = *image;
-    kept.channels = malloc(bytes + 1);
-    kept.channel_count = 0;
-    if (!kept.channels)
-        return error_memory(error, bytes, "the picture's channels");
-    for (size_t i = 0; i < image->channel_count; i++)
-        if (layers_keep(output_options_layers(options), image->channels[i].name))
-            kept.channels[kept.channel_count++] = image->channels[i];
-    ps_result result = image_write_exr(&kept, path, options->compression, workers, error);
+    struct image kept;
+    ps_result result = output_kept_layers(image, options, &kept, error);
+    if (result == PS_OK)
+        result = image_write_exr(&kept, path, options->compression, workers, error);
     free(kept.channels);
     return result;
 }
@@ -166,7 +174,9 @@ static void print_command(FILE *stream, const struct image *image, const char *s
     shell_word_print_path(stream, strcmp(scene_path, "<stdin>") == 0 ? "-" : scene_path);
     scene_options_each_word(options, print_next, stream);
     fprintf(stream, " --size %zux%zu", image->window.picture_width, image->window.picture_height);
-    if (settings->crop.width > 0)
+    if (settings->tile > 0)
+        fprintf(stream, " --tile %" PRIu32, settings->tile);
+    else if (settings->crop.width > 0)
         fprintf(stream, " --crop %s", image_attribute(image, "psplat.crop"));
     fprintf(stream, " --passes ");
     if (settings->first_pass > 0)

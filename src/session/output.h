@@ -24,6 +24,11 @@ ps_result output_write(const struct image *image, const char *path,
                        const struct output_options *options, struct workers *workers,
                        struct error *error);
 
+/* A picture of those channels that the options keep, which stay the other's, as all else does; its array is freed by the
+ * caller in any case. */
+ps_result output_kept_layers(const struct image *image, const struct output_options *options,
+                             struct image *kept, struct error *error);
+
 /* Attributes that say how the picture of so many passes was made: version, scene, every setting, and, where it can be
  * repeated, the command that does so: what was interrupted, by asking for the passes that were done. */
 ps_result output_describe(struct image *image, const char *scene_path,

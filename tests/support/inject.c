@@ -72,6 +72,7 @@ static struct bench *bench_create(const char *text, const char *choice, uint32_t
         .settings = &bench->settings,
         .callbacks = &bench->callbacks,
         .statistics = bench->statistics,
+        .parts = 1,
     };
     assert_int_equal(trace_create(&bench->scene, NULL, &bench->render.trace, &error), PS_OK);
     host_create(&bench->render);

@@ -11,8 +11,7 @@ struct work {
     uint64_t samples; /* of each point, on average */
     /* When tiles take samples by their need: what the first round found in each tile that is there, and in those that stand for
      * the picture. It is kept for the former, `places` being their places. */
-    bool is_shared_out;
-    struct allocation allocation;
+    const struct gather_shares *shares; /* NULL: they do not */
     struct gather_first *first_rounds;
     struct tile_pilot
         *pilots; /* of the picture's tiles; of those that were not looked at, without points */
@@ -73,13 +72,13 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     const struct work *work = user;
     const ps_host *host = work->setting->paths.host;
     ps_tile *tile = host->tile(host, (uint32_t)index);
-    uint64_t samples = work->is_shared_out
-                           ? allocated_samples(&work->allocation, &work->pilots[index])
+    uint64_t samples = work->shares
+                           ? allocated_samples(&work->shares->allocation, &work->pilots[index])
                            : work->samples;
     struct gather gather;
     if (!begin_tile(work, index, tile, &gather))
         return;
-    if (work->is_shared_out)
+    if (work->shares)
         gather_resume(&gather, &work->first_rounds[work->places[index]]);
     gather_samples(&gather, samples);
     for (size_t i = 0; i < gather.points.count; i++)
@@ -125,29 +124,45 @@ static struct allocation allocation_of(const struct work *work, struct tile_pilo
     return allocation_for(pilots, count, least, work->samples, work->setting->most);
 }
 
-static ps_result share_out_samples(struct work *work)
+/* Takes the first round of tiles, and finds the shares, where they are not known, by those that stand for the picture. */
+static ps_result find_shares(struct work *work, struct gather_shares *shares)
 {
     const ps_host *host = work->setting->paths.host;
-    size_t tiles = work->setting->paths.pass->tile_count, bytes = tiles * sizeof *work->pilots;
+    size_t bytes = work->setting->paths.pass->tile_count * sizeof *work->pilots;
+    if (shares->are_known)
+        return host->for_each_tile(host, take_first_round, work);
     struct tile_pilot *chosen = host->allocate(host, bytes, "first round");
-    work->pilots = host->allocate(host, bytes, "first round");
-    ps_result result = chosen && work->pilots ? make_places(work) : PS_ERROR_MEMORY;
-    if (result == PS_OK) {
-        memset(work->pilots, 0, bytes);
-        result = host->for_each_picture_tile(host, take_first_round, work);
-    }
+    if (!chosen)
+        return PS_ERROR_MEMORY;
+    ps_result result = host->for_each_picture_tile(host, take_first_round, work);
     if (result == PS_OK)
-        work->allocation = allocation_of(work, chosen);
-    work->is_shared_out = result == PS_OK;
+        *shares = (struct gather_shares){true, allocation_of(work, chosen)};
     host->release(host, chosen);
     return result;
 }
 
-ps_result gather_picture(const struct gather_setting *setting, uint64_t samples, bool adaptive)
+static ps_result share_out_samples(struct work *work, struct gather_shares *shares)
+{
+    const ps_host *host = work->setting->paths.host;
+    size_t bytes = work->setting->paths.pass->tile_count * sizeof *work->pilots;
+    work->pilots = host->allocate(host, bytes, "first round");
+    if (!work->pilots)
+        return PS_ERROR_MEMORY;
+    memset(work->pilots, 0, bytes);
+    ps_result result = make_places(work);
+    if (result == PS_OK)
+        result = find_shares(work, shares);
+    work->shares = shares;
+    return result;
+}
+
+ps_result gather_picture(const struct gather_setting *setting, uint64_t samples, bool adaptive,
+                         struct gather_shares *shares)
 {
     const ps_host *host = setting->paths.host;
     struct work work = {.setting = setting, .samples = samples};
-    ps_result result = adaptive && samples > GATHER_FIRST ? share_out_samples(&work) : PS_OK;
+    ps_result result =
+        adaptive && samples > GATHER_FIRST ? share_out_samples(&work, shares) : PS_OK;
     if (result == PS_OK)
         result = host->for_each_tile(host, gather_tile, &work);
     host->release(host, work.first_rounds);

@@ -2,7 +2,9 @@
 #ifndef PSPLAT_ESTIMATOR_GATHER_PICTURE_H
 #define PSPLAT_ESTIMATOR_GATHER_PICTURE_H
 
+#include "allocation.h"
 #include "gather_rays.h"
+#include <stdbool.h>
 
 enum {
     GATHER_MOST_OF_SAMPLES = 4
@@ -11,8 +13,15 @@ enum {
 /* What gather_picture() allocates for each pixel, when it shares samples out. */
 #define GATHER_PIXEL_BYTES (sizeof(struct gather_first) / PS_TILE_PIXELS)
 
+/* How the samples of a pass are shared out among the picture's tiles. */
+struct gather_shares {
+    bool are_known; /* by an earlier part of the picture */
+    struct allocation allocation;
+};
+
 /* Adds what so many samples of each pixel find, on average over the picture; `adaptive`: more of them where they are
- * needed. PS_ERROR_MEMORY or PS_CANCELLED. */
-ps_result gather_picture(const struct gather_setting *setting, uint64_t samples, bool adaptive);
+ * needed, as `shares` tells, or then knows. PS_ERROR_MEMORY or PS_CANCELLED. */
+ps_result gather_picture(const struct gather_setting *setting, uint64_t samples, bool adaptive,
+                         struct gather_shares *shares);
 
 #endif
