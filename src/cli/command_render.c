@@ -278,6 +278,7 @@ static ps_result render_tiles(struct job *job, const struct scene *scene,
         .progress = show_progress,
         .log = show_message,
         .cancelled = was_interrupted,
+        .end_passes = end_passes,
     };
     const struct tiled_render tiled = {
         .scene = scene,

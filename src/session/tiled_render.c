@@ -41,6 +41,7 @@ struct tiling {
     const struct tiled_render *job;
     size_t across, down;
     struct tiled_output *output; /* NULL: no tile is done */
+    bool cannot_write;
 };
 
 static struct rectangle tile_at(const struct tiling *tiling, uint32_t index)
@@ -76,6 +77,7 @@ static ps_result take_tile(void *user, uint32_t part, struct image *image, struc
     ps_result result = tiling->output ? PS_OK : begin_files(tiling, image, error);
     if (result == PS_OK)
         result = tiled_output_add(tiling->output, image, tile_at(tiling, part), error);
+    tiling->cannot_write = result != PS_OK;
     statistics_add_seconds(tiling->job->statistics, "write", clock_seconds() - start);
     return result;
 }
@@ -83,12 +85,12 @@ static ps_result take_tile(void *user, uint32_t part, struct image *image, struc
 static ps_result finish(struct tiling *tiling, ps_result result, struct error *error)
 {
     struct error reason;
-    if (!tiling->output || (result != PS_OK && result != PS_CANCELLED)) {
+    if (!tiling->output || tiling->cannot_write) {
         tiled_output_discard(tiling->output);
         return result;
     }
     ps_result finished = tiled_output_finish(tiling->output, &reason);
-    if (finished == PS_OK)
+    if (finished == PS_OK || (result != PS_OK && result != PS_CANCELLED))
         return result;
     *error = reason;
     return finished;

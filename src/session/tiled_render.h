@@ -30,8 +30,8 @@ struct tiled_render {
 ps_result tiled_render_prepare(struct render_settings *settings, size_t width, size_t height,
                                struct error *error);
 
-/* Renders and writes. PS_CANCELLED: the files hold the tiles that were done, and are black elsewhere; after another failure
- * there are none. */
+/* Renders and writes. When cancelled, or where a tile fails, the files hold those that were done, and are black elsewhere; where
+ * they cannot be written, there are none. */
 ps_result tiled_render_run(const struct tiled_render *job, struct error *error);
 
 #endif

@@ -115,7 +115,7 @@ expect_text err "can't write 'none/no.exr'"
 
 last="psplat --tile and SIGINT"
 mkdir new
-"$PSPLAT" --size 128x128 --tile 64 --passes 400 $few -p denoiser=none --progress json -o new/a.exr -o new/a.png "$cornell" >out 2>err &
+"$PSPLAT" --size 128x128 --tile 64 --passes 400 $few --progress json -o new/a.exr -o new/a.png "$cornell" >out 2>err &
 process=$!
 # Beyond the first tile.
 while ! grep -qE '"fraction": 0\.(2[6-9]|[3-9])' out && kill -0 $process; do
@@ -130,5 +130,16 @@ expect_picture new/a.exr new/a.png
 a.png" ] || fail "something else was left behind: $(ls new)"
 run 0 info new/a.exr
 expect_text out "new/a.exr: 128x128"
+expect_no_text err "is not denoised"
+
+# What fails in a tile costs neither that tile nor those before it.
+compile_module "$PSPLAT_SOURCE/include" "$PSPLAT_SOURCE/tests/plugins/failing_stage.c" "$PWD/failing.so" -DRESULT=PS_ERROR_INVALID
+# shellcheck disable=SC2086
+{
+    run 2 --size 128x128 --tile 64 $few -p denoiser=./failing.so -o new/failed.exr "$cornell"
+    expect_text err "is not denoised"
+    run 0 -q --size 128x128 $few -p denoiser=none --crop 0,0,64,64 -o first.exr "$cornell"
+}
+run 0 compare new/failed.exr first.exr --metric max --fail 'max>0'
 
 finish
