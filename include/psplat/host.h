@@ -47,8 +47,8 @@ typedef struct ps_pass {
     uint32_t shares_places; /* 1: several photons may leave one place without much harm */
     uint32_t bounces;       /* diffuse surfaces that light may meet before the one that is seen: at
                                least 1; PS_ALL_BOUNCES: as many as it likes */
-    /* Since 1.9: of so many parts of the picture, rendered one after the other with all of their passes (each from begin to
-     * end), this is number `part`. What goes by the whole picture may be kept for the same pass of the next part. */
+    /* Since 1.9: of so many parts of the picture, rendered one after the other with all of their passes between begin and
+     * end, this is number `part`. What goes by the whole picture may be kept for the same pass of the next part. */
     uint32_t part, parts;
 } ps_pass;
 

@@ -271,21 +271,15 @@ static ps_result write_files(struct job *job, struct image *image, struct statis
 }
 
 static ps_result render_tiles(struct job *job, const struct scene *scene,
+                              const struct render_callbacks *callbacks,
                               struct statistics *statistics, struct error *error)
 {
-    const struct render_callbacks callbacks = {
-        .user = job,
-        .progress = show_progress,
-        .log = show_message,
-        .cancelled = was_interrupted,
-        .end_passes = end_passes,
-    };
     const struct tiled_render tiled = {
         .scene = scene,
         .scene_path = job->description->path,
         .scene_options = &job->taken.options.scene,
         .settings = job->settings,
-        .callbacks = &callbacks,
+        .callbacks = callbacks,
         .statistics = statistics,
         .paths = job->outputs.paths,
         .path_count = job->outputs.count,
@@ -316,11 +310,11 @@ static ps_result render_and_write(struct job *job, const struct scene *scene,
         .progress = show_progress,
         .log = show_message,
         .cancelled = was_interrupted,
-        .next_pass = next_pass,
+        .next_pass = job->tile > 0 ? NULL : next_pass,
         .end_passes = end_passes,
     };
-    if (job->settings->tile > 0)
-        return render_tiles(job, scene, statistics, error);
+    if (job->tile > 0)
+        return render_tiles(job, scene, &callbacks, statistics, error);
     struct image image = {0};
     struct film_sum *film = long_job_keeps_film(&job->passes) ? &job->passes.film : NULL;
     handle_signals(interrupt);

@@ -21,7 +21,7 @@ static void end_estimates(struct render *render)
     const ps_estimator_vtable *table = &estimator->type->table.estimator;
     if (render->has_begun && table->end)
         table->end(estimator->state, estimator->host);
-    render->has_tiles = false;
+    render->has_begun = false;
 }
 
 bool render_missing_pass(const struct render *render, uint32_t *number)
@@ -69,10 +69,12 @@ static ps_result run_passes(struct render *render, struct error *error)
 {
     pass_describe(render, 0);
     render->has_tiles = true;
-    ps_result result = begin_estimates(render, error);
+    ps_result result = render->has_begun ? PS_OK : begin_estimates(render, error);
     if (result == PS_OK)
         result = run_each_pass(render, error);
-    end_estimates(render);
+    if (result != PS_OK || render->part + 1 == render->parts)
+        end_estimates(render);
+    render->has_tiles = false;
     if (render->callbacks->end_passes) {
         struct error reason;
         ps_result ended = render->callbacks->end_passes(render->callbacks->user, result, &reason);

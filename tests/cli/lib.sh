@@ -117,6 +117,26 @@ expect_same() {
     cmp -s "$1" "$2" || fail "$1 and $2 differ"
 }
 
+# Files for scenes to name: blender.glb, box.obj with a picture on it, and the pictures rgb8.png and baseline.jpg.
+make_scene_files() {
+    cp "$PSPLAT_SOURCE/tests/data/blender.glb" "$PSPLAT_SOURCE/tests/data/baseline.jpg" "$PSPLAT_SOURCE/tests/data/rgb8.png" .
+    cat >box.mtl <<MTL
+newmtl painted
+map_Kd rgb8.png
+MTL
+    cat >box.obj <<OBJ
+mtllib box.mtl
+v 0 0 0
+v 1 0 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 0 1
+usemtl painted
+f 1/1 2/2 3/3
+OBJ
+}
+
 # expect_same_pixels A B: the attributes of the pictures may differ.
 expect_same_pixels() {
     for layer in direct indirect albedo N; do

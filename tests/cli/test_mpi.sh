@@ -60,22 +60,7 @@ expect_match out '^psplat.pass_set: 0:[0-9]+$'
 
 # The others stand in a folder without it, and without what it names.
 mkdir empty
-cp "$PSPLAT_SOURCE/tests/data/blender.glb" "$PSPLAT_SOURCE/tests/data/baseline.jpg" "$PSPLAT_SOURCE/tests/data/rgb8.png" .
-cat >box.mtl <<MTL
-newmtl painted
-map_Kd rgb8.png
-MTL
-cat >box.obj <<OBJ
-mtllib box.mtl
-v 0 0 0
-v 1 0 0
-v 0 1 0
-vt 0 0
-vt 1 0
-vt 0 1
-usemtl painted
-f 1/1 2/2 3/3
-OBJ
+make_scene_files
 cat >rest.psd <<PSD
 psd: 1
 parameters: {height: {default: 0}}

@@ -76,22 +76,7 @@ every $few -p estimator=splat -p injection=voxel:resolution=8 -p stratification=
     -o new/a.exr "$cornell"
 
 # Readers of meshes and pictures.
-cp "$PSPLAT_SOURCE/tests/data/blender.glb" "$PSPLAT_SOURCE/tests/data/baseline.jpg" "$PSPLAT_SOURCE/tests/data/rgb8.png" .
-cat >box.mtl <<MTL
-newmtl painted
-map_Kd rgb8.png
-MTL
-cat >box.obj <<OBJ
-mtllib box.mtl
-v 0 0 0
-v 1 0 0
-v 0 1 0
-vt 0 0
-vt 1 0
-vt 0 1
-usemtl painted
-f 1/1 2/2 3/3
-OBJ
+make_scene_files
 cat >files.psd <<PSD
 psd: 1
 camera: {location: [5, 3, -8], look_at: [0, 0, 0]}

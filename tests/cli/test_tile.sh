@@ -38,6 +38,7 @@ few="-p injection=photon:count=1500 --set render.aa_samples=2"
 {
     expect_same_tiles $few -p estimator=gather:samples=6 --passes 5
     expect_same_tiles $few -p estimator=splat --passes 2
+    expect_same_tiles $few -p estimator=radiosity:epsilon=1e-2,samples=2
     expect_same_tiles $few -p estimator=pathtrace:samples=1 --direct shadowmap
 }
 # The file does not depend on threads, batches and compression; it says how it was made, and that can be repeated.
