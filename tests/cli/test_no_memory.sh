@@ -75,6 +75,8 @@ every $few -p estimator=splat -p injection=rsm:count=500,resolution=16 -p strati
 every $few -p estimator=splat -p injection=voxel:resolution=8 -p stratification=grid -p visibility=imperfect:points=500 \
     -o new/a.exr "$cornell"
 
+every $few --size 80x20 --tile 64 -o new/a.exr -o new/a.png "$cornell"
+
 # Readers of meshes and pictures.
 make_scene_files
 cat >files.psd <<PSD
