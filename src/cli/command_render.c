@@ -360,14 +360,13 @@ static ps_result check_size(const struct job *job, const struct scene_input *inp
                             struct error *error)
 {
     const struct image_description *image = &input->description.image;
-    job->settings->tile = (uint32_t)job->tile;
     ps_result result = job->tile > 0 ? tiled_render_prepare(job->settings, (size_t)image->width,
                                                             (size_t)image->height, error)
                                      : PS_OK;
     if (result != PS_OK)
         return result;
-    return render_options_check_size(&input->description.image, job->settings,
-                                     long_job_keeps_film(&job->passes), error);
+    return render_options_check_size(image, job->settings, long_job_keeps_film(&job->passes),
+                                     error);
 }
 
 static int render_job(struct job *job, struct scene_input *input)
@@ -408,6 +407,7 @@ static void set_wishes(const struct job *job, struct render_settings *settings)
     settings->no_error_layer = !output_list_wants_error(&job->outputs) && !error;
     settings->display = output_list_wants_display(&job->outputs);
     settings->exposure = job->description->image.exposure;
+    settings->tile = (uint32_t)job->tile;
 }
 
 /* A checkpoint that is there already is not replaced, or is a film. */

@@ -120,6 +120,12 @@ bool output_list_suits(const struct output_list *list, const struct render_setti
     return false;
 }
 
+static void tell(const char *path, bool quiet)
+{
+    if (!quiet)
+        fprintf(stderr, "psplat: wrote %s\n", path);
+}
+
 ps_result output_list_write(const struct output_list *list, const struct image *image,
                             struct workers *workers, bool quiet, struct error *error)
 {
@@ -127,8 +133,8 @@ ps_result output_list_write(const struct output_list *list, const struct image *
     for (size_t i = 0; i < list->count; i++) {
         struct error reason;
         ps_result result = output_write(image, list->paths[i], &list->options, workers, &reason);
-        if (result == PS_OK && !quiet)
-            fprintf(stderr, "psplat: wrote %s\n", list->paths[i]);
+        if (result == PS_OK)
+            tell(list->paths[i], quiet);
         if (result != PS_OK && first == PS_OK) {
             first = result;
             *error = reason;
@@ -139,6 +145,6 @@ ps_result output_list_write(const struct output_list *list, const struct image *
 
 void output_list_tell(const struct output_list *list, bool quiet)
 {
-    for (size_t i = 0; i < list->count && !quiet; i++)
-        fprintf(stderr, "psplat: wrote %s\n", list->paths[i]);
+    for (size_t i = 0; i < list->count; i++)
+        tell(list->paths[i], quiet);
 }

@@ -31,7 +31,8 @@ struct exr_output {
 ps_result exr_output_open(struct exr_output *output, const char *path, const struct image *image,
                           uint32_t tile, enum image_compression compression, struct error *error);
 
-/* Ends the file, and lets it appear where `good`; returns `result` unless that fails. */
+/* Ends the file, which appears where `result`, that of what was written, is PS_OK, and else is none; returns it unless
+ * that fails. */
 ps_result exr_output_close(struct exr_output *output, ps_result result, struct error *error);
 
 /* A result for one of the library's, with a message that names what was being written. */

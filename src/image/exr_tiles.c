@@ -6,14 +6,13 @@
 
 struct exr_tiles {
     struct exr_output output;
-    size_t width, height, across, down;
+    size_t across, down;
     bool *written;      /* across * down */
     struct image black; /* a tile of zeros, with all channels */
 };
 
 /* Tiles side by side, and where their samples are. */
 struct tile_run {
-    const struct exr_tiles *tiles;
     size_t left, top, across; /* in tiles */
     size_t first;             /* pixel of the image where the first of them begins */
 };
@@ -83,7 +82,6 @@ ps_result exr_tiles_add(struct exr_tiles *tiles, const struct image *part, struc
     assert(place.x >= left && place.x + place.width <= left + part->width);
     assert(place.y >= top && place.y + place.height <= top + part->height);
     const struct tile_run run = {
-        .tiles = tiles,
         .left = place.x / EXR_TILE_SIDE,
         .top = place.y / EXR_TILE_SIDE,
         .across = in_tiles(place.width),
@@ -111,11 +109,12 @@ static ps_result make_black(struct exr_tiles *tiles, const struct image *like, s
 }
 
 static ps_result open_file(struct exr_tiles *tiles, const char *path, const struct image *like,
-                           enum image_compression compression, struct error *error)
+                           size_t width, size_t height, enum image_compression compression,
+                           struct error *error)
 {
     struct image whole = *like;
-    whole.width = tiles->width;
-    whole.height = tiles->height;
+    whole.width = width;
+    whole.height = height;
     whole.window = (struct picture_window){0};
     return exr_output_open(&tiles->output, path, &whole, EXR_TILE_SIDE, compression, error);
 }
@@ -129,12 +128,12 @@ ps_result exr_tiles_create(const char *path, const struct image *like, size_t wi
     *created = NULL;
     if (!tiles)
         return error_memory(error, sizeof *tiles, "a file of tiles");
-    *tiles = (struct exr_tiles){.width = width, .height = height, .across = across, .down = down};
+    *tiles = (struct exr_tiles){.across = across, .down = down};
     tiles->written = calloc(across * down, sizeof *tiles->written);
     ps_result result = tiles->written ? make_black(tiles, like, error)
                                       : error_memory(error, across * down, "a file of tiles");
     if (result == PS_OK)
-        result = open_file(tiles, path, like, compression, error);
+        result = open_file(tiles, path, like, width, height, compression, error);
     if (result == PS_OK)
         *created = tiles;
     else
@@ -147,7 +146,7 @@ ps_result exr_tiles_finish(struct exr_tiles *tiles, struct workers *workers, str
     ps_result result = PS_OK;
     for (size_t i = 0; i < tiles->across * tiles->down && result == PS_OK; i++) {
         const struct tile_run run = {
-            .tiles = tiles, .left = i % tiles->across, .top = i / tiles->across, .across = 1};
+            .left = i % tiles->across, .top = i / tiles->across, .across = 1};
         if (!tiles->written[i])
             result = write_run(tiles, &run, 1, &tiles->black, workers, error);
     }

@@ -126,8 +126,10 @@ static void drop_textures(const struct scene_description *description, struct fi
 {
     for (size_t i = 0; i < description->texture_count; i++) {
         struct texture_description *texture = &description->textures[i];
-        if (files[i].bytes && texture->bytes == (unsigned char *)files[i].bytes)
+        if (files[i].bytes) {
             texture->bytes = NULL;
+            texture->byte_count = 0;
+        }
         file_release(&files[i]);
     }
 }

@@ -19,9 +19,10 @@ static void end_estimates(struct render *render)
 {
     const struct strategy *estimator = strategy_in(render, PS_ESTIMATOR);
     const ps_estimator_vtable *table = &estimator->type->table.estimator;
+    render->has_tiles = true;
     if (render->has_begun && table->end)
         table->end(estimator->state, estimator->host);
-    render->has_begun = false;
+    render->has_begun = render->has_tiles = false;
 }
 
 bool render_missing_pass(const struct render *render, uint32_t *number)
@@ -199,6 +200,7 @@ ps_result render_run_parts(const struct scene *scene, struct render_settings *se
     ps_result result = render_create(&render, error);
     for (; result == PS_OK && render.part < parts->count; render.part++)
         result = make_part(&render, parts, error);
+    end_estimates(&render); /* where a last stage failed before the last part */
     if (result == PS_OK)
         statistics_count(statistics, "passes", settings_pass_count(settings));
     render_report_refused(&render);

@@ -42,9 +42,11 @@ char *output_default_path(const char *scene_path, const char *suffix)
 }
 
 struct encoding {
-    const float *red, *green, *blue; /* 0..1 */
-    size_t width;
+    const float *red, *green, *blue; /* 0..1, from the part's first pixel on */
+    size_t width;                    /* of the planes */
+    size_t count;                    /* pixels of a row */
     uint8_t *rgb;
+    size_t stride;
 };
 
 static void encode_row(void *user, uint64_t y, uint32_t worker)
@@ -52,26 +54,37 @@ static void encode_row(void *user, uint64_t y, uint32_t worker)
     (void)worker;
     const struct encoding *work = user;
     size_t first = y * work->width;
-    tonemap_planes(work->red + first, work->green + first, work->blue + first, work->width, 0.0,
-                   TONE_CLIP, work->rgb + 3 * first);
+    tonemap_planes(work->red + first, work->green + first, work->blue + first, work->count, 0.0,
+                   TONE_CLIP, work->rgb + y * work->stride);
+}
+
+void output_encode(const struct image *image, struct rectangle part, uint8_t *rgb, size_t stride,
+                   struct workers *workers)
+{
+    size_t first = (part.y - image->window.top) * image->width + part.x - image->window.left;
+    struct encoding work = {
+        .red = image_channel(image, "display.R") + first,
+        .green = image_channel(image, "display.G") + first,
+        .blue = image_channel(image, "display.B") + first,
+        .width = image->width,
+        .count = part.width,
+        .rgb = rgb,
+        .stride = stride,
+    };
+    parallel_for(workers, part.height, encode_row, &work);
 }
 
 /* The layer `display`. */
 static ps_result write_png(const struct image *image, const char *path, struct workers *workers,
                            struct error *error)
 {
-    size_t bytes = image->width * image->height * 3;
+    size_t stride = 3 * image->width, bytes = image->height * stride;
+    const struct rectangle all = {image->window.left, image->window.top, image->width,
+                                  image->height};
     uint8_t *rgb = malloc(bytes);
     if (!rgb)
         return error_memory(error, bytes, "a PNG");
-    struct encoding work = {
-        .red = image_channel(image, "display.R"),
-        .green = image_channel(image, "display.G"),
-        .blue = image_channel(image, "display.B"),
-        .width = image->width,
-        .rgb = rgb,
-    };
-    parallel_for(workers, image->height, encode_row, &work);
+    output_encode(image, all, rgb, stride, workers);
     ps_result result = image_write_png(path, image->width, image->height, rgb, image->attributes,
                                        image->attribute_count, error);
     free(rgb);

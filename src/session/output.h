@@ -24,6 +24,11 @@ ps_result output_write(const struct image *image, const char *path,
                        const struct output_options *options, struct workers *workers,
                        struct error *error);
 
+/* What a part of the layer `display`, a rectangle of the picture that the image shows, is in a PNG: rows of 3 bytes a pixel,
+ * `stride` bytes apart. */
+void output_encode(const struct image *image, struct rectangle part, uint8_t *rgb, size_t stride,
+                   struct workers *workers);
+
 /* A picture of those channels that the options keep, which stay the other's, as all else does; its array is freed by the
  * caller in any case. */
 ps_result output_kept_layers(const struct image *image, const struct output_options *options,

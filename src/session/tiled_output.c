@@ -2,7 +2,6 @@
 
 #include "image/exr_tiles.h"
 #include "image/png_rows.h"
-#include "image/tonemap.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,25 +23,6 @@ struct tiled_output {
 
 /* --- rows of tiles for PNG files ---------------------------------------------------------------- */
 
-struct encoding {
-    const struct tiled_output *output;
-    const struct image *part;
-    struct rectangle tile;
-};
-
-static void encode_line(void *user, uint64_t y, uint32_t worker)
-{
-    (void)worker;
-    const struct encoding *work = user;
-    const struct image *part = work->part;
-    const struct rectangle *tile = &work->tile;
-    size_t first = (tile->y - part->window.top + y) * part->width + tile->x - part->window.left;
-    tonemap_planes(image_channel(part, "display.R") + first,
-                   image_channel(part, "display.G") + first,
-                   image_channel(part, "display.B") + first, tile->width, 0.0, TONE_CLIP,
-                   work->output->row + 3 * (y * work->output->width + tile->x));
-}
-
 /* Writes the row of tiles, and begins the next one. */
 static ps_result end_row(struct tiled_output *output, struct error *error)
 {
@@ -60,8 +40,7 @@ static ps_result end_row(struct tiled_output *output, struct error *error)
 static ps_result add_to_row(struct tiled_output *output, const struct image *part,
                             struct rectangle tile, struct error *error)
 {
-    struct encoding work = {output, part, tile};
-    parallel_for(output->workers, tile.height, encode_line, &work);
+    output_encode(part, tile, output->row + 3 * tile.x, 3 * output->width, output->workers);
     return tile.x + tile.width == output->width ? end_row(output, error) : PS_OK;
 }
 

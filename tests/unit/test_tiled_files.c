@@ -70,6 +70,17 @@ static void expect_tiles(const char *path, unsigned wanted)
     image_release(&read);
 }
 
+static void expect_same_bytes(const char *path, const char *other_path)
+{
+    size_t length, other_length;
+    unsigned char *bytes = scratch_load(path, &length);
+    unsigned char *others = scratch_load(other_path, &other_length);
+    assert_int_equal(length, other_length);
+    assert_memory_equal(bytes, others, length);
+    free(bytes);
+    free(others);
+}
+
 static void test_parts_make_the_picture(void **state)
 {
     const char *path = scratch_path(state, "a.exr");
@@ -90,23 +101,16 @@ static void test_missing_tiles_are_black(void **state)
 
 static void test_workers_do_not_matter(void **state)
 {
-    size_t length, other_length;
     struct workers *workers = start_workers(3);
     write_tiles(scratch_path(state, "one.exr"), 057, IMAGE_ZIP, NULL);
     write_tiles(scratch_path(state, "three.exr"), 057, IMAGE_ZIP, workers);
-    unsigned char *one = scratch_load(scratch_path(state, "one.exr"), &length);
-    unsigned char *three = scratch_load(scratch_path(state, "three.exr"), &other_length);
-    assert_int_equal(length, other_length);
-    assert_memory_equal(one, three, length);
-    free(one);
-    free(three);
+    expect_same_bytes(scratch_path(state, "one.exr"), scratch_path(state, "three.exr"));
     workers_destroy(workers);
 }
 
 static void test_rows_make_the_picture(void **state)
 {
     static uint8_t rgb[WIDTH * HEIGHT * 3];
-    size_t length, other_length;
     struct png_rows *rows;
     struct error error;
     char key[] = "Title", value[] = "rows";
@@ -122,12 +126,7 @@ static void test_rows_make_the_picture(void **state)
     assert_int_equal(png_rows_add(rows, rgb, 37, &error), PS_OK);
     assert_int_equal(png_rows_add(rows, rgb + 37 * WIDTH * 3, HEIGHT - 37, &error), PS_OK);
     assert_int_equal(png_rows_finish(rows, &error), PS_OK);
-    unsigned char *whole = scratch_load(scratch_path(state, "whole.png"), &length);
-    unsigned char *by_rows = scratch_load(scratch_path(state, "rows.png"), &other_length);
-    assert_int_equal(length, other_length);
-    assert_memory_equal(whole, by_rows, length);
-    free(whole);
-    free(by_rows);
+    expect_same_bytes(scratch_path(state, "whole.png"), scratch_path(state, "rows.png"));
 }
 
 /* --- what goes wrong ------------------------------------------------------------------------------- */
