@@ -48,6 +48,8 @@ static void print_command(const struct image *image)
     const char *command = image_attribute(image, "psplat.command");
     if (command)
         printf("to repeat it:\n%s\n", command);
+    else if (image_attribute(image, "psplat.scaled_from"))
+        printf("made in less time than a pass takes: no command repeats it\n");
     else if (image_attribute(image, "psplat.version"))
         printf(
             "interrupted in its first pass, or made from other pictures: no command repeats it\n");

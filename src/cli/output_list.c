@@ -143,6 +143,24 @@ ps_result output_list_write(const struct output_list *list, const struct image *
     return first;
 }
 
+/* Of today's processors: deflating a byte takes a thread so long, all else next to nothing. */
+#define DEFLATE_SECONDS 2.5e-8
+
+double output_list_guess_seconds(const struct output_list *list, const struct image *image,
+                                 double pixels, uint32_t threads)
+{
+    double seconds = 0.0, bytes = 0.0;
+    for (size_t i = 0; i < image->channel_count; i++)
+        bytes += layers_keep(layers(list), image->channels[i].name) ? sizeof(float) : 0.0;
+    for (size_t i = 0; i < list->count; i++) {
+        if (!output_holds_layers(list->paths[i]))
+            seconds += 3.0 * pixels * DEFLATE_SECONDS;
+        else if (list->options.compression < IMAGE_RLE)
+            seconds += bytes * pixels * DEFLATE_SECONDS / threads;
+    }
+    return seconds;
+}
+
 void output_list_tell(const struct output_list *list, bool quiet)
 {
     for (size_t i = 0; i < list->count; i++)

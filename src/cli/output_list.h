@@ -53,6 +53,10 @@ bool output_list_suits(const struct output_list *list, const struct render_setti
 ps_result output_list_write(const struct output_list *list, const struct image *image,
                             struct workers *workers, bool quiet, struct error *error);
 
+/* About how many seconds it takes to write so many pixels of the channels of `image`, by so many threads. */
+double output_list_guess_seconds(const struct output_list *list, const struct image *image,
+                                 double pixels, uint32_t threads);
+
 /* Says that all of them were written unless `quiet`. */
 void output_list_tell(const struct output_list *list, bool quiet);
 

@@ -2,6 +2,7 @@
 
 #include "host/host.h"
 #include "pipeline/stages.h"
+#include <math.h>
 
 static ps_result begin_estimates(struct render *render, struct error *error)
 {
@@ -151,6 +152,21 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
     render_report_refused(&render);
     render_destroy(&render);
     return result;
+}
+
+ps_result render_coarse(const struct scene *scene, struct render_settings *settings, double step,
+                        const struct render_callbacks *callbacks, struct statistics *statistics,
+                        struct image *image, struct error *error)
+{
+    struct rectangle window = planes_window(settings, scene->width, scene->height);
+    struct scene coarse = *scene;
+    coarse.width = (size_t)ceil((double)window.width / step);
+    coarse.height = (size_t)ceil((double)window.height / step);
+    coarse.camera = camera_of_part(&scene->camera, (float)window.x, (float)window.y, (float)step);
+    settings->crop = (struct rectangle){0};
+    settings->first_pass = 0;
+    settings->passes = 1;
+    return render_run(&coarse, settings, callbacks, statistics, NULL, image, error);
 }
 
 static struct rectangle largest_of(const struct render_parts *parts)

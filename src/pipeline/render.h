@@ -48,6 +48,12 @@ ps_result render_run(const struct scene *scene, struct render_settings *settings
                      const struct render_callbacks *callbacks, struct statistics *statistics,
                      struct film_sum *film, struct image *image, struct error *error);
 
+/* Renders a picture of fewer pixels, each of which stands for a square of `step`, of which those of the last column and
+ * row may reach out of it; of the settings' crop where there is one. One pass is made; for the rest, see render_run. */
+ps_result render_coarse(const struct scene *scene, struct render_settings *settings, double step,
+                        const struct render_callbacks *callbacks, struct statistics *statistics,
+                        struct image *image, struct error *error);
+
 /* Parts of a picture, which may overlap. */
 struct render_parts {
     const struct rectangle *places;

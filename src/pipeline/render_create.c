@@ -154,16 +154,27 @@ ps_result render_turn_to_part(struct render *render, struct error *error)
     return create_planes(render, error);
 }
 
+/* The caller's, or one of its own. */
+static ps_result create_trace(struct render *render, struct error *error)
+{
+    const struct render_settings *settings = render->settings;
+    render->trace = settings->trace;
+    if (render->trace)
+        return PS_OK;
+    double start = clock_seconds();
+    ps_result result = trace_create(render->scene, settings->isa, &render->trace, error);
+    statistics_add_seconds(render->statistics, "build", clock_seconds() - start);
+    return result;
+}
+
 ps_result render_create(struct render *render, struct error *error)
 {
     const struct scene *scene = render->scene;
-    double start = clock_seconds();
     ps_result result = render_check_crop(render->settings, scene->width, scene->height, error);
     if (result == PS_OK)
         result = settings_choose_kernel(render->settings, &render->kernel, error);
     if (result == PS_OK)
-        result = trace_create(scene, render->settings->isa, &render->trace, error);
-    statistics_add_seconds(render->statistics, "build", clock_seconds() - start);
+        result = create_trace(render, error);
     if (result == PS_OK)
         result = create_shadow_maps(render, error);
     if (result == PS_OK)
@@ -194,5 +205,6 @@ void render_destroy(struct render *render)
         strategy_stop(&render->settings->strategies[kind]);
     render_report_kept(render);
     shadow_maps_destroy(render->shadow_maps);
-    trace_destroy(render->trace);
+    if (render->trace != render->settings->trace)
+        trace_destroy(render->trace);
 }

@@ -13,6 +13,7 @@
 #include "scene/description.h"
 
 struct kernel_variant;
+struct trace;
 
 struct render_settings {
     struct strategy strategies[PS_KINDS];
@@ -25,6 +26,7 @@ struct render_settings {
     struct rectangle crop; /* the part of the picture that is rendered; no width: all of it */
     uint32_t tile;         /* side of the parts that it is rendered in, one by one; 0: it is one */
     struct workers *workers; /* owned */
+    struct trace *trace; /* over the scene, for this `isa`, borrowed; NULL: a render builds one */
     const char *isa; /* instruction set, a name of kernel.h, borrowed; NULL: the best there is */
     size_t batch;    /* splats at a time; changes memory, not the picture */
     enum direct_light direct;

@@ -69,6 +69,16 @@ ps_ray camera_ray(const struct camera *camera, float x, float y, const float len
     return camera->aperture > 0.0f ? bend(camera, ray, lens) : ray;
 }
 
+struct camera camera_of_part(const struct camera *camera, float left, float top, float step)
+{
+    struct camera part = *camera;
+    part.corner = ps_add_scaled(part.corner, left, camera->across);
+    part.corner = ps_add_scaled(part.corner, top, camera->down);
+    part.across = ps_scale(camera->across, step);
+    part.down = ps_scale(camera->down, step);
+    return part;
+}
+
 bool camera_project(const struct camera *camera, ps_vec3 point, float *x, float *y)
 {
     ps_vec3 away = ps_subtract(point, camera->location);

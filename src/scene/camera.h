@@ -25,6 +25,9 @@ struct camera camera_from_description(const struct camera_description *descripti
  * in [0,1) that choose a point of the lens; without a lens they are not used. */
 ps_ray camera_ray(const struct camera *camera, float x, float y, const float lens[2]);
 
+/* The camera of a part of the picture, from (left, top) on, in pixels whose sides are `step` times as long. */
+struct camera camera_of_part(const struct camera *camera, float left, float top, float step);
+
 /* Where in the picture, in pixels from the upper left corner, a point shows that is sharp; it may lie
  * outside of the picture. False behind the camera. */
 bool camera_project(const struct camera *camera, ps_vec3 point, float *x, float *y);

@@ -71,6 +71,64 @@ wait $process
 check_status $? 130
 [ "$(passes_of way.exr)" -gt 1 ] || fail "the last picture has $(passes_of way.exr) passes"
 
+# --- before the first pass ---
+
+area=$PSPLAT_SOURCE/scenes/cornell-area.psd
+# wait_for_first OPTION...: keeps what is written first, and ends the render.
+wait_for_first() {
+    rm -f way.exr first.exr
+    "$PSPLAT" -q "$@" --write-every 1h -o way.exr "$area" >out 2>err &
+    process=$!
+    for i in $(seq 600); do
+        ln way.exr first.exr 2>/dev/null && break
+        sleep 0.05
+    done
+    kill -KILL $process
+    wait $process 2>/dev/null
+}
+# Of a large picture there is one of few pixels first, scaled up, without layers; a blurred one of the same light, also of
+# a part.
+for part in "" "--crop 800,450,403,301"; do
+    # shellcheck disable=SC2086
+    wait_for_first --size 1600x900 --passes 1000 $part
+    run 0 info first.exr
+    expect_match out "^channels: B G R$"
+    expect_no_text out "psplat.passes"
+    # shellcheck disable=SC2086
+    run 0 -q --size 1600x900 --quality draft $part -o draft.exr "$area"
+    run 0 compare draft.exr first.exr --metric bias --metric flip --fail 'flip>0.15'
+    awk '$1 == "bias" { exit !($2 > 0.95 && $2 < 1.05 && $3 > 0.95 && $3 < 1.05) }' out || fail "not the light: $(cat out)"
+done
+
+# Where there is no time for a pass, the picture is one of these, with the layers; a warning says so.
+run 0 -q --size 1600x900 --time 0.4s -o short.exr "$area"
+expect_match err "^psplat: warning: --time: a pass would take about [0-9.e+]* s; the picture is one of [0-9]+x[0-9]+ pixels, scaled up$"
+run 0 info short.exr
+expect_match out "^short.exr: 1600x900$"
+expect_match out "^psplat.passes: 0$"
+expect_match out "^psplat.scaled_from: [0-9]+x[0-9]+$"
+expect_text out "indirect.R"
+expect_text out "made in less time than a pass takes: no command repeats it"
+# Not where passes or their quality are asked for, or a film is kept: a pass is made.
+small="--size 320x180 -p injection=photon:count=1000 -p denoiser=none $area"
+for asked in "--passes 4" "--quality draft" "--checkpoint film.exr"; do
+    # shellcheck disable=SC2086
+    run 0 -q --time 0.001 $asked -o asked.exr $small
+    expect_empty err
+    [ "$(passes_of asked.exr)" -eq 1 ] || fail "$(passes_of asked.exr) passes with $asked"
+done
+# Whatever quality there was time for, the picture's command makes it again.
+# shellcheck disable=SC2086
+run 0 -q --time 2s -o a.exr $small
+made=$(passes_of a.exr)
+if [ "$made" -gt 0 ]; then
+    run 0 info a.exr
+    tail -n 1 out | sed 's/^psplat render/"$PSPLAT" render -q/; s/$/ -o same.exr/' >command
+    # shellcheck disable=SC1091
+    . ./command || fail "$(cat command)"
+    expect_same_pixels a.exr same.exr
+fi
+
 # --- memory ---
 
 # shellcheck disable=SC2086

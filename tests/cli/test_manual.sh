@@ -107,6 +107,9 @@ photon="$splats -p injection=photon:count=200"
 gather_statistics $splats -p injection=rsm:resolution=8
 gather_statistics $splats -p injection=voxel:resolution=8
 gather_statistics $photon --set render.aa_samples=1 --passes 2
+gather_statistics $photon --size 320x180 --time 0.001
+run 0 info a.exr
+sed -n 's/^\(psplat\.scaled[a-z_]*\): .*/\1/p' out >scaled
 for choice in stratification=cascade estimator=splat estimator=photonmap estimator=sppm estimator=final_gather:samples=1 estimator=vpl:lights=8 estimator=lightcuts:lights=8 estimator=bdpt:samples=1 estimator=irradiance_cache:samples=6 estimator=radiosity:epsilon=1e-3 estimator=voxel_cone:resolution=8 estimator=lpv:cells=4 estimator=ssao estimator=hbao estimator=gather:samples=1 \
     denoiser=gaussian bloom=glare visibility=imperfect:points=1000; do
     gather_statistics $photon -p $choice --direct shadowmap --direct-resolution 8
@@ -129,6 +132,7 @@ agree "layers of psplat(1)"
 {
     echo psplat.command
     sed -n 's/^\(psplat\.[a-z_]*\): .*/\1/p' out
+    cat scaled
 } >program
 part "$man/psplat.1" ".Ss OpenEXR" | sed -n 's/^\.It Cm \(psplat\..*\)/\1/p' >page
 agree "attributes of psplat(1)"

@@ -1,0 +1,174 @@
+/* render_job_progressive.c: a render that shows something within a second, and keeps to its time.
+ *
+ * Pictures of large pixels come before the first pass (first_pictures.h). Where they tell that there is no time for passes
+ * as they were asked for, passes are of less quality, and where not even one of these would be done, the last of those
+ * pictures is the result.
+ */
+#include "base/clock.h"
+#include "cli/first_pictures.h"
+#include "cli/render_job.h"
+#include "trace/trace.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Prints what is wrong. */
+static bool make_settings(void *user, enum quality quality, struct render_settings *settings)
+{
+    const struct render_job *job = user;
+    struct scene_description other = *job->description;
+    other.render.quality = (int32_t)quality;
+    if (render_options_resolve(&job->taken.options, &other, job->sink, settings) != PS_OK)
+        return false;
+    render_job_set_wishes(job, settings);
+    settings->discontinuity_buffer = job->settings->discontinuity_buffer;
+    return true;
+}
+
+/* In a file, what nobody looks at would take time to write. */
+static bool is_looked_at(const char *channel)
+{
+    bool is_picture = strlen(channel) == 1 && strchr("RGB", channel[0]);
+    return is_picture || strncmp(channel, "display.", 8) == 0;
+}
+
+/* What the denoiser takes for its error is not that of a picture that was scaled up. */
+static bool holds_scaled(const char *channel)
+{
+    return strcmp(channel, "error") != 0;
+}
+
+static void show_first_picture(void *user, const struct first_pictures *first)
+{
+    const struct render_job *job = user;
+    struct image image;
+    struct error error;
+    ps_result result = PS_OK;
+    if (job->viewer) {
+        result = first_pictures_enlarge(first, holds_scaled, &image, &error);
+        if (result == PS_OK)
+            render_job_show(job, &image, false);
+        image_release(&image);
+    }
+    if (result == PS_OK && isfinite(job->passes.schedule.write_every)) {
+        result = first_pictures_enlarge(first, is_looked_at, &image, &error);
+        if (result == PS_OK)
+            result = output_list_write(&job->outputs, &image, job->settings->workers, true, &error);
+        image_release(&image);
+    }
+    if (result != PS_OK)
+        print_warning(error.text);
+}
+
+static bool wants_first_pictures(const struct render_job *job)
+{
+    const struct schedule *schedule = &job->passes.schedule;
+    return (isfinite(schedule->write_every) || job->viewer) && !job->passes.wants_mpi &&
+           job->passes.film.passes.count == 0;
+}
+
+/* A film holds passes as they were asked for, and who asks for a quality, or a number of passes, gets that. */
+static bool chooses_quality(const struct render_job *job)
+{
+    const struct long_job *passes = &job->passes;
+    return isfinite(passes->schedule.seconds) && !passes->range.is_given &&
+           !job->taken.options.quality && !long_job_keeps_film(passes);
+}
+
+static bool turn_to(struct render_job *job, enum quality quality)
+{
+    struct render_settings other;
+    if (!make_settings(job, quality, &other))
+        return false;
+    other.trace = job->settings->trace;
+    long_job_set_passes(&job->passes, &other);
+    settings_release(job->settings);
+    *job->settings = other;
+    return true;
+}
+
+/* The last of them as the result, with its number of pixels, warned of. */
+static ps_result take_as_picture(struct render_job *job, const struct first_pictures *first,
+                                 struct image *image, struct error *error)
+{
+    char pixels[64], text[256];
+    snprintf(pixels, sizeof pixels, "%zux%zu", first->image.width, first->image.height);
+    snprintf(text, sizeof text,
+             "--time: a pass would take about %.2g s; the picture is one of %s pixels, scaled up",
+             first_pictures_draft_seconds(first), pixels);
+    progress_clear(&job->progress);
+    print_warning(text);
+    ps_result result = first_pictures_enlarge(first, holds_scaled, image, error);
+    if (result == PS_OK)
+        result = image_set_attribute(image, "psplat.scaled_from", pixels, error);
+    bool cancelled = first->callbacks->cancelled(first->callbacks->user);
+    return result == PS_OK && cancelled ? PS_CANCELLED : result;
+}
+
+/* So that what was asked for is done in time: by the settings, or by the picture, where that is no pass. */
+static ps_result keep_to_time(struct render_job *job, struct first_pictures *first,
+                              struct image *image, struct error *error)
+{
+    struct schedule *schedule = &job->passes.schedule;
+    double writing =
+        output_list_guess_seconds(&job->outputs, &first->image, first_pictures_pixels(first),
+                                  workers_count(job->settings->workers));
+    schedule->picture_seconds = first_pictures_resolve_seconds(first) + writing;
+    first->end = schedule->start + schedule->seconds - writing;
+    enum quality quality;
+    bool passes = first_pictures_choose(first, &quality);
+    if ((quality != first->quality && !turn_to(job, quality)) || passes)
+        return PS_OK;
+    return take_as_picture(job, first, image, error);
+}
+
+/* Where there is no time for a pass, `image` is the picture; else it stays empty. */
+static ps_result make_first_pictures(struct render_job *job, const struct scene *scene,
+                                     const struct render_callbacks *callbacks, struct image *image,
+                                     struct error *error)
+{
+    const struct schedule *schedule = &job->passes.schedule;
+    struct first_pictures first = {
+        .scene = scene,
+        .settings = job->settings,
+        .callbacks = callbacks,
+        .are_wanted = wants_first_pictures(job),
+        .quality = (enum quality)job->description->render.quality,
+        .end = schedule->start + schedule->seconds,
+        .make_settings = make_settings,
+        .show = show_first_picture,
+        .user = job,
+    };
+    ps_result result = PS_OK;
+    first_pictures_make(&first);
+    if (first.step > 0.0 && chooses_quality(job) && !callbacks->cancelled(callbacks->user))
+        result = keep_to_time(job, &first, image, error);
+    image_release(&first.image);
+    return result;
+}
+
+ps_result render_job_progressively(struct render_job *job, const struct scene *scene,
+                                   const struct render_callbacks *callbacks,
+                                   struct statistics *statistics, struct image *image,
+                                   struct error *error)
+{
+    struct film_sum *film = long_job_keeps_film(&job->passes) ? &job->passes.film : NULL;
+    struct trace *trace = NULL;
+    ps_result result = PS_OK;
+    *image = (struct image){0};
+    if (chooses_quality(job) || wants_first_pictures(job)) {
+        double start = clock_seconds();
+        result = trace_create(scene, job->settings->isa, &trace, error);
+        double built = clock_seconds();
+        statistics_add_seconds(statistics, "build", built - start);
+        job->settings->trace = trace;
+        if (result == PS_OK)
+            result = make_first_pictures(job, scene, callbacks, image, error);
+        statistics_add_seconds(statistics, "first pictures", clock_seconds() - built);
+    }
+    if (result == PS_OK && image->width == 0)
+        result = render_run(scene, job->settings, callbacks, statistics, film, image, error);
+    job->settings->trace = NULL;
+    trace_destroy(trace);
+    return result;
+}
