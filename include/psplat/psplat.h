@@ -57,7 +57,7 @@ void psplat_scene_destroy(psplat_scene *scene); /* NULL is nothing */
  *
  *     param, set, plugin             add to those given before
  *     camera, restrict, cache, allow-scene-plugins, size, quality, bounces, passes, seed, threads, isa, batch,
- *     crop, direct, direct-resolution, exposure, memory-limit, layers, compression, preview
+ *     crop, tile, direct, direct-resolution, exposure, memory-limit, layers, compression, preview
  *                                    the last counts
  *
  * Values are those of the command line; NULL for preview and allow-scene-plugins, which take none. What was loaded is
@@ -104,12 +104,21 @@ typedef struct psplat_callbacks {
 
     /* Between passes, when so many are done and another follows. By the thread that called psplat_render. */
     void (*pass)(void *user, psplat_rendering *rendering, uint32_t passes);
+
+    /* A tile that is done, with all passes, where the option `tile` is given: its upper left pixel is (x, y) of the picture.
+     * In rows from the top, each from the left. The tile becomes yours, to be destroyed. By the thread that called
+     * psplat_render. */
+    void (*tile)(void *user, psplat_picture *tile, size_t x, size_t y);
 } psplat_callbacks;
 
 /* Renders what is loaded. `callbacks`: NULL, or borrowed until it returns. *picture becomes the caller's, to be
  * destroyed, or NULL. PS_CANCELLED: the picture holds the passes that were complete; it is NULL where there is nothing
  * to show. Where a pass or a stage at the end fails, the picture is made without it, if there is something to show. The
- * same scene, options, version and instruction set give the same picture, bit for bit, and that of the command. */
+ * same scene, options, version and instruction set give the same picture, bit for bit, and that of the command.
+ *
+ * With the option `tile` the callback of that name is needed. It gets the picture tile by tile, as they come, and *picture
+ * is NULL: memory is that of a tile, and a picture of any size can be rendered. Passes are made in each tile, so that `pass`
+ * is not called. When cancelled, the last tile holds what was done by then. */
 ps_result psplat_render(const psplat_scene *scene, const psplat_callbacks *callbacks,
                         psplat_picture **picture, psplat_error *error);
 

@@ -5,6 +5,7 @@
 #include "session/layers.h"
 #include "session/output.h"
 #include "session/remark.h"
+#include "session/tiled_render.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -111,20 +112,67 @@ ps_result psplat_rendering_picture(psplat_rendering *rendering, psplat_picture *
     return result == PS_OK ? PS_OK : report_error(error, result, &reason);
 }
 
+static void tell_of_dark_pixels(psplat_rendering *rendering)
+{
+    char remark[REMARK_TEXT];
+    if (remark_dark_pixels(&rendering->statistics, remark))
+        tell(rendering, false, remark);
+}
+
+/* See tiled_render.take. */
+static ps_result take_tile(void *user, struct rectangle tile, struct image *part,
+                           struct error *error)
+{
+    psplat_rendering *rendering = user;
+    const struct picture_window *window = &part->window;
+    psplat_picture *picture;
+    image_crop(part, (struct rectangle){tile.x - window->left, tile.y - window->top, tile.width,
+                                        tile.height});
+    ps_result result =
+        wrap(rendering, part, settings_pass_count(&rendering->settings), &picture, error);
+    *part = (struct image){0};
+    if (result == PS_OK)
+        rendering->callbacks.tile(rendering->callbacks.user, picture, tile.x, tile.y);
+    return result;
+}
+
+static ps_result run_tiles(psplat_rendering *rendering, const struct render_callbacks *callbacks,
+                           struct error *error)
+{
+    struct render_callbacks without_passes = *callbacks;
+    without_passes.next_pass = NULL;
+    const struct tiled_render tiled = {
+        .scene = &rendering->scene->scene,
+        .settings = &rendering->settings,
+        .callbacks = &without_passes,
+        .statistics = &rendering->statistics,
+        .take = take_tile,
+        .user = rendering,
+    };
+    if (!rendering->callbacks.tile)
+        return error_set(error, PS_ERROR_INVALID,
+                         "the option 'tile' needs the callback 'tile', which takes the tiles");
+    ps_result result = tiled_render_run(&tiled, error);
+    if (result == PS_CANCELLED)
+        error_set(error, result, "cancelled: the last tile holds what was done by then");
+    tell_of_dark_pixels(rendering);
+    return result;
+}
+
 static ps_result run(psplat_rendering *rendering, const struct render_callbacks *callbacks,
                      void *user, struct error *error)
 {
     psplat_picture **picture = user;
     struct image image;
-    char remark[REMARK_TEXT];
+    if (rendering->settings.tile > 0)
+        return run_tiles(rendering, callbacks, error);
     ps_result result = render_run(&rendering->scene->scene, &rendering->settings, callbacks,
                                   &rendering->statistics, NULL, &image, error);
     if (result == PS_CANCELLED)
         error_set(error, result, "cancelled: the picture holds what was done by then");
     if (image.width == 0)
         return result;
-    if (remark_dark_pixels(&rendering->statistics, remark))
-        tell(rendering, false, remark);
+    tell_of_dark_pixels(rendering);
     struct error reason;
     uint32_t passes = (uint32_t)statistics_counter(&rendering->statistics, "passes");
     ps_result wrapped = wrap(rendering, &image, passes, picture, &reason);

@@ -1,8 +1,6 @@
 /* command_render.c: psplat render: a scene becomes a picture. */
 #include "cli/render_job.h"
-#include "session/option_value.h"
 #include "session/output.h"
-#include "session/tiled_render.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,22 +20,8 @@ static const struct option options[] = {
     {0, "stats", "FILE.json", "write what each stage took in time and memory"},
 };
 
-static bool take_tile(struct render_job *job, const char *value)
-{
-    struct error error;
-    ps_result result = option_whole_number("tile", value, TILE_STEP, 65536, &job->tile, &error);
-    if (result == PS_OK && fmod(job->tile, TILE_STEP) != 0)
-        result = error_set(&error, PS_ERROR_INVALID, "--tile: %s is no multiple of %d", value,
-                           TILE_STEP);
-    if (result != PS_OK)
-        print_error(error.text);
-    return result == PS_OK;
-}
-
 static bool take_option(struct render_job *job, const struct argument *argument)
 {
-    if (argument_is(argument, "tile"))
-        return take_tile(job, argument->value);
     if (argument_is(argument, "stats"))
         job->stats_path = argument->value;
     else if (argument_is(argument, "display"))
@@ -70,16 +54,15 @@ static bool take_arguments(struct render_job *job, const struct argument *argume
 static bool suits_tiles(const struct render_job *job)
 {
     const struct long_job *passes = &job->passes;
-    const char *other = job->taken.options.crop.width > 0        ? "--crop"
-                        : passes->checkpoint                     ? "--checkpoint"
+    const char *other = passes->checkpoint                       ? "--checkpoint"
                         : passes->wants_mpi                      ? "--mpi"
                         : long_job_has_budget(passes)            ? "--time and --error"
                         : isfinite(passes->schedule.write_every) ? "--write-every"
                         : job->display                           ? "--display"
                                                                  : NULL;
-    if (job->tile > 0 && other)
+    if (job->taken.options.tile > 0 && other)
         fprintf(stderr, "psplat: error: --tile does not go with %s\n", other);
-    return job->tile == 0 || !other;
+    return job->taken.options.tile == 0 || !other;
 }
 
 /* Part of the passes makes no picture that anybody waits for, unless it is named. */

@@ -5,7 +5,6 @@
 #include "base/path.h"
 #include "session/layers.h"
 #include "session/remark.h"
-#include "session/tiled_render.h"
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -58,7 +57,6 @@ void render_job_set_wishes(const struct render_job *job, struct render_settings 
     settings->no_error_layer = !output_list_wants_error(&job->outputs) && !error;
     settings->display = output_list_wants_display(&job->outputs);
     settings->exposure = job->description->image.exposure;
-    settings->tile = (uint32_t)job->tile;
 }
 
 static void tell_of_dark_pixels(const struct render_job *job, const struct statistics *statistics)
@@ -163,20 +161,9 @@ static ps_result render_tiles(struct render_job *job, const struct scene *scene,
                               const struct render_callbacks *callbacks,
                               struct statistics *statistics, struct error *error)
 {
-    const struct tiled_render tiled = {
-        .scene = scene,
-        .scene_path = job->description->path,
-        .scene_options = &job->taken.options.scene,
-        .settings = job->settings,
-        .callbacks = callbacks,
-        .statistics = statistics,
-        .paths = job->outputs.paths,
-        .path_count = job->outputs.count,
-        .output = &job->outputs.options,
-    };
     struct error reason;
     handle_signals(interrupt);
-    ps_result result = tiled_render_run(&tiled, error);
+    ps_result result = render_job_tiled(job, scene, callbacks, statistics, error);
     progress_clear(&job->progress);
     if (result != PS_OK && result != PS_CANCELLED)
         return result;
@@ -199,10 +186,10 @@ static ps_result render_and_write(struct render_job *job, const struct scene *sc
         .progress = show_progress,
         .log = show_message,
         .cancelled = was_interrupted,
-        .next_pass = job->tile > 0 ? NULL : next_pass,
+        .next_pass = job->settings->tile > 0 ? NULL : next_pass,
         .end_passes = end_passes,
     };
-    if (job->tile > 0)
+    if (job->settings->tile > 0)
         return render_tiles(job, scene, &callbacks, statistics, error);
     struct image image;
     handle_signals(interrupt);
@@ -243,19 +230,6 @@ static ps_result render_and_show(struct render_job *job, const struct scene *sce
     return result;
 }
 
-static ps_result check_size(const struct render_job *job, const struct scene_input *input,
-                            struct error *error)
-{
-    const struct image_description *image = &input->description.image;
-    ps_result result = job->tile > 0 ? tiled_render_prepare(job->settings, (size_t)image->width,
-                                                            (size_t)image->height, error)
-                                     : PS_OK;
-    if (result != PS_OK)
-        return result;
-    return render_options_check_size(image, job->settings, long_job_keeps_film(&job->passes),
-                                     error);
-}
-
 int render_job_run(struct render_job *job, struct scene_input *input)
 {
     struct long_job *passes = &job->passes;
@@ -270,7 +244,8 @@ int render_job_run(struct render_job *job, struct scene_input *input)
     statistics_init(&statistics);
     double start = clock_seconds();
     statistics_add_seconds(&statistics, "load", start - job->progress.start);
-    ps_result result = check_size(job, input, &error);
+    ps_result result = render_options_check_size(&input->description.image, job->settings,
+                                                 long_job_keeps_film(passes), &error);
     if (result == PS_OK)
         result = scene_input_build(input, &scene);
     print_problems(input);

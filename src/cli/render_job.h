@@ -13,7 +13,6 @@ struct render_job {
     struct output_list outputs;
     struct long_job passes;
     const char *stats_path;
-    double tile;         /* --tile; 0: none */
     const char *display; /* NULL: no viewer */
     struct tev_address display_address;
     struct viewer *viewer; /* while it renders */
@@ -30,6 +29,11 @@ void render_job_set_wishes(const struct render_job *job, struct render_settings 
 
 /* Shows the picture in the viewer. */
 void render_job_show(const struct render_job *job, const struct image *image, bool is_last);
+
+/* Renders tile by tile, straight into the files: those appear where there is a tile and they can be written. */
+ps_result render_job_tiled(struct render_job *job, const struct scene *scene,
+                           const struct render_callbacks *callbacks, struct statistics *statistics,
+                           struct error *error);
 
 /* What render_run makes, with pictures before it where they are wanted. */
 ps_result render_job_progressively(struct render_job *job, const struct scene *scene,

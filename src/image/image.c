@@ -1,6 +1,7 @@
 /* image.c: the picture in memory: named planes of floats and string attributes. */
 #include "image/image.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -68,6 +69,23 @@ void image_keep_channels(struct image *image, bool (*keeps)(const void *user, co
         }
     }
     image->channel_count = kept;
+}
+
+void image_crop(struct image *image, struct rectangle part)
+{
+    assert(rectangle_fits(part, image->width, image->height));
+    for (size_t c = 0; c < image->channel_count; c++) {
+        float *samples = image->channels[c].samples;
+        for (size_t y = 0; y < part.height; y++)
+            memmove(samples + y * part.width, samples + (part.y + y) * image->width + part.x,
+                    part.width * sizeof *samples);
+    }
+    if (image->window.picture_width == 0)
+        image->window = (struct picture_window){0, 0, image->width, image->height};
+    image->window.left += part.x;
+    image->window.top += part.y;
+    image->width = part.width;
+    image->height = part.height;
 }
 
 static struct image_attribute *find_attribute(const struct image *image, const char *name)

@@ -47,6 +47,9 @@ ps_result image_adopt_channel(struct image *image, const char *name, float *samp
 void image_keep_channels(struct image *image, bool (*keeps)(const void *user, const char *name),
                          const void *user);
 
+/* Keeps a rectangle of it alone, which must lie in it; the window is the smaller one's. */
+void image_crop(struct image *image, struct rectangle part);
+
 /* Appends, or replaces, a string attribute. */
 ps_result image_set_attribute(struct image *image, const char *name, const char *value,
                               struct error *error);

@@ -5,6 +5,7 @@
 #include "parser/schema/schema.h"
 #include "session/option_value.h"
 #include "session/preview.h"
+#include "session/tiled_render.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -96,6 +97,19 @@ static ps_result set_crop(struct render_options *options, const char *value, str
         return error_set(error, PS_ERROR_INVALID,
                          "--crop: a part has at least one pixel, '%.500s' has none", value);
     options->crop = crop;
+    return PS_OK;
+}
+
+static ps_result set_tile(struct render_options *options, const char *value, struct error *error)
+{
+    double side;
+    ps_result result = option_whole_number("tile", value, TILE_STEP, 65536, &side, error);
+    if (result != PS_OK)
+        return result;
+    if (fmod(side, TILE_STEP) != 0)
+        return error_set(error, PS_ERROR_INVALID, "--tile: %s is no multiple of %d", value,
+                         TILE_STEP);
+    options->tile = side;
     return PS_OK;
 }
 
@@ -210,6 +224,7 @@ static const struct row {
     {"plugin", false, set_plugin},
     {"size", false, set_size},
     {"crop", false, set_crop},
+    {"tile", false, set_tile},
     {"quality", false, set_quality},
     {"bounces", false, set_bounces},
     {"passes", false, set_passes},

@@ -18,6 +18,7 @@ struct render_options {
     struct rectangle crop; /* see render_settings */
     char *isa;             /* as the following, NULL: not given */
     char *bounces, *quality;
+    double tile;                                    /* 0: not given */
     double seed, threads, batch, direct_resolution; /* negative: not given */
     double exposure;                                /* NAN: not given */
     double memory_limit;                            /* bytes; 0: what the machine lends */

@@ -5,6 +5,7 @@
 #include "pipeline/render.h"
 #include "session/preview.h"
 #include "session/render_options.h"
+#include "session/tiled_render.h"
 #include <math.h>
 
 #define DEFAULT_BATCH 4096
@@ -67,6 +68,7 @@ ps_result render_options_resolve(const struct render_options *options,
         return result;
     settings->isa = options->isa;
     settings->crop = crop_of(options, &description->image);
+    settings->tile = (uint32_t)options->tile;
     settings->memory_limit = options->memory_limit;
     if (options->passes.is_given) {
         settings->first_pass = options->passes.first;
@@ -87,7 +89,10 @@ ps_result render_options_check_size(const struct image_description *image,
                                     struct error *error)
 {
     size_t width = (size_t)image->width, height = (size_t)image->height;
-    ps_result result = render_check_crop(settings, width, height, error);
-    return result == PS_OK ? render_check_memory(settings, width, height, keeps_film, error)
-                           : result;
+    struct render_settings part = *settings;
+    if (part.tile > 0 && part.crop.width > 0)
+        return error_set(error, PS_ERROR_INVALID, "--tile does not go with --crop");
+    ps_result result = part.tile > 0 ? tiled_render_prepare(&part, width, height, error)
+                                     : render_check_crop(&part, width, height, error);
+    return result == PS_OK ? render_check_memory(&part, width, height, keeps_film, error) : result;
 }

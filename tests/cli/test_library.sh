@@ -44,7 +44,7 @@ expect_same header page
 # And its options, which are those of `psplat render` that say what is rendered.
 run 0 render --help
 sed -n 's/^  -., --\([a-z-]*\).*/\1/p; s/^      --\([a-z-]*\).*/\1/p' out |
-    grep -vx 'help\|version\|output\|quiet\|stats\|progress\|time\|error\|write-every\|checkpoint\|checkpoint-every\|resume\|mpi\|display\|tile' |
+    grep -vx 'help\|version\|output\|quiet\|stats\|progress\|time\|error\|write-every\|checkpoint\|checkpoint-every\|resume\|mpi\|display' |
     sort >program
 sed -n '/^\.Sh OPTIONS/,/^\.Sh/s/^\.It Cm //p' "$PSPLAT_SOURCE/man/libpsplat.3" | sort >page
 expect_same program page

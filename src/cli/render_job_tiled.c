@@ -1,0 +1,71 @@
+/* render_job_tiled.c: a picture too large for the memory, rendered tile by tile straight into its files. */
+#include "base/clock.h"
+#include "cli/render_job.h"
+#include "session/tiled_output.h"
+#include "session/tiled_render.h"
+
+struct tiled_files {
+    const struct render_job *job;
+    const struct scene *scene;
+    struct statistics *statistics;
+    struct tiled_output *output; /* NULL: no tile is done */
+    bool cannot_write;
+};
+
+/* The picture's attributes are those of all of it. */
+static ps_result begin_files(struct tiled_files *files, struct image *first, struct error *error)
+{
+    const struct render_job *job = files->job;
+    const struct render_settings *settings = job->settings;
+    ps_result result = output_describe(first, job->description->path, &job->taken.options.scene,
+                                       settings, settings_pass_count(settings), true, error);
+    if (result != PS_OK)
+        return result;
+    return tiled_output_create(job->outputs.paths, job->outputs.count, &job->outputs.options, first,
+                               files->scene->width, files->scene->height, settings->tile,
+                               settings->workers, &files->output, error);
+}
+
+static ps_result take_tile(void *user, struct rectangle tile, struct image *part,
+                           struct error *error)
+{
+    struct tiled_files *files = user;
+    double start = clock_seconds();
+    ps_result result = files->output ? PS_OK : begin_files(files, part, error);
+    if (result == PS_OK)
+        result = tiled_output_add(files->output, part, tile, error);
+    files->cannot_write = result != PS_OK;
+    statistics_add_seconds(files->statistics, "write", clock_seconds() - start);
+    return result;
+}
+
+static ps_result finish(struct tiled_files *files, ps_result result, struct error *error)
+{
+    struct error reason;
+    if (!files->output || files->cannot_write) {
+        tiled_output_discard(files->output);
+        return result;
+    }
+    ps_result finished = tiled_output_finish(files->output, &reason);
+    if (finished == PS_OK || (result != PS_OK && result != PS_CANCELLED))
+        return result;
+    *error = reason;
+    return finished;
+}
+
+ps_result render_job_tiled(struct render_job *job, const struct scene *scene,
+                           const struct render_callbacks *callbacks, struct statistics *statistics,
+                           struct error *error)
+{
+    struct tiled_files files = {.job = job, .scene = scene, .statistics = statistics};
+    const struct tiled_render tiled = {
+        .scene = scene,
+        .settings = job->settings,
+        .callbacks = callbacks,
+        .statistics = statistics,
+        .take = take_tile,
+        .user = &files,
+    };
+    ps_result result = tiled_render_run(&tiled, error);
+    return finish(&files, result, error);
+}
