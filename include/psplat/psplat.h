@@ -75,8 +75,9 @@ void psplat_scene_listen(psplat_scene *scene, psplat_listener listener, void *us
 
 /* Reads a scene (psd(5)), or a mesh file, which is a scene by itself as it is for the command: "lamp.glb". Checks its
  * text, files, strategies, their parameters, and memory. What strategies object to as they start, such as a parameter
- * that does not suit the scene, psplat_render tells before its first pass. The scene takes the place of what was loaded
- * before; where that fails, nothing is loaded. "-" is standard input. */
+ * that does not suit the scene, psplat_render tells before its first pass. Builds what traces rays through the scene,
+ * which its renders share. The scene takes the place of what was loaded before; where that fails, nothing is loaded.
+ * "-" is standard input. */
 ps_result psplat_scene_load(psplat_scene *scene, const char *path, psplat_error *error);
 
 /* The same for a scene's text of `length` bytes. `name` stands for its file, which need not be there, in messages, and
@@ -121,6 +122,13 @@ typedef struct psplat_callbacks {
  * is not called. When cancelled, the last tile holds what was done by then. */
 ps_result psplat_render(const psplat_scene *scene, const psplat_callbacks *callbacks,
                         psplat_picture **picture, psplat_error *error);
+
+/* A picture to look at while a better one is made: what psplat_render shows, in about so many pixels (or all, where
+ * those are fewer), by one pass of draft quality. 10,000 pixels take some tenths of a second. Callbacks as of
+ * psplat_render, but `pass` and `tile`, which are not called. Where it fails or is cancelled, there is no picture. */
+ps_result psplat_preview(const psplat_scene *scene, size_t pixels,
+                         const psplat_callbacks *callbacks, psplat_picture **picture,
+                         psplat_error *error);
 
 /* The picture of the passes so far, likewise; from the callback `pass` alone. */
 ps_result psplat_rendering_picture(psplat_rendering *rendering, psplat_picture **picture,

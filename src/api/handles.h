@@ -3,6 +3,7 @@
 #define API_HANDLES_H
 
 #include "session/render_options.h"
+#include "trace/trace.h"
 #include <psplat/psplat.h>
 
 struct psplat_scene {
@@ -12,6 +13,7 @@ struct psplat_scene {
     bool is_loaded, is_text;
     struct scene_input input; /* as the following, where `is_loaded` */
     struct scene scene;
+    struct trace *trace; /* over it, which all renders share */
 };
 
 struct psplat_picture {

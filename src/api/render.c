@@ -6,7 +6,9 @@
 #include "session/output.h"
 #include "session/remark.h"
 #include "session/tiled_render.h"
+#include "settings/quality.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -195,14 +197,18 @@ static void set_wishes(const psplat_scene *scene, struct render_settings *settin
 static ps_result resolve(psplat_rendering *rendering, psplat_error *error)
 {
     const psplat_scene *scene = rendering->scene;
+    struct scene_description description = scene->input.description;
     struct diagnostics *sink = diagnostics_create();
     if (!sink) {
         struct error reason;
         error_memory(&reason, 0, "the settings");
         return report_error(error, PS_ERROR_MEMORY, &reason);
     }
-    ps_result result = render_options_resolve(&scene->options, &scene->input.description, sink,
-                                              &rendering->settings);
+    if (rendering->is_preview)
+        description.render.quality = QUALITY_DRAFT;
+    ps_result result =
+        render_options_resolve(&scene->options, &description, sink, &rendering->settings);
+    rendering->settings.trace = scene->trace;
     if (result == PS_OK)
         render_options_suit_scene(&scene->options, &scene->scene, &rendering->settings);
     else
@@ -253,22 +259,29 @@ static ps_result start(psplat_rendering *rendering, rendering_work work, void *u
     return result == PS_OK ? PS_OK : report_error(error, result, &reason);
 }
 
-ps_result rendering_do(const psplat_scene *scene, const psplat_callbacks *callbacks,
+static ps_result enter(psplat_rendering *rendering, const psplat_callbacks *callbacks,
                        rendering_work work, void *user, psplat_error *error)
 {
-    psplat_rendering rendering = {.scene = scene};
+    const psplat_scene *scene = rendering->scene;
     struct error reason;
     fenv_t caller;
-    ps_result result = take_callbacks(callbacks, &rendering.callbacks, &reason);
+    ps_result result = take_callbacks(callbacks, &rendering->callbacks, &reason);
     if (result == PS_OK && !scene->is_loaded)
         result = error_set(&reason, PS_ERROR_INVALID,
                            "no scene is loaded; options are to be set before psplat_scene_load");
     if (result != PS_OK)
         return report_error(error, result, &reason);
     environment_enter(&caller);
-    result = start(&rendering, work, user, error);
+    result = start(rendering, work, user, error);
     environment_leave(&caller);
     return result;
+}
+
+ps_result rendering_do(const psplat_scene *scene, const psplat_callbacks *callbacks,
+                       rendering_work work, void *user, psplat_error *error)
+{
+    psplat_rendering rendering = {.scene = scene};
+    return enter(&rendering, callbacks, work, user, error);
 }
 
 ps_result psplat_render(const psplat_scene *scene, const psplat_callbacks *callbacks,
@@ -276,4 +289,44 @@ ps_result psplat_render(const psplat_scene *scene, const psplat_callbacks *callb
 {
     *picture = NULL;
     return rendering_do(scene, callbacks, run, picture, error);
+}
+
+/* --- previews ---------------------------------------------------------------------------------------- */
+
+struct preview {
+    double pixels;
+    psplat_picture **picture;
+};
+
+static ps_result run_preview(psplat_rendering *rendering, const struct render_callbacks *callbacks,
+                             void *user, struct error *error)
+{
+    const struct preview *preview = user;
+    const struct scene *scene = &rendering->scene->scene;
+    struct render_settings *settings = &rendering->settings;
+    struct render_callbacks without_passes = *callbacks;
+    struct image image;
+    struct rectangle crop = settings->crop;
+    double all = crop.width > 0 ? (double)crop.width * (double)crop.height
+                                : (double)scene->width * (double)scene->height;
+    double step = fmax(sqrt(all / fmax(preview->pixels, 1.0)), 1.0);
+    without_passes.next_pass = NULL;
+    settings->tile = 0;
+    ps_result result = render_coarse(scene, settings, step, &without_passes, &rendering->statistics,
+                                     &image, error);
+    settings->crop = crop;
+    if (result == PS_OK)
+        return wrap(rendering, &image, 0, preview->picture, error);
+    image_release(&image);
+    return result;
+}
+
+ps_result psplat_preview(const psplat_scene *scene, size_t pixels,
+                         const psplat_callbacks *callbacks, psplat_picture **picture,
+                         psplat_error *error)
+{
+    psplat_rendering rendering = {.scene = scene, .is_preview = true};
+    struct preview preview = {(double)pixels, picture};
+    *picture = NULL;
+    return enter(&rendering, callbacks, run_preview, &preview, error);
 }

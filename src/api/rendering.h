@@ -9,6 +9,7 @@
 
 struct psplat_rendering {
     const psplat_scene *scene;
+    bool is_preview;
     struct psplat_callbacks callbacks;
     struct render_settings settings;
     struct statistics statistics;

@@ -24,6 +24,7 @@ static void unload(psplat_scene *scene)
 {
     if (!scene->is_loaded)
         return;
+    trace_destroy(scene->trace);
     scene_release(&scene->scene);
     scene_input_release(&scene->input);
     scene->is_loaded = false;
@@ -78,6 +79,21 @@ static ps_result try_settings(psplat_scene *scene)
     return result;
 }
 
+/* The scene, and what traces rays through it. */
+static ps_result build(psplat_scene *scene)
+{
+    struct error error;
+    ps_result result = scene_input_build(&scene->input, &scene->scene);
+    if (result != PS_OK)
+        return result;
+    result = trace_create(&scene->scene, scene->options.isa, &scene->trace, &error);
+    if (result == PS_OK)
+        return PS_OK;
+    diagnostics_report(scene->input.sink, SEVERITY_ERROR, NULL, 0, "%s", error.text);
+    scene_release(&scene->scene);
+    return result;
+}
+
 /* What was read becomes a scene, or is released. `result`: that of reading. */
 static ps_result finish_loading(psplat_scene *scene, ps_result result, psplat_error *error)
 {
@@ -87,7 +103,7 @@ static ps_result finish_loading(psplat_scene *scene, ps_result result, psplat_er
     if (result == PS_OK)
         result = try_settings(scene);
     if (result == PS_OK)
-        result = scene_input_build(input, &scene->scene);
+        result = build(scene);
     report_warnings(scene->listener, scene->user, input->sink);
     scene->is_loaded = result == PS_OK;
     if (scene->is_loaded)

@@ -30,22 +30,18 @@ static ps_result set_number(psplat_scene *scene, const char *option, uint32_t nu
 }
 
 static ps_result set_options(struct explorer *explorer, int view, const struct option_list *options,
-                             uint32_t passes, bool preview, psplat_scene *scene,
-                             psplat_error *error)
+                             uint32_t passes, psplat_scene *scene, psplat_error *error)
 {
     ps_result result = set_number(scene, "threads", thread_share(explorer, view), error);
     if (result == PS_OK)
         result = option_list_set(&explorer->fixed, scene, error);
     if (result == PS_OK)
         result = option_list_set(options, scene, error);
-    if (result != PS_OK)
-        return result;
-    return preview ? psplat_scene_set(scene, "preview", NULL, error)
-                   : set_number(scene, "passes", passes, error);
+    return result == PS_OK ? set_number(scene, "passes", passes, error) : result;
 }
 
 ps_result explorer_load(struct explorer *explorer, int view, const struct option_list *options,
-                        uint32_t passes, bool preview, psplat_scene **scene, psplat_error *error)
+                        uint32_t passes, psplat_scene **scene, psplat_error *error)
 {
     psplat_scene *made = psplat_scene_create();
     *scene = NULL;
@@ -53,7 +49,7 @@ ps_result explorer_load(struct explorer *explorer, int view, const struct option
         *error = (psplat_error){.result = PS_ERROR_MEMORY, .message = "out of memory"};
         return PS_ERROR_MEMORY;
     }
-    ps_result result = set_options(explorer, view, options, passes, preview, made, error);
+    ps_result result = set_options(explorer, view, options, passes, made, error);
     if (result == PS_OK)
         result = psplat_scene_load(made, explorer->path, error);
     if (result != PS_OK)
@@ -164,7 +160,7 @@ static ps_result load_for(struct explorer *explorer, int view, struct option_lis
     psplat_scene *scene;
     struct timespec began;
     clock_gettime(CLOCK_REALTIME, &began);
-    ps_result result = explorer_load(explorer, view, options, passes, false, &scene, error);
+    ps_result result = explorer_load(explorer, view, options, passes, &scene, error);
     if (result != PS_OK && !(error->file[0] && scene_is_wrong(explorer)))
         return result;
     set_view(explorer, view, options, passes, scene, began);
@@ -252,7 +248,7 @@ static ps_result load_first(struct explorer *explorer, struct option_list *optio
     struct timespec began;
     clock_gettime(CLOCK_REALTIME, &began);
     view->is_present = true;
-    ps_result result = explorer_load(explorer, VIEW_A, options, passes, false, &scene, problem);
+    ps_result result = explorer_load(explorer, VIEW_A, options, passes, &scene, problem);
     if (result != PS_OK && !problem->file[0])
         return result;
     if (result == PS_OK)

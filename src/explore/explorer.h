@@ -66,9 +66,9 @@ void explorer_watch(struct explorer *explorer);
 /* The picture of a view, to be released; NULL: there is none. */
 struct shown_picture *explorer_picture(struct explorer *explorer, int view);
 
-/* Loads the scene for a view. `preview`: a quick look instead, with no number of passes. Any thread. */
+/* Loads the scene for a view. Any thread. */
 ps_result explorer_load(struct explorer *explorer, int view, const struct option_list *options,
-                        uint32_t passes, bool preview, psplat_scene **scene, psplat_error *error);
+                        uint32_t passes, psplat_scene **scene, psplat_error *error);
 
 /* Takes over what a scene that was loaded for a view says of itself. Under the lock. */
 void explorer_note_scene(struct explorer *explorer, struct view *view, const psplat_scene *scene,

@@ -63,7 +63,7 @@ static ps_result load(struct explorer *explorer, int view, psplat_scene **scene,
         *error = (psplat_error){.result = result, .message = "there is no such view"};
     }
     if (result == PS_OK)
-        result = explorer_load(explorer, view, &options, 1, false, scene, error);
+        result = explorer_load(explorer, view, &options, 1, scene, error);
     option_list_release(&options);
     return result;
 }

@@ -2,9 +2,6 @@
 
 #include "base/clock.h"
 #include "explore/explorer.h"
-#include "session/option_value.h"
-#include "session/preview.h"
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,6 +16,11 @@
 #define SHOW_SHARE 0.2
 
 #define BEHIND_NICE 15
+
+/* Of the first preview; of the second, and how long it may take. */
+#define FIRST_PIXELS 10000.0
+#define MOST_PIXELS 230400.0
+#define PREVIEW_SECONDS 0.5
 
 /* One render of a view. */
 struct work {
@@ -221,35 +223,38 @@ static ps_result render(struct work *work, const psplat_scene *scene, uint32_t p
     return result;
 }
 
-/* A size that was asked for is made smaller, as a preview makes that of a scene; false when out of memory. */
-static bool shrink(struct option_list *options)
+static double pixels_of(const psplat_picture *picture)
 {
-    struct image_description image = {0};
-    struct error error;
-    char text[64];
-    const char *size = option_list_value(options, "size");
-    if (!size || option_size(size, &image.width, &image.height, &error) != PS_OK)
-        return true;
-    preview_shrink(&image);
-    snprintf(text, sizeof text, "%" PRId64 "x%" PRId64, image.width, image.height);
-    return option_list_add(options, "size", text);
+    return (double)psplat_picture_width(picture) * (double)psplat_picture_height(picture);
 }
 
-/* By a quick method, whatever the view's; what can't be had so is waited for. */
-static void render_preview(struct work *work, const struct option_list *options)
+/* Returns the time that it took; 0 where there is none. What goes wrong, the render tells. */
+static double show_preview(struct work *work, const psplat_scene *scene, double pixels)
 {
-    struct option_list quick = {0};
-    psplat_scene *scene = NULL;
-    psplat_error error;
+    const psplat_callbacks callbacks = {.size = sizeof callbacks,
+                                        .user = work,
+                                        .progress = show_progress,
+                                        .cancelled = was_cancelled};
+    psplat_picture *picture = NULL;
+    double start = clock_seconds();
+    work->stage = NULL;
+    if (psplat_preview(scene, (size_t)pixels, &callbacks, &picture, NULL) != PS_OK)
+        return 0.0;
+    double seconds = clock_seconds() - start;
+    bool is_all = pixels_of(picture) < 0.5 * pixels;
+    show(work, picture, 1);
+    return is_all ? 0.0 : seconds;
+}
+
+/* One at once, and, where there is time for many more pixels, another. */
+static void render_preview(struct work *work, const psplat_scene *scene)
+{
     work->is_preview = true;
-    if (option_list_append_scene(&quick, options) && shrink(&quick) &&
-        explorer_load(work->explorer, index_of(work->view), &quick, 1, true, &scene, &error) ==
-            PS_OK &&
-        !is_over(work))
-        render(work, scene, 1, &error);
+    double seconds = show_preview(work, scene, FIRST_PIXELS);
+    double pixels = seconds > 0.0 ? FIRST_PIXELS * PREVIEW_SECONDS / seconds : 0.0;
+    if (pixels > 2.0 * FIRST_PIXELS && !is_over(work))
+        show_preview(work, scene, fmin(pixels, MOST_PIXELS));
     work->is_preview = false;
-    psplat_scene_destroy(scene);
-    option_list_release(&quick);
 }
 
 static void note_end(struct work *work, ps_result result, const psplat_error *error)
@@ -272,8 +277,7 @@ static psplat_scene *load(struct work *work, const struct option_list *options, 
     psplat_error error;
     struct timespec began;
     clock_gettime(CLOCK_REALTIME, &began);
-    ps_result result =
-        explorer_load(explorer, index_of(view), options, passes, false, &scene, &error);
+    ps_result result = explorer_load(explorer, index_of(view), options, passes, &scene, &error);
     pthread_mutex_lock(&explorer->lock);
     if (is_over(work)) {
         /* A request has brought another since. */
@@ -291,13 +295,12 @@ static psplat_scene *load(struct work *work, const struct option_list *options, 
     return scene;
 }
 
-static void render_scene(struct work *work, psplat_scene *scene, const struct option_list *options,
-                         uint32_t passes)
+static void render_scene(struct work *work, const psplat_scene *scene, uint32_t passes)
 {
     struct explorer *explorer = work->explorer;
     psplat_error error = {.message = ""};
     if (!work->view->is_behind)
-        render_preview(work, options);
+        render_preview(work, scene);
     ps_result result = is_over(work) ? PS_CANCELLED : render(work, scene, passes, &error);
     pthread_mutex_lock(&explorer->lock);
     note_end(work, result, &error);
@@ -325,7 +328,7 @@ static void work_once(struct view *view)
     if (!scene)
         scene = load(&work, &options, passes);
     if (scene)
-        render_scene(&work, scene, &options, passes);
+        render_scene(&work, scene, passes);
     psplat_scene_destroy(scene);
     option_list_release(&options);
     pthread_mutex_lock(&explorer->lock);

@@ -337,6 +337,50 @@ static void test_light_of_a_pixel(void **state)
     psplat_scene_destroy(scene);
 }
 
+/* About so many pixels, of the same view and light; all, where there are fewer. */
+static void test_previews(void **state)
+{
+    (void)state;
+    psplat_error error;
+    psplat_picture *few, *all;
+    psplat_scene *scene = psplat_scene_create();
+    set(scene, "size", "320x160");
+    set(scene, "quality", "draft");
+    load(scene, SCENE);
+    assert_int_equal(psplat_preview(scene, 800, NULL, &few, &error), PS_OK);
+    assert_int_equal(psplat_picture_width(few), 40);
+    assert_int_equal(psplat_picture_height(few), 20);
+    assert_int_equal(psplat_preview(scene, 1000000, NULL, &all, &error), PS_OK);
+    psplat_picture *rendered = render(scene, NULL);
+    expect_same_picture(all, rendered);
+    double light[2] = {0, 0};
+    const psplat_picture *pictures[2] = {few, all};
+    for (size_t i = 0; i < 2; i++) {
+        const float *samples = psplat_picture_channel(pictures[i], "G");
+        size_t count = psplat_picture_width(pictures[i]) * psplat_picture_height(pictures[i]);
+        for (size_t j = 0; j < count; j++)
+            light[i] += (double)samples[j] / (double)count;
+    }
+    assert_true(light[1] > 0.0 && fabs(light[0] / light[1] - 1.0) < 0.05);
+    psplat_picture_destroy(rendered);
+    psplat_picture_destroy(all);
+    psplat_picture_destroy(few);
+    psplat_scene_destroy(scene);
+}
+
+static void test_cancelled_preview(void **state)
+{
+    (void)state;
+    const psplat_callbacks callbacks = {.size = sizeof callbacks, .cancelled = stops_at_once};
+    psplat_error error;
+    psplat_picture *picture;
+    psplat_scene *scene = psplat_scene_create();
+    load(scene, SCENE);
+    assert_int_equal(psplat_preview(scene, 100, &callbacks, &picture, &error), PS_CANCELLED);
+    assert_null(picture);
+    psplat_scene_destroy(scene);
+}
+
 static void test_cancelled_between_passes(void **state)
 {
     (void)state;
@@ -815,6 +859,8 @@ int main(void)
         cmocka_unit_test(test_a_crop),
         SCRATCH_TEST(test_a_model),
         cmocka_unit_test(test_passes_as_they_come),
+        cmocka_unit_test(test_previews),
+        cmocka_unit_test(test_cancelled_preview),
         cmocka_unit_test(test_cancelled_between_passes),
         cmocka_unit_test(test_cancelled_from_the_start),
         cmocka_unit_test(test_cancelled_within_a_pass),
