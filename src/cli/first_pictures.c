@@ -10,7 +10,7 @@
 /* Of the sides of its pixels: a picture is made where they are so much smaller than before. */
 #define WORTHWHILE 0.8
 
-/* A first pass may take longer than first pictures tell. */
+/* A first pass may take longer than first pictures tell, which matters where there is none that takes less. */
 #define MARGIN 1.15
 
 /* A pass of draft quality takes this share of its time for what no quality changes. */
@@ -141,14 +141,15 @@ static double step_within(const struct first_pictures *first, double seconds)
 /* The best quality, up to that which was asked for, of which a pass is done in so many seconds. */
 static bool find_quality(const struct first_pictures *first, double seconds, enum quality *quality)
 {
-    double draft = MARGIN * first_pictures_draft_seconds(first);
-    for (int tried = (int)first->quality; tried >= QUALITY_DRAFT; tried--) {
+    double draft = first_pictures_draft_seconds(first);
+    for (int tried = (int)first->quality; tried > QUALITY_DRAFT; tried--) {
         double effort = quality_effort((enum quality)tried) / quality_effort(QUALITY_DRAFT);
         *quality = (enum quality)tried;
         if (seconds >= draft * (FIXED_SHARE + (1.0 - FIXED_SHARE) * effort))
             return true;
     }
-    return false;
+    *quality = QUALITY_DRAFT;
+    return seconds >= MARGIN * draft;
 }
 
 /* Another picture tells the time better, and there may be enough of it after all. */
