@@ -81,7 +81,8 @@ static bool turn_to(struct render_job *job, enum quality quality)
     if (!make_settings(job, quality, &other))
         return false;
     other.trace = job->settings->trace;
-    long_job_set_passes(&job->passes, &other);
+    other.first_pass = job->settings->first_pass;
+    other.passes = job->settings->passes;
     settings_release(job->settings);
     *job->settings = other;
     return true;

@@ -8,7 +8,7 @@
 static const char *const sets[] = {
     "render.light_samples=2",
     "render.discontinuity_buffer=yes",
-    "render.aa_samples=1",
+    "render.aa_samples=4",
 };
 
 static const char *const plugins[] = {
