@@ -23,6 +23,12 @@ static const struct scene_setting settings[] = {
     {"render.ambient", true, "render", "ambient"},
 };
 
+double scene_facts_pixels(const psplat_scene *scene)
+{
+    const struct image_description *image = &scene->input.description.image;
+    return (double)image->width * (double)image->height;
+}
+
 size_t scene_setting_count(void)
 {
     return sizeof settings / sizeof settings[0];

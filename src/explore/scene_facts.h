@@ -20,6 +20,9 @@ void scene_facts_write_cameras(const psplat_scene *scene, struct json_writer *wr
 void scene_facts_each_file(const psplat_scene *scene, void (*each)(void *user, const char *path),
                            void *user);
 
+/* Of the picture. */
+double scene_facts_pixels(const psplat_scene *scene);
+
 /* An option of the render that is a row of the scene language's tables; all of them, by their index. */
 struct scene_setting {
     const char *name;    /* the option's; of what has none, the path for --set */

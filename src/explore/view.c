@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "explore/explorer.h"
+#include "explore/scene_facts.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,10 +18,12 @@
 
 #define BEHIND_NICE 15
 
-/* Of the first preview; of the second, and how long it may take. */
+/* Of the first preview, and of the second. That may take some time, and more where the first pass takes long. */
 #define FIRST_PIXELS 10000.0
 #define MOST_PIXELS 230400.0
 #define PREVIEW_SECONDS 0.5
+#define MOST_PREVIEW_SECONDS 2.0
+#define PREVIEW_SHARE 0.03 /* of the first pass */
 
 /* One render of a view. */
 struct work {
@@ -246,14 +249,23 @@ static double show_preview(struct work *work, const psplat_scene *scene, double 
     return is_all ? 0.0 : seconds;
 }
 
+/* How many pixels the second may have, where the first took so long. */
+static double pixels_of_second(const psplat_scene *scene, double seconds)
+{
+    double pixel = seconds / FIRST_PIXELS;
+    double pass = pixel * scene_facts_pixels(scene);
+    double most = fmin(fmax(PREVIEW_SHARE * pass, PREVIEW_SECONDS), MOST_PREVIEW_SECONDS);
+    return fmin(most / pixel, MOST_PIXELS);
+}
+
 /* One at once, and, where there is time for many more pixels, another. */
 static void render_preview(struct work *work, const psplat_scene *scene)
 {
     work->is_preview = true;
     double seconds = show_preview(work, scene, FIRST_PIXELS);
-    double pixels = seconds > 0.0 ? FIRST_PIXELS * PREVIEW_SECONDS / seconds : 0.0;
+    double pixels = seconds > 0.0 ? pixels_of_second(scene, seconds) : 0.0;
     if (pixels > 2.0 * FIRST_PIXELS && !is_over(work))
-        show_preview(work, scene, fmin(pixels, MOST_PIXELS));
+        show_preview(work, scene, pixels);
     work->is_preview = false;
 }
 

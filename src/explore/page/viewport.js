@@ -104,7 +104,8 @@ export class Viewport extends EventTarget {
                 context.rect(i ? divider : 0, 0, i ? width - divider : divider, height);
                 context.clip();
             }
-            context.imageSmoothingEnabled = w < image.width;
+            // Pixels are seen as they are, but those of a preview, which stand for many.
+            context.imageSmoothingEnabled = w < image.width || image.width < this.frame.width;
             context.imageSmoothingQuality = "high";
             context.drawImage(image, left, top, Math.round(w), Math.round(h));
             context.restore();
