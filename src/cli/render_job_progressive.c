@@ -94,9 +94,10 @@ static ps_result take_as_picture(struct render_job *job, const struct first_pict
 {
     char pixels[64], text[256];
     snprintf(pixels, sizeof pixels, "%zux%zu", first->image.width, first->image.height);
-    snprintf(text, sizeof text,
-             "--time: a pass would take about %.2g s; the picture is one of %s pixels, scaled up",
-             first_pictures_draft_seconds(first), pixels);
+    snprintf(
+        text, sizeof text,
+        "--time: a draft pass would take about %.2g s; the picture is one of %s pixels, scaled up",
+        first_pictures_draft_seconds(first), pixels);
     progress_clear(&job->progress);
     print_warning(text);
     ps_result result = first_pictures_enlarge(first, holds_scaled, image, error);

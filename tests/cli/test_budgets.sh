@@ -102,7 +102,7 @@ done
 
 # Where there is no time for a pass, the picture is one of these, with the layers; a warning says so.
 run 0 -q --size 1600x900 --threads 1 --time 0.2s -o short.exr "$area"
-expect_match err "^psplat: warning: --time: a pass would take about [0-9.e+]* s; the picture is one of [0-9]+x[0-9]+ pixels, scaled up$"
+expect_match err "^psplat: warning: --time: a draft pass would take about [0-9.e+]* s; the picture is one of [0-9]+x[0-9]+ pixels, scaled up$"
 run 0 info short.exr
 expect_match out "^short.exr: 1600x900$"
 expect_match out "^psplat.passes: 0$"
