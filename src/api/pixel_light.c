@@ -79,9 +79,10 @@ ps_result psplat_pixel_light_find(const psplat_scene *scene, unsigned x, unsigne
                                   const psplat_callbacks *callbacks, psplat_pixel_light **light,
                                   psplat_error *error)
 {
+    psplat_rendering rendering = {.scene = scene};
     struct question question = {.x = x, .y = y};
     *light = NULL;
-    ps_result result = rendering_do(scene, callbacks, inspect, &question, error);
+    ps_result result = rendering_do(&rendering, callbacks, inspect, &question, error);
     if (result == PS_OK)
         *light = question.answer;
     else

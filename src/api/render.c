@@ -2,6 +2,7 @@
 #include "api/environment.h"
 #include "api/rendering.h"
 #include "api/report.h"
+#include "pipeline/planes.h"
 #include "session/layers.h"
 #include "session/output.h"
 #include "session/remark.h"
@@ -141,12 +142,10 @@ static ps_result take_tile(void *user, struct rectangle tile, struct image *part
 static ps_result run_tiles(psplat_rendering *rendering, const struct render_callbacks *callbacks,
                            struct error *error)
 {
-    struct render_callbacks without_passes = *callbacks;
-    without_passes.next_pass = NULL;
     const struct tiled_render tiled = {
         .scene = &rendering->scene->scene,
         .settings = &rendering->settings,
-        .callbacks = &without_passes,
+        .callbacks = callbacks,
         .statistics = &rendering->statistics,
         .take = take_tile,
         .user = rendering,
@@ -166,9 +165,11 @@ static ps_result run(psplat_rendering *rendering, const struct render_callbacks 
 {
     psplat_picture **picture = user;
     struct image image;
+    struct render_callbacks with_passes = *callbacks;
+    with_passes.next_pass = next_pass;
     if (rendering->settings.tile > 0)
         return run_tiles(rendering, callbacks, error);
-    ps_result result = render_run(&rendering->scene->scene, &rendering->settings, callbacks,
+    ps_result result = render_run(&rendering->scene->scene, &rendering->settings, &with_passes,
                                   &rendering->statistics, NULL, &image, error);
     if (result == PS_CANCELLED)
         error_set(error, result, "cancelled: the picture holds what was done by then");
@@ -243,7 +244,6 @@ static ps_result start(psplat_rendering *rendering, rendering_work work, void *u
         .progress = show_progress,
         .log = log_message,
         .cancelled = was_cancelled,
-        .next_pass = next_pass,
     };
     struct error reason;
     ps_result result = resolve(rendering, error);
@@ -259,7 +259,7 @@ static ps_result start(psplat_rendering *rendering, rendering_work work, void *u
     return result == PS_OK ? PS_OK : report_error(error, result, &reason);
 }
 
-static ps_result enter(psplat_rendering *rendering, const psplat_callbacks *callbacks,
+ps_result rendering_do(psplat_rendering *rendering, const psplat_callbacks *callbacks,
                        rendering_work work, void *user, psplat_error *error)
 {
     const psplat_scene *scene = rendering->scene;
@@ -277,18 +277,12 @@ static ps_result enter(psplat_rendering *rendering, const psplat_callbacks *call
     return result;
 }
 
-ps_result rendering_do(const psplat_scene *scene, const psplat_callbacks *callbacks,
-                       rendering_work work, void *user, psplat_error *error)
-{
-    psplat_rendering rendering = {.scene = scene};
-    return enter(&rendering, callbacks, work, user, error);
-}
-
 ps_result psplat_render(const psplat_scene *scene, const psplat_callbacks *callbacks,
                         psplat_picture **picture, psplat_error *error)
 {
+    psplat_rendering rendering = {.scene = scene};
     *picture = NULL;
-    return rendering_do(scene, callbacks, run, picture, error);
+    return rendering_do(&rendering, callbacks, run, picture, error);
 }
 
 /* --- previews ---------------------------------------------------------------------------------------- */
@@ -304,16 +298,14 @@ static ps_result run_preview(psplat_rendering *rendering, const struct render_ca
     const struct preview *preview = user;
     const struct scene *scene = &rendering->scene->scene;
     struct render_settings *settings = &rendering->settings;
-    struct render_callbacks without_passes = *callbacks;
     struct image image;
     struct rectangle crop = settings->crop;
-    double all = crop.width > 0 ? (double)crop.width * (double)crop.height
-                                : (double)scene->width * (double)scene->height;
+    struct rectangle window = planes_window(settings, scene->width, scene->height);
+    double all = (double)window.width * (double)window.height;
     double step = fmax(sqrt(all / fmax(preview->pixels, 1.0)), 1.0);
-    without_passes.next_pass = NULL;
     settings->tile = 0;
-    ps_result result = render_coarse(scene, settings, step, &without_passes, &rendering->statistics,
-                                     &image, error);
+    ps_result result =
+        render_coarse(scene, settings, step, callbacks, &rendering->statistics, &image, error);
     settings->crop = crop;
     if (result == PS_OK)
         return wrap(rendering, &image, 0, preview->picture, error);
@@ -328,5 +320,5 @@ ps_result psplat_preview(const psplat_scene *scene, size_t pixels,
     psplat_rendering rendering = {.scene = scene, .is_preview = true};
     struct preview preview = {(double)pixels, picture};
     *picture = NULL;
-    return enter(&rendering, callbacks, run_preview, &preview, error);
+    return rendering_do(&rendering, callbacks, run_preview, &preview, error);
 }

@@ -9,7 +9,7 @@
 
 struct psplat_rendering {
     const psplat_scene *scene;
-    bool is_preview;
+    bool is_preview; /* of draft quality */
     struct psplat_callbacks callbacks;
     struct render_settings settings;
     struct statistics statistics;
@@ -21,8 +21,8 @@ typedef ps_result (*rendering_work)(psplat_rendering *rendering,
                                     const struct render_callbacks *callbacks, void *user,
                                     struct error *error);
 
-/* Checks what psplat_render is given, and does the work with that. */
-ps_result rendering_do(const psplat_scene *scene, const psplat_callbacks *callbacks,
+/* Checks what psplat_render is given, and does the work with that; `rendering` has the scene, and whether it is a preview. */
+ps_result rendering_do(psplat_rendering *rendering, const psplat_callbacks *callbacks,
                        rendering_work work, void *user, psplat_error *error);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "image/enlarge.h"
+#include "pipeline/planes.h"
 #include <math.h>
 
 #define FIRST_PIXELS 2500.0 /* of the first picture */
@@ -19,9 +20,7 @@
 /* The picture, or the part of it, that is rendered. */
 static struct rectangle window_of(const struct first_pictures *first)
 {
-    const struct scene *scene = first->scene;
-    const struct rectangle *crop = &first->settings->crop;
-    return crop->width > 0 ? *crop : (struct rectangle){0, 0, scene->width, scene->height};
+    return planes_window(first->settings, first->scene->width, first->scene->height);
 }
 
 static double pixels_at(const struct first_pictures *first, double step)
@@ -72,7 +71,7 @@ static bool make(struct first_pictures *first, double step)
     struct statistics statistics;
     struct image image;
     struct error error;
-    if (!first->make_settings(first->user, QUALITY_DRAFT, &settings))
+    if (!first->make_settings(first->user, first->scene, QUALITY_DRAFT, &settings))
         return false;
     settings.trace = first->settings->trace;
     statistics_init(&statistics);

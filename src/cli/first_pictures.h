@@ -22,7 +22,8 @@ struct first_pictures {
     double
         end; /* when there is to be nothing left but to write the picture, clock.h; INFINITY: whenever */
     /* Settings of another quality, to be used once. False where there are none. */
-    bool (*make_settings)(void *user, enum quality quality, struct render_settings *settings);
+    bool (*make_settings)(void *user, const struct scene *scene, enum quality quality,
+                          struct render_settings *settings);
     /* Told that there is another one, where they are wanted. */
     void (*show)(void *user, const struct first_pictures *first);
     void *user;

@@ -13,7 +13,8 @@
 #include <string.h>
 
 /* Prints what is wrong. */
-static bool make_settings(void *user, enum quality quality, struct render_settings *settings)
+static bool make_settings(void *user, const struct scene *scene, enum quality quality,
+                          struct render_settings *settings)
 {
     const struct render_job *job = user;
     struct scene_description other = *job->description;
@@ -21,7 +22,7 @@ static bool make_settings(void *user, enum quality quality, struct render_settin
     if (render_options_resolve(&job->taken.options, &other, job->sink, settings) != PS_OK)
         return false;
     render_job_set_wishes(job, settings);
-    settings->discontinuity_buffer = job->settings->discontinuity_buffer;
+    render_options_suit_scene(&job->taken.options, scene, settings);
     return true;
 }
 
@@ -75,10 +76,10 @@ static bool chooses_quality(const struct render_job *job)
            !job->taken.options.quality && !long_job_keeps_film(passes);
 }
 
-static bool turn_to(struct render_job *job, enum quality quality)
+static bool turn_to(struct render_job *job, const struct scene *scene, enum quality quality)
 {
     struct render_settings other;
-    if (!make_settings(job, quality, &other))
+    if (!make_settings(job, scene, quality, &other))
         return false;
     other.trace = job->settings->trace;
     other.first_pass = job->settings->first_pass;
@@ -119,7 +120,7 @@ static ps_result keep_to_time(struct render_job *job, struct first_pictures *fir
     first->end = schedule->start + schedule->seconds - writing;
     enum quality quality;
     bool passes = first_pictures_choose(first, &quality);
-    if ((quality != first->quality && !turn_to(job, quality)) || passes)
+    if ((quality != first->quality && !turn_to(job, first->scene, quality)) || passes)
         return PS_OK;
     return take_as_picture(job, first, image, error);
 }

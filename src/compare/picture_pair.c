@@ -5,13 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void crop_plane(float *plane, size_t width, struct rectangle crop)
-{
-    for (size_t y = 0; y < crop.height; y++)
-        memmove(plane + y * crop.width, plane + (crop.y + y) * width + crop.x,
-                crop.width * sizeof *plane);
-}
-
 /* Crops a window of a picture to another one of it that lies in this one; `layer`'s planes alone. */
 static void crop_to(struct image *image, const struct layer *layer, const struct image *part)
 {
@@ -25,7 +18,7 @@ static void crop_to(struct image *image, const struct layer *layer, const struct
     if (!one_picture || !rectangle_fits(crop, image->width, image->height))
         return;
     for (size_t c = 0; c < layer->channel_count; c++)
-        crop_plane(layer->planes[c], image->width, crop);
+        image_crop_plane(layer->planes[c], image->width, crop);
     image->width = crop.width;
     image->height = crop.height;
     image->window = part->window;
@@ -119,8 +112,8 @@ ps_result picture_pair_crop(struct picture_pair *pair, struct rectangle crop, st
             "the crop %zu,%zu,%zu,%zu is empty or reaches beyond the pictures' %zux%zu", crop.x,
             crop.y, crop.width, crop.height, pair->width, pair->height);
     for (size_t c = 0; c < pair->channel_count; c++) {
-        crop_plane(pair->reference[c], pair->width, crop);
-        crop_plane(pair->test[c], pair->width, crop);
+        image_crop_plane(pair->reference[c], pair->width, crop);
+        image_crop_plane(pair->test[c], pair->width, crop);
     }
     pair->width = crop.width;
     pair->height = crop.height;

@@ -71,15 +71,18 @@ void image_keep_channels(struct image *image, bool (*keeps)(const void *user, co
     image->channel_count = kept;
 }
 
+void image_crop_plane(float *samples, size_t width, struct rectangle part)
+{
+    for (size_t y = 0; y < part.height; y++)
+        memmove(samples + y * part.width, samples + (part.y + y) * width + part.x,
+                part.width * sizeof *samples);
+}
+
 void image_crop(struct image *image, struct rectangle part)
 {
     assert(rectangle_fits(part, image->width, image->height));
-    for (size_t c = 0; c < image->channel_count; c++) {
-        float *samples = image->channels[c].samples;
-        for (size_t y = 0; y < part.height; y++)
-            memmove(samples + y * part.width, samples + (part.y + y) * image->width + part.x,
-                    part.width * sizeof *samples);
-    }
+    for (size_t c = 0; c < image->channel_count; c++)
+        image_crop_plane(image->channels[c].samples, image->width, part);
     if (image->window.picture_width == 0)
         image->window = (struct picture_window){0, 0, image->width, image->height};
     image->window.left += part.x;

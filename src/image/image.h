@@ -47,7 +47,10 @@ ps_result image_adopt_channel(struct image *image, const char *name, float *samp
 void image_keep_channels(struct image *image, bool (*keeps)(const void *user, const char *name),
                          const void *user);
 
-/* Keeps a rectangle of it alone, which must lie in it; the window is the smaller one's. */
+/* Keeps of a plane, `width` samples a row, a rectangle alone, which must lie in it: its rows follow each other then. */
+void image_crop_plane(float *samples, size_t width, struct rectangle part);
+
+/* The same of all channels; the window is the smaller picture's. */
 void image_crop(struct image *image, struct rectangle part);
 
 /* Appends, or replaces, a string attribute. */

@@ -98,6 +98,17 @@ static inline unsigned char *scratch_load(const char *path, size_t *size)
     return bytes;
 }
 
+static inline void scratch_expect_same_bytes(const char *path_a, const char *path_b)
+{
+    size_t size_a, size_b;
+    unsigned char *a = scratch_load(path_a, &size_a);
+    unsigned char *b = scratch_load(path_b, &size_b);
+    assert_int_equal(size_a, size_b);
+    assert_memory_equal(a, b, size_a);
+    free(a);
+    free(b);
+}
+
 static inline void scratch_store(const char *path, const void *bytes, size_t size)
 {
     FILE *file = fopen(path, "wb");

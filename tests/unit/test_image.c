@@ -212,17 +212,6 @@ static void test_reserved_attributes(void **state)
     }
 }
 
-static void assert_same_bytes(const char *path_a, const char *path_b)
-{
-    size_t size_a, size_b;
-    unsigned char *a = scratch_load(path_a, &size_a);
-    unsigned char *b = scratch_load(path_b, &size_b);
-    assert_int_equal(size_a, size_b);
-    assert_memory_equal(a, b, size_a);
-    free(a);
-    free(b);
-}
-
 /* Chunks that take unequally long: those that come first are noise, the last are of one colour. */
 static void test_same_bytes_whatever_the_threads(void **state)
 {
@@ -238,7 +227,7 @@ static void test_same_bytes_whatever_the_threads(void **state)
     for (size_t i = 0; i < sizeof threads / sizeof *threads; i++) {
         const char *other = scratch_path(state, "other.exr");
         write_with_threads(&image, other, IMAGE_ZIP, threads[i]);
-        assert_same_bytes(one, other);
+        scratch_expect_same_bytes(one, other);
     }
     image_release(&image);
 }

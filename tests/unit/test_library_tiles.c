@@ -54,10 +54,17 @@ static void release(struct tiles *tiles)
         psplat_picture_destroy(tiles->pictures[i]);
 }
 
-static psplat_callbacks taking(struct tiles *tiles)
+static ps_result render_tiles(const psplat_scene *scene, struct tiles *tiles)
 {
-    return (psplat_callbacks){
-        .size = sizeof(psplat_callbacks), .user = tiles, .cancelled = stops, .tile = take};
+    const psplat_callbacks callbacks = {
+        .size = sizeof callbacks, .user = tiles, .cancelled = stops, .tile = take};
+    psplat_error error;
+    psplat_picture *none;
+    ps_result result = psplat_render(scene, &callbacks, &none, &error);
+    if (result != PS_OK && result != PS_CANCELLED)
+        fail_msg("%s", error.message);
+    assert_null(none);
+    return result;
 }
 
 static psplat_scene *load(const char *option, const char *value)
@@ -97,14 +104,11 @@ static void test_tiles_are_the_picture(void **state)
                                                  {128, 0, 22, 64}, {0, 64, 64, 36},
                                                  {64, 64, 64, 36}, {128, 64, 22, 36}};
     struct tiles tiles = {.count = 0};
-    const psplat_callbacks callbacks = taking(&tiles);
     psplat_error error;
-    psplat_picture *whole, *none;
+    psplat_picture *whole;
     psplat_scene *scene = load("tile", "64"), *other = load(NULL, NULL);
     assert_int_equal(psplat_render(other, NULL, &whole, &error), PS_OK);
-    if (psplat_render(scene, &callbacks, &none, &error) != PS_OK)
-        fail_msg("%s", error.message);
-    assert_null(none);
+    assert_int_equal(render_tiles(scene, &tiles), PS_OK);
     assert_int_equal(tiles.count, MOST_TILES);
     for (size_t i = 0; i < tiles.count; i++) {
         assert_int_equal(tiles.x[i], places[i][0]);
@@ -125,14 +129,12 @@ static void test_denoised_tiles(void **state)
 {
     (void)state;
     struct tiles tiles = {.count = 0};
-    const psplat_callbacks callbacks = taking(&tiles);
     psplat_error error;
-    psplat_picture *none;
     psplat_scene *scene = psplat_scene_create();
     assert_int_equal(psplat_scene_set(scene, "plugin", "denoiser=regression", &error), PS_OK);
     assert_int_equal(psplat_scene_set(scene, "tile", "64", &error), PS_OK);
     assert_int_equal(psplat_scene_load_text(scene, SCENE, strlen(SCENE), NULL, &error), PS_OK);
-    assert_int_equal(psplat_render(scene, &callbacks, &none, &error), PS_OK);
+    assert_int_equal(render_tiles(scene, &tiles), PS_OK);
     assert_int_equal(tiles.count, MOST_TILES);
     assert_int_equal(psplat_picture_width(tiles.pictures[4]), 64);
     assert_int_equal(psplat_picture_height(tiles.pictures[4]), 36);
@@ -144,12 +146,8 @@ static void test_cancelled(void **state)
 {
     (void)state;
     struct tiles tiles = {.stop_after = 2};
-    const psplat_callbacks callbacks = taking(&tiles);
-    psplat_error error;
-    psplat_picture *none;
     psplat_scene *scene = load("tile", "64");
-    assert_int_equal(psplat_render(scene, &callbacks, &none, &error), PS_CANCELLED);
-    assert_null(none);
+    assert_int_equal(render_tiles(scene, &tiles), PS_CANCELLED);
     assert_true(tiles.count == 2 || tiles.count == 3);
     release(&tiles);
     psplat_scene_destroy(scene);

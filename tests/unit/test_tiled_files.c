@@ -18,8 +18,10 @@ static struct image part_at(size_t left, size_t top, size_t width, size_t height
     for (size_t c = 0; c < 3; c++) {
         float *samples = image_add_channel(&part, names[c]);
         assert_non_null(samples);
-        for (size_t i = 0; i < width * height; i++)
-            samples[i] = (float)(c * 1000000 + (top + i / width) * 1000 + left + i % width);
+        for (size_t i = 0; i < width * height; i++) {
+            size_t x = left + i % width, y = top + i / width;
+            samples[i] = (float)(c * 1000000 + y * 1000 + x);
+        }
     }
     assert_int_equal(image_set_attribute(&part, "psplat.made", "in parts", &error), PS_OK);
     return part;
@@ -70,17 +72,6 @@ static void expect_tiles(const char *path, unsigned wanted)
     image_release(&read);
 }
 
-static void expect_same_bytes(const char *path, const char *other_path)
-{
-    size_t length, other_length;
-    unsigned char *bytes = scratch_load(path, &length);
-    unsigned char *others = scratch_load(other_path, &other_length);
-    assert_int_equal(length, other_length);
-    assert_memory_equal(bytes, others, length);
-    free(bytes);
-    free(others);
-}
-
 static void test_parts_make_the_picture(void **state)
 {
     const char *path = scratch_path(state, "a.exr");
@@ -104,7 +95,7 @@ static void test_workers_do_not_matter(void **state)
     struct workers *workers = start_workers(3);
     write_tiles(scratch_path(state, "one.exr"), 057, IMAGE_ZIP, NULL);
     write_tiles(scratch_path(state, "three.exr"), 057, IMAGE_ZIP, workers);
-    expect_same_bytes(scratch_path(state, "one.exr"), scratch_path(state, "three.exr"));
+    scratch_expect_same_bytes(scratch_path(state, "one.exr"), scratch_path(state, "three.exr"));
     workers_destroy(workers);
 }
 
@@ -126,7 +117,7 @@ static void test_rows_make_the_picture(void **state)
     assert_int_equal(png_rows_add(rows, rgb, 37, &error), PS_OK);
     assert_int_equal(png_rows_add(rows, rgb + 37 * WIDTH * 3, HEIGHT - 37, &error), PS_OK);
     assert_int_equal(png_rows_finish(rows, &error), PS_OK);
-    expect_same_bytes(scratch_path(state, "whole.png"), scratch_path(state, "rows.png"));
+    scratch_expect_same_bytes(scratch_path(state, "whole.png"), scratch_path(state, "rows.png"));
 }
 
 /* --- what goes wrong ------------------------------------------------------------------------------- */
