@@ -24,16 +24,16 @@ static int was_stopped(void *user)
     return stopped;
 }
 
-static void show_progress(void *user, const char *stage, double fraction)
+static void show_progress(void *user, const psplat_progress *progress)
 {
     (void)user;
-    fprintf(stderr, "\r%3.0f %% %-24s", 100.0 * fraction, stage);
+    fprintf(stderr, "\r%3.0f %% %-24s", 100.0 * progress->fraction, progress->stage);
 }
 
-static void show_message(void *user, int is_warning, const char *message)
+static void show_message(void *user, int kind, const char *message)
 {
     (void)user;
-    fprintf(stderr, "\r%s%s\n", is_warning ? "" : "note: ", message);
+    fprintf(stderr, "\r%s%s\n", kind == PSPLAT_REMARK ? "note: " : "", message);
 }
 
 static ps_result set_options(psplat_scene *scene, char **words, int count, psplat_error *error)

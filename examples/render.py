@@ -13,11 +13,15 @@ PS_OK, PS_CANCELLED = 0, 4
 
 
 class Error(ctypes.Structure):
-    _fields_ = [("result", c_int), ("line", c_int32), ("column", c_int32),
-                ("file", c_char * 1024), ("message", c_char * 8192)]
+    _fields_ = [("result", c_int), ("line", c_int32), ("column", c_int32), ("has_place", c_int32),
+                ("file", c_char * 1024), ("message", c_char * 32768)]
 
 
-PROGRESS = ctypes.CFUNCTYPE(None, c_void_p, c_char_p, c_double)
+class Progress(ctypes.Structure):
+    _fields_ = [("stage", c_char_p), ("fraction", c_double), ("error", c_double), ("passes", c_uint32)]
+
+
+PROGRESS = ctypes.CFUNCTYPE(None, c_void_p, POINTER(Progress))
 CANCELLED = ctypes.CFUNCTYPE(c_int, c_void_p)
 PASS = ctypes.CFUNCTYPE(None, c_void_p, c_void_p, c_uint32)
 LISTENER = ctypes.CFUNCTYPE(None, c_void_p, c_int, c_char_p)
@@ -60,9 +64,10 @@ def mean(picture, channel):
 def render(path, output, options):
     error, picture = Error(), c_void_p()
     # Kept in names: what C calls must not be collected.
-    listener = LISTENER(lambda user, is_warning, message: print(message.decode(), file=sys.stderr))
+    listener = LISTENER(lambda user, kind, message: print(message.decode(), file=sys.stderr))
     callbacks = Callbacks(size=ctypes.sizeof(Callbacks), progress=PROGRESS(
-        lambda user, stage, share: print(f"{100 * share:3.0f} % {stage.decode()}", file=sys.stderr)))
+        lambda user, progress: print(f"{100 * progress[0].fraction:3.0f} % {progress[0].stage.decode()}",
+                                     file=sys.stderr)))
     scene = psplat.psplat_scene_create()
     try:
         psplat.psplat_scene_listen(scene, listener, None)

@@ -38,8 +38,9 @@ extern "C" {
 typedef struct psplat_error {
     ps_result result;
     int32_t line, column; /* the first problem's place in `file`, from 1; 0 where it has none */
-    char file[1024];      /* "": no place in a file is to blame, but an option, say */
-    char message[8192];   /* what the command would print, as far as there is room: all problems */
+    int32_t has_place;   /* 1: the message begins with a place, which may be in an option's value */
+    char file[1024];     /* "": no place in a file is to blame, but an option, say */
+    char message[32768]; /* what the command would print, as far as there is room: all problems */
 } psplat_error;
 
 /* The version of the library: "1.2.3". */
@@ -55,22 +56,27 @@ void psplat_scene_destroy(psplat_scene *scene); /* NULL is nothing */
 
 /* Gives an option of `psplat render` a value, by its long name without dashes:
  *
- *     param, set, plugin             add to those given before
+ *     param, set, plugin, output     add to those given before
  *     camera, restrict, cache, allow-scene-plugins, size, quality, bounces, passes, seed, threads, isa, batch,
- *     crop, tile, direct, direct-resolution, exposure, memory-limit, layers, compression, preview
+ *     crop, tile, direct, direct-resolution, exposure, memory-limit, layers, compression, preview, time, error,
+ *     checkpoint, checkpoint-every, resume, mpi, write-every, stats
  *                                    the last counts
  *
- * Values are those of the command line; NULL for preview and allow-scene-plugins, which take none. What was loaded is
+ * Values are those of the command line; NULL for allow-scene-plugins, preview, resume and mpi, which take none. What was loaded is
  * released: options come before loading. PS_ERROR_INVALID: there is no such option, or no such value; PS_ERROR_IO: no
  * such folder; what is loaded stays then. Names that the scene or a strategy must know, such as those of cameras and
  * parameters, are looked for when it is loaded. */
+#define PSPLAT_COMPRESSIONS "zip, zips, rle, none" /* values of `compression` */
 ps_result psplat_scene_set(psplat_scene *scene, const char *option, const char *value,
                            psplat_error *error);
 
-/* Who is told of warnings, and of remarks such as how many pixels no light reached, one a call: while scenes are loaded
- * and rendered. A warning of a scene's text ends in lines that show the place. Calls come from any thread, of one render
- * not two at once. NULL: nobody, as from the start. */
-typedef void (*psplat_listener)(void *user, int is_warning, const char *message);
+/* Who is told of warnings, and of remarks such as which file was written, one a call: while scenes are loaded and
+ * rendered. Calls come from any thread, of one render not two at once. NULL: nobody, as from the start. */
+#define PSPLAT_REMARK 0
+#define PSPLAT_WARNING 1
+#define PSPLAT_WARNING_WITH_PLACE                                                                  \
+    2 /* that begins with its place in a text, and ends in lines that show it */
+typedef void (*psplat_listener)(void *user, int kind, const char *message);
 void psplat_scene_listen(psplat_scene *scene, psplat_listener listener, void *user);
 
 /* Reads a scene (psd(5)), or a mesh file, which is a scene by itself as it is for the command: "lamp.glb". Checks its
@@ -80,7 +86,10 @@ void psplat_scene_listen(psplat_scene *scene, psplat_listener listener, void *us
  * "-" is standard input. */
 ps_result psplat_scene_load(psplat_scene *scene, const char *path, psplat_error *error);
 
-/* The same for a scene's text of `length` bytes. `name` stands for its file, which need not be there, in messages, and
+/* Whether a file of that name is a mesh file, by its end. It need not be there. */
+int psplat_scene_is_model(const char *path);
+
+/* psplat_scene_load for a scene's text of `length` bytes. `name` stands for its file, which need not be there, in messages, and
  * files that the text names are looked for beside that: "/home/ann/models/lamp.psd". NULL: "<text>". */
 ps_result psplat_scene_load_text(psplat_scene *scene, const char *text, size_t length,
                                  const char *name, psplat_error *error);
@@ -90,6 +99,15 @@ ps_result psplat_scene_load_text(psplat_scene *scene, const char *text, size_t l
 typedef struct psplat_picture psplat_picture;
 typedef struct psplat_rendering psplat_rendering; /* under way; the library's */
 
+/* How far a render is. Later versions may add to its end. */
+typedef struct psplat_progress {
+    const char *stage; /* what is being done */
+    double fraction;   /* of the render, 0..1 */
+    double
+        error; /* of the indirect light, relative, by estimate, where the option `error` asks; negative: not known */
+    uint32_t passes; /* that are done */
+} psplat_progress;
+
 /* What a render calls, each NULL or a function; zero all that you don't use. They may use other handles as they like,
  * but must not change the scene that is being rendered. They run in the floating-point environment that processes start
  * with, whatever the caller's is, and leave it as it was. */
@@ -97,29 +115,49 @@ typedef struct psplat_callbacks {
     size_t size; /* sizeof(psplat_callbacks) */
     void *user;
 
-    /* How much of the render is done, 0..1, and what is being done. Called by the thread that called psplat_render. */
-    void (*progress)(void *user, const char *stage, double fraction);
+    /* By the thread that called psplat_render. */
+    void (*progress)(void *user, const psplat_progress *progress);
 
     /* Whether to stop: asked often, by any thread, and by several at once. */
     int (*cancelled)(void *user);
 
-    /* Between passes, when so many are done and another follows. By the thread that called psplat_render. */
+    /* Between passes, when so many are done and another follows; not where processes share them. By the thread that called
+     * psplat_render. */
     void (*pass)(void *user, psplat_rendering *rendering, uint32_t passes);
 
     /* A tile that is done, with all passes, where the option `tile` is given: its upper left pixel is (x, y) of the picture.
      * In rows from the top, each from the left. The tile becomes yours, to be destroyed. By the thread that called
      * psplat_render. */
     void (*tile)(void *user, psplat_picture *tile, size_t x, size_t y);
+
+    /* Pictures to show on the way: of few pixels, scaled up, within a second, then of the passes so far, each half second, but
+     * for no more than a fifth of the time. Not of tiles. It becomes yours, to be destroyed. By the thread that called
+     * psplat_render. */
+    void (*show)(void *user, psplat_picture *picture);
+
+    /* Between passes: whether the files of the options `output` and `checkpoint` are to be written as they are then. By the
+     * thread that called psplat_render. */
+    int (*write_now)(void *user);
 } psplat_callbacks;
 
 /* Renders what is loaded. `callbacks`: NULL, or borrowed until it returns. *picture becomes the caller's, to be
- * destroyed, or NULL. PS_CANCELLED: the picture holds the passes that were complete; it is NULL where there is nothing
- * to show. Where a pass or a stage at the end fails, the picture is made without it, if there is something to show. The
- * same scene, options, version and instruction set give the same picture, bit for bit, and that of the command.
+ * destroyed, or NULL; `picture`: NULL where nobody waits for it. PS_CANCELLED: the picture holds the passes that were
+ * complete; it is NULL where there is nothing to show. Where a pass or a stage at the end fails, the picture is made
+ * without it, if there is something to show. The same scene, options, version and instruction set give the same picture,
+ * bit for bit, and that of the command.
  *
- * With the option `tile` the callback of that name is needed. It gets the picture tile by tile, as they come, and *picture
- * is NULL: memory is that of a tile, and a picture of any size can be rendered. Passes are made in each tile, so that `pass`
- * is not called. When cancelled, the last tile holds what was done by then. */
+ * Files that options name are written as the command writes them: `output` at the end, and on the way by `write-every`;
+ * the film by `checkpoint`; `stats`. When cancelled, what is done by then is written, denoised as well, which a second call
+ * for cancelling can't shorten. What could not be written is the failure, after all else is done.
+ *
+ * With the option `tile` the picture is made tile by tile, in the memory of one, so that it may have any size. Tiles go into
+ * the files, and to the callback `tile`; one of both is needed, and *picture is NULL. Passes are made in each tile, so that
+ * `pass` is not called. When cancelled, the last tile holds what was done by then.
+ *
+ * With the option `mpi`, the processes that mpirun started share the passes: each loads and renders, in the same order, and
+ * the first of them reads the scene, writes files, calls back and gets the picture. The others wait for each other until
+ * their scenes are destroyed. What a process beside the first leaves to that one to tell is PS_CANCELLED with no message. A
+ * process may do so with one scene, once. */
 ps_result psplat_render(const psplat_scene *scene, const psplat_callbacks *callbacks,
                         psplat_picture **picture, psplat_error *error);
 

@@ -221,6 +221,13 @@ bool diagnostics_count_text(const struct diagnostics *sink, char text[DIAGNOSTIC
     return errors > 1;
 }
 
+bool diagnostics_warnings_text(const struct diagnostics *sink, char text[DIAGNOSTICS_COUNT_TEXT])
+{
+    size_t warnings = sink->counts[SEVERITY_WARNING];
+    snprintf(text, DIAGNOSTICS_COUNT_TEXT, "%zu warnings (%zu shown)", warnings, sink->kept);
+    return warnings > sink->kept;
+}
+
 bool diagnostics_is_full(const struct diagnostics *sink)
 {
     return sink->counts[SEVERITY_ERROR] >= sink->kept;
@@ -372,9 +379,8 @@ void diagnostics_print(const struct diagnostics *sink, FILE *stream)
         print_entry(sink, sorted[i], stream);
     }
     char count[DIAGNOSTICS_COUNT_TEXT];
-    size_t warnings = sink->counts[SEVERITY_WARNING];
-    if (warnings > sink->kept)
-        fprintf(stream, "%zu warnings (%zu shown)\n", warnings, sink->kept);
+    if (diagnostics_warnings_text(sink, count))
+        fprintf(stream, "%s\n", count);
     if (diagnostics_count_text(sink, count))
         fprintf(stream, "%s\n", count);
 }

@@ -66,6 +66,9 @@ void diagnostics_each(const struct diagnostics *sink, diagnostics_visit visit, v
 #define DIAGNOSTICS_COUNT_TEXT 64
 bool diagnostics_count_text(const struct diagnostics *sink, char text[DIAGNOSTICS_COUNT_TEXT]);
 
+/* "N warnings", and how many of them were kept; false where that is all. */
+bool diagnostics_warnings_text(const struct diagnostics *sink, char text[DIAGNOSTICS_COUNT_TEXT]);
+
 /* Prints all in the order of file and position, with carets, and last those that have no file, as "psplat: error:
  * ...". Then how many errors there are, where there is more than one, and how many warnings, where not all were kept. */
 void diagnostics_print(const struct diagnostics *sink, FILE *stream);

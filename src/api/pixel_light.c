@@ -68,10 +68,10 @@ static ps_result look(void *user, struct render *render, struct error *error)
     return result;
 }
 
-static ps_result inspect(psplat_rendering *rendering, const struct render_callbacks *callbacks,
-                         void *user, struct error *error)
+static ps_result inspect(psplat_rendering *rendering, void *user, struct error *error)
 {
-    return render_inspect(&rendering->scene->scene, &rendering->settings, callbacks,
+    const struct render_callbacks callbacks = rendering_callbacks(rendering);
+    return render_inspect(&rendering->scene->scene, &rendering->settings, &callbacks,
                           &rendering->statistics, look, user, error);
 }
 

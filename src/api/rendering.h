@@ -17,12 +17,17 @@ struct psplat_rendering {
     struct render *render; /* between passes */
 };
 
-typedef ps_result (*rendering_work)(psplat_rendering *rendering,
-                                    const struct render_callbacks *callbacks, void *user,
-                                    struct error *error);
+typedef ps_result (*rendering_work)(psplat_rendering *rendering, void *user, struct error *error);
 
 /* Checks what psplat_render is given, and does the work with that; `rendering` has the scene, and whether it is a preview. */
 ps_result rendering_do(psplat_rendering *rendering, const psplat_callbacks *callbacks,
                        rendering_work work, void *user, psplat_error *error);
+
+/* How a render talks to the callbacks; `user` is the rendering. */
+struct render_callbacks rendering_callbacks(psplat_rendering *rendering);
+
+/* Wraps an image of so many passes, which it takes over in any case. */
+ps_result rendering_wrap(const psplat_rendering *rendering, struct image *image, uint32_t passes,
+                         psplat_picture **picture, struct error *error);
 
 #endif

@@ -29,8 +29,15 @@ static void add_problem(void *user, enum severity severity, const struct origin 
                         const char *text)
 {
     psplat_error *told = user;
+    char line[4200];
     if (severity != SEVERITY_ERROR)
         return;
+    if (told->message[0] && !origin->file) {
+        snprintf(line, sizeof line, "psplat: error: %s", text);
+        text = line;
+    }
+    if (told->message[0] == '\0')
+        told->has_place = origin->file != NULL;
     if (told->message[0] == '\0' && is_in_a_file(origin)) {
         snprintf(told->file, sizeof told->file, "%s", origin->file);
         told->line = origin->line;
@@ -51,6 +58,17 @@ ps_result report_problems(psplat_error *told, ps_result result, const struct dia
     return result;
 }
 
+ps_result report_of_process(psplat_error *told, ps_result result, const struct processes *processes)
+{
+    bool is_told_by_first = !processes_is_first(processes) && result != PS_OK &&
+                            (!processes->has_agreed || result == PS_CANCELLED);
+    if (!is_told_by_first)
+        return result;
+    if (told)
+        *told = (psplat_error){.result = PS_CANCELLED};
+    return PS_CANCELLED;
+}
+
 struct audience {
     psplat_listener listener;
     void *user;
@@ -60,14 +78,18 @@ static void pass_on(void *user, enum severity severity, const struct origin *ori
                     const char *text)
 {
     const struct audience *audience = user;
-    (void)origin;
     if (severity == SEVERITY_WARNING)
-        audience->listener(audience->user, 1, text);
+        audience->listener(audience->user,
+                           origin->file ? PSPLAT_WARNING_WITH_PLACE : PSPLAT_WARNING, text);
 }
 
 void report_warnings(psplat_listener listener, void *user, const struct diagnostics *sink)
 {
     struct audience audience = {listener, user};
-    if (listener)
-        diagnostics_each(sink, pass_on, &audience);
+    char count[DIAGNOSTICS_COUNT_TEXT];
+    if (!listener)
+        return;
+    diagnostics_each(sink, pass_on, &audience);
+    if (diagnostics_warnings_text(sink, count))
+        listener(user, PSPLAT_WARNING_WITH_PLACE, count);
 }

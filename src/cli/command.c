@@ -2,7 +2,6 @@
 
 #include "base/suggestion.h"
 #include "base/text.h"
-#include "session/option_value.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -122,33 +121,6 @@ bool command_parse(const struct command *command, char *const words[], size_t co
         (*parsed)++;
     }
     return true;
-}
-
-static bool print_unless_good(ps_result result, const struct error *error)
-{
-    if (result != PS_OK)
-        print_error(error->text);
-    return result == PS_OK;
-}
-
-bool parse_whole_number(const char *option, const char *text, double minimum, double maximum,
-                        double *value)
-{
-    struct error error;
-    return print_unless_good(option_whole_number(option, text, minimum, maximum, value, &error),
-                             &error);
-}
-
-bool parse_rectangle(const char *option, const char *text, struct rectangle *rectangle)
-{
-    struct error error;
-    return print_unless_good(option_rectangle(option, text, rectangle, &error), &error);
-}
-
-bool parse_exposure(const char *text, double *stops)
-{
-    struct error error;
-    return print_unless_good(option_exposure(text, stops, &error), &error);
 }
 
 int status_of(ps_result result)

@@ -2,7 +2,6 @@
 #ifndef CLI_COMMAND_H
 #define CLI_COMMAND_H
 
-#include "base/rectangle.h"
 #include <psplat/types.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -66,18 +65,7 @@ void help_print(const struct command *command);
 void print_error(const char *message);
 void print_warning(const char *message);
 
-/* Whole decimal number in [minimum, maximum]; false, and an error that names the option, otherwise.
- */
-bool parse_whole_number(const char *option, const char *text, double minimum, double maximum,
-                        double *value);
-
-/* Stops of exposure; likewise. */
-bool parse_exposure(const char *text, double *stops);
-
 /* Status of a command that ended so: bad input is the user's to mend. */
 int status_of(ps_result result);
-
-/* "X,Y,W,H" in whole pixels; false, and an error that names the option, otherwise. */
-bool parse_rectangle(const char *option, const char *text, struct rectangle *rectangle);
 
 #endif

@@ -128,28 +128,12 @@ void progress_update(struct progress *progress, const char *stage, double fracti
         print_json(progress, stage, fraction);
 }
 
-static void show_progress(void *user, const char *stage, double fraction)
-{
-    progress_update(user, stage, fraction);
-}
-
 void progress_message(const struct progress *progress, ps_log_level level, const char *message)
 {
     if (level == PS_LOG_WARNING)
         print_warning(message);
     else if (level == PS_LOG_INFO && !progress->quiet)
         fprintf(stderr, "psplat: %s\n", message);
-}
-
-static void show_message(void *user, ps_log_level level, const char *message)
-{
-    progress_message(user, level, message);
-}
-
-struct render_callbacks progress_callbacks(struct progress *progress)
-{
-    return (struct render_callbacks){
-        .user = progress, .progress = show_progress, .log = show_message};
 }
 
 void progress_clear(struct progress *progress)

@@ -11,8 +11,9 @@
 #ifndef CLI_PROGRESS_H
 #define CLI_PROGRESS_H
 
-#include "pipeline/render.h"
+#include <psplat/host.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 /* X(MODE, word) */
 #define PROGRESS_MODES(X)                                                                          \
@@ -52,9 +53,6 @@ void progress_update(struct progress *progress, const char *stage, double fracti
 
 /* A message of the render or a plugin. */
 void progress_message(const struct progress *progress, ps_log_level level, const char *message);
-
-/* What a render tells, shown; warnings too. Nothing interrupts it. `progress` must outlive them. */
-struct render_callbacks progress_callbacks(struct progress *progress);
 
 /* Removes the bar, so that other lines can be printed; it comes again with the next update. */
 void progress_clear(struct progress *progress);

@@ -185,50 +185,74 @@ static ps_result end_and_send(struct packet *packet, int connection, struct erro
     return result;
 }
 
-static ps_result create_image(int connection, const char *name, const struct image *image,
+/* What is shown: some channels of a picture. */
+struct shown {
+    const psplat_picture *picture;
+    bool has_display;
+};
+
+/* NULL: it has no other. `channel` goes on to the one after it. */
+static const char *next_channel(const struct shown *shown, size_t *channel)
+{
+    for (;;) {
+        const char *name = psplat_picture_channel_name(shown->picture, (*channel)++);
+        if (!name || shown->has_display || strncmp(name, "display.", 8) != 0)
+            return name;
+    }
+}
+
+static ps_result create_image(int connection, const char *name, const struct shown *shown,
                               struct error *error)
 {
     struct packet packet;
+    const char *channel;
+    size_t count = 0;
     if (!begin(&packet, CREATE_IMAGE, true, name))
         return error_memory(error, 4096, "a packet for tev");
-    put_int(&packet, image->width);
-    put_int(&packet, image->height);
-    put_int(&packet, image->channel_count);
-    for (size_t i = 0; i < image->channel_count; i++)
-        put_text(&packet, image->channels[i].name);
+    for (size_t next = 0; next_channel(shown, &next);)
+        count++;
+    put_int(&packet, psplat_picture_width(shown->picture));
+    put_int(&packet, psplat_picture_height(shown->picture));
+    put_int(&packet, count);
+    for (size_t next = 0; (channel = next_channel(shown, &next));)
+        put_text(&packet, channel);
     return end_and_send(&packet, connection, error);
 }
 
-static ps_result update_rows(int connection, const char *name, const struct image *image,
-                             size_t channel, size_t row, size_t rows, struct error *error)
+static ps_result update_rows(int connection, const char *name, const struct shown *shown,
+                             const char *channel, size_t row, size_t rows, struct error *error)
 {
     struct packet packet;
-    size_t pixels = rows * image->width;
+    size_t width = psplat_picture_width(shown->picture), pixels = rows * width;
+    const float *samples = psplat_picture_channel(shown->picture, channel) + row * width;
     if (!begin(&packet, UPDATE_IMAGE, false, name))
-        return error_memory(error, pixels * sizeof(float), "a packet for tev");
+        return error_memory(error, pixels * sizeof *samples, "a packet for tev");
     put_int(&packet, 1); /* channels */
-    put_text(&packet, image->channels[channel].name);
+    put_text(&packet, channel);
     put_int(&packet, 0);
     put_int(&packet, row);
-    put_int(&packet, image->width);
+    put_int(&packet, width);
     put_int(&packet, rows);
     put_long(&packet,
              0); /* where the channel begins among the floats, and the step to the next pixel */
     put_long(&packet, 1);
-    put(&packet, image->channels[channel].samples + row * image->width, pixels * sizeof(float));
+    put(&packet, samples, pixels * sizeof *samples);
     return end_and_send(&packet, connection, error);
 }
 
-ps_result tev_send(int connection, const char *name, const struct image *image, bool is_new,
-                   struct error *error)
+ps_result tev_send(int connection, const char *name, const psplat_picture *picture,
+                   bool has_display, bool is_new, struct error *error)
 {
-    size_t at_once = ROWS_BYTES / (image->width * sizeof(float)) + 1;
-    ps_result result = is_new ? create_image(connection, name, image, error) : PS_OK;
+    const struct shown shown = {picture, has_display};
+    size_t height = psplat_picture_height(picture);
+    size_t at_once = ROWS_BYTES / (psplat_picture_width(picture) * sizeof(float)) + 1;
+    ps_result result = is_new ? create_image(connection, name, &shown, error) : PS_OK;
     assert(strlen(name) < 256);
-    for (size_t row = 0; row < image->height && result == PS_OK; row += at_once) {
-        size_t left = image->height - row, rows = left < at_once ? left : at_once;
-        for (size_t i = 0; i < image->channel_count && result == PS_OK; i++)
-            result = update_rows(connection, name, image, i, row, rows, error);
+    for (size_t row = 0; row < height && result == PS_OK; row += at_once) {
+        size_t left = height - row, rows = left < at_once ? left : at_once;
+        const char *channel;
+        for (size_t next = 0; result == PS_OK && (channel = next_channel(&shown, &next));)
+            result = update_rows(connection, name, &shown, channel, row, rows, error);
     }
     return result;
 }

@@ -7,7 +7,9 @@
 #ifndef CLI_TEV_H
 #define CLI_TEV_H
 
-#include "image/image.h"
+#include "base/error.h"
+#include <psplat/psplat.h>
+#include <stdbool.h>
 
 #define TEV_HOST "127.0.0.1"
 #define TEV_PORT "14158"
@@ -24,8 +26,9 @@ bool tev_parse_address(const char *text, struct tev_address *address);
  * does nothing: PS_ERROR_IO. Any thread. */
 ps_result tev_connect(const struct tev_address *address, int *connection, struct error *error);
 
-/* Shows all channels of a picture under a name of less than 256 characters. `is_new`: the viewer does not have it yet. */
-ps_result tev_send(int connection, const char *name, const struct image *image, bool is_new,
-                   struct error *error);
+/* Shows the channels of a picture under a name of less than 256 characters; what a display shows, "display.R", if
+ * `has_display`. `is_new`: the viewer does not have it yet. */
+ps_result tev_send(int connection, const char *name, const psplat_picture *picture,
+                   bool has_display, bool is_new, struct error *error);
 
 #endif

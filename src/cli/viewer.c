@@ -1,7 +1,6 @@
 #include "cli/viewer.h"
 
 #include "cli/command.h"
-#include "session/layers.h"
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,14 +10,15 @@
 struct viewer {
     struct tev_address address;
     char name[256];
+    bool has_display;
     pthread_t thread;
     pthread_mutex_t mutex;
     pthread_cond_t changed;
     /* Guarded by the mutex. */
-    struct image next;   /* to be sent; no channels: none */
-    bool busy, ends;     /* with one of them; after it */
-    struct error reason; /* why the last one was not sent; no text: it was */
-    bool has_failed;     /* and that was said */
+    psplat_picture *next; /* to be sent, owned; NULL: none */
+    bool busy, ends;      /* with one of them; after it */
+    struct error reason;  /* why the last one was not sent; no text: it was */
+    bool has_failed;      /* and that was said */
 };
 
 bool viewer_parse(const char *value, struct tev_address *address)
@@ -34,41 +34,41 @@ bool viewer_parse(const char *value, struct tev_address *address)
 /* --- the thread ----------------------------------------------------------------------------------- */
 
 /* The error has a text where that fails. */
-static void send_picture(const struct viewer *viewer, const struct image *image, int *connection,
-                         struct error *error)
+static void send_picture(const struct viewer *viewer, const psplat_picture *picture,
+                         int *connection, struct error *error)
 {
     bool is_new = *connection < 0;
     ps_result result = is_new ? tev_connect(&viewer->address, connection, error) : PS_OK;
     if (result == PS_OK)
-        result = tev_send(*connection, viewer->name, image, is_new, error);
+        result = tev_send(*connection, viewer->name, picture, viewer->has_display, is_new, error);
     if (result != PS_OK && *connection >= 0) {
         close(*connection);
         *connection = -1;
     }
 }
 
-/* Waits for a picture, which becomes the caller's; false at the end. */
-static bool take_next(struct viewer *viewer, struct image *image)
+/* Waits for a picture, which becomes the caller's; NULL at the end. */
+static psplat_picture *take_next(struct viewer *viewer)
 {
     pthread_mutex_lock(&viewer->mutex);
-    while (viewer->next.channel_count == 0 && !viewer->ends)
+    while (!viewer->next && !viewer->ends)
         pthread_cond_wait(&viewer->changed, &viewer->mutex);
-    *image = viewer->next;
-    viewer->next = (struct image){0};
-    viewer->busy = image->channel_count > 0;
+    psplat_picture *picture = viewer->next;
+    viewer->next = NULL;
+    viewer->busy = picture != NULL;
     pthread_mutex_unlock(&viewer->mutex);
-    return image->channel_count > 0;
+    return picture;
 }
 
 static void *send_pictures(void *user)
 {
     struct viewer *viewer = user;
-    struct image image;
+    psplat_picture *picture;
     int connection = -1;
-    while (take_next(viewer, &image)) {
+    while ((picture = take_next(viewer))) {
         struct error error = {.text = ""};
-        send_picture(viewer, &image, &connection, &error);
-        image_release(&image);
+        send_picture(viewer, picture, &connection, &error);
+        psplat_picture_destroy(picture);
         pthread_mutex_lock(&viewer->mutex);
         viewer->busy = false;
         viewer->reason = error;
@@ -82,12 +82,13 @@ static void *send_pictures(void *user)
 
 /* --- the caller's thread -------------------------------------------------------------------------- */
 
-struct viewer *viewer_create(const struct tev_address *address, const char *name)
+struct viewer *viewer_create(const struct tev_address *address, const char *name, bool has_display)
 {
     struct viewer *viewer = calloc(1, sizeof *viewer);
     size_t length = strlen(name), most = sizeof viewer->name - 1;
     if (viewer) {
         viewer->address = *address;
+        viewer->has_display = has_display;
         snprintf(viewer->name, sizeof viewer->name, "%s",
                  name + (length > most ? length - most : 0));
         pthread_mutex_init(&viewer->mutex, NULL);
@@ -112,41 +113,24 @@ static void tell_of_failure(struct viewer *viewer)
 
 static void wait_until_idle(struct viewer *viewer)
 {
-    while (viewer->busy || viewer->next.channel_count > 0)
+    while (viewer->busy || viewer->next)
         pthread_cond_wait(&viewer->changed, &viewer->mutex);
 }
 
-static ps_result copy_channels(const struct image *image, const char *layers, struct image *copy,
-                               struct error *error)
+void viewer_show(struct viewer *viewer, psplat_picture *picture, bool is_last)
 {
-    size_t pixels = image->width * image->height;
-    *copy = (struct image){.width = image->width, .height = image->height};
-    for (size_t i = 0; i < image->channel_count; i++) {
-        if (!layers_keep(layers, image->channels[i].name))
-            continue;
-        float *samples = image_add_channel(copy, image->channels[i].name);
-        if (!samples) {
-            image_release(copy);
-            return error_memory(error, pixels * sizeof *samples, "the picture to show");
-        }
-        memcpy(samples, image->channels[i].samples, pixels * sizeof *samples);
-    }
-    return PS_OK;
-}
-
-void viewer_show(struct viewer *viewer, const struct image *image, const char *layers, bool is_last)
-{
-    struct error error;
     pthread_mutex_lock(&viewer->mutex);
     if (is_last)
         wait_until_idle(viewer);
-    if (!viewer->busy && viewer->next.channel_count == 0) {
+    bool takes = !viewer->busy && !viewer->next;
+    if (takes) {
         tell_of_failure(viewer);
-        if (copy_channels(image, layers, &viewer->next, &error) != PS_OK)
-            print_warning(error.text);
+        viewer->next = picture;
         pthread_cond_broadcast(&viewer->changed);
     }
     pthread_mutex_unlock(&viewer->mutex);
+    if (!takes)
+        psplat_picture_destroy(picture);
 }
 
 void viewer_destroy(struct viewer *viewer)

@@ -21,13 +21,13 @@ struct viewer;
 /* Checks the option's value; false, printed, where it is another. */
 bool viewer_parse(const char *value, struct tev_address *address);
 
-/* `name` is the picture's there, of which the last 255 characters count. NULL, printed, where it can't be had. */
-struct viewer *viewer_create(const struct tev_address *address, const char *name);
+/* `name` is the picture's there, of which the last 255 characters count; `has_display` as of tev_send. NULL, printed, where
+ * it can't be had. */
+struct viewer *viewer_create(const struct tev_address *address, const char *name, bool has_display);
 
-/* Shows the channels of a picture that a list of layers keeps (session/layers.h), or leaves it out where the one before
- * is still on its way; the last one waits for that. Warnings are printed by the caller's thread. */
-void viewer_show(struct viewer *viewer, const struct image *image, const char *layers,
-                 bool is_last);
+/* Shows a picture, which it takes over, or leaves it out where the one before is still on its way; the last one waits for
+ * that. Warnings are printed by the caller's thread. */
+void viewer_show(struct viewer *viewer, psplat_picture *picture, bool is_last);
 
 /* When the picture before it is sent, or can't be. NULL is nothing. */
 void viewer_destroy(struct viewer *viewer);

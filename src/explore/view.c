@@ -78,20 +78,20 @@ static void set_time(const struct work *work)
     work->view->cpu_seconds = work->cpu_seconds;
 }
 
-static void show_progress(void *user, const char *stage, double fraction)
+static void show_progress(void *user, const psplat_progress *progress)
 {
     struct work *work = user;
     double now = clock_seconds();
-    bool is_new = !work->stage || strcmp(stage, work->stage) != 0;
+    bool is_new = !work->stage || strcmp(progress->stage, work->stage) != 0;
     if ((now - work->told < TELL_SECONDS && !is_new) || is_over(work))
         return;
     work->told = now;
-    work->stage = stage;
+    work->stage = progress->stage;
     if (now - work->timed >= TELL_SECONDS)
         take_time(work);
     pthread_mutex_lock(&work->explorer->lock);
     set_time(work);
-    set_stage(work->view, work->is_preview ? "preview" : stage, fraction);
+    set_stage(work->view, work->is_preview ? "preview" : progress->stage, progress->fraction);
     pthread_mutex_unlock(&work->explorer->lock);
 }
 

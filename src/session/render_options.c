@@ -13,6 +13,7 @@
 struct render_options render_options_init(void)
 {
     return (struct render_options){
+        .job = job_options_init(),
         .seed = -1,
         .threads = -1,
         .batch = -1,
@@ -25,8 +26,10 @@ struct render_options render_options_init(void)
 void render_options_release(struct render_options *options)
 {
     scene_options_release(&options->scene);
-    output_options_release(&options->output);
+    output_list_release(&options->output);
+    job_options_release(&options->job);
     word_list_release(&options->plugins);
+    free(options->stats);
     free(options->isa);
     free(options->bounces);
     free(options->quality);
@@ -193,13 +196,67 @@ static ps_result set_memory_limit(struct render_options *options, const char *va
 
 static ps_result set_layers(struct render_options *options, const char *value, struct error *error)
 {
-    return output_options_set(&options->output, "layers", value, error);
+    return output_options_set(&options->output.options, "layers", value, error);
 }
 
 static ps_result set_compression(struct render_options *options, const char *value,
                                  struct error *error)
 {
-    return output_options_set(&options->output, "compression", value, error);
+    return output_options_set(&options->output.options, "compression", value, error);
+}
+
+static ps_result set_output(struct render_options *options, const char *value, struct error *error)
+{
+    return output_list_add(&options->output, value, error);
+}
+
+static ps_result set_stats(struct render_options *options, const char *value, struct error *error)
+{
+    return word_replace(&options->stats, value, error);
+}
+
+static ps_result set_time(struct render_options *options, const char *value, struct error *error)
+{
+    return job_options_parse_time("time", value, &options->job.seconds, error);
+}
+
+static ps_result set_error(struct render_options *options, const char *value, struct error *error)
+{
+    return job_options_parse_percent(value, &options->job.error, error);
+}
+
+static ps_result set_write_every(struct render_options *options, const char *value,
+                                 struct error *error)
+{
+    return job_options_parse_time("write-every", value, &options->job.write_every, error);
+}
+
+static ps_result set_checkpoint(struct render_options *options, const char *value,
+                                struct error *error)
+{
+    return job_options_set_checkpoint(&options->job, value, error);
+}
+
+static ps_result set_checkpoint_every(struct render_options *options, const char *value,
+                                      struct error *error)
+{
+    return job_options_parse_time("checkpoint-every", value, &options->job.checkpoint_every, error);
+}
+
+static ps_result set_resume(struct render_options *options, const char *value, struct error *error)
+{
+    (void)value;
+    (void)error;
+    options->job.resume = true;
+    return PS_OK;
+}
+
+static ps_result set_mpi(struct render_options *options, const char *value, struct error *error)
+{
+    (void)value;
+    (void)error;
+    options->job.mpi = true;
+    return PS_OK;
 }
 
 static ps_result set_preview(struct render_options *options, const char *value, struct error *error)
@@ -236,9 +293,20 @@ static const struct row {
     {"direct-resolution", false, set_direct_resolution},
     {"exposure", false, set_exposure},
     {"memory-limit", false, set_memory_limit},
+    {"preview", true, set_preview},
+    /* when it ends, and what is kept */
+    {"time", false, set_time},
+    {"error", false, set_error},
+    {"checkpoint", false, set_checkpoint},
+    {"checkpoint-every", false, set_checkpoint_every},
+    {"resume", true, set_resume},
+    {"mpi", true, set_mpi},
+    /* what is written */
+    {"output", false, set_output},
     {"layers", false, set_layers},
     {"compression", false, set_compression},
-    {"preview", true, set_preview},
+    {"write-every", false, set_write_every},
+    {"stats", false, set_stats},
 };
 
 #define ROWS (sizeof rows / sizeof rows[0])

@@ -4,14 +4,17 @@
 #ifndef SESSION_RENDER_OPTIONS_H
 #define SESSION_RENDER_OPTIONS_H
 
-#include "session/output_options.h"
+#include "session/job_options.h"
+#include "session/output_list.h"
 #include "session/pass_range.h"
 #include "session/scene_input.h"
 
 /* Owns its words. Made by render_options_init. */
 struct render_options {
     struct scene_options scene;
-    struct output_options output;
+    struct output_list output;
+    struct job_options job;
+    char *stats;              /* a file; owned; NULL: none */
     struct word_list plugins; /* KIND=NAME[:KEY=VALUE,...]; the later goes before the earlier */
     struct pass_range passes;
     int64_t width, height; /* 0: the scene's, which a preview makes smaller */
@@ -39,6 +42,19 @@ bool render_options_is_flag(const char *name);
 ps_result render_options_set(struct render_options *options, const char *name, const char *value,
                              struct error *error);
 
+/* PS_ERROR_INVALID where options do not go together; PS_ERROR_IO where a file that is to be written can't be. The second
+ * is for the process that writes. */
+ps_result render_options_check(const struct render_options *options, struct error *error);
+ps_result render_options_check_files(const struct render_options *options, struct error *error);
+
+/* PS_ERROR_INVALID where one of those is a file of the scene; but a checkpoint, which is not replaced where it is no film. */
+ps_result render_options_spare_scene(const struct render_options *options,
+                                     const struct scene_description *description,
+                                     struct error *error);
+
+/* Whether the render's film is kept. */
+bool render_options_keep_film(const struct render_options *options);
+
 /* Lays the options over a scene that was read with options->scene. What is wrong is in the input's sink. */
 ps_result render_options_lay_over(const struct render_options *options, struct scene_input *input);
 
@@ -55,8 +71,8 @@ void render_options_suit_scene(const struct render_options *options, const struc
 
 /* PS_ERROR_INVALID where a part is asked for that can't be rendered alone (render_check_crop); PS_ERROR_MEMORY where a
  * picture takes more than the options allow, or this machine lends. */
-ps_result render_options_check_size(const struct image_description *image,
-                                    const struct render_settings *settings, bool keeps_film,
-                                    struct error *error);
+ps_result render_options_check_size(const struct render_options *options,
+                                    const struct image_description *image,
+                                    const struct render_settings *settings, struct error *error);
 
 #endif

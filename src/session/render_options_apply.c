@@ -19,6 +19,45 @@ static void lay_word(const char *key, const char *word, struct render_descriptio
         param_set(param_find(&table, key), render, word, &error);
 }
 
+/* Tiles are done one after the other, so that there is no picture, and no film, before the last. */
+ps_result render_options_check(const struct render_options *options, struct error *error)
+{
+    const struct job_options *job = &options->job;
+    const char *other = job->checkpoint                ? "--checkpoint"
+                        : job->mpi                     ? "--mpi"
+                        : job_options_have_budget(job) ? "--time and --error"
+                        : isfinite(job->write_every)   ? "--write-every"
+                                                       : NULL;
+    if (options->tile > 0 && other)
+        return error_set(error, PS_ERROR_INVALID, "--tile does not go with %s", other);
+    return job_options_check(job, error);
+}
+
+ps_result render_options_check_files(const struct render_options *options, struct error *error)
+{
+    ps_result result = output_list_check(&options->output, error);
+    if (result != PS_OK)
+        return result;
+    bool good = (!options->stats || output_check(options->stats, error)) &&
+                (!options->job.checkpoint || output_check(options->job.checkpoint, error));
+    return good ? PS_OK : PS_ERROR_IO;
+}
+
+ps_result render_options_spare_scene(const struct render_options *options,
+                                     const struct scene_description *description,
+                                     struct error *error)
+{
+    ps_result result = output_list_spares(&options->output, description, error);
+    if (result != PS_OK || !options->stats)
+        return result;
+    return output_spares(options->stats, "--stats", description, error) ? PS_OK : PS_ERROR_INVALID;
+}
+
+bool render_options_keep_film(const struct render_options *options)
+{
+    return options->job.checkpoint || options->job.mpi;
+}
+
 ps_result render_options_lay_over(const struct render_options *options, struct scene_input *input)
 {
     struct scene_description *description = &input->description;
@@ -84,9 +123,9 @@ void render_options_suit_scene(const struct render_options *options, const struc
         settings->discontinuity_buffer = false;
 }
 
-ps_result render_options_check_size(const struct image_description *image,
-                                    const struct render_settings *settings, bool keeps_film,
-                                    struct error *error)
+ps_result render_options_check_size(const struct render_options *options,
+                                    const struct image_description *image,
+                                    const struct render_settings *settings, struct error *error)
 {
     size_t width = (size_t)image->width, height = (size_t)image->height;
     struct render_settings part = *settings;
@@ -94,5 +133,6 @@ ps_result render_options_check_size(const struct image_description *image,
         return error_set(error, PS_ERROR_INVALID, "--tile does not go with --crop");
     ps_result result = part.tile > 0 ? tiled_render_prepare(&part, width, height, error)
                                      : render_check_crop(&part, width, height, error);
+    bool keeps_film = render_options_keep_film(options);
     return result == PS_OK ? render_check_memory(&part, width, height, keeps_film, error) : result;
 }

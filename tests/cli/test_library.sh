@@ -41,10 +41,10 @@ readelf -d "$folder/libpsplat.so.0" | grep -q 'SONAME.*\[libpsplat\.so\.0\]' || 
 sed -n 's/^\.Fo \(psplat_[a-z_]*\)$/\1/p; s/^\.Fn \(psplat_[a-z_]*\) .*/\1/p; s/^\.Fn \(psplat_[a-z_]*\)$/\1/p' \
     "$PSPLAT_SOURCE/man/libpsplat.3" | sort -u >page
 expect_same header page
-# And its options, which are those of `psplat render` that say what is rendered.
+# And its options, which are those of `psplat render` but for what that does by callbacks.
 run 0 render --help
 sed -n 's/^  -., --\([a-z-]*\).*/\1/p; s/^      --\([a-z-]*\).*/\1/p' out |
-    grep -vx 'help\|version\|output\|quiet\|stats\|progress\|time\|error\|write-every\|checkpoint\|checkpoint-every\|resume\|mpi\|display' |
+    grep -vx 'help\|version\|quiet\|progress\|display' |
     sort >program
 sed -n '/^\.Sh OPTIONS/,/^\.Sh/s/^\.It Cm //p' "$PSPLAT_SOURCE/man/libpsplat.3" | sort >page
 expect_same program page

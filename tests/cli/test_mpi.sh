@@ -104,7 +104,7 @@ expect_same input_alone.png input_apart.png
 apart 1 files.psd -o none/no.png
 expect_match err "can't write 'none/no.png'"
 rm baseline.jpg
-apart 1 files.psd -o no.png
+apart 2 files.psd -o no.png
 [ "$(grep -c 'baseline.jpg: cannot open' err)" -eq 1 ] || fail "it was said by more than one, or none"
 
 # --- two hosts ---

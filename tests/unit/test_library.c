@@ -240,13 +240,15 @@ struct watch {
     _Atomic(int) stop;
 };
 
-static void note_progress(void *user, const char *stage, double fraction)
+static void note_progress(void *user, const psplat_progress *progress)
 {
     struct watch *watch = user;
     psplat_picture *picture;
-    assert_true(stage[0] != '\0');
-    assert_true(fraction >= 0.0 && fraction <= 1.0);
-    watch->fraction = fraction;
+    assert_true(progress->stage[0] != '\0');
+    assert_true(progress->fraction >= 0.0 && progress->fraction <= 1.0);
+    assert_true(progress->passes >= watch->passes && progress->passes <= 3);
+    assert_true(progress->error < 0.0);
+    watch->fraction = progress->fraction;
     if (watch->rendering)
         watch->out_of_place = psplat_rendering_picture(watch->rendering, &picture, NULL);
 }
@@ -510,7 +512,9 @@ static void test_wrong_options(void **state)
         const char *option, *value, *message;
     } wrong[] = {
         {"sise", "1x1", "unknown option 'sise'; did you mean 'size'?"},
-        {"output", "a.exr", "unknown option 'output'"},
+        {"output", "a.jpg", "--output: 'a.jpg' ends neither in .exr nor in .png"},
+        {"checkpoint", "film.png", "--checkpoint: a film needs a name that ends in .exr"},
+        {"error", "0", "--error: expected percent such as 2%, got '0'"},
         {"size", "10", "--size: expected WxH, each 1..65536, got '10'"},
         {"size", NULL, "--size: a value is missing"},
         {"preview", "yes", "--preview: it takes no value"},

@@ -160,7 +160,7 @@ static void test_wrong(void **state)
     psplat_picture *none;
     psplat_scene *scene = load("tile", "64");
     assert_int_equal(psplat_render(scene, NULL, &none, &error), PS_ERROR_INVALID);
-    assert_non_null(strstr(error.message, "needs the callback 'tile'"));
+    assert_non_null(strstr(error.message, "the option 'tile' needs files, or a callback"));
     assert_int_equal(psplat_scene_set(scene, "tile", "65", &error), PS_ERROR_INVALID);
     assert_non_null(strstr(error.message, "65 is no multiple of 64"));
     assert_int_equal(psplat_scene_set(scene, "crop", "0,0,20,20", &error), PS_OK);
