@@ -306,6 +306,12 @@ struct ps_host {
      * see, be it there or not, without light; its radiance is NULL. The paths from the camera are traced where it is
      * not there. [any thread, estimator] */
     void (*tile_surfaces)(const ps_host *host, uint32_t index, size_t size, ps_tile *tile);
+
+    /* --- several walks over the picture --- */
+
+    /* Since 1.10: what `progress` and the walks over tiles tell from now on, as 0..1 each, is the part from `from` to `to` of
+     * the pass's estimate. All of it, 0 to 1, as each pass begins. [main thread, estimator] */
+    void (*progress_part)(const ps_host *host, double from, double to);
 };
 
 #define PS_SPHERE_TRIANGLES 512u

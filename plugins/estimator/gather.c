@@ -31,6 +31,8 @@
 
 #define MOST_KEPT 4 /* passes */
 
+#define SURFEL_SHARE 0.2 /* of a pass's time, about */
+
 /* What a pass found of the whole picture, for the next part of it. */
 struct whole {
     bool is_taken;
@@ -318,9 +320,11 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     struct work work = {
         .state = state,
         .setting = {.paths = {host, pass, (uint32_t)state->roulette, pass->specular != 0, false},
-                    .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples},
+                    .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
+                    .share_before = SURFEL_SHARE},
         .surfels = &whole->surfels,
     };
+    host->progress_part(host, 0.0, SURFEL_SHARE);
     ps_result result = splat_pass(&work, whole);
     host->count(host, "surfels", (double)whole->surfels.count);
     if (result == PS_OK)

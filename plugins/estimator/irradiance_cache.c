@@ -19,6 +19,7 @@
 #define FEWEST_PIXELS 2.0f   /* least radius */
 #define MOST_OF_HEIGHT 0.15f /* largest radius, of the picture's height */
 #define BATCH 16u            /* records for each thread, between reports of progress */
+#define CACHE_SHARE 0.9      /* of the time goes into records */
 
 struct state {
     int64_t samples;
@@ -232,8 +233,10 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     cache_begin(host, &work.cache);
     choose_strata(state, &work.setting);
     look_through_camera(&work);
+    host->progress_part(host, 0.0, CACHE_SHARE);
     ps_result result = fill_cache(&work);
     host->count(host, "irradiance records", (double)work.cache.count);
+    host->progress_part(host, CACHE_SHARE, 1.0);
     if (result == PS_OK)
         result = host->for_each_tile(host, interpolate_tile, &work);
     if (result == PS_OK && pass->specular)

@@ -50,6 +50,7 @@ static ps_result solve(struct state *state, const ps_host *host, const ps_pass *
         .most = (uint64_t)state->links,
     };
     ps_result result = solution_create(host, pass, &setting, OF_PROGRESS, &state->solution);
+    host->progress_part(host, OF_PROGRESS, 1.0);
     if (result != PS_OK) {
         solution_release(&state->solution);
         return result;

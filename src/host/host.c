@@ -113,8 +113,17 @@ void host_tell_progress(const ps_host *host, double fraction)
 {
     const struct render *render = render_of(host);
     const struct render_callbacks *callbacks = render->callbacks;
+    double of_pass =
+        render->progress_from + (render->progress_to - render->progress_from) * fraction;
     if (callbacks->progress)
-        callbacks->progress(callbacks->user, "indirect light", render_fraction(render, fraction));
+        callbacks->progress(callbacks->user, "indirect light", render_fraction(render, of_pass));
+}
+
+static void host_progress_part(const ps_host *host, double from, double to)
+{
+    struct render *render = render_of(host);
+    render->progress_from = from;
+    render->progress_to = to;
 }
 
 void host_hand_over(const ps_host *host, const char *service, void *theirs, const void *ours,
@@ -186,6 +195,7 @@ void host_create(struct render *render)
             .cancelled = host_cancelled,
             .parallel_for = host_parallel_for,
             .samples = host_samples,
+            .progress_part = host_progress_part,
         };
         host_add_scene(&own->host);
         host_add_lights(&own->host);

@@ -237,6 +237,8 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
 {
     pass_describe(render, number);
     render->splatting = false;
+    render->progress_from = 0.0;
+    render->progress_to = 1.0;
     report_progress(render, "direct light", render_fraction(render, 0.0));
     struct tile_work work = {
         .render = render,

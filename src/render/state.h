@@ -74,6 +74,7 @@ struct render {
     float nowhere_radiance[3][PS_TILE_PIXELS];
     /* Which services are in place. */
     bool has_tiles, estimating;
+    double progress_from, progress_to; /* see ps_host.progress_part */
     _Atomic(bool) looping; /* in a parallel_for */
     bool has_begun;        /* the estimator */
     struct failure failure;

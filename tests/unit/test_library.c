@@ -245,7 +245,7 @@ static void note_progress(void *user, const psplat_progress *progress)
     struct watch *watch = user;
     psplat_picture *picture;
     assert_true(progress->stage[0] != '\0');
-    assert_true(progress->fraction >= 0.0 && progress->fraction <= 1.0);
+    assert_true(progress->fraction >= watch->fraction && progress->fraction <= 1.0);
     assert_true(progress->passes >= watch->passes && progress->passes <= 3);
     assert_true(progress->error < 0.0);
     watch->fraction = progress->fraction;

@@ -260,7 +260,7 @@ static ps_result sort_links(const struct refinement *work, struct links *links)
     return PS_OK;
 }
 
-ps_result links_create(struct elements *elements, const struct links_setting *setting, double share,
+ps_result links_create(struct elements *elements, const struct links_setting *setting,
                        struct links *links)
 {
     const ps_host *host = elements->host;
@@ -274,7 +274,7 @@ ps_result links_create(struct elements *elements, const struct links_setting *se
     for (int round = 1; result == PS_OK && work.pairs.count > 0; round++) {
         result = take_round(&work);
         links->cut_short |= work.is_full;
-        host->progress(host, share * (1.0 - 8.0 / (8.0 + round)));
+        host->progress(host, 1.0 - 8.0 / (8.0 + round));
     }
     if (result == PS_OK)
         result = sort_links(&work, links);

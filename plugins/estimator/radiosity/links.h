@@ -34,9 +34,9 @@ struct links_setting {
     uint64_t most;  /* links */
 };
 
-/* Divides elements of the scene, whose direct light is known, and links them. PS_ERROR_MEMORY or PS_CANCELLED. Tells the
- * progress up to `share`. */
-ps_result links_create(struct elements *elements, const struct links_setting *setting, double share,
+/* Divides elements of the scene, whose direct light is known, and links them. PS_ERROR_MEMORY or PS_CANCELLED. Tells its
+ * progress. */
+ps_result links_create(struct elements *elements, const struct links_setting *setting,
                        struct links *links);
 void links_release(struct links *links);
 

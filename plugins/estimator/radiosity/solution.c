@@ -226,10 +226,10 @@ static void release_light(struct solution *solution)
 
 /* Links the elements, and lets light go between them. */
 static ps_result solve(struct solution *solution, const struct links_setting *setting,
-                       uint32_t bounces, double share)
+                       uint32_t bounces)
 {
     const ps_host *host = solution->elements.host;
-    ps_result result = links_create(&solution->elements, setting, share, &solution->links);
+    ps_result result = links_create(&solution->elements, setting, &solution->links);
     if (result != PS_OK)
         return result;
     lighting_finish(&solution->elements);
@@ -269,12 +269,14 @@ ps_result solution_create(const ps_host *host, const ps_pass *pass,
     if (result != PS_OK)
         return result;
     guess_ambient(elements, pass->bounces);
-    result = solve(solution, &coarse, pass->bounces, 0.25 * share);
+    host->progress_part(host, 0.0, 0.25 * share);
+    result = solve(solution, &coarse, pass->bounces);
     if (result != PS_OK)
         return result;
     learn_ambient(solution);
     release_light(solution);
-    result = solve(solution, setting, pass->bounces, share);
+    host->progress_part(host, 0.25 * share, share);
+    result = solve(solution, setting, pass->bounces);
     if (result == PS_OK)
         measure_balance(solution);
     return result;

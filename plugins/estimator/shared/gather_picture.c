@@ -98,6 +98,8 @@ static ps_result make_places(struct work *work)
     const ps_host *host = work->setting->paths.host;
     size_t tiles = work->setting->paths.pass->tile_count;
     uint32_t count = 0;
+    double before = work->setting->share_before;
+    host->progress_part(host, before, before);
     work->places = host->allocate(host, tiles * sizeof *work->places, "first round");
     if (!work->places)
         return PS_ERROR_MEMORY;
@@ -150,8 +152,12 @@ static ps_result share_out_samples(struct work *work, struct gather_shares *shar
         return PS_ERROR_MEMORY;
     memset(work->pilots, 0, bytes);
     ps_result result = make_places(work);
+    double before = work->setting->share_before;
+    double first = before + (1.0 - before) * (double)GATHER_FIRST / (double)work->samples;
+    host->progress_part(host, before, first);
     if (result == PS_OK)
         result = find_shares(work, shares);
+    host->progress_part(host, first, 1.0);
     work->shares = shares;
     return result;
 }
@@ -161,6 +167,7 @@ ps_result gather_picture(const struct gather_setting *setting, uint64_t samples,
 {
     const ps_host *host = setting->paths.host;
     struct work work = {.setting = setting, .samples = samples};
+    host->progress_part(host, setting->share_before, 1.0);
     ps_result result =
         adaptive && samples > GATHER_FIRST ? share_out_samples(&work, shares) : PS_OK;
     if (result == PS_OK)

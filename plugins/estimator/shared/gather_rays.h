@@ -32,6 +32,7 @@ struct gather_setting {
     uint64_t most; /* samples from each point, of any group: random numbers are counted by it */
     gather_lookup lookup; /* NULL: there is no cache, and paths go on to their ends */
     const void *cache;
+    double share_before; /* of a pass's time, which what comes before the picture takes */
 };
 
 /* What the rays of the first round found, by the cosine, and where: to be weighed when there are guides. */
