@@ -1,16 +1,14 @@
-/* render.c: an example: renders a scene by psplat's library, shows how far it is, and writes two pictures.
+/* render.c: an example: renders a scene by psplat's library, shows how far it is, and writes NAME.exr and NAME.png.
  *
  *     cc -o render render.c $(pkg-config --cflags --libs psplat)
- *     ./render scene.psd picture [OPTION=VALUE...]      # as size=640x360, plugin=estimator=pathtrace
+ *     ./render scene.psd NAME [OPTION=VALUE...]      # as size=640x360, time=10s, plugin=estimator=pathtrace
  */
 #include <psplat/psplat.h>
-
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Control-C stops the render, whose picture is written as far as it is. */
-static volatile sig_atomic_t stopped;
+static volatile sig_atomic_t stopped; /* by Control-C: the picture so far is written */
 
 static void stop(int signal_number)
 {
@@ -36,53 +34,35 @@ static void show_message(void *user, int kind, const char *message)
     fprintf(stderr, "\r%s%s\n", kind == PSPLAT_REMARK ? "note: " : "", message);
 }
 
-static ps_result set_options(psplat_scene *scene, char **words, int count, psplat_error *error)
-{
-    ps_result result = PS_OK;
-    for (int i = 0; i < count && result == PS_OK; i++) {
-        char *value = strchr(words[i], '=');
-        if (value)
-            *value++ = '\0';
-        result = psplat_scene_set(scene, words[i], value, error);
-    }
-    return result;
-}
-
-/* NAME.exr with all layers, NAME.png to look at. */
-static ps_result write_picture(const psplat_picture *picture, const char *name, psplat_error *error)
-{
-    static const char *const suffixes[2] = {".exr", ".png"};
-    ps_result result = PS_OK;
-    for (int i = 0; i < 2 && result == PS_OK; i++) {
-        char path[4096];
-        snprintf(path, sizeof path, "%s%s", name, suffixes[i]);
-        result = psplat_picture_write(picture, path, error);
-    }
-    return result;
-}
-
 int main(int argc, char **argv)
 {
     const psplat_callbacks callbacks = {
         .size = sizeof callbacks, .progress = show_progress, .cancelled = was_stopped};
+    psplat_error error = {.message = "usage: render SCENE.psd NAME [OPTION=VALUE...]"};
     psplat_picture *picture = NULL;
-    psplat_error error = {.message = "usage: render SCENE.psd PICTURE [OPTION=VALUE...]"};
     psplat_scene *scene = psplat_scene_create();
     ps_result result = scene && argc >= 3 ? PS_OK : PS_ERROR_INVALID;
-    if (result == PS_OK) {
-        signal(SIGINT, stop);
+    if (scene)
         psplat_scene_listen(scene, show_message, NULL);
-        result = set_options(scene, argv + 3, argc - 3, &error);
+    for (int i = 3; i < argc && result == PS_OK; i++) {
+        char *value = strchr(argv[i], '=');
+        if (value)
+            *value++ = '\0';
+        result = psplat_scene_set(scene, argv[i], value, &error);
+    }
+    for (int i = 0; i < 2 && result == PS_OK; i++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%s%s", argv[2], i == 0 ? ".exr" : ".png");
+        result = psplat_scene_set(scene, "output", path, &error);
     }
     if (result == PS_OK)
         result = psplat_scene_load(scene, argv[1], &error);
+    signal(SIGINT, stop);
     if (result == PS_OK)
         result = psplat_render(scene, &callbacks, &picture, &error);
-    if (picture && (result == PS_OK || result == PS_CANCELLED)) {
+    if (picture)
         fprintf(stderr, "\r%zux%zu pixels, %zu channels\n", psplat_picture_width(picture),
                 psplat_picture_height(picture), psplat_picture_channel_count(picture));
-        result = write_picture(picture, argv[2], &error);
-    }
     if (result != PS_OK)
         fprintf(stderr, "%s\n", error.message);
     psplat_picture_destroy(picture);

@@ -39,6 +39,7 @@ for name, result, arguments in [
         ("scene_set", c_int, [c_void_p, c_char_p, c_char_p, POINTER(Error)]),
         ("scene_listen", None, [c_void_p, LISTENER, c_void_p]),
         ("scene_load", c_int, [c_void_p, c_char_p, POINTER(Error)]),
+        ("rendering_picture", c_int, [c_void_p, POINTER(c_void_p), POINTER(Error)]),
         ("render", c_int, [c_void_p, POINTER(Callbacks), POINTER(c_void_p), POINTER(Error)]),
         ("picture_destroy", None, [c_void_p]),
         ("picture_width", c_size_t, [c_void_p]),
@@ -61,13 +62,21 @@ def mean(picture, channel):
     return sum(samples[:count]) / count
 
 
+def show_pass(user, rendering, passes):
+    """Between passes there is a picture of those so far, and it may be looked at, or given to a viewer."""
+    picture = c_void_p()
+    if psplat.psplat_rendering_picture(rendering, byref(picture), None) == PS_OK:
+        print("mean of R after %u: %.6f" % (passes, mean(picture, b"R")))
+    psplat.psplat_picture_destroy(picture)
+
+
 def render(path, output, options):
     error, picture = Error(), c_void_p()
     # Kept in names: what C calls must not be collected.
     listener = LISTENER(lambda user, kind, message: print(message.decode(), file=sys.stderr))
     callbacks = Callbacks(size=ctypes.sizeof(Callbacks), progress=PROGRESS(
         lambda user, progress: print(f"{100 * progress[0].fraction:3.0f} % {progress[0].stage.decode()}",
-                                     file=sys.stderr)))
+                                     file=sys.stderr)), each_pass=PASS(show_pass))
     scene = psplat.psplat_scene_create()
     try:
         psplat.psplat_scene_listen(scene, listener, None)

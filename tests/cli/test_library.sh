@@ -102,6 +102,7 @@ if [ -n "$python" ] && ! is_on PSPLAT_SANITIZE; then
     "$python" "$examples/render.py" "$cornell" python.exr size=48x27 passes=2 seed=3 plugin=injection=photon:count=500 >out 2>err
     check_status $? 0
     expect_match out '^mean of R: 0\.[0-9]*[1-9]'
+    expect_match out '^mean of R after 1: 0\.[0-9]*[1-9]'
     expect_text err "% indirect light"
     expect_same command.exr python.exr
     "$python" "$examples/render.py" missing.psd python.exr >out 2>err
