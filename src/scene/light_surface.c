@@ -51,8 +51,7 @@ struct shares {
  * (Heitz 2019, "A low-distortion map between triangle and square"). */
 static struct shares shares_of(float u1, float u2)
 {
-    float a = u1 < u2 ? 0.5f * u1 : u1 - 0.5f * u2;
-    float b = u1 < u2 ? u2 - 0.5f * u1 : 0.5f * u2;
+    float half = 0.5f * ps_min(u1, u2), a = u1 - half, b = u2 - half;
     return (struct shares){{ps_max(1.0f - a - b, 0.0f), a, b}};
 }
 

@@ -3,6 +3,7 @@
 
 #include "support/chi_squared.h"
 #include "support/random.h"
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -124,6 +125,42 @@ static void test_all_dark_is_even(void **state)
 }
 
 /* A bright entry among a million faint ones, and sizes of all orders. */
+static void expect_first_above(const struct distribution *distribution, float u)
+{
+    float rest;
+    size_t entry = distribution_choose(distribution, u, &rest);
+    u = u < LAST ? u : LAST;
+    assert_true(distribution->cumulative[entry] > u);
+    assert_true(entry == 0 || !(distribution->cumulative[entry - 1] > u));
+}
+
+/* Wherever the guide begins: of few entries and of many, at the ends of its cells and beside them. */
+static void test_the_entry_is_the_first_above(void **state)
+{
+    (void)state;
+    static const size_t counts[] = {1, 2, 3, 12, 1000, 65536, 300000};
+    struct random random = {5};
+    for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
+        float *values = malloc(counts[k] * sizeof *values);
+        assert_non_null(values);
+        for (size_t i = 0; i < counts[k]; i++) {
+            float u = random_unit(&random);
+            values[i] = u < 0.2f ? 0 : powf(u, 20);
+        }
+        struct distribution distribution = distribution_of(values, counts[k]);
+        for (size_t i = 0; i <= distribution.guides; i++) {
+            float u = (float)i / (float)distribution.guides;
+            expect_first_above(&distribution, u);
+            expect_first_above(&distribution, nextafterf(u, 0));
+            expect_first_above(&distribution, fminf(nextafterf(u, 2), 1));
+        }
+        for (int i = 0; i < SAMPLES; i++)
+            expect_first_above(&distribution, random_unit(&random));
+        distribution_release(&distribution);
+        free(values);
+    }
+}
+
 static void test_extremes(void **state)
 {
     (void)state;
@@ -220,6 +257,7 @@ int main(void)
         cmocka_unit_test(test_probabilities_are_exact),
         cmocka_unit_test(test_entries_of_weight_0_are_never_chosen),
         cmocka_unit_test(test_all_dark_is_even),
+        cmocka_unit_test(test_the_entry_is_the_first_above),
         cmocka_unit_test(test_extremes),
         cmocka_unit_test(test_cells_follow_the_weights),
         cmocka_unit_test(test_dark_grid_is_even),
