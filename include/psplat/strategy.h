@@ -233,7 +233,15 @@ typedef struct ps_denoiser_vtable {
     /* Since 1.8: bytes that filter() allocates at a time, for each pixel. Where they are not there, the render is refused
      * before it begins. */
     uint64_t pixel_bytes;
+    /* Since 1.11. Optional, beside filter(): filters several images of one picture, at most PS_DENOISER_IMAGES, which differ
+     * in their light, its halves and `error` alone. Results are those of filter() for each. [main thread] */
+    ps_result (*filter_all)(const void *state, const ps_host *host, const ps_image_view *images,
+                            uint32_t count);
+    uint64_t
+        image_bytes; /* since 1.11: that it allocates for each pixel of each image beside the first */
 } ps_denoiser_vtable;
+
+#define PS_DENOISER_IMAGES 3u
 
 /* --- bloom and tonemap ----------------------------------------------------------------------- */
 

@@ -84,6 +84,11 @@ struct work {
     float least;     /* brightness that counts as dark */
 };
 
+struct works {
+    struct work of[REGRESSION_IMAGES];
+    int count;
+};
+
 static float brightness(const float colour[REGRESSION_COLOURS])
 {
     return colour[0] + colour[1] + colour[2];
@@ -391,19 +396,66 @@ static void swap_fits(struct work *work)
     }
 }
 
-static void add_bands(struct work *work)
+/* Of each image by itself. */
+static void for_each_row(struct works *works, ps_body body)
 {
-    regression_fit(&work->guides, bandwidths[0], work->body, work->coarse);
-    work->host->parallel_for(work->host, work->height, begin_row, work);
+    const ps_host *host = works->of[0].host;
+    for (int i = 0; i < works->count; i++)
+        host->parallel_for(host, works->of[i].height, body, &works->of[i]);
+}
+
+/* Fits one of their sets of values by another, all images together. */
+typedef float **(*planes_of)(struct work *work);
+
+static float **light_of(struct work *work)
+{
+    return work->light;
+}
+
+static float **body_of(struct work *work)
+{
+    return work->body;
+}
+
+static float **fine_of(struct work *work)
+{
+    return work->fine;
+}
+
+static float **coarse_of(struct work *work)
+{
+    return work->coarse;
+}
+
+static void fit_all(struct works *works, int bandwidth, planes_of from, planes_of to)
+{
+    float *values[REGRESSION_MOST], *fitted[REGRESSION_MOST];
+    for (int i = 0; i < works->count; i++)
+        for (int c = 0; c < VALUES; c++) {
+            values[i * VALUES + c] = from(&works->of[i])[c];
+            fitted[i * VALUES + c] = to(&works->of[i])[c];
+        }
+    regression_fit(&works->of[0].guides, bandwidth, works->count * VALUES, values, fitted);
+}
+
+static void add_bands(struct works *works)
+{
+    fit_all(works, bandwidths[0], body_of, coarse_of);
+    for_each_row(works, begin_row);
     for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {
-        regression_fit(&work->guides, bandwidths[k], work->body, work->fine);
-        add_band(work, bandwidths[k], CAUTION);
-        swap_fits(work);
+        fit_all(works, bandwidths[k], body_of, fine_of);
+        for (int i = 0; i < works->count; i++) {
+            add_band(&works->of[i], bandwidths[k], CAUTION);
+            swap_fits(&works->of[i]);
+        }
     }
-    if (!work->image->even_r)
-        return;
-    work->host->parallel_for(work->host, work->height, copy_row, work);
-    add_band(work, PIXELS_WINDOW, PIXELS_CAUTION);
+    for (int i = 0; i < works->count; i++) {
+        struct work *work = &works->of[i];
+        if (!work->image->even_r)
+            continue;
+        work->host->parallel_for(work->host, work->height, copy_row, work);
+        add_band(work, PIXELS_WINDOW, PIXELS_CAUTION);
+    }
 }
 
 /* --- the rest --- */
@@ -453,24 +505,31 @@ static void store_error_of_row(void *user, uint64_t row, uint32_t worker)
     }
 }
 
-static void denoise(struct work *work)
+/* From the light to the body, with its noise. */
+static void prepare(struct work *work)
 {
     const ps_host *host = work->host;
-    work->camera = (ps_camera){.size = sizeof work->camera};
-    host->camera(host, &work->camera);
-    host->parallel_for(host, work->height, take_row, work);
-    regression_bounds_find(&work->guides);
-    regression_fit(&work->guides, FIRST, work->light, work->fine);
     work->least = 0.1f * mean_brightness(work, work->fine) + 1e-18f; /* its square is no 0 */
     if (work->image->even_r)
         host->parallel_for(host, work->height, take_noise_of_row, work);
     host->parallel_for(host, work->height, make_body_of_row, work);
-    add_bands(work);
-    host->parallel_for(host, work->height, take_rest_of_row, work);
-    regression_fit(&work->guides, WIDEST, work->body, work->fine);
-    host->parallel_for(host, work->height, store_row, work);
-    if (work->error)
-        host->parallel_for(host, work->height, store_error_of_row, work);
+}
+
+static void denoise(struct works *works)
+{
+    for_each_row(works, take_row);
+    regression_bounds_find(&works->of[0].guides);
+    fit_all(works, FIRST, light_of, fine_of);
+    for (int i = 0; i < works->count; i++)
+        prepare(&works->of[i]);
+    add_bands(works);
+    for_each_row(works, take_rest_of_row);
+    fit_all(works, WIDEST, body_of, fine_of);
+    for_each_row(works, store_row);
+    for (int i = 0; i < works->count; i++)
+        if (works->of[i].error)
+            works->of[i].host->parallel_for(works->of[i].host, works->of[i].height,
+                                            store_error_of_row, &works->of[i]);
 }
 
 /* --- the strategy --- */
@@ -483,61 +542,106 @@ static float *lay_out(float *memory, size_t size, int count, float *planes[])
     return memory + (size_t)count * size;
 }
 
-enum { PLANES_WITH_MARGIN = 8 + 2 * VALUES, PLANES = 2 * VALUES + REGRESSION_COLOURS + 6 };
+/* Planes that all images share, with a margin and without, and those of each. */
+enum { GUIDES = 8, SCRATCH = 3 };
+enum { IMAGE_WITH_MARGIN = 2 * VALUES, IMAGE = 2 * VALUES + REGRESSION_COLOURS + 4 };
 
-static void lay_out_all(struct work *work, float *next, size_t with_margin, size_t pixels)
+#define IMAGE_BYTES ((IMAGE_WITH_MARGIN + IMAGE) * sizeof(float) + REGRESSION_PLANES_PIXEL)
+
+static float *lay_out_shared(struct work *work, float *next, size_t with_margin, size_t pixels)
 {
     next = lay_out(next, with_margin, 3, work->guides.normal);
     next = lay_out(next, with_margin, 3, work->guides.position);
     next = lay_out(next, with_margin, 1, &work->guides.gloss);
     next = lay_out(next, with_margin, 1, &work->guides.size);
+    next = lay_out(next, pixels, 1, &work->signal);
+    next = lay_out(next, pixels, 1, &work->room);
+    return lay_out(next, pixels, 1, &work->around);
+}
+
+static float *lay_out_image(struct work *work, float *next, size_t with_margin, size_t pixels)
+{
     next = lay_out(next, with_margin, VALUES, work->light);
     next = lay_out(next, with_margin, VALUES, work->body);
     next = lay_out(next, pixels, VALUES, work->fine);
     next = lay_out(next, pixels, VALUES, work->coarse);
     next = lay_out(next, pixels, REGRESSION_COLOURS, work->sum);
     next = lay_out(next, pixels, 1, &work->scale);
-    next = lay_out(next, pixels, 1, &work->signal);
     next = lay_out(next, pixels, 1, &work->noise);
-    next = lay_out(next, pixels, 1, &work->room);
-    next = lay_out(next, pixels, 1, &work->around);
     next = lay_out(next, pixels, 1, &work->kept);
-    if (work->image->error)
-        lay_out(next, pixels, 1, &work->error);
+    float *error, *end = lay_out(next, pixels, 1, &error);
+    work->error = work->image->error ? error : NULL;
+    return end;
+}
+
+static size_t floats_of(size_t width, size_t height, int count)
+{
+    size_t with_margin = regression_plane_size(width, height), pixels = width * height;
+    return (GUIDES + (size_t)count * IMAGE_WITH_MARGIN) * with_margin +
+           (SCRATCH + (size_t)count * IMAGE) * pixels;
+}
+
+/* Images with halves may show means over several passes, and come first. The first one's guides are all of them's. */
+static void lay_out_all(struct works *works, const struct work *shared, float *memory,
+                        const ps_image_view *images)
+{
+    size_t with_margin = regression_plane_size(shared->width, shared->height);
+    size_t pixels = shared->width * shared->height;
+    struct work each = *shared;
+    int count = works->count, halved = 0;
+    float *next = lay_out_shared(&each, memory, with_margin, pixels);
+    for (int i = 0; i < count; i++)
+        halved += images[i].even_r != NULL;
+    each.guides.narrow = halved * VALUES;
+    for (int i = 0, with = 0, without = halved; i < count; i++) {
+        struct work *work = &works->of[images[i].even_r ? with++ : without++];
+        *work = each;
+        work->image = &images[i];
+        next = lay_out_image(work, next, with_margin, pixels);
+    }
+}
+
+static ps_result filter_all(const void *opaque, const ps_host *host, const ps_image_view *images,
+                            uint32_t count)
+{
+    const struct state *state = opaque;
+    struct works works = {.count = (int)count};
+    struct work shared = {.host = host, .width = images->width, .height = images->height};
+    size_t width = shared.width, height = shared.height;
+    size_t floats = floats_of(width, height, works.count);
+    float *memory = host->allocate(host, floats * sizeof *memory, "denoiser");
+    shared.guides = (struct regression){
+        .host = host,
+        .width = width,
+        .height = height,
+        .bend_scale = (float)(1 / (1 - cos(state->normal * (double)PS_PI / 180))),
+        .distance = state->distance.choice >= 0 ? 0.0f : (float)state->distance.number,
+        .bounds = host->allocate(host, regression_bounds_bytes(width, height), "denoiser"),
+        .fits = host->allocate(host, regression_fits_bytes(width, height), "denoiser"),
+        .planes = host->allocate(host, regression_planes_bytes(width, height, works.count * VALUES),
+                                 "denoiser"),
+    };
+    const struct regression *guides = &shared.guides;
+    bool good = memory && guides->bounds && guides->fits && guides->planes;
+    ps_result result = good ? PS_OK : PS_ERROR_MEMORY;
+    if (result == PS_OK) {
+        memset(memory, 0, floats * sizeof *memory);
+        shared.camera = (ps_camera){.size = sizeof shared.camera};
+        host->camera(host, &shared.camera);
+        lay_out_all(&works, &shared, memory, images);
+        denoise(&works);
+        result = host->cancelled(host) ? PS_CANCELLED : PS_OK;
+    }
+    host->release(host, shared.guides.planes);
+    host->release(host, shared.guides.fits);
+    host->release(host, shared.guides.bounds);
+    host->release(host, memory);
+    return result;
 }
 
 static ps_result filter(const void *opaque, const ps_host *host, const ps_image_view *image)
 {
-    const struct state *state = opaque;
-    struct work work = {
-        .host = host, .image = image, .width = image->width, .height = image->height};
-    size_t with_margin = regression_plane_size(work.width, work.height);
-    size_t pixels = work.width * work.height;
-    size_t planes = PLANES + (image->error ? 1 : 0);
-    size_t floats = PLANES_WITH_MARGIN * with_margin + planes * pixels;
-    float *memory = host->allocate(host, floats * sizeof(float), "denoiser");
-    work.guides = (struct regression){
-        .host = host,
-        .width = work.width,
-        .height = work.height,
-        .bend_scale = (float)(1 / (1 - cos(state->normal * (double)PS_PI / 180))),
-        .mixed = image->even_r != NULL,
-        .distance = state->distance.choice >= 0 ? 0.0f : (float)state->distance.number,
-        .bounds =
-            host->allocate(host, regression_bounds_bytes(work.width, work.height), "denoiser"),
-        .fits = host->allocate(host, regression_fits_bytes(work.width, work.height), "denoiser"),
-    };
-    ps_result result = memory && work.guides.bounds && work.guides.fits ? PS_OK : PS_ERROR_MEMORY;
-    if (result == PS_OK) {
-        memset(memory, 0, floats * sizeof(float));
-        lay_out_all(&work, memory, with_margin, pixels);
-        denoise(&work);
-        result = host->cancelled(host) ? PS_CANCELLED : PS_OK;
-    }
-    host->release(host, work.guides.fits);
-    host->release(host, work.guides.bounds);
-    host->release(host, memory);
-    return result;
+    return filter_all(opaque, host, image, 1);
 }
 
 static const ps_param params[] = {
@@ -553,8 +657,10 @@ static const ps_denoiser_vtable vtable = {
     .size = sizeof vtable,
     .flags = PS_DENOISER_HALVES | PS_DENOISER_DIRECT | PS_DENOISER_ERROR,
     .filter = filter,
-    .pixel_bytes = (PLANES_WITH_MARGIN + PLANES + 1) * sizeof(float) + REGRESSION_BOUNDS_PIXEL +
-                   REGRESSION_FITS_PIXEL,
+    .pixel_bytes = (GUIDES + SCRATCH) * sizeof(float) + REGRESSION_BOUNDS_PIXEL +
+                   REGRESSION_FITS_PIXEL + IMAGE_BYTES,
+    .filter_all = filter_all,
+    .image_bytes = IMAGE_BYTES,
 };
 
 static const ps_descriptor descriptor = {

@@ -74,6 +74,26 @@ static size_t in_tiles(size_t pixels)
     return (pixels + EXR_TILE_SIDE - 1) / EXR_TILE_SIDE;
 }
 
+/* The part with the channels of the file, in their order; `zeros`, which are allocated, where it lacks one. Both are freed by
+ * the caller in any case. */
+static ps_result complete(const struct exr_tiles *tiles, const struct image *part,
+                          struct image_channel **channels, float **zeros, struct error *error)
+{
+    const struct image *all = &tiles->black;
+    size_t count = all->channel_count, bytes = part->width * part->height * sizeof **zeros;
+    *channels = malloc((count + 1) * sizeof **channels);
+    *zeros = NULL;
+    for (size_t i = 0; i < count && *channels; i++) {
+        float *samples = (float *)image_channel(part, all->channels[i].name);
+        if (!samples && !*zeros)
+            *zeros = calloc(bytes + 1, 1);
+        (*channels)[i] = (struct image_channel){all->channels[i].name, samples ? samples : *zeros};
+        if (!samples && !*zeros)
+            return error_memory(error, bytes, "a tile");
+    }
+    return *channels ? PS_OK : error_memory(error, count * sizeof **channels, "a tile");
+}
+
 ps_result exr_tiles_add(struct exr_tiles *tiles, const struct image *part, struct rectangle place,
                         struct workers *workers, struct error *error)
 {
@@ -87,7 +107,15 @@ ps_result exr_tiles_add(struct exr_tiles *tiles, const struct image *part, struc
         .across = in_tiles(place.width),
         .first = (place.y - top) * part->width + place.x - left,
     };
-    return write_run(tiles, &run, in_tiles(place.height), part, workers, error);
+    struct image whole = *part;
+    float *zeros;
+    ps_result result = complete(tiles, part, &whole.channels, &zeros, error);
+    whole.channel_count = tiles->black.channel_count;
+    if (result == PS_OK)
+        result = write_run(tiles, &run, in_tiles(place.height), &whole, workers, error);
+    free(whole.channels);
+    free(zeros);
+    return result;
 }
 
 /* --- the file ---------------------------------------------------------------------------------- */

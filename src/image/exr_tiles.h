@@ -17,7 +17,8 @@ ps_result exr_tiles_create(const char *path, const struct image *like, size_t wi
                            struct error *error);
 
 /* Writes what lies in `place`, a rectangle of the picture whose corner, and whose width and height but at the picture's edge,
- * are multiples of EXR_TILE_SIDE. It lies in the part, whose window says where that is, and has not been written. */
+ * are multiples of EXR_TILE_SIDE. It lies in the part, whose window says where that is, and has not been written. A channel
+ * of the file that the part lacks is 0 there; one that the file lacks is left out. */
 ps_result exr_tiles_add(struct exr_tiles *tiles, const struct image *part, struct rectangle place,
                         struct workers *workers, struct error *error);
 

@@ -1,5 +1,6 @@
 /* resolve.c: the film becomes a picture: normalization, ambient fallback, denoiser, combination. */
 #include "base/clock.h"
+#include "pipeline/denoise.h"
 #include "pipeline/render.h"
 #include "pipeline/stages.h"
 #include <math.h>
@@ -34,10 +35,6 @@ bool render_makes_layer(const char *name, size_t length)
     return found;
 }
 
-struct rgb_planes {
-    float *r, *g, *b;
-};
-
 static ps_result add_rgb(struct image *image, const char *const names[3], struct rgb_planes *planes,
                          struct error *error)
 {
@@ -65,19 +62,6 @@ static ps_result move_film_layers(struct film *film, struct image *image, struct
     return result;
 }
 
-static size_t pixels_of(const struct render *render)
-{
-    return render->film.width * render->film.height;
-}
-
-static void copy_rgb(const struct render *render, struct rgb_planes from, struct rgb_planes to)
-{
-    size_t bytes = pixels_of(render) * sizeof(float);
-    memcpy(to.r, from.r, bytes);
-    memcpy(to.g, from.g, bytes);
-    memcpy(to.b, from.b, bytes);
-}
-
 ps_result leave_out(struct render *render, ps_kind kind, ps_result result, const char *instead,
                     struct error *error)
 {
@@ -88,13 +72,6 @@ ps_result leave_out(struct render *render, ps_kind kind, ps_result result, const
     snprintf(warning, sizeof warning, "%.1200s; the picture %s", error->text, instead);
     own_host(render)->log(own_host(render), PS_LOG_WARNING, warning);
     return result;
-}
-
-static void mend(struct render *render, struct rgb_planes planes, uint64_t *refused)
-{
-    size_t pixels = pixels_of(render);
-    *refused +=
-        mend_plane(planes.r, pixels) + mend_plane(planes.g, pixels) + mend_plane(planes.b, pixels);
 }
 
 /* The accumulated light as it stands (plugins/normalization/density.c). */
@@ -142,7 +119,7 @@ static void mend_normalized(struct render *render, struct rgb_planes out)
     for (size_t i = 0; i < pixels_of(render); i++)
         if (!(weight[i] > 0.0f) && !isfinite(out.r[i] + out.g[i] + out.b[i]))
             out.r[i] = out.g[i] = out.b[i] = 0.0f;
-    mend(render, out, &render->refused.pixels[1]);
+    mend_rgb(render, out, &render->refused.pixels[1]);
 }
 
 static ps_result normalize(struct render *render, struct rgb_planes out, struct error *error)
@@ -172,19 +149,6 @@ static void fill_ambient(struct render *render, struct rgb_planes out)
         dark += covered > 0.0f;
     }
     render->dark_pixels = (double)dark;
-}
-
-/* The indirect light of even and of odd passes, for a denoiser that asks: six planes in one piece of memory, of
- * which the caller frees `light`. */
-struct halves {
-    float *light;
-    struct rgb_planes even, odd;
-    float odd_share; /* of the passes, or of the samples */
-};
-
-static struct rgb_planes planes_at(float *first, size_t pixels)
-{
-    return (struct rgb_planes){first, first + pixels, first + 2 * pixels};
 }
 
 /* What the odd passes leave of the film. */
@@ -242,95 +206,6 @@ static ps_result make_halves(struct render *render, struct halves *halves, struc
     return result;
 }
 
-/* `error`: see ps_image_view; NULL where nobody asks. */
-static ps_image_view image_of(const struct render *render, struct rgb_planes indirect,
-                              const struct halves *halves, float *error)
-{
-    const struct film *film = &render->film;
-    float *const *planes = film->planes;
-    return (ps_image_view){
-        .size = sizeof(ps_image_view),
-        .width = (uint32_t)film->width,
-        .height = (uint32_t)film->height,
-        .passes = film->passes,
-        .r = indirect.r,
-        .g = indirect.g,
-        .b = indirect.b,
-        .albedo_r = planes[FILM_ALBEDO_R],
-        .albedo_g = planes[FILM_ALBEDO_G],
-        .albedo_b = planes[FILM_ALBEDO_B],
-        .normal_x = planes[FILM_NORMAL_X],
-        .normal_y = planes[FILM_NORMAL_Y],
-        .normal_z = planes[FILM_NORMAL_Z],
-        .position_x = planes[FILM_POSITION_X],
-        .position_y = planes[FILM_POSITION_Y],
-        .position_z = planes[FILM_POSITION_Z],
-        .depth = planes[FILM_DEPTH],
-        .weight = planes[FILM_WEIGHT],
-        .coverage = planes[FILM_COVERAGE],
-        .object = film->object,
-        .material = film->material,
-        .even_r = halves->even.r,
-        .even_g = halves->even.g,
-        .even_b = halves->even.b,
-        .odd_r = halves->odd.r,
-        .odd_g = halves->odd.g,
-        .odd_b = halves->odd.b,
-        .gloss = planes[FILM_GLOSS],
-        .error = error,
-        .odd_share = halves->odd_share,
-    };
-}
-
-/* Where a pixel saw a surface in a part of its samples only, its light is the mean over all of them, but its albedo and
- * normal are those of the surface. A denoiser compares pixels by these, so it gets the light of that part alone: of what
- * is visible (`of_part`), or back to the mean. Of gloss that is all: whether a path goes on to a surface or to the sky is
- * a matter of chance there, and so is a share of FILM_COVERAGE. */
-static void scale_light(const struct film *film, bool of_part, float *light)
-{
-    const float *visible = film->planes[FILM_VISIBLE];
-    for (size_t i = 0; light && i < film->width * film->height; i++) {
-        float share = visible[i] / (float)film->passes;
-        if (share > 0.0f && share < 1.0f)
-            light[i] *= of_part ? 1.0f / share : share;
-    }
-}
-
-/* The same for all that the denoiser is given; `estimate`, which it makes, is in the units of the light. */
-static void scale_all(const struct film *film, bool of_part, struct rgb_planes light,
-                      const struct halves *halves, float *estimate)
-{
-    float *const planes[] = {light.r,        light.g,        light.b,       halves->even.r,
-                             halves->even.g, halves->even.b, halves->odd.r, halves->odd.g,
-                             halves->odd.b,  estimate};
-    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
-        scale_light(film, of_part, planes[i]);
-}
-
-/* Needs room for a copy of the light. */
-static ps_result denoise(struct render *render, struct rgb_planes indirect, struct rgb_planes copy,
-                         const struct halves *halves, float *estimate, struct error *error)
-{
-    const struct strategy *strategy = strategy_in(render, PS_DENOISER);
-    const ps_denoiser_vtable *table = &strategy->type->table.denoiser;
-    ps_image_view view = image_of(render, indirect, halves, estimate);
-    if (!table->filter)
-        return PS_OK;
-    double start = clock_seconds();
-    copy_rgb(render, indirect, copy);
-    scale_all(&render->film, true, indirect, halves, NULL);
-    ps_result result = table->filter(strategy->state, strategy->host, &view);
-    scale_all(&render->film, false, indirect, halves, estimate);
-    statistics_add_seconds(render->statistics, "denoise", clock_seconds() - start);
-    result = render_judge(render, PS_DENOISER, result, error);
-    if (result == PS_OK) {
-        mend(render, indirect, &render->refused.pixels[2]);
-        return PS_OK;
-    }
-    copy_rgb(render, copy, indirect);
-    return leave_out(render, PS_DENOISER, result, "is not denoised", error);
-}
-
 /* Room for the denoiser's estimate of its error, where it makes one and somebody wants it; NULL elsewhere. */
 static ps_result create_estimate(const struct render *render, float **estimate, struct error *error)
 {
@@ -343,97 +218,6 @@ static ps_result create_estimate(const struct render *render, float **estimate, 
     return *estimate
                ? PS_OK
                : error_memory(error, pixels_of(render) * sizeof **estimate, "the layer error");
-}
-
-/* Three planes from `first` on: FILM_REFLECTED_R, or FILM_HARD_R. */
-static struct rgb_planes planes_of(const struct film *film, int first)
-{
-    return (struct rgb_planes){film->planes[first], film->planes[first + 1],
-                               film->planes[first + 2]};
-}
-
-/* What the odd share leaves of a mean. */
-static void mean_of_rest(const float *mean, const float *odd_mean, float odd_share, size_t pixels,
-                         float *rest)
-{
-    for (size_t i = 0; i < pixels; i++)
-        rest[i] = fmaxf((mean[i] - odd_share * odd_mean[i]) / (1.0f - odd_share), 0.0f);
-}
-
-/* The film has them by half of each pass, or by the odd passes. */
-static struct halves halves_of_direct(const struct film *film, int first, float *even)
-{
-    size_t pixels = film->width * film->height;
-    const struct film *odd = film->half ? film->half : film->odd;
-    float odd_share = film->half ? 0.5f : (float)odd->passes / (float)film->passes;
-    for (int c = 0; c < 3; c++)
-        mean_of_rest(film->planes[first + c], odd->planes[first + c], odd_share, pixels,
-                     even + (size_t)c * pixels);
-    return (struct halves){
-        .even = planes_at(even, pixels), .odd = planes_of(odd, first), .odd_share = odd_share};
-}
-
-static bool denoises_direct(const struct render *render)
-{
-    const struct film *film = &render->film;
-    uint32_t flags = strategy_in(render, PS_DENOISER)->type->table.denoiser.flags;
-    if (!(flags & PS_DENOISER_DIRECT) || !film->planes[FILM_REFLECTED_R])
-        return false;
-    return film->half || (film->odd->passes > 0 && film->odd->passes < film->passes);
-}
-
-/* Sums of no light are zeros. */
-static bool is_black(struct rgb_planes light, size_t n)
-{
-    bool black = true;
-    for (size_t i = 0; i < n && black; i++)
-        black = light.r[i] == 0.0f && light.g[i] == 0.0f && light.b[i] == 0.0f;
-    return black;
-}
-
-static void replace(float *restrict sum, const float *restrict old, const float *restrict new,
-                    size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        sum[i] = fmaxf(sum[i] - old[i], 0.0f) + new[i];
-}
-
-/* One part of the direct light, its three planes from `first` on; `even` is room for half of it. */
-static ps_result denoise_part(struct render *render, int first, struct rgb_planes copy, float *even,
-                              struct error *error)
-{
-    struct film *film = &render->film;
-    struct rgb_planes part = planes_of(film, first);
-    size_t pixels = pixels_of(render);
-    if (is_black(part, pixels))
-        return PS_OK;
-    const struct halves halves = halves_of_direct(film, first, even);
-    ps_result result = denoise(render, part, copy, &halves, NULL, error);
-    if (result != PS_OK)
-        return result;
-    replace(film->planes[FILM_DIRECT_R], copy.r, part.r, pixels);
-    replace(film->planes[FILM_DIRECT_G], copy.g, part.g, pixels);
-    replace(film->planes[FILM_DIRECT_B], copy.b, part.b, pixels);
-    return PS_OK;
-}
-
-/* The direct light that surfaces reflect, where the film has it apart; needs room for a copy of it. Noise of broad lights
- * would hide the edges of hard shadows, so light that casts them is smoothed by itself. */
-static ps_result denoise_direct(struct render *render, struct rgb_planes copy, struct error *error)
-{
-    size_t bytes = 3 * pixels_of(render) * sizeof(float);
-    if (!denoises_direct(render))
-        return PS_OK;
-    float *even = malloc(bytes);
-    if (!even)
-        return leave_out(render, PS_DENOISER,
-                         error_memory(error, bytes, "half of the direct light"), "is not denoised",
-                         error);
-    ps_result result = denoise_part(render, FILM_REFLECTED_R, copy, even, error);
-    if (result == PS_OK && render->film.planes[FILM_HARD_R])
-        result = denoise_part(render, FILM_HARD_R, copy, even, error);
-    free(even);
-    return result;
 }
 
 static void combine(const struct render *render, struct rgb_planes indirect, struct rgb_planes out)
@@ -483,11 +267,9 @@ ps_result resolve_image(struct render *render, bool shows, struct image *image, 
     ps_result halved = make_halves(render, &halves, error);
     film_average(&render->film);
     ps_result denoised = halved == PS_OK
-                             ? denoise(render, indirect, picture, &halves, estimate, error)
+                             ? denoise_film(render, indirect, &halves, estimate, error)
                              : leave_out(render, PS_DENOISER, halved, "is not denoised", error);
     free(halves.light);
-    if (denoised == PS_OK)
-        denoised = denoise_direct(render, picture, error);
     combine(render, indirect, picture);
     ps_result made = normalized != PS_OK ? normalized : denoised;
     if (shows)

@@ -75,8 +75,8 @@ struct render {
     /* Which services are in place. */
     bool has_tiles, estimating;
     double progress_from, progress_to; /* see ps_host.progress_part */
-    _Atomic(bool) looping; /* in a parallel_for */
-    bool has_begun;        /* the estimator */
+    _Atomic(bool) looping;             /* in a parallel_for */
+    bool has_begun;                    /* the estimator */
     struct failure failure;
     struct refused refused;
 };

@@ -74,26 +74,26 @@ objects:
   - $2
 END
 }
-# refuses STATUS TEXT: `check` with 2, `render` with STATUS, and no picture.
+# refuses TEXT: by both, with no picture.
 refuses() {
     run 2 check built.psd
-    expect_text err "$2"
-    run "$1" -q -o built.exr built.psd
-    expect_text err "$2"
+    expect_text err "$1"
+    run 2 -q -o built.exr built.psd
+    expect_text err "$1"
     [ ! -e built.exr ] || fail "a scene that can't be made gave a picture"
 }
 ball='sphere: {center: [0, 0, 0], radius: 1, material: a}'
 scene_of 'diffuse: {image: {file: nowhere.png}}' "$ball"
-refuses 1 "built.psd:6:31: error: nowhere.png: cannot open: No such file"
+refuses "built.psd:6:31: error: nowhere.png: cannot open: No such file"
 head -c 60 "$PSPLAT_SOURCE/tests/data/rgb8.png" >short.png
 scene_of 'diffuse: {image: {file: short.png}}' "$ball"
-refuses 1 "built.psd:6:31: error: short.png: it ends too early"
+refuses "built.psd:6:31: error: short.png: it ends too early"
 scene_of 'diffuse: 0.5, normal_map: {file: nowhere.jpg}' "$ball"
-refuses 1 "error: nowhere.jpg: cannot open"
+refuses "error: nowhere.jpg: cannot open"
 scene_of 'diffuse: 0.5' 'box: {corners: [[0, 0, 0], [1, 0, 1]], material: a}'
-refuses 2 "built.psd:8:5: error: box: its corners agree in a coordinate"
+refuses "built.psd:8:5: error: box: its corners agree in a coordinate"
 scene_of 'diffuse: 0.5' 'height_field: {file: nowhere.exr, material: a}'
-refuses 1 "built.psd:8:26: error: nowhere.exr: cannot open"
+refuses "built.psd:8:26: error: nowhere.exr: cannot open"
 
 # Triangles without area are left out, which is worth a warning.
 scene_of 'diffuse: 0.5' \

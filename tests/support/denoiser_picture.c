@@ -74,15 +74,12 @@ struct picture *wild_picture(uint64_t seed)
     return picture;
 }
 
-static void denoise_or_stop(struct picture *picture, const char *choice, uint32_t threads,
-                            bool cancelled)
+static ps_image_view view_of(struct picture *picture, float coverage[PIXELS])
 {
-    struct bare_host bare;
-    float coverage[PIXELS];
     for (int i = 0; i < PIXELS; i++)
         coverage[i] = picture->depth[i] < INFINITY ? 1.0f : 0.0f;
-    const ps_image_view view = {
-        .size = sizeof view,
+    return (ps_image_view){
+        .size = sizeof(ps_image_view),
         .width = WIDTH,
         .height = HEIGHT,
         .passes = picture->halves ? 2 : 1,
@@ -109,13 +106,24 @@ static void denoise_or_stop(struct picture *picture, const char *choice, uint32_
         .odd_b = picture->halves ? picture->halves[1][2] : NULL,
         .odd_share = 0.5f,
     };
+}
+
+static void run(struct picture *const pictures[], uint32_t count, const char *choice,
+                uint32_t threads, bool cancelled)
+{
+    struct bare_host bare;
+    static float coverage[PIXELS];
+    ps_image_view views[PS_DENOISER_IMAGES];
+    for (uint32_t i = 0; i < count; i++)
+        views[i] = view_of(pictures[i], coverage);
     bare_host_create(&bare, threads);
     bare.cancelled = cancelled;
     struct strategy strategy = strategy_of(choice);
     const ps_denoiser_vtable *vtable = &strategy.type->table.denoiser;
     assert_int_equal(strategy_start(&strategy, &bare.host), PS_OK);
-    assert_int_equal(vtable->filter(strategy.state, &bare.host, &view),
-                     cancelled ? PS_CANCELLED : PS_OK);
+    ps_result result = count == 1 ? vtable->filter(strategy.state, &bare.host, views)
+                                  : vtable->filter_all(strategy.state, &bare.host, views, count);
+    assert_int_equal(result, cancelled ? PS_CANCELLED : PS_OK);
     assert_int_equal(bare.live_allocations, 0);
     strategy_release(&strategy);
     bare_host_release(&bare);
@@ -123,10 +131,16 @@ static void denoise_or_stop(struct picture *picture, const char *choice, uint32_
 
 void denoise(struct picture *picture, const char *choice, uint32_t threads)
 {
-    denoise_or_stop(picture, choice, threads, false);
+    run(&picture, 1, choice, threads, false);
 }
 
 void denoise_cancelled(struct picture *picture, const char *choice, uint32_t threads)
 {
-    denoise_or_stop(picture, choice, threads, true);
+    run(&picture, 1, choice, threads, true);
+}
+
+void denoise_together(struct picture *const pictures[], uint32_t count, const char *choice,
+                      uint32_t threads)
+{
+    run(pictures, count, choice, threads, false);
 }

@@ -32,6 +32,10 @@ struct picture *wild_picture(uint64_t seed);
 /* Runs a denoiser such as "denoiser=bilateral:size=9", which must succeed, and leave no memory behind. */
 void denoise(struct picture *picture, const char *choice, uint32_t threads);
 
+/* The same for several pictures of one G-buffer, by filter_all. */
+void denoise_together(struct picture *const pictures[], uint32_t count, const char *choice,
+                      uint32_t threads);
+
 /* The same after the host was cancelled, which the denoiser must tell. */
 void denoise_cancelled(struct picture *picture, const char *choice, uint32_t threads);
 

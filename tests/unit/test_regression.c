@@ -371,6 +371,53 @@ static void test_nothing_seen_at_all(void **state)
 
 /* --- how it runs --- */
 
+/* Light of its own on one wild surface; in halves where there is room for them. */
+static struct picture *lit_picture(uint64_t seed, float (*halves)[3][PIXELS])
+{
+    struct random random = {seed};
+    struct picture *picture = wild_picture(17);
+    picture->halves = halves;
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < PIXELS; i++) {
+            bool seen = !isinf(picture->depth[i]);
+            float even = seen ? picture->albedo[c][i] * random_between(&random, 0.5f, 3.0f) : 0;
+            float odd = seen ? picture->albedo[c][i] * random_between(&random, 0.5f, 3.0f) : 0;
+            picture->light[c][i] = 0.5f * (even + odd);
+            if (halves) {
+                halves[0][c][i] = even;
+                halves[1][c][i] = odd;
+            }
+        }
+    return picture;
+}
+
+/* Some of three images at a time, of which the first has no halves. */
+static void expect_same_together(uint32_t first, uint32_t count)
+{
+    static float halves[3][2][3][PIXELS];
+    struct picture *together[3], *alone[3];
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t number = first + i;
+        together[i] = lit_picture(number, number > 0 ? halves[number] : NULL);
+        alone[i] = lit_picture(number, number > 0 ? halves[number] : NULL);
+        denoise(alone[i], CHOICE, 2);
+    }
+    denoise_together(together, count, CHOICE, 2);
+    for (uint32_t i = 0; i < count; i++) {
+        assert_memory_equal(together[i]->light, alone[i]->light, sizeof alone[i]->light);
+        free(together[i]);
+        free(alone[i]);
+    }
+}
+
+static void test_images_together_are_as_alone(void **state)
+{
+    (void)state;
+    expect_same_together(0, 3);
+    expect_same_together(0, 2);
+    expect_same_together(1, 2);
+}
+
 static void test_threads_do_not_matter(void **state)
 {
     (void)state;
@@ -405,6 +452,7 @@ int main(void)
         cmocka_unit_test(test_noise_of_thin_things_falls),
         cmocka_unit_test(test_what_is_no_surface_stays),
         cmocka_unit_test(test_nothing_seen_at_all),
+        cmocka_unit_test(test_images_together_are_as_alone),
         cmocka_unit_test(test_threads_do_not_matter),
         cmocka_unit_test(test_stops_when_cancelled),
     };

@@ -62,6 +62,7 @@ static void create(struct fixture *fixture, float degrees)
         .bend_scale = 1 / (1 - cosf(degrees * PS_PI / 180)),
         .bounds = malloc(regression_bounds_bytes(WIDTH, HEIGHT)),
         .fits = malloc(regression_fits_bytes(WIDTH, HEIGHT)),
+        .planes = malloc(regression_planes_bytes(WIDTH, HEIGHT, REGRESSION_MOST)),
     };
     assert_non_null(surfaces->bounds);
     assert_non_null(surfaces->fits);
@@ -110,9 +111,9 @@ static void expect_no_difference(float degrees, int bandwidth)
     struct fixture fixture;
     create(&fixture, degrees);
     regression_bounds_find(&fixture.surfaces);
-    regression_fit(&fixture.surfaces, bandwidth, fixture.values, a);
+    regression_fit(&fixture.surfaces, bandwidth, REGRESSION_VALUES, fixture.values, a);
     make_bounds_endless(&fixture.surfaces);
-    regression_fit(&fixture.surfaces, bandwidth, fixture.values, b);
+    regression_fit(&fixture.surfaces, bandwidth, REGRESSION_VALUES, fixture.values, b);
     assert_memory_equal(with, without, sizeof with);
     destroy(&fixture);
 }

@@ -90,6 +90,38 @@ static void test_missing_tiles_are_black(void **state)
     expect_tiles(path, 0);
 }
 
+static bool is_green(const void *user, const char *channel)
+{
+    (void)user;
+    return strcmp(channel, "G") == 0;
+}
+
+/* As of a tile whose denoiser failed. */
+static void test_a_part_may_lack_channels(void **state)
+{
+    const struct rectangle left = {0, 0, SIDE, HEIGHT}, right = {SIDE, 0, WIDTH - SIDE, HEIGHT};
+    const char *path = scratch_path(state, "a.exr");
+    struct image whole = part_at(0, 0, WIDTH, HEIGHT), part = part_at(0, 0, WIDTH, HEIGHT), read;
+    struct exr_tiles *tiles;
+    struct error error;
+    assert_int_equal(exr_tiles_create(path, &whole, WIDTH, HEIGHT, IMAGE_ZIP, &tiles, &error),
+                     PS_OK);
+    image_keep_channels(&part, is_green, NULL);
+    assert_int_equal(exr_tiles_add(tiles, &whole, left, NULL, &error), PS_OK);
+    assert_int_equal(exr_tiles_add(tiles, &part, right, NULL, &error), PS_OK);
+    assert_int_equal(exr_tiles_finish(tiles, NULL, &error), PS_OK);
+    assert_int_equal(image_read_exr(path, &read, &error), PS_OK);
+    for (size_t c = 0; c < 3; c++)
+        for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
+            bool is_there = i % WIDTH < SIDE || c == 1;
+            float sample = image_channel(&whole, names[c])[i];
+            assert_true(image_channel(&read, names[c])[i] == (is_there ? sample : 0.0f));
+        }
+    image_release(&whole);
+    image_release(&part);
+    image_release(&read);
+}
+
 static void test_workers_do_not_matter(void **state)
 {
     struct workers *workers = start_workers(3);
@@ -165,6 +197,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         SCRATCH_TEST(test_parts_make_the_picture),
         SCRATCH_TEST(test_missing_tiles_are_black),
+        SCRATCH_TEST(test_a_part_may_lack_channels),
         SCRATCH_TEST(test_workers_do_not_matter),
         SCRATCH_TEST(test_rows_make_the_picture),
         SCRATCH_TEST(test_discarded),

@@ -23,6 +23,7 @@ enum { NARROW = 24, WIDE = 48 };
 struct work {
     const struct regression *to;
     int bandwidth;
+    int first, end; /* values that are fitted */
     float *const *values;
     float *const *fitted;
     size_t columns, rows; /* of fits */
@@ -84,7 +85,7 @@ enum { W, WU, WV, WUU, WUV, WVV, MOMENTS };
 
 struct sums {
     _Alignas(64) float moments[MOMENTS][LANES];
-    float values[REGRESSION_VALUES][3][LANES]; /* w E, w u E, w v E */
+    float values[REGRESSION_MOST][3][LANES]; /* w E, w u E, w v E */
 };
 
 /* Adds LANES pixels of a row, from the one at `from`, which is dx to the right and sqrt(row) above or below the
@@ -110,7 +111,7 @@ static INLINED void add_pixels(const struct work *work, const struct regression_
         sums->moments[WUV][i] += wu[i] * v[i];
         sums->moments[WVV][i] += wv[i] * v[i];
     }
-    for (int c = 0; c < REGRESSION_VALUES; c++) {
+    for (int c = work->first; c < work->end; c++) {
         const float *restrict value = work->values[c] + from;
         for (int i = 0; i < LANES; i++) {
             sums->values[c][0][i] += w[i] * value[i];
@@ -129,7 +130,7 @@ static float total(const float lanes[LANES])
 }
 
 /* The normal equations, by Cholesky's decomposition. The ridge pulls slopes to 0 where all pixels lie on a line. */
-static void solve(const struct sums *sums, struct regression_fit *fit)
+static void solve(const struct work *work, const struct sums *sums, struct regression_fit *fit)
 {
     float m[MOMENTS];
     for (int i = 0; i < MOMENTS; i++)
@@ -140,7 +141,7 @@ static void solve(const struct sums *sums, struct regression_fit *fit)
     float l11 = 1.0f / sqrtf(ps_max(m[WUU] + ridge - l10 * l10, 1e-20f));
     float l21 = (m[WUV] - l20 * l10) * l11;
     float l22 = 1.0f / sqrtf(ps_max(m[WVV] + ridge - l20 * l20 - l21 * l21, 1e-20f));
-    for (int c = 0; c < REGRESSION_VALUES; c++) {
+    for (int c = work->first; c < work->end; c++) {
         float r0 = total(sums->values[c][0]) * l00;
         float r1 = (total(sums->values[c][1]) - l10 * r0) * l11;
         float r2 = (total(sums->values[c][2]) - l20 * r0 - l21 * r1) * l22;
@@ -151,15 +152,18 @@ static void solve(const struct sums *sums, struct regression_fit *fit)
     }
 }
 
+/* `plane`: room for one of each value. */
 EVERY_ISA static void make_fit(const struct work *work, int x, int y, float slack,
-                               struct regression_fit *fit)
+                               float (*plane)[3], struct regression_fit *fit)
 {
     float reach = ((float)work->bandwidth + 0.5f) * ((float)work->bandwidth + 0.5f);
     struct sums sums;
-    *fit = (struct regression_fit){.x = x, .y = y, .valid = shows_surface(work, x, y)};
+    *fit =
+        (struct regression_fit){.plane = plane, .x = x, .y = y, .valid = shows_surface(work, x, y)};
     if (!fit->valid)
         return;
-    memset(&sums, 0, sizeof sums);
+    memset(sums.moments, 0, sizeof sums.moments);
+    memset(sums.values[work->first], 0, (size_t)(work->end - work->first) * sizeof sums.values[0]);
     set_tangent_plane(work, place_of(work, x, y), slack, fit);
     for (int dy = -work->bandwidth; dy <= work->bandwidth; dy++) {
         if (y + dy < 0 || y + dy >= (int)work->to->height)
@@ -168,7 +172,7 @@ EVERY_ISA static void make_fit(const struct work *work, int x, int y, float slac
         for (int dx = -half; dx <= half; dx += LANES)
             add_pixels(work, fit, place_of(work, x + dx, y + dy), dx, (float)(dy * dy), &sums);
     }
-    solve(&sums, fit);
+    solve(work, &sums, fit);
 }
 
 /* --- the grid of fits --- */
@@ -185,11 +189,22 @@ static size_t centres_along(size_t size, int bandwidth)
 
 /* As many as for the smallest bandwidth, whose centres are two pixels apart. */
 _Static_assert(sizeof(struct regression_fit) / 4 <= REGRESSION_FITS_PIXEL, "fits of a pixel");
+_Static_assert(REGRESSION_VALUES * sizeof(float[3]) / 4 <= REGRESSION_PLANES_PIXEL,
+               "planes of a pixel");
+
+static size_t most_centres(size_t width, size_t height)
+{
+    return centres_along(width, REGRESSION_SMALLEST) * centres_along(height, REGRESSION_SMALLEST);
+}
 
 size_t regression_fits_bytes(size_t width, size_t height)
 {
-    return centres_along(width, REGRESSION_SMALLEST) * centres_along(height, REGRESSION_SMALLEST) *
-           sizeof(struct regression_fit);
+    return most_centres(width, height) * sizeof(struct regression_fit);
+}
+
+size_t regression_planes_bytes(size_t width, size_t height, int count)
+{
+    return most_centres(width, height) * (size_t)count * sizeof(float[3]);
 }
 
 static int centre_at(const struct work *work, size_t index, size_t size)
@@ -205,18 +220,24 @@ static void make_row_of_fits(void *user, uint64_t row, uint32_t worker)
     const struct regression *to = work->to;
     if (to->host->cancelled(to->host))
         return;
-    for (size_t i = 0; i < work->columns; i++)
+    for (size_t i = 0; i < work->columns; i++) {
+        size_t index = row * work->columns + i;
         make_fit(work, centre_at(work, i, to->width), centre_at(work, row, to->height), 1.0f,
-                 &to->fits[row * work->columns + i]);
+                 to->planes + index * (size_t)work->end, &to->fits[index]);
+    }
 }
 
 /* --- what fits say, blended --- */
 
-/* Sums over the fits that reach into a square of pixels, with room past its right edge. */
+/* Sums over the fits that reach into a square of pixels, with room past its right edge. Weights of values that ask for narrow
+ * fits, and of the others. */
+enum { NARROW_ONES, OTHERS, GROUPS };
+
 struct block {
     int x, y, columns, rows;
-    _Alignas(64) float weight[BLOCK][BLOCK + LANES];
-    float values[REGRESSION_VALUES][BLOCK][BLOCK + LANES];
+    int group; /* whose weights are added to */
+    _Alignas(64) float weights[GROUPS][BLOCK][BLOCK + LANES];
+    float values[REGRESSION_MOST][BLOCK][BLOCK + LANES];
 };
 
 /* What a fit says of LANES pixels, in proportion to its weight there: one by geometry, times a tent that ends at
@@ -228,14 +249,14 @@ static INLINED void add_prediction(const struct work *work, const struct regress
     int column = x - block->x, row = y - block->y;
     float scale = 1.0f / (float)spacing(work->bandwidth);
     float down = 1.0f - fabsf((float)(y - fit->y)) * scale;
-    float *restrict weight = &block->weight[row][column];
+    float *restrict weight = &block->weights[block->group][row][column];
     if (!take_pixels(work->to, fit, place_of(work, x, y), w, u, v))
         return;
     for (int i = 0; i < LANES; i++) {
         w[i] *= down * above_zero(1.0f - fabsf((float)(x + i - fit->x)) * scale);
         weight[i] += w[i];
     }
-    for (int c = 0; c < REGRESSION_VALUES; c++) {
+    for (int c = work->first; c < work->end; c++) {
         float a = fit->plane[c][0], b = fit->plane[c][1], d = fit->plane[c][2];
         float *restrict sum = &block->values[c][row][column];
         for (int i = 0; i < LANES; i++)
@@ -289,45 +310,71 @@ static void blend_grid(const struct work *work, struct block *block)
     }
 }
 
+/* What values of a group ask for beyond a narrow fit, blended. */
+static void blend_for(const struct work *narrow, int bandwidth, struct regression_fit fit,
+                      struct block *block)
+{
+    struct work rest = *narrow;
+    int x = fit.x, y = fit.y;
+    if (fit.weight < THIN && bandwidth > NARROW && block->group != NARROW_ONES) {
+        rest.bandwidth = smaller(bandwidth, WIDE);
+        make_fit(&rest, x, y, 1.0f, fit.plane, &fit);
+    }
+    if (fit.weight < FEW && rest.bandwidth >= NARROW)
+        make_fit(&rest, x, y, SLACK, fit.plane, &fit);
+    blend(&rest, &fit, block);
+}
+
 /* A fit around a pixel that no centre is like. By creases, where a surface ends, a narrow window is best. What is thin has few
  * pixels in it, and needs a wide one; but several passes mix what pixels show at edges, and more of a wide window seems to
  * be like them than is. Pixels that are like hardly any other learn more about their light from what is about as far away
  * and about as steep than from their own few samples. */
-static void blend_one(const struct work *work, int x, int y, struct block *block)
+static void blend_one(const struct work *work, int x, int y, const bool asks[GROUPS],
+                      struct block *block)
 {
-    struct work rest = *work;
+    const int ends[GROUPS] = {work->to->narrow, work->end};
     struct regression_fit fit;
+    float plane[REGRESSION_MOST][3];
+    struct work rest = *work;
     rest.bandwidth = smaller(work->bandwidth, NARROW);
-    make_fit(&rest, x, y, 1.0f, &fit);
-    if (fit.weight < THIN && work->bandwidth > NARROW && !work->to->mixed) {
-        rest.bandwidth = smaller(work->bandwidth, WIDE);
-        make_fit(&rest, x, y, 1.0f, &fit);
+    rest.first = asks[NARROW_ONES] ? 0 : ends[NARROW_ONES];
+    rest.end = asks[OTHERS] ? ends[OTHERS] : ends[NARROW_ONES];
+    make_fit(&rest, x, y, 1.0f, plane, &fit);
+    for (int group = 0; group < GROUPS; group++) {
+        rest.first = group == NARROW_ONES ? 0 : ends[NARROW_ONES];
+        rest.end = ends[group];
+        block->group = group;
+        if (asks[group])
+            blend_for(&rest, work->bandwidth, fit, block);
     }
-    if (fit.weight < FEW && rest.bandwidth >= NARROW)
-        make_fit(&rest, x, y, SLACK, &fit);
-    blend(&rest, &fit, block);
 }
 
+/* A group is blended as if it were alone. */
 static void blend_rest(const struct work *work, struct block *block)
 {
+    int narrow = work->to->narrow;
+    memcpy(block->weights[OTHERS], block->weights[NARROW_ONES], sizeof block->weights[OTHERS]);
     for (int row = 0; row < block->rows; row++)
         for (int column = 0; column < block->columns; column++) {
             int x = block->x + column, y = block->y + row;
-            if (block->weight[row][column] < LEAST_FIT && shows_surface(work, x, y))
-                blend_one(work, x, y, block);
+            const bool asks[GROUPS] = {
+                narrow > 0 && block->weights[NARROW_ONES][row][column] < LEAST_FIT,
+                narrow < work->end && block->weights[OTHERS][row][column] < LEAST_FIT,
+            };
+            if ((asks[NARROW_ONES] || asks[OTHERS]) && shows_surface(work, x, y))
+                blend_one(work, x, y, asks, block);
         }
 }
 
 static void store_block(const struct work *work, const struct block *block)
 {
     for (int row = 0; row < block->rows; row++)
-        for (int c = 0; c < REGRESSION_VALUES; c++) {
+        for (int c = work->first; c < work->end; c++) {
             size_t first = (size_t)(block->y + row) * work->to->width + (size_t)block->x;
+            const float *weights = block->weights[c < work->to->narrow ? NARROW_ONES : OTHERS][row];
             float *out = work->fitted[c] + first;
-            for (int i = 0; i < block->columns; i++) {
-                float weight = block->weight[row][i];
-                out[i] = weight > 0.0f ? block->values[c][row][i] / weight : 0.0f;
-            }
+            for (int i = 0; i < block->columns; i++)
+                out[i] = weights[i] > 0.0f ? block->values[c][row][i] / weights[i] : 0.0f;
         }
 }
 
@@ -344,7 +391,9 @@ static void fill_block(void *user, uint64_t index, uint32_t worker)
     struct block block;
     if (to->host->cancelled(to->host))
         return;
-    memset(&block, 0, sizeof block);
+    block.group = NARROW_ONES; /* until the grid is blended, which is the same for all */
+    memset(block.weights[0], 0, sizeof block.weights[0]);
+    memset(block.values, 0, (size_t)work->end * sizeof block.values[0]);
     block.x = (int)(index % blocks_along(to->width)) * BLOCK;
     block.y = (int)(index / blocks_along(to->width)) * BLOCK;
     block.columns = smaller((int)to->width - block.x, BLOCK);
@@ -354,13 +403,14 @@ static void fill_block(void *user, uint64_t index, uint32_t worker)
     store_block(work, &block);
 }
 
-void regression_fit(const struct regression *regression, int bandwidth,
-                    float *const values[REGRESSION_VALUES], float *const fitted[REGRESSION_VALUES])
+void regression_fit(const struct regression *regression, int bandwidth, int count,
+                    float *const values[], float *const fitted[])
 {
     const ps_host *host = regression->host;
     struct work work = {
         .to = regression,
         .bandwidth = bandwidth,
+        .end = count,
         .values = values,
         .fitted = fitted,
         .columns = centres_along(regression->width, bandwidth),

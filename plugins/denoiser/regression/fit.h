@@ -25,8 +25,10 @@
 enum { REGRESSION_SMALLEST = 3, REGRESSION_LARGEST = 64 }; /* bandwidths, in pixels */
 enum { REGRESSION_LANES = 16 }; /* pixels of a row that are taken at a time */
 
-/* Values that are fitted together: three colours, and one more. */
+/* Values of an image: three colours, and one more. Those of several images that show the same surfaces are fitted together,
+ * since most of the work is to weigh pixels. */
 enum { REGRESSION_COLOURS = 3, REGRESSION_VALUES };
+enum { REGRESSION_IMAGES = 3, REGRESSION_MOST = REGRESSION_IMAGES * REGRESSION_VALUES };
 
 struct regression_bounds;
 struct regression_fit;
@@ -39,10 +41,11 @@ struct regression {
     float *gloss;                   /* share of the reflectance that is not diffuse */
     float *size;      /* of a pixel there, in the scene's units; 0: no surface is seen */
     float bend_scale; /* 1 / (1 - cos(normal)) */
-    bool mixed;       /* what pixels show may be means over several passes */
-    float distance;   /* D, in the scene's units; 0: in proportion to R */
+    int narrow; /* so many values, the first ones, ask for narrow fits around pixels that no centre is like */
+    float distance;                   /* D, in the scene's units; 0: in proportion to R */
     struct regression_bounds *bounds; /* regression_bounds_find() */
     struct regression_fit *fits;      /* room for regression_fits_bytes() */
+    float (*planes)[3];               /* room for regression_planes_bytes() */
 };
 
 /* Floats of a plane with its margin, which are 0 where there is no pixel, and of a row of it; and the place of a pixel
@@ -53,12 +56,14 @@ size_t regression_plane_size(size_t width, size_t height);
 size_t regression_at(const struct regression *regression, size_t x, size_t y);
 
 size_t regression_fits_bytes(size_t width, size_t height);
-#define REGRESSION_FITS_PIXEL 32 /* bytes of them for each pixel, at most */
+size_t regression_planes_bytes(size_t width, size_t height, int count);
+#define REGRESSION_FITS_PIXEL 24   /* bytes of them for each pixel, at most */
+#define REGRESSION_PLANES_PIXEL 12 /* the same for each image */
 
-/* Fits `values`, planes with a margin, by a bandwidth in pixels. Puts what the planes of all fits say at each pixel
- * into `fitted`, planes without a margin; 0 where no surface is seen. Runs on all workers; after the host was
- * cancelled, what `fitted` holds means nothing. */
-void regression_fit(const struct regression *regression, int bandwidth,
-                    float *const values[REGRESSION_VALUES], float *const fitted[REGRESSION_VALUES]);
+/* Fits `count` values, at most REGRESSION_MOST planes with a margin, by a bandwidth in pixels. Puts what the planes of all
+ * fits say at each pixel into `fitted`, planes without a margin; 0 where no surface is seen. Each value is fitted as if it
+ * were alone, to the last bit. Runs on all workers; after the host was cancelled, what `fitted` holds means nothing. */
+void regression_fit(const struct regression *regression, int bandwidth, int count,
+                    float *const values[], float *const fitted[]);
 
 #endif

@@ -33,13 +33,13 @@ _Static_assert(BOUNDS_PIXELS >= BOUNDS_STEP + LANES - 1,
 
 #define MOST_GLOSS 0.25f /* G */
 
-/* A plane for each value: a + b u + c v. */
+/* A plane for each value, a + b u + c v, borrowed. */
 struct regression_fit {
     float normal[3], position[3], u[3], v[3]; /* the tangent plane; u and v are over R */
     float height_scale, bend_scale;           /* 1 / D^2, 1 / (1 - cos(normal)) */
     float gloss;
-    float weight; /* of its pixels */
-    float plane[REGRESSION_VALUES][3];
+    float weight;      /* of its pixels */
+    float (*plane)[3]; /* of each value */
     int x, y;
     bool valid; /* its centre shows a surface */
 };
