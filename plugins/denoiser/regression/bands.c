@@ -1,0 +1,174 @@
+#include "bands.h"
+
+#include "box.h"
+
+#include <psplat/math.h>
+
+#define CAUTION 2.0f        /* times the noise that a band must exceed */
+#define ALONE 4.0f          /* the same, where nothing of the band before was kept */
+#define PIXELS_CAUTION 1.5f /* in place of CAUTION for the last band, of the pixels themselves */
+#define PIXELS_WINDOW 4     /* R of the window of that band */
+#define GLOSSY 0.125f       /* share of gloss from which on a pixel is of that class */
+
+static const int bandwidths[] = {48, 24, 12, 6, 3}; /* of the bands */
+
+/* The widest fit, by whose square all is measured: a neighbourhood's dark corner must not be ruled by its lamp. */
+static void begin_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
+        float bright = brightness_at(work->coarse, i);
+        work->scale[i] = 1.0f / (bright * bright + work->least * work->least);
+        work->kept[i] = 1.0f;
+        if (work->error)
+            work->error[i] = work->coarse[NOISE][i] * work->coarse[NOISE][i] * work->scale[i];
+        for (int c = 0; c < REGRESSION_COLOURS; c++)
+            work->sum[c][i] = work->coarse[c][i];
+    }
+}
+
+static bool is_in_class(const struct work *work, size_t pixel)
+{
+    const float *gloss = work->image->gloss;
+    return (gloss && gloss[pixel] > GLOSSY) == work->glossy;
+}
+
+static void measure_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
+        if (!is_in_class(work, i)) {
+            work->signal[i] = work->noise[i] = 0.0f;
+            continue;
+        }
+        float noise = work->fine[NOISE][i] - work->coarse[NOISE][i];
+        float band = brightness_at(work->fine, i) - brightness_at(work->coarse, i);
+        work->signal[i] = band * band * work->scale[i];
+        work->noise[i] = noise * noise * work->scale[i];
+    }
+}
+
+static void count_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t x = 0; x < work->width; x++) {
+        size_t i = row * work->width + x;
+        bool shown = work->guides.size[regression_at(&work->guides, x, row)] > 0.0f;
+        work->around[i] = shown && is_in_class(work, i) ? 1.0f : 0.0f;
+    }
+}
+
+static void divide_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t i = row * work->width; i < (row + 1) * work->width; i++)
+        work->averaged[i] *= work->around[i] > 0.0f ? 1.0f / work->around[i] : 0.0f;
+}
+
+static void sum_around(struct work *work, int radius, float *plane)
+{
+    const struct regression_box box = {work->width, work->height, (size_t)radius, plane,
+                                       work->room};
+    regression_box_sums(work->host, &box);
+}
+
+/* Replaces values of the class by their means over its pixels in a square around. */
+static void average_around(struct work *work, int radius, float *plane)
+{
+    sum_around(work, radius, plane);
+    work->host->parallel_for(work->host, work->height, count_row, work);
+    sum_around(work, radius, work->around);
+    work->averaged = plane;
+    work->host->parallel_for(work->host, work->height, divide_row, work);
+}
+
+/* Of a band of mean square S of which N is noise, and of which the share k is kept: k^2 N + (1 - k)^2 (S - N), Stein's
+ * estimate of the risk. Of what S exceeds N by, as much as half of the caution is taken for chance. */
+static float risk_of_band(const struct work *work, size_t i, float caution, float keep)
+{
+    float noise = work->noise[i];
+    float lost = ps_max(work->signal[i] - 0.5f * caution * noise, 0.0f);
+    return keep * keep * noise + (1.0f - keep) * (1.0f - keep) * lost;
+}
+
+static void add_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
+        if (!is_in_class(work, i))
+            continue;
+        float caution = ALONE + (work->caution - ALONE) * work->kept[i];
+        float noise = caution * work->noise[i], signal = work->signal[i];
+        float share = signal > noise ? noise / signal : 1.0f, keep = 1.0f - share * share;
+        work->kept[i] = keep;
+        for (int c = 0; c < REGRESSION_COLOURS; c++)
+            work->sum[c][i] += keep * (work->fine[c][i] - work->coarse[c][i]);
+        if (work->error)
+            work->error[i] += risk_of_band(work, i, caution, keep);
+    }
+}
+
+/* The difference of `fine` and `coarse`, to the pixels of one class: what gloss mirrors has noise of its own, which
+ * says nothing about the walls around. One picture of the noise may have less of it than there is: of that, more
+ * pixels are asked. */
+static void add_band_of_class(struct work *work, int radius)
+{
+    work->host->parallel_for(work->host, work->height, measure_row, work);
+    average_around(work, radius, work->signal);
+    average_around(work, 2 * radius, work->noise);
+    work->host->parallel_for(work->host, work->height, add_row, work);
+}
+
+static void add_band(struct work *work, int radius, float caution)
+{
+    work->caution = caution;
+    work->glossy = false;
+    add_band_of_class(work, radius);
+    work->glossy = true;
+    if (work->image->gloss)
+        add_band_of_class(work, radius);
+}
+
+static void copy_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t x = 0; x < work->width; x++)
+        for (int c = 0; c < VALUES; c++)
+            work->fine[c][row * work->width + x] =
+                work->body[c][regression_at(&work->guides, x, row)];
+}
+
+static void swap_fits(struct work *work)
+{
+    for (int c = 0; c < VALUES; c++) {
+        float *plane = work->fine[c];
+        work->fine[c] = work->coarse[c];
+        work->coarse[c] = plane;
+    }
+}
+
+void regression_add_bands(struct works *works)
+{
+    regression_fit_all(works, bandwidths[0], body_of, coarse_of);
+    regression_for_each_row(works, begin_row);
+    for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {
+        regression_fit_all(works, bandwidths[k], body_of, fine_of);
+        for (int i = 0; i < works->count; i++) {
+            add_band(&works->of[i], bandwidths[k], CAUTION);
+            swap_fits(&works->of[i]);
+        }
+    }
+    for (int i = 0; i < works->count; i++) {
+        struct work *work = &works->of[i];
+        if (!work->image->even_r)
+            continue;
+        work->host->parallel_for(work->host, work->height, copy_row, work);
+        add_band(work, PIXELS_WINDOW, PIXELS_CAUTION);
+    }
+}
