@@ -62,10 +62,10 @@ void psplat_scene_destroy(psplat_scene *scene); /* NULL is nothing */
  *     checkpoint, checkpoint-every, resume, mpi, write-every, stats
  *                                    the last counts
  *
- * Values are those of the command line; NULL for allow-scene-plugins, preview, resume and mpi, which take none. What was loaded is
- * released: options come before loading. PS_ERROR_INVALID: there is no such option, or no such value; PS_ERROR_IO: no
- * such folder; what is loaded stays then. Names that the scene or a strategy must know, such as those of cameras and
- * parameters, are looked for when it is loaded. */
+ * Values are those of the command line; NULL for allow-scene-plugins, preview, resume and mpi, which take none. What was
+ * loaded is released: options come before loading. PS_ERROR_INVALID: there is no such option, or no such value;
+ * PS_ERROR_IO: no such folder; what is loaded stays then. Names that the scene or a strategy must know, such as those of
+ * cameras and parameters, and whether options go together, are looked at when it is loaded. */
 #define PSPLAT_COMPRESSIONS "zip, zips, rle, none" /* values of `compression` */
 ps_result psplat_scene_set(psplat_scene *scene, const char *option, const char *value,
                            psplat_error *error);
@@ -74,8 +74,7 @@ ps_result psplat_scene_set(psplat_scene *scene, const char *option, const char *
  * rendered. Calls come from any thread, of one render not two at once. NULL: nobody, as from the start. */
 #define PSPLAT_REMARK 0
 #define PSPLAT_WARNING 1
-#define PSPLAT_WARNING_WITH_PLACE                                                                  \
-    2 /* that begins with its place in a text, and ends in lines that show it */
+#define PSPLAT_WARNING_WITH_PLACE 2 /* begins with its place in a text, and shows that in lines */
 typedef void (*psplat_listener)(void *user, int kind, const char *message);
 void psplat_scene_listen(psplat_scene *scene, psplat_listener listener, void *user);
 
@@ -89,8 +88,8 @@ ps_result psplat_scene_load(psplat_scene *scene, const char *path, psplat_error 
 /* Whether a file of that name is a mesh file, by its end. It need not be there. */
 int psplat_scene_is_model(const char *path);
 
-/* psplat_scene_load for a scene's text of `length` bytes. `name` stands for its file, which need not be there, in messages, and
- * files that the text names are looked for beside that: "/home/ann/models/lamp.psd". NULL: "<text>". */
+/* psplat_scene_load for a scene's text of `length` bytes. `name` stands for its file, which need not be there, in
+ * messages, and files that the text names are looked for beside that: "/home/ann/models/lamp.psd". NULL: "<text>". */
 ps_result psplat_scene_load_text(psplat_scene *scene, const char *text, size_t length,
                                  const char *name, psplat_error *error);
 
@@ -99,12 +98,12 @@ ps_result psplat_scene_load_text(psplat_scene *scene, const char *text, size_t l
 typedef struct psplat_picture psplat_picture;
 typedef struct psplat_rendering psplat_rendering; /* under way; the library's */
 
-/* How far a render is. Later versions may add to its end. */
+/* How far a render is. Later versions may add to its end. `error` is that of the indirect light, relative, by estimate; it
+ * is known where the option `error` asks for it, after the first pass, and negative elsewhere. */
 typedef struct psplat_progress {
     const char *stage; /* what is being done */
     double fraction;   /* of the render, 0..1 */
-    double
-        error; /* of the indirect light, relative, by estimate, where the option `error` asks; negative: not known */
+    double error;
     uint32_t passes; /* that are done */
 } psplat_progress;
 
@@ -121,18 +120,18 @@ typedef struct psplat_callbacks {
     /* Whether to stop: asked often, by any thread, and by several at once. */
     int (*cancelled)(void *user);
 
-    /* Between passes, when so many are done and another follows; not where processes share them. By the thread that called
-     * psplat_render. */
+    /* Between passes, when so many are done and another follows; not where processes share them. By the thread that
+     * called psplat_render. */
     void (*pass)(void *user, psplat_rendering *rendering, uint32_t passes);
 
-    /* A tile that is done, with all passes, where the option `tile` is given: its upper left pixel is (x, y) of the picture.
-     * In rows from the top, each from the left. The tile becomes yours, to be destroyed. By the thread that called
-     * psplat_render. */
+    /* A tile that is done, with all passes, where the option `tile` is given: its upper left pixel is (x, y) of the
+     * picture. In rows from the top, each from the left. The tile becomes yours, to be destroyed. By the thread that
+     * called psplat_render. */
     void (*tile)(void *user, psplat_picture *tile, size_t x, size_t y);
 
-    /* Pictures to show on the way: of few pixels, scaled up, within a second, then of the passes so far, each half second, but
-     * for no more than a fifth of the time. Not of tiles. It becomes yours, to be destroyed. By the thread that called
-     * psplat_render. */
+    /* A picture to show on the way: of few pixels, scaled up, within a second, then of the passes so far, each half
+     * second, but for no more than a fifth of the time. Not of tiles. It becomes yours, to be destroyed. By the thread
+     * that called psplat_render. */
     void (*show)(void *user, psplat_picture *picture);
 
     /* Between passes: whether the files of the options `output` and `checkpoint` are to be written as they are then. By the
@@ -147,23 +146,23 @@ typedef struct psplat_callbacks {
  * bit for bit, and that of the command.
  *
  * Files that options name are written as the command writes them: `output` at the end, and on the way by `write-every`;
- * the film by `checkpoint`; `stats`. When cancelled, what is done by then is written, denoised as well, which a second call
- * for cancelling can't shorten. What could not be written is the failure, after all else is done.
+ * the film by `checkpoint`; `stats`. When cancelled, what is done by then is written to them, denoised as well, which no
+ * further call for cancelling shortens. All that can be written is; what can't is the failure.
  *
- * With the option `tile` the picture is made tile by tile, in the memory of one, so that it may have any size. Tiles go into
- * the files, and to the callback `tile`; one of both is needed, and *picture is NULL. Passes are made in each tile, so that
- * `pass` is not called. When cancelled, the last tile holds what was done by then.
+ * With the option `tile` the picture is made tile by tile, in the memory of one, so that it may have any size. Tiles go
+ * into the files, and to the callback `tile`; one of both is needed, and *picture is NULL. Passes are made in each tile,
+ * so that `pass` is not called. When cancelled, the last tile holds what was done by then.
  *
- * With the option `mpi`, the processes that mpirun started share the passes: each loads and renders, in the same order, and
- * the first of them reads the scene, writes files, calls back and gets the picture. The others wait for each other until
- * their scenes are destroyed. What a process beside the first leaves to that one to tell is PS_CANCELLED with no message. A
- * process may do so with one scene, once. */
+ * With the option `mpi`, the processes that mpirun started share the passes. Each loads and renders, in the same order; the
+ * first of them reads the scene, writes files, calls back and gets the picture. What another one leaves to the first to
+ * tell is PS_CANCELLED with no message. Each has to destroy its scene, for which the others wait. A process does all this
+ * with one scene, once. */
 ps_result psplat_render(const psplat_scene *scene, const psplat_callbacks *callbacks,
                         psplat_picture **picture, psplat_error *error);
 
 /* A picture to look at while a better one is made: what psplat_render shows, in about so many pixels (or all, where
  * those are fewer), by one pass of draft quality. 10,000 pixels take some tenths of a second. Callbacks as of
- * psplat_render, but `pass` and `tile`, which are not called. Where it fails or is cancelled, there is no picture. */
+ * psplat_render, of which `progress` and `cancelled` are called. Where it fails or is cancelled, there is no picture. */
 ps_result psplat_preview(const psplat_scene *scene, size_t pixels,
                          const psplat_callbacks *callbacks, psplat_picture **picture,
                          psplat_error *error);
@@ -195,7 +194,7 @@ typedef struct psplat_pixel_light {
 
 /* The photons of the first pass whose splats light a pixel, as `psplat debug pixel` has them (psplat-debug(1)). *light
  * becomes the caller's, to be destroyed, or NULL. PS_ERROR_INVALID: the pixel sees no surface, too. Callbacks as of
- * psplat_render, but `pass`, which is not called. */
+ * psplat_render, of which `progress` and `cancelled` are called. */
 ps_result psplat_pixel_light_find(const psplat_scene *scene, unsigned x, unsigned y,
                                   const psplat_callbacks *callbacks, psplat_pixel_light **light,
                                   psplat_error *error);

@@ -25,6 +25,14 @@ void print_warning(const char *message)
     fprintf(stderr, "psplat: warning: %s\n", message);
 }
 
+void print_failure(const psplat_error *error)
+{
+    if (error->has_place)
+        fprintf(stderr, "%s\n", error->message);
+    else if (error->message[0])
+        print_error(error->message);
+}
+
 static bool usage_error(const struct command *command, const char *what, const char *word,
                         const char *hint)
 {

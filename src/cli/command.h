@@ -2,7 +2,7 @@
 #ifndef CLI_COMMAND_H
 #define CLI_COMMAND_H
 
-#include <psplat/types.h>
+#include <psplat/psplat.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
@@ -64,6 +64,9 @@ void help_print(const struct command *command);
 /* "psplat: error: MESSAGE" on stderr. */
 void print_error(const char *message);
 void print_warning(const char *message);
+
+/* What a function of psplat.h says; one with a place says itself what it is. Nothing where it has no message. */
+void print_failure(const psplat_error *error);
 
 /* Status of a command that ended so: bad input is the user's to mend. */
 int status_of(ps_result result);

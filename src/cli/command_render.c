@@ -46,15 +46,6 @@ struct render_command {
 
 /* --- the command line --------------------------------------------------------------------------------- */
 
-/* A message that begins with a place says itself what it is. */
-static void print_failure(const psplat_error *error)
-{
-    if (error->has_place)
-        fprintf(stderr, "%s\n", error->message);
-    else if (error->message[0])
-        print_error(error->message);
-}
-
 static bool set(struct render_command *command, const char *option, const char *value)
 {
     psplat_error error;

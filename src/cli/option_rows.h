@@ -3,7 +3,6 @@
 #define CLI_OPTION_ROWS_H
 
 #include "cli/command.h"
-#include <psplat/psplat.h>
 
 /* The files of a picture. */
 #define OUTPUT_OPTIONS                                                                             \

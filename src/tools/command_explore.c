@@ -90,15 +90,6 @@ static bool check_scene(const char *path)
     return true;
 }
 
-/* A message that has a place in a file says what it is. */
-static void print_failure(const psplat_error *error)
-{
-    if (error->file[0] || strncmp(error->message, "psplat: ", 8) == 0)
-        fprintf(stderr, "%s\n", error->message);
-    else
-        print_error(error->message);
-}
-
 static int run(const struct argument *arguments, size_t count)
 {
     struct explore_request request = {.opens_browser = true, .passes = DEFAULT_VIEW_PASSES};
