@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "import/obj.h"
 #include "import/ply_data.h"
+#include "import/ply_text.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,7 +72,16 @@ static ps_result read_data(struct ply *ply, const struct mesh_file *file,
     ps_result result = mesh_file_workers(file, &workers, error);
     if (result != PS_OK)
         return result;
-    result = ply_data_read(file, header, workers, ply, &polygons, &polygon_count, error);
+    struct mesh_file packed = {.bytes = NULL};
+    struct ply_header of_packed = *header;
+    of_packed.data = 0;
+    if (header->is_text)
+        result = ply_text_pack(file, header, workers, &packed, error);
+    if (result == PS_OK)
+        result =
+            ply_data_read(header->is_text ? &packed : file, header->is_text ? &of_packed : header,
+                          workers, ply, &polygons, &polygon_count, error);
+    free(packed.bytes);
     workers_destroy(workers);
     if (result == PS_OK && !cut(ply, polygons, polygon_count))
         result = error_memory(error, file->length, "a mesh file");

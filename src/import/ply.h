@@ -1,8 +1,8 @@
-/* ply.h: the geometry of a binary PLY file (Turk 1994, "The PLY polygon file format"), read here, and an outline for assimp,
- * which reads what comments say of textures.
+/* ply.h: the geometry of a PLY file (Turk 1994, "The PLY polygon file format"), read here, and an outline for assimp, which
+ * reads what comments say of textures.
  *
- * Of files whose elements are `vertex` and `face` alone, as scanners and sculpting programs write them. Others, and texts,
- * are left to assimp as a whole: it keeps some 250 bytes a triangle, and reads 35 MB a second by one thread.
+ * Of files whose elements are `vertex` and `face` alone, as scanners and sculpting programs write them. Others are left to
+ * assimp as a whole: it keeps some 250 bytes a triangle, and reads 35 MB a second by one thread.
  */
 #ifndef IMPORT_PLY_H
 #define IMPORT_PLY_H

@@ -250,7 +250,7 @@ bool ply_header_read(const struct mesh_file *file, struct ply_header *header)
     const char *at = file->bytes, *end = at + file->length;
     struct text_line line, rest;
     struct ply_element *element = NULL;
-    bool is_binary = false;
+    bool has_format = false;
     *header = (struct ply_header){.data = 0};
     if (!text_next_line(&at, end, &line) || !is_word(&line, "ply"))
         return false;
@@ -258,7 +258,9 @@ bool ply_header_read(const struct mesh_file *file, struct ply_header *header)
         bool good = true;
         if (text_line_starts(&line, "format", &rest)) {
             header->big_endian = is_word(&rest, "binary_big_endian 1.0");
-            good = is_binary = header->big_endian || is_word(&rest, "binary_little_endian 1.0");
+            header->is_text = is_word(&rest, "ascii 1.0");
+            good = has_format =
+                header->big_endian || header->is_text || is_word(&rest, "binary_little_endian 1.0");
         } else if (text_line_starts(&line, "element", &rest)) {
             element = read_element(rest, header, element);
             good = element != NULL;
@@ -266,7 +268,7 @@ bool ply_header_read(const struct mesh_file *file, struct ply_header *header)
             good = element && read_property(rest, element);
         } else if (text_line_starts(&line, "end_header", &rest)) {
             header->data = (size_t)(at - file->bytes);
-            return is_binary && are_plain_vertices(&header->vertices) &&
+            return has_format && are_plain_vertices(&header->vertices) &&
                    are_plain_faces(&header->faces);
         } else {
             good = text_line_starts(&line, "comment", &rest) ||

@@ -1,4 +1,4 @@
-/* ply_header.h: what a binary PLY file says of its vertices and faces. */
+/* ply_header.h: what a PLY file says of its vertices and faces. */
 #ifndef IMPORT_PLY_HEADER_H
 #define IMPORT_PLY_HEADER_H
 
@@ -51,7 +51,7 @@ struct ply_element {
 };
 
 struct ply_header {
-    bool big_endian;
+    bool big_endian, is_text;
     struct ply_element vertices, faces;
     size_t data; /* where they start in the file */
 };

@@ -1,4 +1,4 @@
-/* test_mesh_ply.c: binary PLY files, with numbers of all types and either order of bytes. */
+/* test_mesh_ply.c: PLY files: binary ones, with numbers of all types and either order of bytes, and texts. */
 #include "mesh_fixture.h"
 
 /* A file that is being written. */
@@ -320,6 +320,101 @@ static void other_elements(void **state)
     release_imported(&imported);
 }
 
+/* --- texts ------------------------------------------------------------------------------------------- */
+
+/* An element is a line, however it ends; what follows the numbers is nothing. */
+static void a_text(void **state)
+{
+    (void)state;
+    struct imported imported =
+        import_text("m.ply", "ply\r\nformat ascii 1.0\r\nelement vertex 4\r\nproperty double x\r\n"
+                             "property float y\r\nproperty char z\r\nproperty uchar red\r\n"
+                             "property uchar green\r\nproperty uchar blue\r\nproperty float nx\r\n"
+                             "property float ny\r\nproperty float nz\r\nelement face 2\r\n"
+                             "property uchar group\r\nproperty list uchar int vertex_indices\r\n"
+                             "property float area\r\nend_header\r\n"
+                             "0.25 -1e-1 300 255 0 0 0 0 1\r\n"
+                             "  1.5\t.5   -2 300 -7 0 0 0 1   9 9\r\n"
+                             "\r\n"
+                             "+1 1 0 0 0 0 0 1 0\n"
+                             "0 1 0 0 0 255 1 0 0\n"
+                             "7 4 0 1 2 3 0.5\n"
+                             "   \n"
+                             "7 3 0 1 2 0.5");
+    expect_success(&imported);
+    const struct mesh_description *mesh = mesh_of(&imported, 0);
+    assert_int_equal(mesh->vertex_count, 4);
+    assert_int_equal(mesh->triangle_count, 3);
+    expect_vector(mesh->vertices[0], 0.25, -0.1, 127); /* a char */
+    expect_vector(mesh->vertices[1], 1.5, 0.5, -2);
+    expect_vector(mesh->normals[3], 1, 0, 0);
+    expect_near(mesh->colors[1][0], 1, 0);
+    expect_near(mesh->colors[1][1], 0, 0);
+    assert_int_equal(mesh->triangles[2][2], 2);
+    release_imported(&imported);
+}
+
+#define TEXT_HEADER "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 3\n" PLACES FACES(1)
+
+static void refused(const char *data, const char *words)
+{
+    char text[1024];
+    snprintf(text, sizeof text, TEXT_HEADER "end_header\n%s", data);
+    struct imported imported = import_text("m.ply", text);
+    expect_failure(&imported, PS_ERROR_INVALID, words);
+}
+
+static void wrong_texts_are_refused(void **state)
+{
+    (void)state;
+    refused("0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "m.ply:12: a number is missing");
+    refused("0 0 0\n\n1 0 x\n0 1 0\n3 0 1 2\n", "m.ply:13: a number is missing");
+    refused("0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "m.ply:14: a number is missing");
+    refused("0 0 0\n1 0 0\n0 1 0\n-3 0 1\n", "m.ply:14: a number is missing");
+    refused("0 0 0\n1 0 0\n0 1 0\n4000000000 0 1\n", "m.ply:14: a number is missing");
+    refused("0 0 0\n1 0 0\n0 1 0\n", "m.ply: the file ends before its last face");
+    refused("0 0 0\n1 0 0\n", "m.ply: the file ends before its last vertex");
+    refused("0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "a face has a vertex that the file lacks");
+    refused("", "m.ply: the file ends before its last vertex");
+}
+
+/* More than a piece: the mesh of the same numbers in a binary file. */
+static void a_long_text(void **state)
+{
+    (void)state;
+    enum { COUNT = 120000 };
+    size_t size = 300 + (size_t)COUNT * 64, length;
+    char *text = malloc(size);
+    assert_non_null(text);
+    length = (size_t)snprintf(text, size,
+                              "ply\nformat ascii 1.0\nelement vertex %d\n" PLACES
+                              "element face %d\nproperty list uchar uint vertex_indices\n"
+                              "end_header\n",
+                              COUNT + 2, COUNT);
+    for (int i = 0; i < COUNT + 2; i++)
+        length += (size_t)snprintf(text + length, size - length, "%d %d 0\n%s", i, i % 2,
+                                   i % 1000 == 0 ? "\n" : "");
+    for (int i = 0; i < COUNT; i++)
+        length += (size_t)snprintf(text + length, size - length, "3 %d %d %d\n", i, i + 1, i + 2);
+    assert_true(length > 3u << 20);
+    struct imported imported = import_bytes((const unsigned char *)text, length);
+    expect_success(&imported);
+    const struct mesh_description *mesh = mesh_of(&imported, 0);
+    assert_int_equal(mesh->vertex_count, COUNT + 2);
+    assert_int_equal(mesh->triangle_count, COUNT);
+    for (unsigned i = 0; i < COUNT; i++) {
+        expect_vector(mesh->vertices[i], i, i % 2, 0);
+        assert_int_equal(mesh->triangles[i][0], i);
+        assert_int_equal(mesh->triangles[i][2], i + 2);
+    }
+    release_imported(&imported);
+    char *late = strrchr(text, '3');
+    late[0] = 'x';
+    imported = import_bytes((const unsigned char *)text, length);
+    expect_failure(&imported, PS_ERROR_INVALID, ": a number is missing");
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -332,6 +427,9 @@ int main(void)
         cmocka_unit_test(a_header_without_end_is_refused),
         cmocka_unit_test(impossible_counts_are_refused),
         cmocka_unit_test(other_elements),
+        cmocka_unit_test(a_text),
+        cmocka_unit_test(wrong_texts_are_refused),
+        cmocka_unit_test(a_long_text),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
