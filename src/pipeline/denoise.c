@@ -2,7 +2,6 @@
 #include "pipeline/denoise.h"
 
 #include "base/clock.h"
-#include "base/machine.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -154,21 +153,15 @@ _Static_assert(MOST_PARTS <= PS_DENOISER_IMAGES, "all parts at once");
 /* A denoiser weighs pixels once for all images that it has at a time, and needs room for all. */
 #define MOST_ROOM 0x1p29 /* bytes that it may cost */
 
-static double memory_left(const struct render_settings *settings)
-{
-    double there = machine_memory(), limit = settings->memory_limit;
-    return (limit > 0.0 && limit < there ? limit : there) - machine_memory_of_process();
-}
-
 /* Of so many parts, how many at a time: one, where memory is short. The picture does not depend on it. */
 static size_t parts_at_once(const struct render *render, size_t count)
 {
     const ps_denoiser_vtable *table = &strategy_in(render, PS_DENOISER)->type->table.denoiser;
     double pixels = (double)pixels_of(render), own = 6.0 * sizeof(float);
     double room = (double)(count - 1) * pixels * ((double)table->image_bytes + own);
-    double all = room + pixels * (double)table->pixel_bytes;
-    return table->filter_all && room <= MOST_ROOM && all <= memory_left(render->settings) ? count
-                                                                                          : 1;
+    double all = room + pixels * ((double)table->pixel_bytes + own);
+    bool together = table->filter_all && room <= MOST_ROOM && memory_allows(render->settings, all);
+    return together ? count : 1;
 }
 
 static ps_result filter(const struct render *render, const struct part *parts, size_t count)

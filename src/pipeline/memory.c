@@ -55,7 +55,8 @@ static size_t picture_pixel(const struct render_settings *settings, const struct
     bool has_error = denoiser->flags & PS_DENOISER_ERROR && !settings->picture_alone &&
                      !settings->no_error_layer;
     size_t rgb_layers = settings->display ? 3 : 2, halves = planes->odd ? 6 : 0;
-    size_t making = halves * sizeof(float) + denoiser->pixel_bytes;
+    size_t copies = denoiser->filter ? 6 : 0; /* of a part of the light, and of half of it */
+    size_t making = (halves + copies) * sizeof(float) + denoiser->pixel_bytes;
     size_t normalizing = planes->odd ? 11 * sizeof(float) : 0;
     return (3 * rgb_layers + (has_error ? 1 : 0)) * sizeof(float) + larger(making, normalizing);
 }
@@ -91,14 +92,35 @@ static double memory_of_picture(const struct render_settings *settings, const st
            (double)film.width * (double)film.height * (double)(film_pixel(planes) + at_once);
 }
 
+/* What there is, and whether the settings say so. */
+static bool memory_of(const struct render_settings *settings, double *there)
+{
+    *there = machine_memory();
+    bool is_limited = settings->memory_limit > 0 && settings->memory_limit < *there;
+    if (is_limited)
+        *there = settings->memory_limit;
+    return is_limited;
+}
+
+/* Beside what the process has. */
+static double with_process(double bytes)
+{
+    return ROUNDED_UP * bytes + machine_memory_of_process() + BESIDE;
+}
+
+bool memory_allows(const struct render_settings *settings, double bytes)
+{
+    double there;
+    memory_of(settings, &there);
+    return with_process(bytes) <= there;
+}
+
 static ps_result check(const struct render_settings *settings, size_t width, size_t height,
                        double wanted, struct error *error)
 {
     struct rectangle film = planes_window(settings, width, height);
-    double there = machine_memory();
-    bool is_limited = settings->memory_limit > 0 && settings->memory_limit < there;
-    if (is_limited)
-        there = settings->memory_limit;
+    double there;
+    bool is_limited = memory_of(settings, &there);
     if (wanted <= there)
         return PS_OK;
     return error_set(error, PS_ERROR_MEMORY,
@@ -122,6 +144,5 @@ ps_result memory_check(const struct render_settings *settings, const struct plan
                        size_t width, size_t height, bool keeps_film, struct error *error)
 {
     double picture = memory_of_picture(settings, planes, width, height, keeps_film);
-    double beside = machine_memory_of_process() + BESIDE;
-    return check(settings, width, height, ROUNDED_UP * picture + beside, error);
+    return check(settings, width, height, with_process(picture), error);
 }

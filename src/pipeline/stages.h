@@ -41,6 +41,9 @@ uint64_t mend_plane(float *plane, size_t n);
 ps_result memory_check(const struct render_settings *settings, const struct planes *planes,
                        size_t width, size_t height, bool keeps_film, struct error *error);
 
+/* Whether so many bytes more fit beside what the process has. */
+bool memory_allows(const struct render_settings *settings, double bytes);
+
 /* A last stage that fails, or is stopped, must not cost the picture: it is left out, with a warning. Returns `result`. */
 ps_result leave_out(struct render *render, ps_kind kind, ps_result result, const char *instead,
                     struct error *error);

@@ -147,6 +147,14 @@ print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)' "$PSPLAT" -q "$@"
 expect_estimate() {
     peak=$(peak_of "$@" -o a.exr) || fail "no peak of $*"
     rm -f a.film.exr
+    # A denoiser that takes all light at a time where there is room does with less.
+    limit=$((peak * 98 / 100))
+    if lean=$(peak_of "$@" --memory-limit ${limit}K -o lean.exr 2>/dev/null); then
+        [ "$lean" -le $limit ] || fail "$lean KiB in spite of a limit of $limit: $*"
+        expect_same a.exr lean.exr
+        peak=$lean
+        rm -f a.film.exr
+    fi
     run 1 -q "$@" --memory-limit $((peak * 98 / 100))K -o no.exr "$PSPLAT_SOURCE/scenes/cornell-area.psd"
     expect_match err "^psplat: error: a picture of [0-9x]* pixels takes"
     run 0 -q "$@" --memory-limit $((peak * 120 / 100))K -o a.exr "$PSPLAT_SOURCE/scenes/cornell-area.psd"
