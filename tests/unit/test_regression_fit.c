@@ -89,6 +89,7 @@ static void destroy(struct fixture *fixture)
     free(surfaces->size);
     free(surfaces->bounds);
     free(surfaces->fits);
+    free(surfaces->planes);
     bare_host_release(&fixture->bare);
 }
 
