@@ -1,8 +1,19 @@
 /* preview.c: psplat_preview: a picture of few pixels. */
 #include "api/rendering.h"
 #include "pipeline/planes.h"
+#include "session/layers.h"
 
 #include <math.h>
+
+/* The layers that are asked for, and what a display shows. */
+static void set_wishes(const psplat_scene *scene, struct render_settings *settings)
+{
+    const char *layers = output_options_layers(&scene->options.output.options);
+    settings->picture_alone = !layers_are_some(layers);
+    settings->no_error_layer = !layers_have_error(layers);
+    settings->display = true;
+    settings->exposure = scene->input.description.image.exposure;
+}
 
 struct preview {
     double pixels;
@@ -20,6 +31,7 @@ static ps_result run(psplat_rendering *rendering, void *user, struct error *erro
     struct rectangle window = planes_window(settings, scene->width, scene->height);
     double all = (double)window.width * (double)window.height;
     double step = fmax(sqrt(all / fmax(preview->pixels, 1.0)), 1.0);
+    set_wishes(rendering->scene, settings);
     settings->tile = 0;
     ps_result result =
         render_coarse(scene, settings, step, &callbacks, &rendering->statistics, &image, error);

@@ -4,8 +4,6 @@
 #include "base/clock.h"
 #include "render_job/render_job.h"
 
-#include <stdlib.h>
-
 static void show_progress(void *user, const char *stage, double fraction, uint32_t passes,
                           double error)
 {
@@ -106,7 +104,8 @@ static ps_result run(psplat_rendering *rendering, void *user, struct error *erro
     const struct render_job_callbacks callbacks = callbacks_of(rendering);
     psplat_picture **picture = user;
     struct render_options options = scene->options; /* which lends what it owns */
-    if (!processes_is_first(scene->processes)) {
+    bool is_first = processes_is_first(scene->processes);
+    if (!is_first) {
         options.output.paths.count = 0;
         options.stats = NULL;
     }
@@ -120,7 +119,7 @@ static ps_result run(psplat_rendering *rendering, void *user, struct error *erro
         .statistics = &rendering->statistics,
         .start = clock_seconds() - times->load - times->scene - times->build,
         .is_text = scene->is_text,
-        .wants_picture = picture && processes_is_first(scene->processes),
+        .wants_picture = picture && is_first,
     };
     struct image image;
     struct error reason;

@@ -107,16 +107,6 @@ ps_result rendering_wrap(const psplat_rendering *rendering, struct image *image,
 
 /* --- the call ----------------------------------------------------------------------------------------- */
 
-/* The layers that are asked for, and what a display shows. */
-static void set_wishes(const psplat_scene *scene, struct render_settings *settings)
-{
-    const char *layers = output_options_layers(&scene->options.output.options);
-    settings->picture_alone = !layers_are_some(layers);
-    settings->no_error_layer = !layers_have_error(layers);
-    settings->display = true;
-    settings->exposure = scene->input.description.image.exposure;
-}
-
 static ps_result resolve(psplat_rendering *rendering, psplat_error *error)
 {
     const psplat_scene *scene = rendering->scene;
@@ -148,7 +138,6 @@ static ps_result start(psplat_rendering *rendering, rendering_work work, void *u
     ps_result result = resolve(rendering, error);
     if (result != PS_OK)
         return result;
-    set_wishes(rendering->scene, &rendering->settings);
     statistics_init(&rendering->statistics);
     pthread_mutex_init(&rendering->listening, NULL);
     result = work(rendering, user, &reason);

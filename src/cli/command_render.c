@@ -1,10 +1,10 @@
 /* command_render.c: psplat render: a scene becomes a picture, by psplat.h as any other program makes one. */
+#include "cli/default_path.h"
 #include "cli/option_rows.h"
 #include "cli/progress.h"
 #include "cli/viewer.h"
 
 #include "base/path.h"
-#include "base/text.h"
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -96,21 +96,10 @@ static bool take_arguments(struct render_command *command, const struct argument
     return command->path && !(command->has_tile && command->display);
 }
 
-/* The scene's name with another suffix, in the current folder. */
 static bool add_default_output(struct render_command *command, const char *suffix)
 {
-    const char *name = strcmp(command->path, "-") == 0 ? "stdin" : path_name(command->path);
-    size_t length = strlen(name);
-    if (text_has_suffix(name, ".psd") || psplat_scene_is_model(name))
-        length = (size_t)(strrchr(name, '.') - name);
-    size_t bytes = length + strlen(suffix) + 1;
-    char *path = malloc(bytes);
-    if (!path) {
-        print_error("out of memory");
-        return false;
-    }
-    snprintf(path, bytes, "%.*s%s", (int)length, name, suffix);
-    bool good = set(command, "output", path);
+    char *path = default_path(command->path, suffix);
+    bool good = path && set(command, "output", path);
     free(path);
     return good;
 }

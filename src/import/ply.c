@@ -73,14 +73,15 @@ static ps_result read_data(struct ply *ply, const struct mesh_file *file,
     if (result != PS_OK)
         return result;
     struct mesh_file packed = {.bytes = NULL};
-    struct ply_header of_packed = *header;
-    of_packed.data = 0;
-    if (header->is_text)
+    const struct mesh_file *data = file;
+    struct ply_header of_data = *header;
+    if (header->is_text) {
         result = ply_text_pack(file, header, workers, &packed, error);
+        data = &packed;
+        of_data.data = 0;
+    }
     if (result == PS_OK)
-        result =
-            ply_data_read(header->is_text ? &packed : file, header->is_text ? &of_packed : header,
-                          workers, ply, &polygons, &polygon_count, error);
+        result = ply_data_read(data, &of_data, workers, ply, &polygons, &polygon_count, error);
     free(packed.bytes);
     workers_destroy(workers);
     if (result == PS_OK && !cut(ply, polygons, polygon_count))

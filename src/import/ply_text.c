@@ -274,10 +274,10 @@ static ps_result judge(const struct packing *packing, const struct mesh_file *fi
 {
     for (size_t i = 0; i < packing->piece_count; i++) {
         const struct piece *piece = &packing->pieces[i];
-        size_t before = lines_of(file->bytes, packing->header->data) + (size_t)piece->lines;
         if (piece->wrong > 0)
             return error_set(error, PS_ERROR_INVALID, "%s:%zu: a number is missing", file->path,
-                             before + piece->wrong);
+                             lines_of(file->bytes, packing->header->data) + (size_t)piece->lines +
+                                 piece->wrong);
     }
     return PS_OK;
 }

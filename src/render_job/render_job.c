@@ -2,7 +2,6 @@
 
 #include "base/clock.h"
 #include "session/layers.h"
-#include "session/remark.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -25,10 +24,14 @@ static void tell(const struct render_job *job, const char *message)
     job->callbacks->log(job->callbacks->user, PS_LOG_INFO, message);
 }
 
+/* Pixels that look black, or ambient, for want of splats. */
 static void tell_of_dark_pixels(const struct render_job *job)
 {
-    char remark[REMARK_TEXT];
-    if (remark_dark_pixels(job->statistics, remark))
+    double dark = statistics_counter(job->statistics, "pixels without weight");
+    char remark[128];
+    snprintf(remark, sizeof remark, "no indirect light reached %.0f pixel%s", dark,
+             dark == 1.0 ? "" : "s");
+    if (dark > 0.0)
         tell(job, remark);
 }
 

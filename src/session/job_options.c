@@ -1,11 +1,9 @@
 #include "session/job_options.h"
 
-#include "base/text.h"
 #include "session/output.h"
 #include "session/word_list.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 struct job_options job_options_init(void)
 {
@@ -16,40 +14,6 @@ void job_options_release(struct job_options *options)
 {
     free(options->checkpoint);
     *options = job_options_init();
-}
-
-ps_result job_options_parse_time(const char *name, const char *value, double *seconds,
-                                 struct error *error)
-{
-    static const struct {
-        char letter;
-        double seconds;
-    } units[] = {{'s', 1}, {'m', 60}, {'h', 3600}, {'d', 86400}};
-    size_t length = strlen(value);
-    double unit = 1.0, number;
-    for (size_t i = 0; i < sizeof units / sizeof units[0] && length > 1; i++)
-        if (value[length - 1] == units[i].letter) {
-            unit = units[i].seconds;
-            length--;
-            break;
-        }
-    if (!text_part_to_number(value, length, &number) || !(number > 0.0))
-        return error_set(error, PS_ERROR_INVALID,
-                         "--%s: expected a time such as 90s, 10m or 2h, got '%.500s'", name, value);
-    *seconds = number * unit;
-    return PS_OK;
-}
-
-ps_result job_options_parse_percent(const char *value, double *share, struct error *error)
-{
-    size_t length = strlen(value);
-    double percent;
-    length -= length > 1 && value[length - 1] == '%';
-    if (!text_part_to_number(value, length, &percent) || !(percent > 0.0 && percent <= 100.0))
-        return error_set(error, PS_ERROR_INVALID,
-                         "--error: expected percent such as 2%%, got '%.500s'", value);
-    *share = 0.01 * percent;
-    return PS_OK;
 }
 
 ps_result job_options_set_checkpoint(struct job_options *options, const char *path,

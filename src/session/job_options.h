@@ -18,11 +18,7 @@ struct job_options {
 struct job_options job_options_init(void);
 void job_options_release(struct job_options *options);
 
-/* Give one a value: a time such as "90", "90s", "10m", "2h", "1d"; percent such as "2%"; a name that ends in .exr.
- * PS_ERROR_INVALID. */
-ps_result job_options_parse_time(const char *name, const char *value, double *seconds,
-                                 struct error *error);
-ps_result job_options_parse_percent(const char *value, double *share, struct error *error);
+/* PS_ERROR_INVALID where the name does not end in .exr. */
 ps_result job_options_set_checkpoint(struct job_options *options, const char *path,
                                      struct error *error);
 

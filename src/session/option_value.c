@@ -34,6 +34,40 @@ ps_result option_bytes(const char *option, const char *text, double *bytes, stru
                      "--%s: expected a size such as 500M or 8G, got '%.500s'", option, text);
 }
 
+ps_result option_time(const char *option, const char *text, double *seconds, struct error *error)
+{
+    static const struct {
+        char letter;
+        double seconds;
+    } units[] = {{'s', 1}, {'m', 60}, {'h', 3600}, {'d', 86400}};
+    size_t length = strlen(text);
+    double unit = 1.0, number;
+    for (size_t i = 0; i < sizeof units / sizeof units[0] && length > 1; i++)
+        if (text[length - 1] == units[i].letter) {
+            unit = units[i].seconds;
+            length--;
+            break;
+        }
+    if (!text_part_to_number(text, length, &number) || !(number > 0.0))
+        return error_set(error, PS_ERROR_INVALID,
+                         "--%s: expected a time such as 90s, 10m or 2h, got '%.500s'", option,
+                         text);
+    *seconds = number * unit;
+    return PS_OK;
+}
+
+ps_result option_percent(const char *option, const char *text, double *share, struct error *error)
+{
+    size_t length = strlen(text);
+    double percent;
+    length -= length > 1 && text[length - 1] == '%';
+    if (!text_part_to_number(text, length, &percent) || !(percent > 0.0 && percent <= 100.0))
+        return error_set(error, PS_ERROR_INVALID,
+                         "--%s: expected percent such as 2%%, got '%.500s'", option, text);
+    *share = 0.01 * percent;
+    return PS_OK;
+}
+
 ps_result option_exposure(const char *text, double *stops, struct error *error)
 {
     if (text_to_number(text, stops) && *stops >= -20 && *stops <= 20)

@@ -14,6 +14,10 @@ ps_result option_whole_number(const char *option, const char *text, double minim
 /* "500M", "8G": bytes, in powers of 1024. */
 ps_result option_bytes(const char *option, const char *text, double *bytes, struct error *error);
 
+/* "90", "90s", "10m", "2h", "1d": seconds, above 0; and "2%" or "2" as a share, above 0. */
+ps_result option_time(const char *option, const char *text, double *seconds, struct error *error);
+ps_result option_percent(const char *option, const char *text, double *share, struct error *error);
+
 /* Stops of exposure. */
 ps_result option_exposure(const char *text, double *stops, struct error *error);
 

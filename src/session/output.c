@@ -6,7 +6,6 @@
 #include "base/text.h"
 #include "image/tonemap.h"
 #include "job/facts.h"
-#include "model/model.h"
 #include "session/layers.h"
 #include <errno.h>
 #include <inttypes.h>
@@ -24,21 +23,6 @@ bool output_is_writable_format(const char *path)
 bool output_holds_layers(const char *path)
 {
     return text_has_suffix(path, ".exr");
-}
-
-char *output_default_path(const char *scene_path, const char *suffix)
-{
-    const char *name = path_name(scene_path);
-    if (strcmp(name, "-") == 0)
-        name = "stdin";
-    size_t length = strlen(name);
-    if (text_has_suffix(name, ".psd") || model_is_file(name))
-        length = (size_t)(strrchr(name, '.') - name);
-    size_t bytes = length + strlen(suffix) + 1;
-    char *path = malloc(bytes);
-    if (path)
-        snprintf(path, bytes, "%.*s%s", (int)length, name, suffix);
-    return path;
 }
 
 struct encoding {

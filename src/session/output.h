@@ -14,10 +14,6 @@ bool output_is_writable_format(const char *path);
 /* Whether files of that name hold layers beside the picture. */
 bool output_holds_layers(const char *path);
 
-/* The scene's name with another suffix, in the current folder; "-" gives "stdin". The caller frees
- * it. */
-char *output_default_path(const char *scene_path, const char *suffix);
-
 /* Writes the picture by its name's suffix: an EXR of the layers that the options keep, or a PNG of the layer `display`,
  * which must be there then. The workers change its time, not the file. */
 ps_result output_write(const struct image *image, const char *path,

@@ -217,18 +217,18 @@ static ps_result set_stats(struct render_options *options, const char *value, st
 
 static ps_result set_time(struct render_options *options, const char *value, struct error *error)
 {
-    return job_options_parse_time("time", value, &options->job.seconds, error);
+    return option_time("time", value, &options->job.seconds, error);
 }
 
 static ps_result set_error(struct render_options *options, const char *value, struct error *error)
 {
-    return job_options_parse_percent(value, &options->job.error, error);
+    return option_percent("error", value, &options->job.error, error);
 }
 
 static ps_result set_write_every(struct render_options *options, const char *value,
                                  struct error *error)
 {
-    return job_options_parse_time("write-every", value, &options->job.write_every, error);
+    return option_time("write-every", value, &options->job.write_every, error);
 }
 
 static ps_result set_checkpoint(struct render_options *options, const char *value,
@@ -240,7 +240,7 @@ static ps_result set_checkpoint(struct render_options *options, const char *valu
 static ps_result set_checkpoint_every(struct render_options *options, const char *value,
                                       struct error *error)
 {
-    return job_options_parse_time("checkpoint-every", value, &options->job.checkpoint_every, error);
+    return option_time("checkpoint-every", value, &options->job.checkpoint_every, error);
 }
 
 static ps_result set_resume(struct render_options *options, const char *value, struct error *error)

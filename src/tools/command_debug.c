@@ -1,5 +1,6 @@
 /* command_debug.c: psplat debug: pictures of what goes on inside of a render. */
 #include "cli/command.h"
+#include "cli/default_path.h"
 #include "debug/debug.h"
 #include "tools/option_parse.h"
 #include "tools/progress_callbacks.h"
@@ -142,13 +143,11 @@ static bool choose_output(struct job *job)
         for (int i = 0; i < length && i < (int)sizeof suffix; i++)
             if (suffix[i] == ':')
                 suffix[i] = '-';
-        job->default_output = output_default_path(job->taken.scene_path, suffix);
+        job->default_output = default_path(job->taken.scene_path, suffix);
         job->output = job->default_output;
     }
-    if (!job->output) {
-        print_error("out of memory");
+    if (!job->output)
         return false;
-    }
     if (output_check(job->output, &error))
         return true;
     print_error(error.text);

@@ -1,5 +1,7 @@
 /* test_library.c: psplat.h, by the shared library: pictures are the command's, errors come as values, nothing is
  * printed, and renders don't know of each other. */
+#include "image/image.h"
+#include "library_fixture.h"
 #include "scratch.h"
 #include "support/memory_limit.h"
 
@@ -14,42 +16,12 @@
 #include <xmmintrin.h>
 #endif
 
-#define OBJECTS                                                                                    \
-    "psd: 1\n"                                                                                     \
-    "camera: {location: [0, 1, -4], look_at: [0, 1, 0], vertical_angle: 40}\n"                     \
-    "image: {width: 32, height: 18}\n"                                                             \
-    "materials: {white: {diffuse: [0.7, 0.6, 0.5]}}\n"                                             \
-    "lights:\n"                                                                                    \
-    "  - spotlight: {location: [0, 3, -1], point_at: [0, 0, 0], radius: 40, falloff: 50, "         \
-    "intensity: [10, 10, 10]}\n"                                                                   \
-    "objects:\n"                                                                                   \
-    "  - quad: {corners: [[-2, 0, -2], [-2, 0, 2], [2, 0, 2], [2, 0, -2]], material: white}\n"     \
-    "  - box: {corners: [[-0.5, 0, -0.5], [0.5, 1, 0.5]], material: white}\n"
-#define RENDER                                                                                     \
-    "render:\n"                                                                                    \
-    "  injection: {photon: {count: 1000}}\n"
-#define SCENE OBJECTS RENDER
-
 static void write_text(const char *path, const char *text)
 {
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     assert_true(fputs(text, file) >= 0);
     assert_int_equal(fclose(file), 0);
-}
-
-static void set(psplat_scene *scene, const char *option, const char *value)
-{
-    psplat_error error;
-    if (psplat_scene_set(scene, option, value, &error) != PS_OK)
-        fail_msg("%s=%s: %s", option, value ? value : "", error.message);
-}
-
-static void load(psplat_scene *scene, const char *text)
-{
-    psplat_error error;
-    if (psplat_scene_load_text(scene, text, strlen(text), NULL, &error) != PS_OK)
-        fail_msg("%s", error.message);
 }
 
 static psplat_picture *render(const psplat_scene *scene, const psplat_callbacks *callbacks)
@@ -846,6 +818,13 @@ static void test_rounding(void **state)
     psplat_scene_destroy(scene);
 }
 
+/* The header can't take them from where they are. */
+static void test_compressions_are_the_image_s(void **state)
+{
+    (void)state;
+    assert_string_equal(PSPLAT_COMPRESSIONS, IMAGE_COMPRESSIONS);
+}
+
 static void test_version(void **state)
 {
     (void)state;
@@ -881,6 +860,7 @@ int main(void)
         cmocka_unit_test(test_at_once),
         SCRATCH_TEST(test_loading_at_once),
         SCRATCH_TEST(test_rounding),
+        cmocka_unit_test(test_compressions_are_the_image_s),
         cmocka_unit_test(test_version),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,36 +1,8 @@
 /* test_library_jobs.c: psplat_render as a long job: files, films, budgets, and pictures on the way, as the command has
  * them. tests/cli/ tries the same by the command, which is a client of the library. */
-#include "scratch.h"
+#include "library_fixture.h"
 
-#include <psplat/psplat.h>
 #include <stdbool.h>
-
-#define SCENE                                                                                      \
-    "psd: 1\n"                                                                                     \
-    "camera: {location: [0, 1, -4], look_at: [0, 1, 0], vertical_angle: 40}\n"                     \
-    "image: {width: 32, height: 18}\n"                                                             \
-    "materials: {white: {diffuse: [0.7, 0.6, 0.5]}}\n"                                             \
-    "lights:\n"                                                                                    \
-    "  - spotlight: {location: [0, 3, -1], point_at: [0, 0, 0], radius: 40, falloff: 50, "         \
-    "intensity: [10, 10, 10]}\n"                                                                   \
-    "objects:\n"                                                                                   \
-    "  - quad: {corners: [[-2, 0, -2], [-2, 0, 2], [2, 0, 2], [2, 0, -2]], material: white}\n"     \
-    "  - box: {corners: [[-0.5, 0, -0.5], [0.5, 1, 0.5]], material: white}\n"                      \
-    "render: {injection: {photon: {count: 1000}}}\n"
-
-static void set(psplat_scene *scene, const char *option, const char *value)
-{
-    psplat_error error;
-    if (psplat_scene_set(scene, option, value, &error) != PS_OK)
-        fail_msg("%s=%s: %s", option, value ? value : "", error.message);
-}
-
-static void load(psplat_scene *scene)
-{
-    psplat_error error;
-    if (psplat_scene_load_text(scene, SCENE, strlen(SCENE), NULL, &error) != PS_OK)
-        fail_msg("%s", error.message);
-}
 
 /* What a render told. */
 struct told {
@@ -116,7 +88,7 @@ static void test_files(void **state)
     set(scene, "output", png);
     set(scene, "stats", stats);
     psplat_scene_listen(scene, note_remark, &told);
-    load(scene);
+    load(scene, SCENE);
     assert_int_equal(render(scene, &told, &picture, &error), PS_OK);
     assert_int_equal(told.remark_count, 2);
     assert_non_null(strstr(told.remarks[0], "wrote "));
@@ -171,18 +143,18 @@ static void test_films(void **state)
     char film[512];
     snprintf(film, sizeof film, "%s", scratch_path(state, "film.exr"));
     set(scene, "passes", "5");
-    load(scene);
+    load(scene, SCENE);
     assert_int_equal(render(scene, &(struct told){.stop_after = 0}, &whole, &error), PS_OK);
     set(scene, "checkpoint", film);
     psplat_scene_listen(scene, note_remark, &told);
-    load(scene);
+    load(scene, SCENE);
     assert_int_equal(render(scene, &told, &parts, &error), PS_CANCELLED);
     assert_string_equal(psplat_picture_attribute(parts, "psplat.passes"), "2");
     psplat_picture_destroy(parts);
     assert_int_equal(render(scene, &told, &parts, &error), PS_ERROR_INVALID);
     assert_non_null(strstr(error.message, "is there already; --resume goes on with it"));
     set(scene, "resume", NULL);
-    load(scene);
+    load(scene, SCENE);
     told = (struct told){.stop_after = 0};
     assert_int_equal(render(scene, &told, &parts, &error), PS_OK);
     assert_non_null(strstr(told.remarks[0], "goes on with "));
@@ -208,7 +180,7 @@ static void test_budgets(void **state)
     psplat_error error;
     set(scene, "error", "4%");
     set(scene, "plugin", "estimator=pathtrace:samples=1");
-    load(scene);
+    load(scene, SCENE);
     assert_int_equal(render(scene, &told, &picture, &error), PS_OK);
     assert_true(told.last.error > 0 && told.last.error <= 0.04);
     assert_true(told.last.passes > 1);
@@ -216,7 +188,7 @@ static void test_budgets(void **state)
     psplat_scene_destroy(scene);
     scene = psplat_scene_create();
     set(scene, "time", "0.2s");
-    load(scene);
+    load(scene, SCENE);
     assert_int_equal(render(scene, &told, &picture, &error), PS_OK);
     assert_true(told.last.passes >= 1 && told.last.passes < 1000000);
     psplat_picture_destroy(picture);
@@ -234,7 +206,7 @@ static void test_shown(void **state)
     psplat_error error;
     set(scene, "size", "320x180");
     set(scene, "quality", "draft");
-    load(scene);
+    load(scene, SCENE);
     assert_int_equal(psplat_render(scene, &callbacks, NULL, &error), PS_OK);
     assert_true(told.shown_count >= 1);
     assert_int_equal(told.shown_width, 320);
@@ -250,7 +222,7 @@ static void test_written_on_the_way(void **state)
     snprintf(path, sizeof path, "%s", scratch_path(state, "a.exr"));
     set(scene, "output", path);
     set(scene, "passes", "3");
-    load(scene);
+    load(scene, SCENE);
     struct told told = {.path = path};
     assert_int_equal(render(scene, &told, NULL, &error), PS_OK);
     assert_false(told.was_there);
@@ -272,7 +244,7 @@ static void test_tiled_files(void **state)
     set(scene, "output", path);
     set(scene, "size", "100x70");
     set(scene, "tile", "64");
-    load(scene);
+    load(scene, SCENE);
     assert_int_equal(psplat_render(scene, NULL, NULL, &error), PS_OK);
     assert_int_equal(stat(path, &status), 0);
     assert_true(status.st_size > 10000);
