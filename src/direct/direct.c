@@ -23,11 +23,12 @@ static double choice_of(const float numbers[4])
 }
 
 /* Draws the numbers of `n` points, those that the lights need. */
-static void draw(const struct scene *scene, const struct light_numbers *from, size_t first,
+static void draw(const struct lighting *lighting, const struct light_numbers *from, size_t first,
                  size_t n, struct draws *draws, struct receivers *to)
 {
+    const struct scene *scene = lighting->scene;
     const uint64_t *indices = from->indices + first;
-    if (scene_needs_choices(scene)) {
+    if (scene_needs_choices(scene) || lighting->light_threshold > 0.0f) {
         uint32_t key = sample_key(from->seed, from->stream, from->set | CHOICE_SETS);
         sample_points(key, indices, n, draws->numbers);
         for (size_t i = 0; i < n; i++)
@@ -61,7 +62,7 @@ void direct_radiance(const struct lighting *lighting, const ps_ray *rays, const 
             .rays = rays + first,
             .hits = hits + first,
         };
-        draw(lighting->scene, numbers, first, count, &draws, &to);
+        draw(lighting, numbers, first, count, &draws, &to);
         receivers_add_lights(&to, radiance + first);
     }
 }
@@ -111,7 +112,7 @@ void emitted_radiance(const struct lighting *lighting, const ps_ray *rays, const
 }
 
 /* Number `sample` of each run, for the points that have it. */
-static void draw_runs(const struct scene *scene, const struct light_runs *runs, uint64_t seed,
+static void draw_runs(const struct lighting *lighting, const struct light_runs *runs, uint64_t seed,
                       uint32_t sample, const ps_points *points, struct draws *draws,
                       struct receivers *to)
 {
@@ -121,7 +122,7 @@ static void draw_runs(const struct scene *scene, const struct light_runs *runs, 
     const struct light_numbers from = {seed, PS_STREAM_LIGHT, 0, indices};
     for (size_t run = 0; run < runs->count; run++)
         indices[run] = runs->first[run] + sample;
-    draw(scene, &from, 0, runs->count, &drawn, &all);
+    draw(lighting, &from, 0, runs->count, &drawn, &all);
     for (size_t i = 0; i < points->count; i++) {
         uint32_t run = runs->of_lane[points->lanes[i]];
         if (all.numbers)
@@ -149,7 +150,7 @@ static void add_samples(const struct receivers *receivers, uint64_t seed,
     struct receivers to = *receivers;
     to.hard = receivers->hard ? sums->hard : NULL;
     for (uint32_t sample = from; sample < end; sample++) {
-        draw_runs(to.lighting->scene, runs, seed, sample, points, &draws, &to);
+        draw_runs(to.lighting, runs, seed, sample, points, &draws, &to);
         receivers_add_lights(&to, sums->all);
     }
 }

@@ -15,6 +15,7 @@ struct lighting {
     const struct trace *trace;
     const struct shadow_maps *maps; /* NULL: by shadow rays alone */
     uint32_t choices;               /* lights that a point draws where it can't ask all */
+    float light_threshold;          /* as in struct light_draws; 0: none */
 };
 
 /* Which random numbers choose points on lights; see ps_host.samples. */

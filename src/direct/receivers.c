@@ -45,15 +45,16 @@ static ps_rgb response(const struct receivers *to, size_t i, ps_vec3 direction, 
                                                 direction, light_pdf));
 }
 
-/* The normals of receivers to which light counts by the cosine alone. */
-static const ps_vec3 *normals_of_diffuse(const struct receivers *to, ps_vec3 *room)
+/* Whether the densities of a receiver's samples matter. */
+static bool is_glossy(const struct receivers *to, size_t i)
 {
-    static const ps_vec3 none = {0, 0, 0};
-    if (!to->hits)
-        return to->normals;
-    for (size_t i = 0; i < to->n; i++)
-        room[i] = to->hits[i].flags & PS_HIT_SPECULAR ? none : to->normals[i];
-    return room;
+    return to->hits && (to->hits[i].flags & PS_HIT_SPECULAR);
+}
+
+/* The normal of a receiver to which light counts by the cosine alone; 0 for others. */
+static ps_vec3 normal_of_diffuse(const struct receivers *to, size_t i)
+{
+    return is_glossy(to, i) ? (ps_vec3){0, 0, 0} : to->normals[i];
 }
 
 /* Where a receiver's shadow rays begin. */
@@ -154,23 +155,32 @@ static void pair_of(const struct receivers *to, size_t i, size_t number, float p
         numbers_for_light(to->numbers[i], number, pair);
 }
 
-/* Every receiver samples a light once. */
-static void sample_light(const struct receivers *to, size_t light, ps_rgb *sums)
+/* Some receivers of a batch. */
+struct chosen {
+    size_t count;
+    uint32_t receivers[RECEIVERS_MOST];
+};
+
+/* Each of these samples a light once. */
+static void sample_light(const struct receivers *to, const struct chosen *by, size_t light,
+                         ps_rgb *sums)
 {
     const struct scene *scene = to->lighting->scene;
     struct connections connections;
     ps_vec3 normals[RECEIVERS_MOST], origins[RECEIVERS_MOST];
     float pairs[RECEIVERS_MOST][2];
-    for (size_t i = 0; i < to->n; i++) {
-        origins[i] = origin_of(to, i);
-        pair_of(to, i, light, pairs[i]);
-        connections.receivers[i] = (uint32_t)i;
-        connections.lights[i] = (uint32_t)light;
-        connections.weights[i] = 1.0f;
+    for (size_t k = 0; k < by->count; k++) {
+        uint32_t i = by->receivers[k];
+        origins[k] = origin_of(to, i);
+        normals[k] = normal_of_diffuse(to, i);
+        pair_of(to, i, light, pairs[k]);
+        connections.receivers[k] = i;
+        connections.lights[k] = (uint32_t)light;
+        connections.weights[k] = 1.0f;
     }
-    connections.count = to->n;
-    light_sample(&scene->lights[light], origins, normals_of_diffuse(to, normals),
-                 (const float(*)[2])pairs, to->n, connections.samples);
+    connections.count = by->count;
+    light_sample(&scene->lights[light], origins, normals, (const float(*)[2])pairs, by->count,
+                 connections.samples);
     trace_connections(to, &connections, sums);
 }
 
@@ -196,25 +206,21 @@ static void add_connection(const struct receivers *to, size_t i, size_t number,
         trace_connections(to, connections, sums);
 }
 
-/* Of a light that is split every receiver samples one triangle. */
-static void sample_triangles(const struct receivers *to, size_t light, ps_rgb *sums)
+/* Of a light that is split each of these samples one triangle. */
+static void sample_triangles(const struct receivers *to, const struct chosen *by, size_t light,
+                             ps_rgb *sums)
 {
     const struct scene *scene = to->lighting->scene;
     struct connections connections = {.count = 0};
-    for (size_t i = 0; i < to->n; i++) {
+    for (size_t k = 0; k < by->count; k++) {
         struct light_choice choice;
+        uint32_t i = by->receivers[k];
         double turned = to->choices[i] + 0.6180339887498949 * (double)light;
         if (light_bvh_choose_triangle(scene->light_bvh, light, to->positions[i], to->normals[i],
                                       turned - floor(turned), &choice))
             add_connection(to, i, light, &choice, 1.0f, &connections, sums);
     }
     trace_connections(to, &connections, sums);
-}
-
-/* Whether the densities of a receiver's samples matter. */
-static bool is_glossy(const struct receivers *to, size_t i)
-{
-    return to->hits && (to->hits[i].flags & PS_HIT_SPECULAR);
 }
 
 _Static_assert(RECEIVERS_MOST >= MOST_LIGHT_CHOICES, "room for what one receiver draws");
@@ -225,50 +231,87 @@ struct drawn_lights {
     size_t counts[RECEIVERS_MOST];
 };
 
-/* Receivers `first` to before `end` sample lights that they draw, each its first one, then each its second one, and so on:
- * draws come in the order of the tree, so these shadow rays go much the same way. */
-static void sample_drawn(const struct receivers *to, size_t first, size_t end, ps_rgb *sums)
+static struct light_draws draws_of(const struct lighting *lighting)
+{
+    const struct scene *scene = lighting->scene;
+    bool all = !scene_chooses_lights(scene);
+    uint32_t most = all ? (uint32_t)light_bvh_count(scene->light_bvh) : lighting->choices;
+    return (struct light_draws){most, all, lighting->light_threshold};
+}
+
+/* Traces what receivers `first` to before `end` have drawn: of each the first one, then of each the second one, and so on.
+ * Draws come in the order of the tree, so these shadow rays go much the same way. */
+static void trace_drawn(const struct receivers *to, size_t first, size_t end,
+                        const struct light_draws *draws, const struct drawn_lights *drawn,
+                        ps_rgb *sums)
 {
     const struct light_bvh *bvh = to->lighting->scene->light_bvh;
-    uint32_t number = to->lighting->choices;
     struct connections connections = {.count = 0};
-    struct drawn_lights drawn;
-    for (size_t i = first; i < end; i++)
-        drawn.counts[i - first] =
-            light_bvh_choose(bvh, to->positions[i], to->normals[i], number, to->choices[i],
-                             drawn.choices + (i - first) * number);
-    for (size_t k = 0; k < number; k++)
+    for (size_t k = 0; k < draws->most; k++)
         for (size_t i = first; i < end; i++) {
-            if (k >= drawn.counts[i - first])
+            if (k >= drawn->counts[i - first])
                 continue;
-            const struct light_choice *choice = &drawn.choices[(i - first) * number + k];
+            const struct light_choice *choice = &drawn->choices[(i - first) * draws->most + k];
             float expected = is_glossy(to, i)
-                                 ? light_bvh_expected(bvh, choice->light, origin_of(to, i), number)
+                                 ? light_bvh_expected(bvh, choice->light, origin_of(to, i), draws)
                                  : 1.0f;
             add_connection(to, i, k, choice, expected, &connections, sums);
         }
     trace_connections(to, &connections, sums);
 }
 
-static void sample_some(const struct receivers *to, ps_rgb *sums)
+/* All receivers sample lights that they draw; lists those that ask all lights instead. */
+static void sample_some(const struct receivers *to, struct chosen *ask, ps_rgb *sums)
 {
-    size_t together = RECEIVERS_MOST / to->lighting->choices;
-    for (size_t first = 0; first < to->n; first += together)
-        sample_drawn(to, first, first + together < to->n ? first + together : to->n, sums);
+    const struct light_bvh *bvh = to->lighting->scene->light_bvh;
+    struct light_draws draws = draws_of(to->lighting);
+    struct drawn_lights drawn;
+    size_t together = RECEIVERS_MOST / draws.most, end;
+    for (size_t first = 0; first < to->n; first = end) {
+        end = first + together < to->n ? first + together : to->n;
+        for (size_t i = first; i < end; i++) {
+            size_t *count = &drawn.counts[i - first];
+            *count = light_bvh_choose(bvh, to->positions[i], to->normals[i], &draws, to->choices[i],
+                                      drawn.choices + (i - first) * draws.most);
+            if (*count == LIGHT_BVH_ALL) {
+                ask->receivers[ask->count++] = (uint32_t)i;
+                *count = 0;
+            }
+        }
+        trace_drawn(to, first, end, &draws, &drawn, sums);
+    }
+}
+
+static struct chosen all_of(const struct receivers *to)
+{
+    struct chosen all = {.count = to->n};
+    for (uint32_t i = 0; i < to->n; i++)
+        all.receivers[i] = i;
+    return all;
+}
+
+/* Whether some points draw lights. */
+static bool draws_some(const struct lighting *lighting)
+{
+    return scene_chooses_lights(lighting->scene) || lighting->light_threshold > 0.0f;
 }
 
 void receivers_add_lights(const struct receivers *to, ps_rgb *sums)
 {
     const struct scene *scene = to->lighting->scene;
-    if (scene_chooses_lights(scene))
-        sample_some(to, sums);
-    for (size_t i = 0; i < scene->afar_count && scene_chooses_lights(scene); i++)
-        sample_light(to, scene->afar[i], sums);
-    for (size_t light = 0; light < scene->light_count && !scene_chooses_lights(scene); light++) {
+    struct chosen all = all_of(to), ask = all;
+    if (draws_some(to->lighting)) {
+        ask.count = 0;
+        sample_some(to, &ask, sums);
+    }
+    for (size_t light = 0; light < scene->light_count; light++) {
+        const struct chosen *by = light_is_afar(&scene->lights[light]) ? &all : &ask;
+        if (by->count == 0)
+            continue;
         if (light_bvh_is_split(scene->light_bvh, light))
-            sample_triangles(to, light, sums);
+            sample_triangles(to, by, light, sums);
         else
-            sample_light(to, light, sums);
+            sample_light(to, by, light, sums);
     }
 }
 
@@ -277,7 +320,8 @@ float receivers_light_pdf(const struct lighting *lighting, size_t light, ps_vec3
 {
     const struct scene *scene = lighting->scene;
     float pdf = light_pdf(&scene->lights[light], origin, direction, distance, normal);
-    bool chosen = scene_chooses_lights(scene) && !light_is_afar(&scene->lights[light]);
-    return chosen ? pdf * light_bvh_expected(scene->light_bvh, light, origin, lighting->choices)
-                  : pdf;
+    struct light_draws draws = draws_of(lighting);
+    return draws_some(lighting) && !light_is_afar(&scene->lights[light])
+               ? pdf * light_bvh_expected(scene->light_bvh, light, origin, &draws)
+               : pdf;
 }

@@ -1,8 +1,8 @@
 /* receivers.h: next-event estimation: points that sample the lights.
  *
  * Where the scene has few lights, each point samples all of them. Where it has more, each draws lighting.choices by the
- * light BVH (scene/light_bvh.h), which costs the same whatever their number, and has noise. Sun and sky are always
- * sampled. Of a mesh of many triangles a point samples one that the BVH chooses.
+ * light BVH (scene/light_bvh.h), which costs the same whatever their number, and has noise. Of lights below
+ * lighting.light_threshold some are drawn in either case. Sun and sky are always sampled. Of a mesh of many triangles a point samples one that the BVH chooses.
  */
 #ifndef DIRECT_RECEIVERS_H
 #define DIRECT_RECEIVERS_H

@@ -131,13 +131,16 @@ static float afar_share(const struct scene *scene)
     return share;
 }
 
+static const struct light_draws one_draw = {.most = 1};
+
 /* The chance of a light at a place: its share of the power; of many lights that of its draws from the light BVH, suns and
  * skies aside. */
 static float light_probability(const struct scene *scene, size_t light, ps_vec3 place)
 {
     if (!scene_chooses_lights(scene) || light_is_afar(&scene->lights[light]))
         return power_share(scene, light);
-    return (1.0f - afar_share(scene)) * light_bvh_expected(scene->light_bvh, light, place, 1);
+    return (1.0f - afar_share(scene)) *
+           light_bvh_expected(scene->light_bvh, light, place, &one_draw);
 }
 
 /* Draws by power. */
@@ -162,7 +165,7 @@ static bool draw_of_many(const struct scene *scene, ps_vec3 place, float u,
             return true;
     }
     double rest = ((double)u - (double)share) / (1.0 - (double)share);
-    if (light_bvh_choose(scene->light_bvh, place, no_normal, 1, rest, &drawn->choice) != 1)
+    if (light_bvh_choose(scene->light_bvh, place, no_normal, &one_draw, rest, &drawn->choice) != 1)
         return false;
     drawn->choice.weight /= 1.0f - share;
     drawn->probability = light_probability(scene, drawn->choice.light, place);

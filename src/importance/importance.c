@@ -2,6 +2,7 @@
 
 #include "importance/pilot.h"
 #include "scene/scene.h"
+#include <math.h>
 #include <stdlib.h>
 
 /* Lights that lie together side by side; suns, skies and dark lights at the end. */
@@ -46,6 +47,26 @@ static void bound_seen(const struct scene *scene, const struct seen_places *seen
     importance->radius = (float)radius;
 }
 
+/* Below, it costs little to ask all lights. */
+#define FEWEST_LIGHTS 4
+
+/* The threshold over the irradiance that the camera sees. A light that is drawn below it counts for as much. */
+#define THRESHOLD 0.02
+
+bool importance_has_threshold(const struct scene *scene)
+{
+    size_t count = light_bvh_count(scene->light_bvh);
+    return count >= FEWEST_LIGHTS &&
+           (scene_chooses_lights(scene) ||
+            (count <= MOST_LIGHT_CHOICES && !scene_has_delta_lamps(scene)));
+}
+
+/* A power of two, so that rounding, which differs between processors, hardly ever tells. */
+static float threshold_of(double irradiance)
+{
+    return irradiance > 0.0 ? (float)exp2(floor(log2(THRESHOLD * irradiance))) : 0.0f;
+}
+
 static ps_result share_by_pilot(const ps_host *host, const ps_pass *pass, const struct scene *scene,
                                 struct sharing *sharing, struct importance *importance,
                                 struct error *error)
@@ -55,6 +76,8 @@ static ps_result share_by_pilot(const ps_host *host, const ps_pass *pass, const 
     if (result != PS_OK)
         return result;
     bound_seen(scene, &seen, importance);
+    if (importance_has_threshold(scene))
+        importance->light_threshold = threshold_of(seen.irradiance);
     order_lights(scene, sharing->order, sharing->listed);
     for (size_t i = 0; i < scene->light_count; i++) {
         ps_rgb power = light_power(&scene->lights[i]);

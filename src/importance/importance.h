@@ -13,6 +13,7 @@
 
 #include "scene/distribution.h"
 #include <psplat/host.h>
+#include <stdbool.h>
 
 struct scene;
 
@@ -23,7 +24,12 @@ struct importance {
      * the scene, which is no larger, or has not two lights. */
     ps_vec3 center;
     float radius;
+    /* Light that hardly counts beside what the camera sees, see struct light_draws; 0: none, or there are few lights. */
+    float light_threshold;
 };
+
+/* Whether there are so many lights that a threshold pays, and none that every point asks and that has no noise. */
+bool importance_has_threshold(const struct scene *scene);
 
 /* PS_ERROR_MEMORY, or PS_OK: release it. Main thread. */
 ps_result importance_create(const ps_host *host, const ps_pass *pass, const struct scene *scene,

@@ -23,6 +23,7 @@ struct findings {
     struct record met[MOST_SEGMENTS][CHUNK], sampled[MOST_SEGMENTS][CHUNK];
     size_t place_count;
     ps_vec3 places[MOST_SEGMENTS * CHUNK];
+    double root_irradiance; /* the sum of theirs */
 };
 
 struct pilot {
@@ -108,9 +109,11 @@ static void record_emission(const struct pilot *pilot, struct pilot_paths *paths
     paths->count = met;
 }
 
-/* Records what surfaces past the first diffuse one get from a light each. */
+/* Records what surfaces get from a light each: how much that is near the camera, and past the first diffuse surface
+ * whose it is. */
 static void record_direct(const struct pilot *pilot, uint64_t chunk, uint32_t set,
-                          struct pilot_paths *paths, struct record *records)
+                          struct pilot_paths *paths, struct record *records,
+                          struct findings *findings)
 {
     const ps_host *host = pilot->host;
     ps_vec3 places[CHUNK] = {{0, 0, 0}};
@@ -130,6 +133,9 @@ static void record_direct(const struct pilot *pilot, uint64_t chunk, uint32_t se
     for (size_t i = 0; i < paths->count; i++) {
         float cosine = ps_dot(samples[i].direction, paths->hits[i].normal);
         ps_rgb reflected = ps_rgb_scale(paths->hits[i].albedo, ps_max(cosine, 0.0f) / PS_PI);
+        if (paths->bounces[i] <= 1 && !blocked[i] && cosine > 0.0f)
+            findings->root_irradiance +=
+                sqrt((double)(cosine * sum_of((ps_rgb){1, 1, 1}, samples[i].irradiance)));
         if (paths->bounces[i] > 0 && !blocked[i])
             records[paths->places[i]] = (struct record){
                 samples[i].light,
@@ -189,8 +195,7 @@ static void trace_chunk(void *user, uint64_t chunk, uint32_t worker)
         pilot->host->intersect(pilot->host, paths.rays, paths.count, paths.hits);
         record_emission(pilot, &paths, findings->met[segment]);
         note_places(&paths, findings);
-        if (segment > 0) /* what the first surface gets is direct light */
-            record_direct(pilot, chunk, 1 + 2 * segment, &paths, findings->sampled[segment]);
+        record_direct(pilot, chunk, 1 + 2 * segment, &paths, findings->sampled[segment], findings);
         scatter(pilot, chunk, 2 + 2 * segment, &paths);
     }
 }
@@ -209,8 +214,9 @@ static void add_records(const struct record *records, size_t count, struct found
 
 static struct seen_places find_places(const struct findings *findings)
 {
-    double count = 0.0, x = 0.0, y = 0.0, z = 0.0, squares = 0.0;
-    for (size_t chunk = 0; chunk < CHUNKS; chunk++)
+    double count = 0.0, x = 0.0, y = 0.0, z = 0.0, squares = 0.0, roots = 0.0;
+    for (size_t chunk = 0; chunk < CHUNKS; chunk++) {
+        roots += findings[chunk].root_irradiance;
         for (size_t i = 0; i < findings[chunk].place_count; i++) {
             ps_vec3 place = findings[chunk].places[i];
             count += 1.0;
@@ -219,13 +225,15 @@ static struct seen_places find_places(const struct findings *findings)
             z += (double)place.z;
             squares += (double)ps_dot(place, place);
         }
+    }
     if (!(count > 0.0))
-        return (struct seen_places){{0, 0, 0}, 0.0};
+        return (struct seen_places){{0, 0, 0}, 0.0, 0.0};
     x /= count;
     y /= count;
     z /= count;
     double variance = squares / count - x * x - y * y - z * z;
-    return (struct seen_places){{(float)x, (float)y, (float)z}, sqrt(fmax(variance, 0.0))};
+    return (struct seen_places){
+        {(float)x, (float)y, (float)z}, sqrt(fmax(variance, 0.0)), roots * roots / (count * count)};
 }
 
 ps_result pilot_trace(const ps_host *host, const ps_pass *pass, const struct scene *scene,

@@ -18,6 +18,9 @@ struct scene;
 struct seen_places {
     ps_vec3 middle;
     double spread; /* the root mean square of the distances from there */
+    /* The square of the mean root of their irradiance straight from the lights, which a few bright places do not rule; W/m^2,
+     * the sum of red, green and blue. */
+    double irradiance;
 };
 
 /* Adds what is found of each light to found[light]. PS_ERROR_MEMORY, or PS_OK. Main thread. */

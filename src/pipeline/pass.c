@@ -43,10 +43,16 @@ struct tile_work {
     atomic_bool skipped; /* a tile was left out, as the render was cancelled */
 };
 
+/* The discontinuity buffer compares what rays to all lights met. */
+static float light_threshold_of(const struct render *render)
+{
+    return render->settings->discontinuity_buffer ? 0.0f : render->importance.light_threshold;
+}
+
 static struct lighting lighting_of(const struct render *render)
 {
     return (struct lighting){render->scene, render->trace, render->shadow_maps,
-                             render->scene->light_choices};
+                             render->scene->light_choices, light_threshold_of(render)};
 }
 
 static void trace_tile(void *user, uint64_t index, uint32_t worker)
@@ -245,6 +251,7 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
         .view = {.scene = render->scene,
                  .trace = render->trace,
                  .maps = render->shadow_maps,
+                 .light_threshold = light_threshold_of(render),
                  .gbuffer = &render->gbuffer,
                  .seed = render->settings->seed},
     };

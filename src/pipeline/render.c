@@ -71,7 +71,10 @@ static ps_result run_passes(struct render *render, struct error *error)
 {
     pass_describe(render, 0);
     render->has_tiles = true;
-    ps_result result = render->has_begun ? PS_OK : begin_estimates(render, error);
+    ps_result result =
+        importance_has_threshold(render->scene) ? render_find_importance(render, error) : PS_OK;
+    if (result == PS_OK && !render->has_begun)
+        result = begin_estimates(render, error);
     if (result == PS_OK)
         result = run_each_pass(render, error);
     if (result != PS_OK || render->part + 1 == render->parts)

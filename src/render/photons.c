@@ -163,25 +163,11 @@ static ps_result prepare_injection(struct photon_stream *stream, struct error *e
     return result;
 }
 
-/* Not before photons are asked for: not all estimators do. */
-/* Once a render. */
-static ps_result find_importance(struct render *render, struct error *error)
-{
-    if (render->has_importance)
-        return PS_OK;
-    double start = clock_seconds();
-    ps_result result = importance_create(own_host(render), &render->pass, render->scene,
-                                         &render->importance, error);
-    render->has_importance = result == PS_OK;
-    statistics_add_seconds(render->statistics, "inject", clock_seconds() - start);
-    return result;
-}
-
 ps_result photon_stream_prepare(struct photon_stream *stream, struct error *error)
 {
     if (stream->prepared)
         return PS_OK;
-    ps_result result = find_importance(stream->render, error);
+    ps_result result = render_find_importance(stream->render, error);
     if (result == PS_OK)
         result = prepare_injection(stream, error);
     if (result == PS_OK)

@@ -1,5 +1,6 @@
 #include "render/state.h"
 
+#include "base/clock.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -58,6 +59,18 @@ ps_result render_judge(struct render *render, ps_kind kind, ps_result result, st
         return result;
     return error_set(error, result, "%s %s failed%s", kinds[kind].name, name,
                      result == PS_ERROR_MEMORY ? ": out of memory" : "");
+}
+
+ps_result render_find_importance(struct render *render, struct error *error)
+{
+    if (render->has_importance)
+        return PS_OK;
+    double start = clock_seconds();
+    ps_result result = importance_create(own_host(render), &render->pass, render->scene,
+                                         &render->importance, error);
+    render->has_importance = result == PS_OK;
+    statistics_add_seconds(render->statistics, "inject", clock_seconds() - start);
+    return result;
 }
 
 void render_report_splatter(struct statistics *statistics, const struct splatter *splatter)

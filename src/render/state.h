@@ -55,7 +55,8 @@ struct render {
     bool *edges;          /* pixels that take several samples (edges.h), owned; NULL: none does */
     uint32_t part, parts; /* see ps_pass */
     struct photon_stream photons;
-    struct importance importance; /* made when light paths are first asked for */
+    /* Made when light paths are first asked for, or before, where lights have a threshold. */
+    struct importance importance;
     bool has_importance;
     struct kernel_variant kernel;
     struct splatter splatter; /* onto pixels; made when an estimator first splats */
@@ -120,6 +121,9 @@ ps_result render_pass_on(struct render *render, ps_result result, const struct e
 /* What became of a callback of a strategy: its result, unless it failed all the same. The error then names the
  * strategy. */
 ps_result render_judge(struct render *render, ps_kind kind, ps_result result, struct error *error);
+
+/* Makes render->importance, once a render; render->pass must be there. */
+ps_result render_find_importance(struct render *render, struct error *error);
 
 /* Adds a splatter's counters to the statistics. */
 void render_report_splatter(struct statistics *statistics, const struct splatter *splatter);

@@ -127,13 +127,12 @@ static inline void choose_child(const struct draw *draw, const struct node *node
 }
 
 /* Looks into the children of a node, which share its part of the line by importance. */
-static void choose_children(const struct draw *draw, const struct part *part, struct drawn *drawn)
+static void choose_children(const struct draw *draw, const struct part *part,
+                            const float importance[LIGHT_LANES], struct drawn *drawn)
 {
     const struct node *node = &draw->bvh->nodes[part->node];
-    float importance[LIGHT_LANES];
     double shares[LIGHT_LANES];
     struct part own = {0, part->low, part->low, part->first, part->first};
-    light_lanes_importance(&node->bounds, draw->position, draw->normal, importance);
     share_length(importance, node->most, LIGHT_LANES, part->high - part->low, shares);
     for (int i = 0; i < LIGHT_LANES && own.end < part->end; i++) {
         own = next_part(draw, part, &own, shares[i]);
@@ -142,27 +141,57 @@ static void choose_children(const struct draw *draw, const struct part *part, st
     }
 }
 
-/* What is drawn below a node, which has the whole line. */
-static size_t choose_below(const struct draw *draw, uint32_t root, uint32_t number,
-                           struct light_choice *choices)
+static void weigh_children(const struct draw *draw, uint32_t node, float importance[LIGHT_LANES])
+{
+    light_lanes_importance(&draw->bvh->nodes[node].bounds, draw->position, draw->normal,
+                           importance);
+}
+
+/* What is drawn below a node whose children have this importance, which has the whole line. */
+static size_t choose_below(const struct draw *draw, uint32_t root, double length,
+                           float importance[LIGHT_LANES], struct light_choice *choices)
 {
     struct drawn drawn;
+    struct part part = {root, 0.0, length, 0, place_from(draw, length)};
     drawn.choices = choices;
     drawn.count = 0;
-    drawn.depth = 1;
-    drawn.stack[0] = (struct part){root, 0.0, (double)number, 0, (int32_t)number};
+    drawn.depth = 0;
+    if (part.end == 0)
+        return 0;
+    choose_children(draw, &part, importance, &drawn);
     while (drawn.depth > 0) {
-        struct part part = drawn.stack[--drawn.depth];
-        choose_children(draw, &part, &drawn);
+        part = drawn.stack[--drawn.depth];
+        weigh_children(draw, part.node, importance);
+        choose_children(draw, &part, importance, &drawn);
     }
     return drawn.count;
 }
 
+/* The length of the line, by what the root's children give. */
+static double length_of_line(const struct light_bvh *bvh, const struct light_draws *draws,
+                             const float importance[LIGHT_LANES])
+{
+    double most = (double)draws->most, worth = 0.0;
+    if (!(draws->threshold > 0.0f))
+        return most;
+    for (int i = 0; i < LIGHT_LANES; i++)
+        worth +=
+            fmin((double)importance[i] / (double)draws->threshold, (double)bvh->nodes[0].most[i]);
+    return worth < most ? worth : most;
+}
+
 size_t light_bvh_choose(const struct light_bvh *bvh, ps_vec3 position, ps_vec3 normal,
-                        uint32_t number, double u, struct light_choice *choices)
+                        const struct light_draws *draws, double u, struct light_choice *choices)
 {
     const struct draw draw = {bvh, position, normal, u};
-    return bvh->placed > 0 ? choose_below(&draw, 0, number, choices) : 0;
+    float importance[LIGHT_LANES];
+    if (bvh->placed == 0)
+        return 0;
+    weigh_children(&draw, 0, importance);
+    double length = length_of_line(bvh, draws, importance);
+    return draws->all && length >= (double)draws->most
+               ? LIGHT_BVH_ALL
+               : choose_below(&draw, 0, length, importance, choices);
 }
 
 bool light_bvh_choose_triangle(const struct light_bvh *bvh, size_t light, ps_vec3 position,
@@ -170,32 +199,39 @@ bool light_bvh_choose_triangle(const struct light_bvh *bvh, size_t light, ps_vec
 {
     const struct draw draw = {bvh, position, normal, u};
     const struct leaf *leaf = &bvh->leaves[light];
-    return leaf->node != NO_NODE &&
-           choose_below(&draw, bvh->nodes[leaf->node].children[leaf->lane].index, 1, choice) == 1;
+    float importance[LIGHT_LANES];
+    if (leaf->node == NO_NODE)
+        return false;
+    uint32_t root = bvh->nodes[leaf->node].children[leaf->lane].index;
+    weigh_children(&draw, root, importance);
+    return choose_below(&draw, root, 1.0, importance, choice) == 1;
 }
 
-/* The part of the line that a child of a node has. */
-static double length_of(const struct light_bvh *bvh, const struct leaf *leaf, ps_vec3 position,
-                        uint32_t number)
+/* The part that a child of a node has of the line of a point. */
+static double length_of(const struct draw *draw, const struct leaf *leaf, double line)
 {
-    static const ps_vec3 none = {0, 0, 0};
     if (leaf->node == NO_NODE)
-        return (double)number;
-    const struct node *node = &bvh->nodes[leaf->node];
+        return line;
+    const struct node *node = &draw->bvh->nodes[leaf->node];
     const struct leaf above = {node->parent, node->lane};
     float importance[LIGHT_LANES];
     double shares[LIGHT_LANES];
-    light_lanes_importance(&node->bounds, position, none, importance);
-    share_length(importance, node->most, LIGHT_LANES, length_of(bvh, &above, position, number),
-                 shares);
+    weigh_children(draw, leaf->node, importance);
+    share_length(importance, node->most, LIGHT_LANES, length_of(draw, &above, line), shares);
     return shares[leaf->lane];
 }
 
 float light_bvh_expected(const struct light_bvh *bvh, size_t light, ps_vec3 position,
-                         uint32_t number)
+                         const struct light_draws *draws)
 {
+    const struct draw draw = {bvh, position, {0, 0, 0}, 0.0};
     const struct leaf *leaf = &bvh->leaves[light];
-    return leaf->node == NO_NODE ? 0.0f : (float)length_of(bvh, leaf, position, number);
+    float importance[LIGHT_LANES];
+    if (leaf->node == NO_NODE)
+        return 0.0f;
+    weigh_children(&draw, 0, importance);
+    double line = length_of_line(bvh, draws, importance);
+    return draws->all && line >= (double)draws->most ? 1.0f : (float)length_of(&draw, leaf, line);
 }
 
 /* Lists the lights below a node from `lights` on; returns where the list ends. */

@@ -46,10 +46,23 @@ struct light_choice {
     float weight;      /* how often it was drawn over how often it is in the mean */
 };
 
-/* Draws `number` (1..MOST_LIGHT_CHOICES) lights for a point by u in [0,1); writes the different ones and returns how many. Those that
- * give nothing to the point are not chosen. `normal`: unit, of a surface there, which light reaches from its front; 0: none. */
+/* How many lights a point draws. */
+struct light_draws {
+    uint32_t most; /* 1..MOST_LIGHT_CHOICES */
+    bool all;      /* that is all there are */
+    /* Irradiance, W/m^2, the sum of red, green and blue. Lights that may give the point less than this are drawn in
+     * proportion to it, often none of them; in the mean each counts for itself, at most as a light of this irradiance (stochastic
+     * light culling, Tokuyoshi and Harada 2016). 0: `most` are drawn, however faint. */
+    float threshold;
+};
+
+#define LIGHT_BVH_ALL SIZE_MAX
+
+/* Draws lights for a point by u in [0,1); writes the different ones and returns how many, or LIGHT_BVH_ALL, and writes nothing,
+ * where it asks all. Those that give nothing to the point are not chosen. `normal`: unit, of a surface there, which light
+ * reaches from its front; 0: none. */
 size_t light_bvh_choose(const struct light_bvh *bvh, ps_vec3 position, ps_vec3 normal,
-                        uint32_t number, double u, struct light_choice *choices);
+                        const struct light_draws *draws, double u, struct light_choice *choices);
 
 /* Draws a triangle of a light that is split; false: none gives anything. */
 bool light_bvh_choose_triangle(const struct light_bvh *bvh, size_t light, ps_vec3 position,
@@ -58,6 +71,6 @@ bool light_bvh_choose_triangle(const struct light_bvh *bvh, size_t light, ps_vec
 /* How often light_bvh_choose draws the light in the mean, for a point without a normal; a split light with all of its
  * triangles. */
 float light_bvh_expected(const struct light_bvh *bvh, size_t light, ps_vec3 position,
-                         uint32_t number);
+                         const struct light_draws *draws);
 
 #endif

@@ -212,6 +212,7 @@ static void finish_looks(const struct edge_pass *pass, struct looks *looks, stru
         .scene = lighting->scene,
         .trace = lighting->trace,
         .maps = lighting->maps,
+        .light_threshold = lighting->light_threshold,
         .gbuffer = &gbuffer,
         .seed = pass->seed | EDGE_SEED,
     };

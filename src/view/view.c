@@ -54,7 +54,8 @@ static void add_to_lane(const struct view_pass *pass, uint32_t tile, uint32_t la
 
 static struct lighting lighting_of(const struct view_pass *pass)
 {
-    return (struct lighting){pass->scene, pass->trace, pass->maps, pass->scene->light_choices};
+    return (struct lighting){pass->scene, pass->trace, pass->maps, pass->scene->light_choices,
+                             pass->light_threshold};
 }
 
 static void collect_emission(const struct view_pass *pass, uint32_t tile, uint32_t depth,

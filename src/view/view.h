@@ -14,6 +14,7 @@ struct view_pass {
     const struct scene *scene;
     const struct trace *trace;
     const struct shadow_maps *maps; /* for what gloss reflects of the lights; NULL: shadow rays */
+    float light_threshold;          /* as in struct lighting */
     struct gbuffer *gbuffer;
     uint64_t seed;
     /* Instead of the G-buffer: the rays that paths end with and what they met, for each lane; lanes whose

@@ -86,27 +86,37 @@ static double contribution(const struct light *light, ps_vec3 position, ps_vec3 
 
 struct drawn {
     double mean, standard_error;
+    double draws; /* of lights, in the mean */
 };
 
-/* The estimate of the sum of all contributions by drawing `number` lights. */
+static const struct light_draws one = {.most = 1};
+
+static struct light_draws exactly(uint32_t number)
+{
+    return (struct light_draws){.most = number};
+}
+
+/* The estimate of the sum of all contributions by drawing lights. */
 static struct drawn draw_often(const struct light_bvh *bvh, const double *contributions,
-                               ps_vec3 position, ps_vec3 normal, uint32_t number)
+                               ps_vec3 position, ps_vec3 normal, const struct light_draws *draws)
 {
     struct random random = {99};
-    double sum = 0.0, squares = 0.0;
+    double sum = 0.0, squares = 0.0, all = 0.0;
     for (int turn = 0; turn < TURNS; turn++) {
         struct light_choice choices[MOST_LIGHT_CHOICES];
         double estimate = 0.0;
         size_t count =
-            light_bvh_choose(bvh, position, normal, number, (double)random_unit(&random), choices);
-        assert_true(count <= number);
+            light_bvh_choose(bvh, position, normal, draws, (double)random_unit(&random), choices);
+        assert_true(count <= draws->most);
         for (size_t i = 0; i < count; i++)
             estimate += (double)choices[i].weight * contributions[choices[i].light];
         sum += estimate;
+        all += (double)count;
         squares += estimate * estimate;
     }
     double mean = sum / TURNS;
-    return (struct drawn){mean, sqrt(fmax(squares / TURNS - mean * mean, 0.0) / TURNS)};
+    return (struct drawn){mean, sqrt(fmax(squares / TURNS - mean * mean, 0.0) / TURNS),
+                          all / TURNS};
 }
 
 static void expect_mean_at(const struct light *lights, const struct light_bvh *bvh,
@@ -115,7 +125,8 @@ static void expect_mean_at(const struct light *lights, const struct light_bvh *b
     double contributions[LIGHTS], all = 0.0;
     for (size_t i = 0; i < LIGHTS; i++)
         all += contributions[i] = contribution(&lights[i], position, normal);
-    struct drawn drawn = draw_often(bvh, contributions, position, normal, number);
+    struct light_draws draws = exactly(number);
+    struct drawn drawn = draw_often(bvh, contributions, position, normal, &draws);
     assert_true(fabs(drawn.mean - all) <= 4.0 * drawn.standard_error + 1e-4 * all);
     assert_true(drawn.standard_error * sqrt(TURNS) <= most_noise * all);
 }
@@ -152,7 +163,8 @@ static struct drawn draw_beside(float strength, uint32_t number)
     for (size_t i = 1; i < LIGHTS; i++)
         contributions[i] = contribution(&lights[i], position, no_normal);
     struct light_bvh *bvh = bvh_of(lights, LIGHTS);
-    struct drawn drawn = draw_often(bvh, contributions, position, no_normal, number);
+    struct light_draws draws = exactly(number);
+    struct drawn drawn = draw_often(bvh, contributions, position, no_normal, &draws);
     light_bvh_destroy(bvh);
     release_lights(lights, LIGHTS);
     return drawn;
@@ -167,6 +179,49 @@ static void test_strong_light_takes_one_draw(void **state)
     assert_true(strong.standard_error < 1.3 * dark.standard_error);
 }
 
+/* Lights below the threshold are drawn seldom, and in proportion; the mean stays. */
+static void test_faint_lights_are_drawn_seldom(void **state)
+{
+    (void)state;
+    enum { COUNT = 40 };
+    struct light *lights = random_lights(23, COUNT, 5.0f);
+    ps_vec3 position = {30, 8, -3};
+    double contributions[COUNT], all = 0.0;
+    for (size_t i = 0; i < COUNT; i++)
+        all += contributions[i] = contribution(&lights[i], position, no_normal);
+    struct light_bvh *bvh = bvh_of(lights, COUNT);
+    const double thresholds[] = {2.0 * all, 0.02 * all}, most_draws[] = {4.0, 0.9 * COUNT};
+    for (int i = 0; i < 2; i++) {
+        struct light_draws draws = {COUNT, true, (float)thresholds[i]};
+        struct drawn drawn = draw_often(bvh, contributions, position, no_normal, &draws);
+        assert_true(fabs(drawn.mean - all) <= 4.0 * drawn.standard_error);
+        assert_true(drawn.standard_error < 0.03 * all);
+        assert_true(drawn.draws > 0.2 && drawn.draws < most_draws[i]);
+    }
+    light_bvh_destroy(bvh);
+    release_lights(lights, COUNT);
+}
+
+/* No light is below a threshold that is low enough. */
+static void test_all_lights_are_asked(void **state)
+{
+    (void)state;
+    enum { COUNT = 6 };
+    struct light lights[COUNT];
+    for (int i = 0; i < COUNT; i++)
+        lights[i] = light_create_sphere((ps_vec3){(float)i, 0, 0}, 0.1f, (ps_rgb){1, 1, 1}, false);
+    struct light_bvh *bvh = bvh_of(lights, COUNT);
+    struct light_choice choices[COUNT];
+    struct light_draws draws = {COUNT, true, 1e-12f};
+    ps_vec3 position = {0.1f, 2.0f, 0.2f};
+    assert_true(light_bvh_choose(bvh, position, no_normal, &draws, 0.5, choices) == LIGHT_BVH_ALL);
+    assert_true(light_bvh_expected(bvh, 3, position, &draws) == 1.0f);
+    draws.all = false;
+    draws.most = 2;
+    assert_int_equal(light_bvh_choose(bvh, position, no_normal, &draws, 0.5, choices), 2);
+    light_bvh_destroy(bvh);
+}
+
 /* What gives light to a point can be drawn there. */
 static void test_no_light_is_left_out(void **state)
 {
@@ -174,11 +229,12 @@ static void test_no_light_is_left_out(void **state)
     struct light *lights = random_lights(5, LIGHTS, 5.0f);
     struct light_bvh *bvh = bvh_of(lights, LIGHTS);
     struct random random = {7};
+    struct light_draws draws = exactly(4);
     for (int i = 0; i < 200; i++) {
         ps_vec3 position = ps_scale(random_direction(&random), 8.0f * random_unit(&random));
         for (size_t light = 0; light < LIGHTS; light++)
             if (contribution(&lights[light], position, no_normal) > 0.0)
-                assert_true(light_bvh_expected(bvh, light, position, 4) > 0.0f);
+                assert_true(light_bvh_expected(bvh, light, position, &draws) > 0.0f);
     }
     light_bvh_destroy(bvh);
     release_lights(lights, LIGHTS);
@@ -188,6 +244,7 @@ static void test_draws_come_as_often_as_expected(void **state)
 {
     (void)state;
     enum { number = 5 };
+    struct light_draws draws = exactly(number);
     struct light *lights = random_lights(11, LIGHTS, 5.0f);
     struct light_bvh *bvh = bvh_of(lights, LIGHTS);
     ps_vec3 position = {1, 2, -1};
@@ -195,14 +252,14 @@ static void test_draws_come_as_often_as_expected(void **state)
     for (int turn = 0; turn < TURNS; turn++) {
         struct light_choice choices[number];
         double u = (turn + 0.5) / TURNS;
-        size_t count = light_bvh_choose(bvh, position, no_normal, number, u, choices);
+        size_t count = light_bvh_choose(bvh, position, no_normal, &draws, u, choices);
         for (size_t i = 0; i < count; i++) {
-            float chance = light_bvh_expected(bvh, choices[i].light, position, number);
+            float chance = light_bvh_expected(bvh, choices[i].light, position, &draws);
             counts[choices[i].light] += (double)(choices[i].weight * chance) / TURNS;
         }
     }
     for (size_t i = 0; i < LIGHTS; i++) {
-        float chance = light_bvh_expected(bvh, i, position, number);
+        float chance = light_bvh_expected(bvh, i, position, &draws);
         expected += (double)chance;
         assert_true(fabs(counts[i] - (double)chance) <= 1e-3 + 1e-3 * (double)chance);
     }
@@ -301,7 +358,7 @@ static void test_light_whose_pattern_is_missed(void **state)
         assert_int_equal(light_create_mesh(&mesh, (ps_rgb){1, 1, 1}, false, &light, &error), PS_OK);
         assert_true(light.surface.mean.r == 0.0f);
         struct light_bvh *bvh = bvh_of(&light, 1);
-        assert_true(light_bvh_expected(bvh, 0, (ps_vec3){1.5f, 0.5f, 0}, 1) > 0.0f);
+        assert_true(light_bvh_expected(bvh, 0, (ps_vec3){1.5f, 0.5f, 0}, &one) > 0.0f);
         light_bvh_destroy(bvh);
         light_release(&light);
     }
@@ -327,7 +384,8 @@ static void test_small_triangles_have_their_area(void **state)
 static void expect_finite(const struct light_bvh *bvh, ps_vec3 position)
 {
     struct light_choice choices[MOST_LIGHT_CHOICES];
-    size_t count = light_bvh_choose(bvh, position, no_normal, MOST_LIGHT_CHOICES, 0.25, choices);
+    struct light_draws draws = exactly(MOST_LIGHT_CHOICES);
+    size_t count = light_bvh_choose(bvh, position, no_normal, &draws, 0.25, choices);
     assert_true(count > 0);
     for (size_t i = 0; i < count; i++)
         assert_true(choices[i].weight > 0.0f && choices[i].weight < INFINITY);
@@ -365,12 +423,12 @@ static void test_lights_that_are_left_out(void **state)
     struct light_bvh *bvh = bvh_of(lights, 3);
     struct light_choice choice;
     assert_int_equal(light_bvh_count(bvh), 1);
-    assert_int_equal(light_bvh_choose(bvh, (ps_vec3){1, 0, 0}, no_normal, 1, 0.5, &choice), 1);
+    assert_int_equal(light_bvh_choose(bvh, (ps_vec3){1, 0, 0}, no_normal, &one, 0.5, &choice), 1);
     assert_int_equal(choice.light, 2);
-    assert_true(light_bvh_expected(bvh, 1, (ps_vec3){1, 0, 0}, 1) == 0.0f);
+    assert_true(light_bvh_expected(bvh, 1, (ps_vec3){1, 0, 0}, &one) == 0.0f);
     light_bvh_destroy(bvh);
     bvh = bvh_of(lights, 2);
-    assert_int_equal(light_bvh_choose(bvh, (ps_vec3){1, 0, 0}, no_normal, 1, 0.5, &choice), 0);
+    assert_int_equal(light_bvh_choose(bvh, (ps_vec3){1, 0, 0}, no_normal, &one, 0.5, &choice), 0);
     light_bvh_destroy(bvh);
     for (int i = 0; i < 3; i++)
         light_release(&lights[i]);
@@ -381,6 +439,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_draws_have_the_mean_of_all_lights),
         cmocka_unit_test(test_strong_light_takes_one_draw),
+        cmocka_unit_test(test_faint_lights_are_drawn_seldom),
+        cmocka_unit_test(test_all_lights_are_asked),
         cmocka_unit_test(test_no_light_is_left_out),
         cmocka_unit_test(test_draws_come_as_often_as_expected),
         cmocka_unit_test(test_triangles_of_a_mesh_are_drawn),
