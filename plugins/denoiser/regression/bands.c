@@ -4,8 +4,11 @@
 
 #include <psplat/math.h>
 
-#define CAUTION 2.0f        /* times the noise that a band must exceed */
-#define ALONE 4.0f          /* the same, where nothing of the band before was kept */
+/* Times the noise that a band must exceed where the band before was kept; past the first one, where the noise is guessed of a
+ * single pass: that has some of the light in it; and where nothing was kept. */
+#define CAUTION 2.0f
+#define GUESSED_CAUTION 1.2f
+#define ALONE 4.0f
 #define PIXELS_CAUTION 1.5f /* in place of CAUTION for the last band, of the pixels themselves */
 #define PIXELS_WINDOW 4     /* R of the window of that band */
 #define GLOSSY 0.125f       /* share of gloss from which on a pixel is of that class */
@@ -160,7 +163,8 @@ void regression_add_bands(struct works *works)
     for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {
         regression_fit_all(works, bandwidths[k], body_of, fine_of);
         for (int i = 0; i < works->count; i++) {
-            add_band(&works->of[i], bandwidths[k], CAUTION);
+            bool guessed = k > 1 && !works->of[i].image->even_r;
+            add_band(&works->of[i], bandwidths[k], guessed ? GUESSED_CAUTION : CAUTION);
             swap_fits(&works->of[i]);
         }
     }
