@@ -3,8 +3,8 @@
  * A bounding volume hierarchy over lights with orientation bounds (Conty Estevez and Kulla 2018, "Importance sampling of
  * many lights with adaptive tree splitting"; light_cluster.h has the bounds). From the root down a child is chosen in
  * proportion to its importance at the point, so that lights are chosen about in proportion to what they give to it.
- * Choices are drawn together by systematic sampling: `number` places, 1 apart, on a line of that length on which each node
- * has its share of its parent. A node has no more of it than it has lights, for no light is looked at twice: a lamp that
+ * Choices are drawn together by systematic sampling: places, 1 apart, on a line as long as lights are drawn in the mean, on
+ * which each node has its share of its parent. A node has no more of it than it has lights, for no light is looked at twice: a lamp that
  * outshines the others takes one place of the line, always, and leaves the rest to them. No node is visited twice, and
  * the choices have the variance of stratified ones. The paper's way to lower variance is to go down both children of nodes
  * that are near; this one has a fixed cost.
@@ -50,9 +50,9 @@ struct light_choice {
 struct light_draws {
     uint32_t most; /* 1..MOST_LIGHT_CHOICES */
     bool all;      /* that is all there are */
-    /* Irradiance, W/m^2, the sum of red, green and blue. Lights that may give the point less than this are drawn in
-     * proportion to it, often none of them; in the mean each counts for itself, at most as a light of this irradiance (stochastic
-     * light culling, Tokuyoshi and Harada 2016). 0: `most` are drawn, however faint. */
+    /* Irradiance, W/m^2, the sum of red, green and blue. What may give the point less than this takes that much less of a
+     * place, so the line is shorter: such lights are drawn seldom, and their weights make up for that (stochastic light
+     * culling, Tokuyoshi and Harada 2016). 0: the line is `most` long, however faint the lights. */
     float threshold;
 };
 
