@@ -16,7 +16,7 @@
 
 #define SEEDS 8
 #define RAYS 64
-#define TURNS 200 /* of each ray */
+#define TURNS 400 /* of each ray */
 
 /* A lamp beside the surface, and a row of small ones. */
 static const char scene_text[] =
