@@ -299,15 +299,17 @@ static bool draws_some(const struct lighting *lighting)
 void receivers_add_lights(const struct receivers *to, ps_rgb *sums)
 {
     const struct scene *scene = to->lighting->scene;
-    struct chosen all = all_of(to), ask = all;
+    struct chosen all = all_of(to), some = {.count = 0};
+    const struct chosen *ask = &all;
     if (draws_some(to->lighting)) {
-        ask.count = 0;
-        sample_some(to, &ask, sums);
+        sample_some(to, &some, sums);
+        ask = &some;
     }
-    for (size_t light = 0; light < scene->light_count; light++) {
-        const struct chosen *by = light_is_afar(&scene->lights[light]) ? &all : &ask;
-        if (by->count == 0)
-            continue;
+    bool all_lights = ask->count > 0; /* else suns and skies alone: there may be a million others */
+    size_t count = all_lights ? scene->light_count : scene->afar_count;
+    for (size_t i = 0; i < count; i++) {
+        size_t light = all_lights ? i : scene->afar[i];
+        const struct chosen *by = light_is_afar(&scene->lights[light]) ? &all : ask;
         if (light_bvh_is_split(scene->light_bvh, light))
             sample_triangles(to, by, light, sums);
         else

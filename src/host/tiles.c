@@ -112,8 +112,7 @@ static void host_tile_hits(const ps_host *host, uint32_t index, ps_ray *rays, ps
         !has_tile(host, index, "tile_hits"))
         return;
     struct view_pass pass = {
-        .scene = render->scene,
-        .trace = render->trace,
+        .lighting = {.scene = render->scene, .trace = render->trace},
         .seed = render->settings->seed,
         .rays = rays,
         .hits = hits,
@@ -134,8 +133,7 @@ static void trace_surfaces(const struct render *render, uint32_t index, ps_tile 
     alone.emitted = emitted;
     alone.by_chance = by_chance;
     struct view_pass pass = {
-        .scene = render->scene,
-        .trace = render->trace,
+        .lighting = {.scene = render->scene, .trace = render->trace},
         .gbuffer = &alone,
         .seed = render->settings->seed,
         .surfaces_alone = true,

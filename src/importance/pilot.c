@@ -1,5 +1,6 @@
 #include "importance/pilot.h"
 
+#include "importance/importance.h"
 #include "scene/scene.h"
 #include <psplat/path.h>
 #include <stdlib.h>
@@ -30,6 +31,7 @@ struct pilot {
     const ps_host *host;
     const ps_pass *pass;
     const struct scene *scene;
+    bool asks_first;           /* what the first surfaces get, by which lights have a threshold */
     struct findings *findings; /* of each chunk */
 };
 
@@ -111,9 +113,8 @@ static void record_emission(const struct pilot *pilot, struct pilot_paths *paths
 
 /* Records what surfaces get from a light each: how much that is near the camera, and past the first diffuse surface
  * whose it is. */
-static void record_direct(const struct pilot *pilot, uint64_t chunk, uint32_t set,
-                          struct pilot_paths *paths, struct record *records,
-                          struct findings *findings)
+static void record_direct(const struct pilot *pilot, uint64_t chunk, uint32_t segment,
+                          struct pilot_paths *paths, struct findings *findings)
 {
     const ps_host *host = pilot->host;
     ps_vec3 places[CHUNK] = {{0, 0, 0}};
@@ -123,7 +124,7 @@ static void record_direct(const struct pilot *pilot, uint64_t chunk, uint32_t se
     for (size_t i = 0; i < paths->count; i++)
         places[i] = ps_add_scaled(paths->hits[i].position, pilot->pass->surface_offset,
                                   paths->hits[i].geometric_normal);
-    draw_numbers(pilot, chunk, set, paths);
+    draw_numbers(pilot, chunk, 1 + 2 * segment, paths);
     host->sample_light(host, places, (const float(*)[4])paths->numbers, paths->count, samples);
     for (size_t i = 0; i < paths->count; i++) {
         float reach = ps_max(samples[i].distance - pilot->pass->surface_offset, 0.0f);
@@ -133,13 +134,12 @@ static void record_direct(const struct pilot *pilot, uint64_t chunk, uint32_t se
     for (size_t i = 0; i < paths->count; i++) {
         float cosine = ps_dot(samples[i].direction, paths->hits[i].normal);
         ps_rgb reflected = ps_rgb_scale(paths->hits[i].albedo, ps_max(cosine, 0.0f) / PS_PI);
+        ps_rgb beam = samples[i].irradiance; /* across */
         if (paths->bounces[i] <= 1 && !blocked[i] && cosine > 0.0f)
-            findings->root_irradiance +=
-                sqrt((double)(cosine * sum_of((ps_rgb){1, 1, 1}, samples[i].irradiance)));
+            findings->root_irradiance += sqrt((double)(cosine * (beam.r + beam.g + beam.b)));
         if (paths->bounces[i] > 0 && !blocked[i])
-            records[paths->places[i]] = (struct record){
-                samples[i].light,
-                sum_of(ps_rgb_multiply(paths->throughput[i], reflected), samples[i].irradiance)};
+            findings->sampled[segment][paths->places[i]] = (struct record){
+                samples[i].light, sum_of(ps_rgb_multiply(paths->throughput[i], reflected), beam)};
     }
 }
 
@@ -195,7 +195,8 @@ static void trace_chunk(void *user, uint64_t chunk, uint32_t worker)
         pilot->host->intersect(pilot->host, paths.rays, paths.count, paths.hits);
         record_emission(pilot, &paths, findings->met[segment]);
         note_places(&paths, findings);
-        record_direct(pilot, chunk, 1 + 2 * segment, &paths, findings->sampled[segment], findings);
+        if (segment > 0 || pilot->asks_first)
+            record_direct(pilot, chunk, segment, &paths, findings);
         scatter(pilot, chunk, 2 + 2 * segment, &paths);
     }
 }
@@ -239,7 +240,8 @@ static struct seen_places find_places(const struct findings *findings)
 ps_result pilot_trace(const ps_host *host, const ps_pass *pass, const struct scene *scene,
                       struct found_light *found, struct seen_places *seen, struct error *error)
 {
-    struct pilot pilot = {host, pass, scene, calloc(CHUNKS, sizeof *pilot.findings)};
+    struct pilot pilot = {host, pass, scene, importance_has_threshold(scene),
+                          calloc(CHUNKS, sizeof *pilot.findings)};
     if (!pilot.findings)
         return error_memory(error, CHUNKS * sizeof *pilot.findings, "camera paths");
     host->parallel_for(host, CHUNKS, trace_chunk, &pilot);

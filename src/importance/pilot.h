@@ -19,7 +19,7 @@ struct seen_places {
     ps_vec3 middle;
     double spread; /* the root mean square of the distances from there */
     /* The square of the mean root of their irradiance straight from the lights, which a few bright places do not rule; W/m^2,
-     * the sum of red, green and blue. */
+     * the sum of red, green and blue. Only where importance_has_threshold(). */
     double irradiance;
 };
 

@@ -44,15 +44,12 @@ struct tile_work {
 };
 
 /* The discontinuity buffer compares what rays to all lights met. */
-static float light_threshold_of(const struct render *render)
-{
-    return render->settings->discontinuity_buffer ? 0.0f : render->importance.light_threshold;
-}
-
 static struct lighting lighting_of(const struct render *render)
 {
+    bool asks_all = render->settings->discontinuity_buffer;
     return (struct lighting){render->scene, render->trace, render->shadow_maps,
-                             render->scene->light_choices, light_threshold_of(render)};
+                             render->scene->light_choices,
+                             asks_all ? 0.0f : render->importance.light_threshold};
 }
 
 static void trace_tile(void *user, uint64_t index, uint32_t worker)
@@ -81,7 +78,6 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct tile_work *work = user;
     struct render *render = work->render;
-    struct lighting lighting = lighting_of(render);
     uint32_t tile = (uint32_t)index, pass = render->pass.number;
     uint32_t samples = render->scene->light_samples;
     struct light_runs runs;
@@ -89,7 +85,8 @@ static void light_tile(void *user, uint64_t index, uint32_t worker)
         discontinuity_buffer_runs(&render->gbuffer, tile, pass, samples, &runs);
     else
         runs_of_tile(gbuffer_number(&render->gbuffer, tile), pass, samples, &runs);
-    direct_light_tile(&lighting, &render->gbuffer, tile, render->settings->seed, &runs, samples);
+    direct_light_tile(&work->view.lighting, &render->gbuffer, tile, render->settings->seed, &runs,
+                      samples);
 }
 
 static void find_edges_of_tile(void *user, uint64_t index, uint32_t worker)
@@ -118,9 +115,8 @@ static void smooth_tile(void *user, uint64_t index, uint32_t worker)
         atomic_store(&work->skipped, true);
         return;
     }
-    struct lighting lighting = lighting_of(render);
     struct edge_pass pass = {
-        .lighting = &lighting,
+        .lighting = &work->view.lighting,
         .gbuffer = &render->gbuffer,
         .seed = render->settings->seed,
         .number = render->pass.number,
@@ -248,10 +244,7 @@ static struct tile_work begin_pass(struct render *render, uint32_t number)
     report_progress(render, "direct light", render_fraction(render, 0.0));
     struct tile_work work = {
         .render = render,
-        .view = {.scene = render->scene,
-                 .trace = render->trace,
-                 .maps = render->shadow_maps,
-                 .light_threshold = light_threshold_of(render),
+        .view = {.lighting = lighting_of(render),
                  .gbuffer = &render->gbuffer,
                  .seed = render->settings->seed},
     };

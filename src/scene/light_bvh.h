@@ -4,10 +4,10 @@
  * many lights with adaptive tree splitting"; light_cluster.h has the bounds). From the root down a child is chosen in
  * proportion to its importance at the point, so that lights are chosen about in proportion to what they give to it.
  * Choices are drawn together by systematic sampling: places, 1 apart, on a line as long as lights are drawn in the mean, on
- * which each node has its share of its parent. A node has no more of it than it has lights, for no light is looked at twice: a lamp that
- * outshines the others takes one place of the line, always, and leaves the rest to them. No node is visited twice, and
- * the choices have the variance of stratified ones. The paper's way to lower variance is to go down both children of nodes
- * that are near; this one has a fixed cost.
+ * which each node has its share of its parent. A node has no more of it than it has lights, for no light is looked at
+ * twice: a lamp that outshines the others takes one place of the line, always, and leaves the rest to them. No node is
+ * visited twice, and the choices have the variance of stratified ones. The paper's way to lower variance is to go down
+ * both children of nodes that are near; this one has a fixed cost.
  *
  * A mesh of more than LIGHT_BVH_TRIANGLES triangles is a subtree, of which triangles are chosen. Sun and sky have no
  * place and are not in the tree. Constant once made; any thread may read it.

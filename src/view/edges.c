@@ -209,10 +209,7 @@ static void finish_looks(const struct edge_pass *pass, struct looks *looks, stru
         .radiance = pass->gbuffer->radiance ? looks->radiance : NULL,
     };
     struct view_pass view = {
-        .scene = lighting->scene,
-        .trace = lighting->trace,
-        .maps = lighting->maps,
-        .light_threshold = lighting->light_threshold,
+        .lighting = *lighting,
         .gbuffer = &gbuffer,
         .seed = pass->seed | EDGE_SEED,
     };

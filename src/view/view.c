@@ -22,7 +22,7 @@ struct camera_paths {
 
 static ps_ray look(const struct view_pass *pass, const struct view_points *points, uint32_t lane)
 {
-    const struct camera *camera = &pass->scene->camera;
+    const struct camera *camera = &pass->lighting.scene->camera;
     float lens[4] = {0, 0, 0, 0};
     if (camera->aperture > 0.0f)
         sample_point(sample_key(pass->seed, PS_STREAM_VIEW, LENS_SET), points->indices[lane], lens);
@@ -42,7 +42,7 @@ static void start(const struct view_pass *pass, const struct view_points *points
         paths->travelled[i] = 0.0f;
         paths->pdfs[i] = 0.0f;
         if (by_chance)
-            by_chance[points->lanes[i]] = pass->scene->camera.aperture > 0.0f;
+            by_chance[points->lanes[i]] = pass->lighting.scene->camera.aperture > 0.0f;
     }
 }
 
@@ -52,20 +52,14 @@ static void add_to_lane(const struct view_pass *pass, uint32_t tile, uint32_t la
     *emitted = ps_rgb_add(*emitted, radiance);
 }
 
-static struct lighting lighting_of(const struct view_pass *pass)
-{
-    return (struct lighting){pass->scene, pass->trace, pass->maps, pass->scene->light_choices,
-                             pass->light_threshold};
-}
-
 static void collect_emission(const struct view_pass *pass, uint32_t tile, uint32_t depth,
                              const struct camera_paths *paths, const ps_hit *hits)
 {
     ps_rgb radiance[PS_TILE_PIXELS];
-    struct lighting lighting = lighting_of(pass);
-    emitted_radiance(&lighting, paths->rays, hits, paths->pdfs, paths->count, radiance);
+    emitted_radiance(&pass->lighting, paths->rays, hits, paths->pdfs, paths->count, radiance);
     for (size_t i = 0; i < paths->count; i++) {
-        bool hidden = depth == 0 && pass->scene->sky_is_hidden && !(hits[i].distance < INFINITY);
+        bool hidden =
+            depth == 0 && pass->lighting.scene->sky_is_hidden && !(hits[i].distance < INFINITY);
         if (!hidden)
             add_to_lane(pass, tile, paths->lanes[i],
                         ps_rgb_multiply(paths->throughput[i], radiance[i]));
@@ -124,8 +118,7 @@ static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t 
         indices[i] = paths->indices[paths->lanes[i]];
     }
     struct light_numbers numbers = {pass->seed, PS_STREAM_LIGHT, depth + 1, indices};
-    struct lighting lighting = lighting_of(pass);
-    direct_radiance(&lighting, paths->rays, glossy, paths->count, &numbers, radiance);
+    direct_radiance(&pass->lighting, paths->rays, glossy, paths->count, &numbers, radiance);
     for (size_t i = 0; i < paths->count; i++)
         add_to_lane(pass, tile, paths->lanes[i],
                     ps_rgb_multiply(paths->throughput[i], radiance[i]));
@@ -136,7 +129,7 @@ static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t 
 static void note_gloss(const struct view_pass *pass, uint32_t tile,
                        const struct camera_paths *paths, size_t i, const ps_hit *hit, bool sharp)
 {
-    const struct scene *scene = pass->scene;
+    const struct scene *scene = pass->lighting.scene;
     struct gbuffer *gbuffer = pass->gbuffer;
     uint32_t lane = paths->lanes[i];
     if (!gbuffer->glossy)
@@ -160,7 +153,7 @@ static void note_chance(const struct view_pass *pass, uint32_t tile,
                         const ps_bsdf_sample *on)
 {
     bool gloss = on->probability < 1.0f || on->lobe == PS_GLOSSY;
-    bool refracts = material_refracts(&pass->scene->materials[hit->material]);
+    bool refracts = material_refracts(&pass->lighting.scene->materials[hit->material]);
     if (pass->hits)
         return;
     if (gloss || refracts)
@@ -173,7 +166,7 @@ static void note_chance(const struct view_pass *pass, uint32_t tile,
 static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
                     struct camera_paths *paths, const ps_hit *hits)
 {
-    const struct scene *scene = pass->scene;
+    const struct scene *scene = pass->lighting.scene;
     uint32_t key = sample_key(pass->seed, PS_STREAM_VIEW, depth);
     size_t left = 0;
     for (size_t i = 0; i < paths->count; i++) {
@@ -226,8 +219,8 @@ void view_trace(const struct view_pass *pass, const struct view_points *points, 
         gbuffer_clear_tile(pass->gbuffer, index);
     start(pass, points, index, &paths);
     for (uint32_t depth = 0; paths.count > 0 && depth <= PS_LONGEST_CHAIN; depth++) {
-        trace_intersect(pass->trace, depth == 0 ? RAYS_CAMERA : RAYS_INCOHERENT, paths.rays,
-                        paths.count, hits);
+        trace_intersect(pass->lighting.trace, depth == 0 ? RAYS_CAMERA : RAYS_INCOHERENT,
+                        paths.rays, paths.count, hits);
         if (collects)
             collect_emission(pass, index, depth, &paths, hits);
         end_at_diffuse(pass, index, &paths, hits);

@@ -8,13 +8,11 @@
 #ifndef VIEW_VIEW_H
 #define VIEW_VIEW_H
 
-#include "film/gbuffer.h"
+#include "direct/direct.h"
 
 struct view_pass {
-    const struct scene *scene;
-    const struct trace *trace;
-    const struct shadow_maps *maps; /* for what gloss reflects of the lights; NULL: shadow rays */
-    float light_threshold;          /* as in struct lighting */
+    struct lighting
+        lighting; /* scene and rays; and for what is emitted, and what gloss reflects of the lights */
     struct gbuffer *gbuffer;
     uint64_t seed;
     /* Instead of the G-buffer: the rays that paths end with and what they met, for each lane; lanes whose
