@@ -65,6 +65,9 @@ static void prepare(struct reader *reader, const char *name, const struct psd_op
     reader->file = reader_add_file(reader, name);
     if (options->folder)
         reader->description->folder = reader_copy(reader, options->folder);
+    if (options->cache)
+        reader->description->cache = reader_copy(reader, options->cache);
+    reader->description->texture_memory = options->texture_memory;
     reader->cache = options->cache;
     reader->allow_plugin_paths = options->allow_plugin_paths;
 }

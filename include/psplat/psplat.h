@@ -57,8 +57,8 @@ void psplat_scene_destroy(psplat_scene *scene); /* NULL is nothing */
 /* Gives an option of `psplat render` a value, by its long name without dashes:
  *
  *     param, set, plugin, output     add to those given before
- *     camera, restrict, cache, allow-scene-plugins, size, quality, bounces, passes, seed, threads, isa, batch,
- *     crop, tile, direct, direct-resolution, exposure, memory-limit, layers, compression, preview, time, error,
+ *     camera, restrict, cache, texture-memory, allow-scene-plugins, size, quality, bounces, passes, seed, threads, isa,
+ *     batch, crop, tile, direct, direct-resolution, exposure, memory-limit, layers, compression, preview, time, error,
  *     checkpoint, checkpoint-every, resume, mpi, write-every, stats
  *                                    the last counts
  *

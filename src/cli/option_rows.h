@@ -21,7 +21,9 @@
         {0, "set", "KEY.KEY=VALUE", "set a value in the scene; items of lists count from 0"},      \
         {0, "camera", "NAME", "look through another camera of the scene"},                         \
         {0, "restrict", "DIR", "refuse files outside of DIR to the scene"},                        \
-        {0, "cache", "DIR", "keep what is made of mesh files in DIR for the next time"},           \
+        {0, "cache", "DIR", "keep what is made of meshes and pictures in DIR for the next time"},  \
+        {0, "texture-memory", "SIZE",                                                              \
+         "memory for the scene's pictures, as 500M or 8G; with --cache the rest stays on disk"},   \
     {                                                                                              \
         0, "allow-scene-plugins", NULL, "let the scene run plugins that it names by a path"        \
     }

@@ -1,7 +1,4 @@
-/* raster.c: fetches a picture's bytes, sees what they are, and has them decoded.
- *
- * The file is read as a whole first, so that pictures inside of other files take the same way.
- */
+/* raster.c: fetches a picture's bytes, sees what they are, and has them decoded. */
 #include "image/raster_decode.h"
 
 #include "base/input_file.h"
@@ -65,21 +62,21 @@ const char raster_kinds[] = "PNG, JPEG, OpenEXR"
 #endif
     ;
 
-static size_t bytes_per_pixel(const struct raster *raster)
+uint32_t raster_texel_bytes(const struct raster *raster)
 {
-    static const size_t sizes[] = {
+    static const uint32_t sizes[] = {
         [RASTER_BYTE] = 1, [RASTER_SHORT] = 2, [RASTER_HALF] = 2, [RASTER_FLOAT] = 4};
     return raster->channels * sizes[raster->sample];
 }
 
 size_t raster_bytes(const struct raster *raster)
 {
-    return (size_t)raster->width * raster->height * bytes_per_pixel(raster);
+    return (size_t)raster->width * raster->height * raster_texel_bytes(raster);
 }
 
 void *raster_row(const struct raster *raster, size_t row)
 {
-    return (unsigned char *)raster->samples + row * raster->width * bytes_per_pixel(raster);
+    return (unsigned char *)raster->samples + row * raster->width * raster_texel_bytes(raster);
 }
 
 void raster_release(struct raster *raster)
@@ -119,7 +116,7 @@ ps_result raster_check_expansion(const struct raster_source *source, uint64_t de
 ps_result raster_allocate(const char *path, struct raster *raster, struct error *error)
 {
     ps_result result =
-        raster_check_size(path, raster->width, raster->height, bytes_per_pixel(raster), error);
+        raster_check_size(path, raster->width, raster->height, raster_texel_bytes(raster), error);
     if (result != PS_OK)
         return result;
     raster->samples = malloc(raster_bytes(raster));
@@ -196,50 +193,33 @@ static ps_result decode(const struct raster_source *source, struct raster *raste
                      raster_kinds);
 }
 
-static ps_result decode_or_release(const struct raster_source *source, struct raster *raster,
-                                   struct error *error)
+static ps_result fetch(const char *path, const struct input_file *file, unsigned char **bytes,
+                       size_t *size, struct error *error)
 {
-    struct raster decoded = {0};
-    ps_result result = decode(source, &decoded, error);
-    if (result != PS_OK) {
-        raster_release(&decoded);
-        return result;
-    }
-    decoded.file_size = source->size;
-    *raster = decoded;
-    return PS_OK;
-}
-
-static ps_result read_file(const char *path, const char *layer, const struct input_file *file,
-                           struct raster *raster, struct error *error)
-{
-    size_t size = (size_t)file->size;
     struct error reason;
-    unsigned char *bytes = malloc(size + 1);
-    if (!bytes)
-        return error_set(error, PS_ERROR_MEMORY, "%s: out of memory: wanted %zu bytes", path, size);
-    ps_result result = input_file_read(file, bytes, &size, &reason);
-    if (result != PS_OK) {
-        error_set(error, result, "%s: %.1000s", path, reason.text);
-    } else if (size < file->size) {
-        result = error_set(error, PS_ERROR_IO, "%s: it became shorter while it was read", path);
-    } else {
-        struct raster_source source = {path, bytes, size, layer};
-        result = decode_or_release(&source, raster, error);
-    }
-    free(bytes);
-    return result;
+    *size = (size_t)file->size;
+    *bytes = malloc(*size + 1);
+    if (!*bytes)
+        return error_set(error, PS_ERROR_MEMORY, "%s: out of memory: wanted %zu bytes", path,
+                         *size);
+    ps_result result = input_file_read(file, *bytes, size, &reason);
+    if (result == PS_OK && *size == file->size)
+        return PS_OK;
+    free(*bytes);
+    if (result != PS_OK)
+        return error_set(error, result, "%s: %.1000s", path, reason.text);
+    return error_set(error, PS_ERROR_IO, "%s: it became shorter while it was read", path);
 }
 
-ps_result raster_read(const char *path, const char *layer, const char *folder,
-                      struct raster *raster, struct error *error)
+ps_result raster_fetch(const char *path, const char *folder, unsigned char **bytes, size_t *size,
+                       struct error *error)
 {
     struct input_file file;
     struct error reason;
     ps_result result = input_file_open(path, folder, &file, &reason);
     if (result != PS_OK)
         return error_set(error, result, "%s: %.1000s", path, reason.text);
-    result = read_file(path, layer, &file, raster, error);
+    result = fetch(path, &file, bytes, size, error);
     close(file.descriptor);
     return result;
 }
@@ -248,5 +228,13 @@ ps_result raster_decode(const char *path, const char *layer, const unsigned char
                         size_t size, struct raster *raster, struct error *error)
 {
     struct raster_source source = {path, bytes, size, layer};
-    return decode_or_release(&source, raster, error);
+    struct raster decoded = {0};
+    ps_result result = decode(&source, &decoded, error);
+    if (result != PS_OK) {
+        raster_release(&decoded);
+        return result;
+    }
+    decoded.file_size = size;
+    *raster = decoded;
+    return PS_OK;
 }

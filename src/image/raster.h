@@ -33,8 +33,12 @@ struct raster {
     void *samples;    /* row-major, top row first, native byte order */
 };
 
-/* Reads a picture from a file, which lies in `folder` where that is not NULL
- * (input_file_open); raster_decode has one from the bytes of a file inside of another.
+/* The bytes of a picture's file, to be freed; `folder`: the only one to read from (input_file_open), or NULL. PS_ERROR_IO,
+ * _INVALID or _MEMORY; messages start with `path`. Any number of threads. */
+ps_result raster_fetch(const char *path, const char *folder, unsigned char **bytes, size_t *size,
+                       struct error *error);
+
+/* Reads a picture from the bytes of a file, or of one inside of another.
  *
  * PNG: every colour type and depth, interlaced or not; a palette becomes colours, a transparent
  * colour alpha, 1 to 4 bits become 8. Gamma and colour profiles are ignored.
@@ -51,11 +55,9 @@ struct raster {
  * the header of a TGA says that it is none, is left out. BMP in runs is
  * refused. Radiance: linear floats, as they stand, lines in any order. WebP: one picture, 8 bits.
  *
- * Other kinds have no layers: PS_ERROR_INVALID. PS_ERROR_IO: the file cannot be read, is truncated or damaged; PS_ERROR_INVALID: no picture of a
+ * Other kinds have no layers: PS_ERROR_INVALID. PS_ERROR_IO: the file is truncated or damaged; PS_ERROR_INVALID: no picture of a
  * known kind or size; PS_ERROR_MEMORY. Messages start with `path`. `raster` is written only on
  * success, and what it held is not released: pass an empty one. Any number of threads. */
-ps_result raster_read(const char *path, const char *layer, const char *folder,
-                      struct raster *raster, struct error *error);
 ps_result raster_decode(const char *path, const char *layer, const unsigned char *bytes,
                         size_t size, struct raster *raster, struct error *error);
 
@@ -71,7 +73,8 @@ extern const char raster_kinds[];
 
 void raster_release(struct raster *raster);
 
-/* Of the samples. */
+/* Of the samples of one pixel, and of all. */
+uint32_t raster_texel_bytes(const struct raster *raster);
 size_t raster_bytes(const struct raster *raster);
 
 #endif

@@ -145,7 +145,9 @@ static bool load(struct importer *importer, const struct statement *statement, c
     if (!path)
         return false;
     const struct texture_description description = {.path = path};
-    bool good = texture_load(&description, importer->options->folder, texture, &error) == PS_OK;
+    bool good =
+        texture_load(&description, &(struct texture_storage){.folder = importer->options->folder},
+                     texture, &error) == PS_OK;
     if (!good)
         importer_error(importer, &statement->origin, statement->width, "%s %s: %.300s",
                        statement->directive, statement->kind, error.text);

@@ -141,8 +141,10 @@ ps_result render_check_memory(const struct render_settings *settings, size_t wid
 }
 
 ps_result memory_check(const struct render_settings *settings, const struct planes *planes,
-                       size_t width, size_t height, bool keeps_film, struct error *error)
+                       const struct scene *scene, bool keeps_film, struct error *error)
 {
+    size_t width = scene->width, height = scene->height;
     double picture = memory_of_picture(settings, planes, width, height, keeps_film);
-    return check(settings, width, height, with_process(picture), error);
+    double wanted = with_process(picture) + scene_bytes_to_come(scene);
+    return check(settings, width, height, wanted, error);
 }

@@ -117,8 +117,7 @@ static ps_result check_memory(const struct render *render, struct error *error)
 {
     const struct planes planes = wanted(render);
     bool keeps_film = render->sum && render->sum != &render->own_sum;
-    return memory_check(render->settings, &planes, render->scene->width, render->scene->height,
-                        keeps_film, error);
+    return memory_check(render->settings, &planes, render->scene, keeps_film, error);
 }
 
 /* All that is kept of pixels. */

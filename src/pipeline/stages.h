@@ -37,9 +37,10 @@ void pass_light_first(struct render *render);
 /* Makes what is no number, or negative, 0; returns how many values there were. */
 uint64_t mend_plane(float *plane, size_t n);
 
-/* PS_ERROR_MEMORY where the planes, with all that is made of them, do not fit beside what the process has. */
+/* PS_ERROR_MEMORY where the planes of a picture of the scene, with all that is made of them, do not fit beside what the
+ * process has, and what the scene's textures may yet take. */
 ps_result memory_check(const struct render_settings *settings, const struct planes *planes,
-                       size_t width, size_t height, bool keeps_film, struct error *error);
+                       const struct scene *scene, bool keeps_film, struct error *error);
 
 /* Whether so many bytes more fit beside what the process has. */
 bool memory_allows(const struct render_settings *settings, double bytes);

@@ -29,10 +29,11 @@ static bool can_be_read(struct pov_writer *writer, const char *file, const struc
 {
     const struct pov_options *options = writer->reader->options;
     const struct texture_description description = {.path = (char *)path};
+    const struct texture_storage storage = {.folder =
+                                                is_system ? options->system : options->folder};
     struct texture texture;
     struct error error;
-    if (texture_load(&description, is_system ? options->system : options->folder, &texture,
-                     &error) != PS_OK) {
+    if (texture_load(&description, &storage, &texture, &error) != PS_OK) {
         pov_warn_at(writer->reader, file, token, "%.200s: %.200s: left out", name, error.text);
         return false;
     }

@@ -70,5 +70,6 @@ void scene_description_release(struct scene_description *description)
     free(description->files);
     free(description->path);
     free(description->folder);
+    free(description->cache);
     *description = (struct scene_description){0};
 }

@@ -109,6 +109,7 @@ void scene_release(struct scene *scene)
         shape_release(&scene->shapes[i]);
     for (size_t i = 0; i < scene->texture_count; i++)
         texture_release(&scene->textures[i]);
+    mapped_budget_destroy(scene->texture_memory);
     for (size_t i = 0; i < scene->owned_count; i++)
         free(scene->owned[i]);
     free(scene->owned);
@@ -145,6 +146,11 @@ size_t scene_bytes(const struct scene *scene)
         sum += texture_bytes(&scene->textures[i]);
     sum += light_bvh_bytes(scene->light_bvh);
     return sum;
+}
+
+double scene_bytes_to_come(const struct scene *scene)
+{
+    return scene->texture_memory ? mapped_budget_to_come(scene->texture_memory) : 0.0;
 }
 
 bool scene_has_shading_normals(const struct scene *scene)

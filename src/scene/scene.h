@@ -19,6 +19,9 @@
 #define NO_LIGHT PS_NO_LIGHT
 #define NO_MATERIAL UINT32_MAX
 
+/* Of memory, that pictures may take where nothing is said of it. */
+#define SCENE_TEXTURE_SHARE 0.5
+
 /* A run of shapes that are placed together. */
 struct group {
     size_t first_shape, shape_count;
@@ -44,6 +47,7 @@ struct scene {
     uint32_t object_count;
     struct texture *textures;
     size_t texture_count;
+    struct mapped_budget *texture_memory; /* of those that lie in the cache; NULL: none do */
     struct material *materials;
     size_t material_count;
     struct microfacet_table *microfacets; /* NULL where no material mirrors */
@@ -88,8 +92,9 @@ const struct instance *scene_instance_of(const struct scene *scene, uint32_t obj
 /* The shape of an object. */
 const struct shape *scene_shape_of(const struct scene *scene, uint32_t object);
 
-/* Bytes that shapes and textures take. */
+/* Bytes that shapes and textures take; and those that textures of the cache may yet take. */
 size_t scene_bytes(const struct scene *scene);
+double scene_bytes_to_come(const struct scene *scene);
 
 /* Whether points ask some of the lights, since there are more than twice light_choices: to choose one costs about as
  * much as to ask it. */

@@ -142,6 +142,7 @@ static void add_texture(uint64_t *digest, const struct texture_description *desc
                         const struct texture *texture)
 {
     const struct raster *raster = &texture->raster;
+    uint64_t samples = texture_digest(texture);
     ADD(description->encoding);
     ADD(texture->wrap_u);
     ADD(texture->wrap_v);
@@ -151,7 +152,7 @@ static void add_texture(uint64_t *digest, const struct texture_description *desc
     ADD(raster->channels);
     ADD(raster->sample);
     ADD(raster->srgb);
-    digest_add(digest, raster->samples, raster_bytes(raster));
+    ADD(samples);
 }
 
 struct scene_digest scene_digest_of(const struct scene_description *description,

@@ -1,4 +1,5 @@
 /* scene_materials.c: textures and materials of a scene. */
+#include "base/machine.h"
 #include "scene/scene_parts.h"
 
 #include <psplat/math.h>
@@ -7,6 +8,8 @@
 /* Of what a file of its size would hardly hold, as a flat WebP: many small files must not take all memory. */
 #define EXPANSION 4096
 #define EXCESS_LIMIT ((size_t)1 << 30)
+
+#define MIB 0x1p20
 
 static ps_result count_excess(struct assembly *assembly, const struct raster *raster,
                               size_t *excess)
@@ -19,23 +22,64 @@ static ps_result count_excess(struct assembly *assembly, const struct raster *ra
                      "the scene's textures take 1 GiB more than %d times their files", EXPANSION);
 }
 
+static double texture_memory(const struct scene_description *description)
+{
+    double given = description->texture_memory;
+    return given > 0.0 ? given : SCENE_TEXTURE_SHARE * machine_memory();
+}
+
+static ps_result check_memory(const struct assembly *assembly, double taken)
+{
+    double most = texture_memory(assembly->description);
+    if (taken <= most)
+        return PS_OK;
+    return error_set(assembly->error, PS_ERROR_MEMORY,
+                     "up to this one the scene's pictures take %.1f MiB of memory, and "
+                     "--texture-memory is %.1f MiB%s",
+                     taken / MIB, most / MIB,
+                     assembly->description->cache
+                         ? ""
+                         : "; with --cache large ones are read in tiles, as they are looked at");
+}
+
+static ps_result prepare_storage(struct assembly *assembly, struct texture_storage *storage)
+{
+    const struct scene_description *description = assembly->description;
+    struct scene *scene = assembly->scene;
+    *storage = (struct texture_storage){description->folder, description->cache, NULL};
+    if (!description->cache || description->texture_count == 0)
+        return PS_OK;
+    scene->texture_memory = mapped_budget_create(texture_memory(description));
+    storage->budget = scene->texture_memory;
+    return storage->budget ? PS_OK
+                           : error_memory(assembly->error, sizeof(void *), "the textures' cache");
+}
+
 static ps_result load_textures(struct assembly *assembly)
 {
     const struct scene_description *description = assembly->description;
     struct scene *scene = assembly->scene;
+    struct texture_storage storage;
+    ps_result prepared = prepare_storage(assembly, &storage);
+    if (prepared != PS_OK)
+        return prepared;
     scene->textures =
         assembly_allocate(assembly, description->texture_count, sizeof *scene->textures);
     if (!scene->textures)
         return PS_ERROR_MEMORY;
     size_t excess = 0;
+    double taken = 0.0;
     for (size_t i = 0; i < description->texture_count; i++) {
         assembly->where = description->textures[i].origin;
-        ps_result result = texture_load(&description->textures[i], description->folder,
-                                        &scene->textures[i], assembly->error);
+        ps_result result =
+            texture_load(&description->textures[i], &storage, &scene->textures[i], assembly->error);
         if (result != PS_OK)
             return result;
         scene->texture_count++;
+        taken += (double)texture_bytes(&scene->textures[i]);
         result = count_excess(assembly, &scene->textures[i].raster, &excess);
+        if (result == PS_OK)
+            result = check_memory(assembly, taken);
         if (result != PS_OK)
             return result;
     }

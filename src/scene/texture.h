@@ -1,4 +1,4 @@
-/* texture.h: a picture in memory that can be looked up at any (u, v).
+/* texture.h: a picture that can be looked up at any (u, v).
  *
  * (0, 0) is the lower left corner of the picture and (1, 1) the upper right one; v goes upwards,
  * while files store their top row first. Texel (i, j), counted from the lower left, has its centre
@@ -11,27 +11,50 @@
 #define SCENE_TEXTURE_H
 
 #include "base/error.h"
+#include "base/mapped_file.h"
 #include "image/raster.h"
 #include "scene/description.h"
+
+/* Samples as a raster has them, the top row first; in tiles of 2^tile_shift texels a side, where a file has them, of
+ * which the last ones may reach beyond the picture. */
+struct texels {
+    uint32_t width, height, tiles_across;
+    const unsigned char *bytes;
+};
 
 /* Owns texels and tables. Constant once loaded: any number of threads may sample it. */
 struct texture {
     uint32_t width, height;
-    int32_t wrap_u, wrap_v;     /* enum texture_wrap */
-    bool nearest;               /* rather than bilinear */
-    struct raster raster;       /* the texels, top row first */
+    int32_t wrap_u, wrap_v; /* enum texture_wrap */
+    bool nearest;           /* rather than bilinear */
+    struct raster raster;   /* without samples where a file of the cache has them */
+    uint32_t texel_bytes, tile_shift;
+    struct texels texels;
+    struct mapped_file *file;   /* that has the texels, or NULL */
     float *color_of, *alpha_of; /* values of codes; NULL for floats; may be the same table */
-    float checked;              /* the largest factor for which texture_leaves_range was false */
+    bool srgb;                  /* colours carry sRGB's function; the tables undo it */
+    bool has_extremes;          /* the following are known */
+    float lowest, highest;      /* of colours, undecoded; where samples are halves or floats */
+    uint64_t digest;            /* of the samples, row by row; 0: not known */
     bool clipped;               /* some material's reflectances are taken from it, and leave 0..1 */
+    char *note;                 /* owned; why it is not kept in the cache, or NULL */
 };
 
-/* Loads what raster_read can read, or a layer of it. The encoding "auto" takes the colours of OpenEXR and Radiance
+/* Where pictures lie. */
+struct texture_storage {
+    const char *folder; /* the only one to read them from (input_file.h), or NULL */
+    const char *cache;  /* a folder for what was made of them (texture_cache.h), or NULL */
+    struct mapped_budget *budget; /* of what lies there, where there is a cache */
+};
+
+/* Loads what raster_decode can read, or a layer of it. The encoding "auto" takes the colours of OpenEXR and Radiance
  * files for linear, and others for sRGB (IEC 61966-2-1); pictures that hold no colours, such as normal
  * maps, want ENCODING_LINEAR. Alpha is linear, and colours are not divided by it: those of OpenEXR
- * are premultiplied. `folder`: the only one to read from (input_file.h), or NULL. Messages start with the description's path; codes are raster_read's. `texture`
- * is written only on success, and what it held is not released. */
-ps_result texture_load(const struct texture_description *description, const char *folder,
-                       struct texture *texture, struct error *error);
+ * are premultiplied. `storage`: NULL, as if all of it were; its budget outlives the texture. Messages start with the description's path; codes are those
+ * of raster_fetch and raster_decode. `texture` is written only on success, and what it held is not released. */
+ps_result texture_load(const struct texture_description *description,
+                       const struct texture_storage *storage, struct texture *texture,
+                       struct error *error);
 void texture_release(struct texture *texture);
 
 /* The linear colour and alpha at (u, v), any numbers; grey is three times the same, alpha 1 where
@@ -46,7 +69,13 @@ void texture_texel(const struct texture *texture, uint32_t column, uint32_t row,
  * once. Not to be called while others sample. */
 bool texture_leaves_range(struct texture *texture, float factor);
 
-/* Of memory, tables included. */
+/* Makes sure that lowest and highest are known where they count. */
+void texture_find_extremes(struct texture *texture);
+
+/* A number that stands for the samples as they were decoded. */
+uint64_t texture_digest(const struct texture *texture);
+
+/* Of memory, tables included; not what a file has. */
 size_t texture_bytes(const struct texture *texture);
 
 #endif

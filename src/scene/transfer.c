@@ -145,6 +145,8 @@ void transfer_description(struct transfer *transfer, struct scene_description *d
 {
     transfer_text(transfer, &description->path);
     transfer_text(transfer, &description->folder);
+    transfer_text(transfer, &description->cache);
+    transfer_bytes(transfer, &description->texture_memory, sizeof description->texture_memory);
     move_cameras(transfer, description);
     move_textures(transfer, description);
     move_materials(transfer, description);

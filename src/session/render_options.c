@@ -61,6 +61,12 @@ static ps_result set_cache(struct render_options *options, const char *value, st
     return scene_options_cache(&options->scene, value, error);
 }
 
+static ps_result set_texture_memory(struct render_options *options, const char *value,
+                                    struct error *error)
+{
+    return option_bytes("texture-memory", value, &options->scene.psd.texture_memory, error);
+}
+
 static ps_result set_restrict(struct render_options *options, const char *value,
                               struct error *error)
 {
@@ -276,6 +282,7 @@ static const struct row {
     {"camera", false, set_camera},
     {"restrict", false, set_restrict},
     {"cache", false, set_cache},
+    {"texture-memory", false, set_texture_memory},
     {"allow-scene-plugins", true, set_allow_plugins},
     /* what it is rendered with */
     {"plugin", false, set_plugin},

@@ -137,6 +137,9 @@ static void warn_of_textures(const struct scene_input *input, const struct scene
                                "%s: %zu number%s NaN or infinite: NaN counts as 0, infinity as "
                                "65504",
                                from->path, mended, mended > 1 ? "s are" : " is");
+        if (texture->note)
+            diagnostics_report(input->sink, SEVERITY_WARNING, &from->origin, 0,
+                               "%s: it is not kept in the cache: %s", from->path, texture->note);
         if (texture->clipped)
             diagnostics_report(input->sink, SEVERITY_WARNING, &from->origin, 0,
                                "%s: reflectances above 1 count as 1, and below 0 as 0", from->path);

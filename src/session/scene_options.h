@@ -27,7 +27,7 @@ ps_result scene_options_restrict(struct scene_options *options, const char *path
                                  struct error *error);
 ps_result scene_options_allow_plugins(struct scene_options *options, struct error *error);
 
-/* A folder that keeps what is made of mesh files; it is made where it is not there, its parent is. PS_ERROR_IO. */
+/* A folder that keeps what is made of meshes and pictures; it is made where it is not there, its parent is. PS_ERROR_IO. */
 ps_result scene_options_cache(struct scene_options *options, const char *path, struct error *error);
 
 void scene_options_release(struct scene_options *options);

@@ -15,7 +15,7 @@ failures=0
 last=
 
 scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
+trap 'status=$?; rm -rf "$scratch"; [ "$failures" -eq 0 ] || [ "$status" -ne 0 ] || exit 1' EXIT
 trap 'exit 1' HUP INT TERM
 cd "$scratch" || exit 1
 

@@ -59,6 +59,45 @@ expect_same_pixels model.exr again.exr
 run 0 check --cache models scene.psd
 run 0 debug -q --size 8x8 gbuffer:normal --cache models scene.psd
 
+# A large picture: in memory, stored, from the cache, and with less memory than it takes.
+run 0 $quick --size 640x560 -o large.png scene.psd
+cat >textured.psd <<'END'
+psd: 1
+camera: {location: [0, 1, -4], look_at: [0, 0.5, 0], angle: 50}
+lights: [{point: {location: [0, 2, -3], intensity: 20}}]
+materials: {shown: {diffuse: {image: {file: large.png}}}}
+objects:
+  - quad: {corners: [[-2, 0, -2], [2, 0, -2], [2, 0, 2], [-2, 0, 2]], material: shown}
+  - quad: {corners: [[-2, 0, 2], [2, 0, 2], [2, 3, 2], [-2, 3, 2]], material: shown}
+END
+run 0 $quick -o plain-textured.exr textured.psd
+for options in "" "" "--texture-memory 100K" "--memory-limit 1G"; do
+    run 0 $quick --cache textures $options -o textured.exr textured.psd
+    expect_empty err
+    expect_same_pixels plain-textured.exr textured.exr
+done
+ls textures >after
+grep -q '\.texture$' after && [ "$(wc -l <after)" -eq 1 ] || fail "not one entry for the picture"
+run 0 check --cache textures --texture-memory 100K textured.psd
+run 2 $quick --texture-memory 500K -o none.exr textured.psd
+expect_text err "textured.psd:4:45: error: up to this one the scene's pictures take 1.0 MiB of memory"
+expect_text err "--texture-memory is 0.5 MiB"
+expect_text err "with --cache large ones are read in tiles"
+[ ! -e none.exr ] || fail "a picture in spite of the error"
+run 2 $quick --texture-memory some -o none.exr textured.psd
+expect_text err "--texture-memory: expected a size such as 500M or 8G, got 'some'"
+
+# A damaged entry is made anew.
+truncate -s 5000 textures/*.texture
+run 0 $quick --cache textures -o textured.exr textured.psd
+expect_same_pixels plain-textured.exr textured.exr
+[ "$(wc -c <"$(ls textures/*.texture)")" -gt 1000000 ] || fail "the damaged entry is still there"
+
+# Films of both are of one job.
+run 0 $quick --cache textures --passes 0:1 --checkpoint half-textured.exr textured.psd
+run 0 $quick --passes 1:2 --checkpoint rest-textured.exr textured.psd
+run 0 merge half-textured.exr rest-textured.exr -o both-textured.exr
+
 # Folders that can be none.
 run 2 $quick --cache nowhere/cache -o none.exr scene.psd
 expect_text err "--cache: cannot make the folder nowhere/cache: No such file or directory"
@@ -74,3 +113,4 @@ if [ "$(id -u)" != 0 ]; then
     chmod 700 locked
     expect_same_pixels plain-blue.exr locked.exr
 fi
+finish

@@ -198,7 +198,8 @@ static void test_flat_map(void **state)
         table[i] = (float)i / 255;
     }
     map.raster.sample = RASTER_BYTE;
-    map.raster.samples = bytes;
+    map.texels.bytes = bytes;
+    map.texel_bytes = 3;
     map.color_of = map.alpha_of = table;
     assert_direction(bump_normal_map(&map, uv, n, x, y), n, 1e-6f);
 }

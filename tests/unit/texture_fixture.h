@@ -49,6 +49,8 @@ static inline struct texture texture_of(float *samples, uint32_t width, uint32_t
 {
     return (struct texture){.width = width,
                             .height = height,
+                            .texel_bytes = channels * (uint32_t)sizeof *samples,
+                            .texels = {width, height, width, (const unsigned char *)samples},
                             .raster = {.width = width,
                                        .height = height,
                                        .channels = channels,

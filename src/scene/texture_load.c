@@ -1,0 +1,208 @@
+/* texture_load.c: from a picture's file to a texture, in memory or in a file of the cache. */
+#include "image/half.h"
+#include "image/tonemap.h"
+#include "scene/texture_cache.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+/* Pictures whose samples take less are read faster than they are looked for. */
+#define LEAST_IN_CACHE ((size_t)1 << 20)
+
+/* --- tables ---------------------------------------------------------------------------------- */
+
+static size_t code_count(enum raster_sample sample)
+{
+    return sample == RASTER_BYTE ? UINT8_MAX + 1 : UINT16_MAX + 1;
+}
+
+static double code_value(enum raster_sample sample, size_t code)
+{
+    if (sample == RASTER_HALF)
+        return half_to_float((uint16_t)code);
+    return (double)code / (double)(code_count(sample) - 1);
+}
+
+static float *create_table(enum raster_sample sample, bool srgb)
+{
+    size_t count = code_count(sample);
+    float *table = malloc(count * sizeof *table);
+    for (size_t code = 0; table && code < count; code++) {
+        double value = code_value(sample, code);
+        table[code] = (float)(srgb ? tonemap_linear(value) : value);
+    }
+    return table;
+}
+
+static bool has_alpha(const struct raster *raster)
+{
+    return raster->channels == 2 || raster->channels == 4;
+}
+
+/* Alpha has a table of its own only where it is decoded otherwise than colours are. */
+static bool create_tables(struct texture *texture)
+{
+    enum raster_sample sample = texture->raster.sample;
+    bool alpha_differs = texture->srgb && has_alpha(&texture->raster);
+    if (sample == RASTER_FLOAT)
+        return true;
+    texture->color_of = create_table(sample, texture->srgb);
+    texture->alpha_of = alpha_differs ? create_table(sample, false) : texture->color_of;
+    return texture->color_of && texture->alpha_of;
+}
+
+/* --- the texels ------------------------------------------------------------------------------ */
+
+static void refer_to_raster(struct texture *texture)
+{
+    const struct raster *raster = &texture->raster;
+    texture->texel_bytes = raster_texel_bytes(raster);
+    texture->tile_shift = 0;
+    texture->texels =
+        (struct texels){raster->width, raster->height, raster->width, raster->samples};
+}
+
+/* Moves the texels into the cache, or notes why they stay in memory. */
+static void keep(struct texture *texture, const char *path, const struct texture_storage *storage)
+{
+    struct texture kept = {0};
+    struct error reason;
+    ps_result result = texture_cache_store(path, texture, &reason);
+    if (result == PS_OK)
+        result = texture_cache_load(path, storage->budget, &kept, &reason);
+    if (result != PS_OK) {
+        texture->note = strdup(reason.text);
+        return;
+    }
+    raster_release(&texture->raster);
+    *texture = kept;
+}
+
+static ps_result decode(const struct texture_description *description, const unsigned char *bytes,
+                        size_t size, const struct texture_storage *storage, struct texture *texture,
+                        struct error *error)
+{
+    struct error ignored;
+    char *path =
+        storage->cache ? texture_cache_path(storage->cache, bytes, size, description->layer) : NULL;
+    ps_result result = PS_OK;
+    if (!path || texture_cache_load(path, storage->budget, texture, &ignored) != PS_OK) {
+        result = raster_decode(description->path, description->layer, bytes, size, &texture->raster,
+                               error);
+        if (result == PS_OK)
+            refer_to_raster(texture);
+        if (result == PS_OK && path && raster_bytes(&texture->raster) >= LEAST_IN_CACHE)
+            keep(texture, path, storage);
+    }
+    free(path);
+    return result;
+}
+
+static ps_result fetch_and_decode(const struct texture_description *description,
+                                  const struct texture_storage *storage, struct texture *texture,
+                                  struct error *error)
+{
+    unsigned char *bytes;
+    size_t size;
+    if (description->bytes)
+        return decode(description, description->bytes, description->byte_count, storage, texture,
+                      error);
+    ps_result result = raster_fetch(description->path, storage->folder, &bytes, &size, error);
+    if (result != PS_OK)
+        return result;
+    result = decode(description, bytes, size, storage, texture, error);
+    free(bytes);
+    return result;
+}
+
+ps_result texture_load(const struct texture_description *description,
+                       const struct texture_storage *storage, struct texture *texture,
+                       struct error *error)
+{
+    static const struct texture_storage anywhere = {NULL, NULL, NULL};
+    struct texture loaded = {0};
+    ps_result result = fetch_and_decode(description, storage ? storage : &anywhere, &loaded, error);
+    if (result != PS_OK)
+        return result;
+    loaded.srgb = description->encoding == ENCODING_SRGB ||
+                  (description->encoding == ENCODING_AUTO && loaded.raster.srgb);
+    loaded.width = loaded.raster.width;
+    loaded.height = loaded.raster.height;
+    loaded.wrap_u = description->wrap_u;
+    loaded.wrap_v = description->wrap_v;
+    loaded.nearest = description->nearest;
+    if (!create_tables(&loaded)) {
+        texture_release(&loaded);
+        return error_set(error, PS_ERROR_MEMORY, "%s: out of memory for a table of colours",
+                         description->path);
+    }
+    *texture = loaded;
+    return PS_OK;
+}
+
+void texture_release(struct texture *texture)
+{
+    if (texture->alpha_of != texture->color_of)
+        free(texture->alpha_of);
+    free(texture->color_of);
+    free(texture->note);
+    if (texture->file)
+        mapped_file_close(texture->file);
+    raster_release(&texture->raster);
+    *texture = (struct texture){0};
+}
+
+size_t texture_bytes(const struct texture *texture)
+{
+    size_t tables = 0;
+    if (texture->color_of) {
+        size_t count = texture->alpha_of == texture->color_of ? 1 : 2;
+        tables = count * code_count(texture->raster.sample) * sizeof(float);
+    }
+    return tables + (texture->file ? 0 : raster_bytes(&texture->raster));
+}
+
+/* --- of all samples -------------------------------------------------------------------------- */
+
+static float sample_value(const struct raster *raster, size_t i)
+{
+    return raster->sample == RASTER_HALF ? half_to_float(((const uint16_t *)raster->samples)[i])
+                                         : ((const float *)raster->samples)[i];
+}
+
+void texture_find_extremes(struct texture *texture)
+{
+    const struct raster *raster = &texture->raster;
+    size_t pixels = (size_t)raster->width * raster->height;
+    uint32_t colors = raster->channels - has_alpha(raster);
+    if (texture->has_extremes || raster->sample == RASTER_BYTE || raster->sample == RASTER_SHORT)
+        return;
+    texture->has_extremes = true;
+    texture->lowest = texture->highest = sample_value(raster, 0);
+    for (size_t i = 0; i < pixels; i++)
+        for (uint32_t channel = 0; channel < colors; channel++) {
+            float value = sample_value(raster, i * raster->channels + channel);
+            texture->lowest = fminf(texture->lowest, value);
+            texture->highest = fmaxf(texture->highest, value);
+        }
+}
+
+bool texture_leaves_range(struct texture *texture, float factor)
+{
+    texture_find_extremes(texture);
+    if (!texture->has_extremes)
+        return factor > 1.0f;
+    float highest = texture->srgb ? (float)tonemap_linear(texture->highest) : texture->highest;
+    return texture->lowest < 0.0f || highest * factor > 1.0f;
+}
+
+uint64_t texture_digest(const struct texture *texture)
+{
+    if (texture->digest)
+        return texture->digest;
+    assert(!texture->file);
+    return XXH3_64bits(texture->raster.samples, raster_bytes(&texture->raster));
+}

@@ -1,0 +1,199 @@
+/* test_texture_cache.c: pictures that lie in a folder are those that were decoded, texel by texel. */
+#include "scene/texture_cache.h"
+
+#include "image/image.h"
+#include "texture_fixture.h"
+
+#define WIDTH 131 /* of three tiles, the last ones mostly beyond the picture */
+#define HEIGHT 70
+
+static const size_t sample_bytes[] = {
+    [RASTER_BYTE] = 1, [RASTER_SHORT] = 2, [RASTER_HALF] = 2, [RASTER_FLOAT] = 4};
+
+/* Of any numbers; those of floats are finite. */
+static struct texture create(enum raster_sample sample, uint32_t channels)
+{
+    size_t count = (size_t)WIDTH * HEIGHT * channels;
+    unsigned char *bytes = malloc(count * sample_bytes[sample]);
+    struct texture texture = texture_of((float *)(void *)bytes, WIDTH, HEIGHT, channels);
+    assert_non_null(bytes);
+    for (size_t i = 0; i < count * sample_bytes[sample]; i++)
+        bytes[i] = (unsigned char)((i * 2654435761u >> 9) & (sample >= RASTER_HALF ? 0x3b : 0xff));
+    texture.raster.sample = sample;
+    texture.raster.mended = 3;
+    texture.raster.file_size = 1234;
+    texture.texel_bytes = raster_texel_bytes(&texture.raster);
+    return texture;
+}
+
+/* Without decoding. */
+static void expect_same_texels(struct texture a, struct texture b)
+{
+    static float codes[UINT16_MAX + 1];
+    for (size_t i = 0; i <= UINT16_MAX; i++)
+        codes[i] = (float)i;
+    a.color_of = b.color_of = a.alpha_of = b.alpha_of = codes;
+    assert_int_equal(a.raster.width, b.raster.width);
+    assert_int_equal(a.raster.height, b.raster.height);
+    a.width = b.width = a.raster.width;
+    a.height = b.height = a.raster.height;
+    for (uint32_t row = 0; row < a.height; row++)
+        for (uint32_t column = 0; column < a.width; column++) {
+            float of_a[4], of_b[4];
+            texture_texel(&a, column, row, of_a);
+            texture_texel(&b, column, row, of_b);
+            if (memcmp(of_a, of_b, sizeof of_a) != 0)
+                fail_msg("texel (%u, %u) is another", column, row);
+        }
+}
+
+static void expect_stored(void **state, enum raster_sample sample, uint32_t channels)
+{
+    struct texture texture = create(sample, channels), kept = {0};
+    struct mapped_budget *budget = mapped_budget_create(2.0 * (double)MAPPED_BLOCK);
+    struct error error;
+    const char *path = scratch_path(state, "entry");
+    assert_int_equal(texture_cache_store(path, &texture, &error), PS_OK);
+    assert_int_equal(texture_cache_load(path, budget, &kept, &error), PS_OK);
+    expect_same_texels(texture, kept);
+    assert_int_equal(kept.raster.mended, 3);
+    assert_int_equal(kept.raster.file_size, 1234);
+    assert_true(texture_digest(&kept) == texture_digest(&texture));
+    assert_true(texture_leaves_range(&kept, 0.9f) == texture_leaves_range(&texture, 0.9f));
+    assert_true(texture_bytes(&kept) == 0);
+    texture_release(&kept);
+    mapped_budget_destroy(budget);
+    free(texture.raster.samples);
+}
+
+static void test_all_kinds_of_samples(void **state)
+{
+    for (int sample = RASTER_BYTE; sample <= RASTER_FLOAT; sample++)
+        for (uint32_t channels = 1; channels <= 4; channels++)
+            expect_stored(state, (enum raster_sample)sample, channels);
+}
+
+static void test_names(void **state)
+{
+    static const unsigned char bytes[] = "bytes";
+    char *path = texture_cache_path("folder", bytes, 5, NULL);
+    char *same = texture_cache_path("folder", bytes, 5, NULL);
+    char *layer = texture_cache_path("folder", bytes, 5, "layer");
+    char *shorter = texture_cache_path("folder", bytes, 4, NULL);
+    (void)state;
+    assert_string_equal(path, same);
+    assert_string_not_equal(path, layer);
+    assert_string_not_equal(path, shorter);
+    assert_true(strncmp(path, "folder/", 7) == 0);
+    free(path);
+    free(same);
+    free(layer);
+    free(shorter);
+}
+
+static void expect_no_entry(const char *path, const unsigned char *bytes, size_t size)
+{
+    struct mapped_budget *budget = mapped_budget_create(1e6);
+    struct texture none = {0};
+    struct error error;
+    scratch_store(path, bytes, size);
+    assert_int_equal(texture_cache_load(path, budget, &none, &error), PS_ERROR_IO);
+    assert_null(none.file);
+    mapped_budget_destroy(budget);
+}
+
+static void test_damaged_entries(void **state)
+{
+    struct texture texture = create(RASTER_BYTE, 3);
+    struct error error;
+    size_t size;
+    const char *path = scratch_path(state, "entry");
+    assert_int_equal(texture_cache_store(path, &texture, &error), PS_OK);
+    unsigned char *bytes = scratch_load(path, &size);
+    expect_no_entry(path, bytes, size - 1);
+    expect_no_entry(path, bytes, 4096);
+    expect_no_entry(path, bytes, 100);
+    expect_no_entry(path, bytes, 0);
+    bytes[0] ^= 1;
+    expect_no_entry(path, bytes, size);
+    memset(bytes, 0xff, 100);
+    memcpy(bytes, "psplatT", 8);
+    expect_no_entry(path, bytes, size);
+    free(bytes);
+    free(texture.raster.samples);
+}
+
+/* --- from a picture's file ------------------------------------------------------------------- */
+
+#define SIDE 640 /* above a MiB of samples */
+
+static const char *write_picture(void **state)
+{
+    const char *path = scratch_path(state, "picture.png");
+    uint8_t *rgb = malloc((size_t)SIDE * SIDE * 3);
+    struct error error;
+    assert_non_null(rgb);
+    for (size_t i = 0; i < (size_t)SIDE * SIDE * 3; i++)
+        rgb[i] = (uint8_t)(i * 2654435761u >> 11);
+    assert_int_equal(image_write_png(path, SIDE, SIDE, rgb, NULL, 0, &error), PS_OK);
+    free(rgb);
+    return path;
+}
+
+static struct texture load(const char *path, const struct texture_storage *storage)
+{
+    struct texture_description description = {.path = (char *)path};
+    struct texture texture;
+    struct error error;
+    if (texture_load(&description, storage, &texture, &error) != PS_OK)
+        fail_msg("%s", error.text);
+    return texture;
+}
+
+static void test_picture(void **state)
+{
+    struct scratch *scratch = *state;
+    const char *path = write_picture(state);
+    struct texture_storage storage = {NULL, scratch->directory, mapped_budget_create(1e5)};
+    struct texture plain = load(path, NULL);
+    for (int i = 0; i < 2; i++) { /* made, then there */
+        struct texture kept = load(path, &storage);
+        assert_non_null(kept.file);
+        assert_null(kept.note);
+        assert_null(kept.raster.samples);
+        assert_int_equal(scratch_file_count(state), 2);
+        assert_true(kept.srgb);
+        expect_same_texels(plain, kept);
+        for (float u = -1.0f; u < 2.0f; u += 0.0371f) {
+            float a[4], b[4];
+            texture_sample(&plain, u, 0.3f * u, a);
+            texture_sample(&kept, u, 0.3f * u, b);
+            assert_memory_equal(a, b, sizeof a);
+        }
+        texture_release(&kept);
+    }
+    texture_release(&plain);
+    mapped_budget_destroy(storage.budget);
+}
+
+static void test_folder_that_is_none(void **state)
+{
+    const char *path = write_picture(state);
+    struct texture_storage storage = {NULL, "/nowhere", mapped_budget_create(1e5)};
+    struct texture texture = load(path, &storage);
+    assert_null(texture.file);
+    assert_non_null(texture.raster.samples);
+    assert_non_null(strstr(texture.note, "/nowhere/"));
+    texture_release(&texture);
+    mapped_budget_destroy(storage.budget);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        SCRATCH_TEST(test_all_kinds_of_samples), cmocka_unit_test(test_names),
+        SCRATCH_TEST(test_damaged_entries),      SCRATCH_TEST(test_picture),
+        SCRATCH_TEST(test_folder_that_is_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
