@@ -312,6 +312,14 @@ struct ps_host {
     /* Since 1.10: what `progress` and the walks over tiles tell from now on, as 0..1 each, is the part from `from` to `to` of
      * the pass's estimate. All of it, 0 to 1, as each pass begins. [main thread, estimator] */
     void (*progress_part)(const ps_host *host, double from, double to);
+
+    /* --- cones --- */
+
+    /* Since 1.12: as intersect, where each ray stands for a cone around it: what it meets has the mean colours of the
+     * pictures over the width of the cone, `spreads` times the distance. 0 is the ray alone; ps_cone_spread says
+     * how much a direction drawn by a density stands for. [any thread] */
+    void (*intersect_cones)(const ps_host *host, const ps_ray *rays, const float *spreads, size_t n,
+                            ps_hit *hits);
 };
 
 #define PS_SPHERE_TRIANGLES 512u

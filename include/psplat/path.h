@@ -23,6 +23,21 @@ static inline int ps_russian_roulette(float probability, float number, ps_rgb *c
     return 1;
 }
 
+/* Directions of which the one that was drawn is one: the cone around it has a part of their solid angle. So many that what
+ * is seen in it has about one colour of light, and so few that pictures need not be looked up texel by texel. */
+#define PS_CONES 800.0f
+#define PS_WIDEST_CONE 0.125f
+
+/* For intersect_cones: how much wider the cone of a direction gets with distance, that was drawn by this density (1/sr). 0,
+ * a ray, for a mirror's, 0. */
+static inline float ps_cone_spread(float pdf)
+{
+    return pdf > 0.0f ? ps_min(sqrtf(1.0f / (PS_CONES * pdf)), PS_WIDEST_CONE) : 0.0f;
+}
+
+/* Of directions by the cosine, in the mean. */
+#define PS_DIFFUSE_SPREAD 0.0627f
+
 /* Traces n rays, and moves those that meet something to the front, with their hits; returns how many.
  * kept[i] >= i becomes the place that number i came from. Any thread. */
 static inline size_t ps_trace_kept(const ps_host *host, ps_ray *rays, size_t n, ps_hit *hits,

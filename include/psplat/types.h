@@ -34,6 +34,7 @@ typedef struct ps_ray {
 #define PS_HIT_BACK 1u     /* the ray met the back of the surface, or came from inside */
 #define PS_HIT_SPECULAR 2u /* the surface has lobes that are not diffuse: host->sample_bsdf knows */
 #define PS_HIT_EMISSIVE 4u /* it shines by itself */
+#define PS_HIT_OWN 0xff000000u /* bits that are psplat's own */
 
 /* Where a ray met a surface. `distance` is INFINITY, and `object` PS_NO_OBJECT, where it met none;
  * the other members are then unset. Both normals have length 1 and lie on the side that the ray came

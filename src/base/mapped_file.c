@@ -75,7 +75,7 @@ static ps_result map(int descriptor, struct mapped_file *file, struct error *err
     void *bytes = mmap(NULL, file->size, PROT_READ, MAP_SHARED, descriptor, 0);
     if (bytes == MAP_FAILED)
         return error_set(error, PS_ERROR_IO, "it cannot be mapped: %s", strerror(errno));
-    file->bytes = bytes;
+    file->bytes = file->mapping = bytes;
     file->first = (uintptr_t)bytes >> MAPPED_BLOCK_SHIFT;
     return PS_OK;
 }
@@ -95,8 +95,8 @@ static ps_result open_and_map(const char *path, struct mapped_file *file, struct
 
 static void release(struct mapped_file *file)
 {
-    if (file->bytes)
-        munmap((void *)(uintptr_t)file->bytes, file->size);
+    if (file->mapping)
+        munmap(file->mapping, file->size);
     free(file->marks);
     free(file);
 }
@@ -144,14 +144,15 @@ void mapped_file_close(struct mapped_file *file)
 
 static void give_back(const struct mapped_file *file, size_t block)
 {
-    uintptr_t start = (file->first + block) << MAPPED_BLOCK_SHIFT, end = start + MAPPED_BLOCK;
-    uintptr_t first = (uintptr_t)file->bytes, last = first + file->size;
-    start = start > first ? start : first;
-    end = end < last ? end : last;
+    size_t before = (uintptr_t)file->bytes & (MAPPED_BLOCK - 1); /* of the first block */
+    size_t start = block > 0 ? block * MAPPED_BLOCK - before : 0;
+    size_t end = (block + 1) * MAPPED_BLOCK - before;
+    void *at = (unsigned char *)file->mapping + start;
+    end = end < file->size ? end : file->size;
 #ifdef MADV_DONTNEED
-    (void)madvise((void *)start, end - start, MADV_DONTNEED);
+    (void)madvise(at, end - start, MADV_DONTNEED);
 #else
-    (void)posix_madvise((void *)start, end - start, POSIX_MADV_DONTNEED);
+    (void)posix_madvise(at, end - start, POSIX_MADV_DONTNEED);
 #endif
 }
 

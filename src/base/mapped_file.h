@@ -35,6 +35,7 @@ enum mapped_mark { MAPPED_ABSENT, MAPPED_STALE, MAPPED_RECENT };
 
 struct mapped_file {
     const unsigned char *bytes;
+    void *mapping; /* the same, for the system */
     size_t size;
     uintptr_t first;        /* number of the block that `bytes` lies in, counted from address 0 */
     _Atomic uint8_t *marks; /* of each block: enum mapped_mark */

@@ -2,6 +2,7 @@
 
 #include "placement/gather_share.h"
 #include <math.h>
+#include <psplat/path.h>
 
 #define TILES_AT_A_TIME 256 /* until the user may stop */
 
@@ -12,7 +13,7 @@ static size_t look(const struct gather_rays *pass_rays, const ps_points *points,
 {
     const ps_host *host = pass_rays->host;
     float offset = pass_rays->pass->surface_offset;
-    float numbers[PS_TILE_PIXELS][4];
+    float numbers[PS_TILE_PIXELS][4], spreads[PS_TILE_PIXELS];
     size_t met = 0;
     host->samples(host, PS_STREAM_PATH, set, indices, points->count, numbers);
     for (uint32_t i = 0; i < points->count; i++) {
@@ -21,9 +22,10 @@ static size_t look(const struct gather_rays *pass_rays, const ps_points *points,
             ps_leave_surface(points->positions[i], normal,
                              ps_cosine_direction(normal, numbers[i][0], numbers[i][1]), offset);
         rays[i].tfar = pass_rays->near->distance;
+        spreads[i] = PS_DIFFUSE_SPREAD;
         targets[i] = i;
     }
-    host->intersect(host, rays, points->count, hits);
+    host->intersect_cones(host, rays, spreads, points->count, hits);
     ps_forget_own_surface(points, targets, points->count, offset, hits);
     for (uint32_t i = 0; i < points->count; i++) {
         if (!(hits[i].distance < INFINITY))

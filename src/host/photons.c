@@ -92,7 +92,7 @@ static void place_chunk(void *user, uint64_t index, uint32_t worker)
     for (size_t i = 0; i < n; i++)
         rays[i] = ps_leave_surface(photons[i].position, photons[i].normal, photons[i].direction,
                                    render->scene->surface_offset);
-    trace_intersect(render->trace, RAYS_INCOHERENT, rays, n, hits);
+    trace_intersect(render->trace, RAYS_INCOHERENT, rays, NULL, n, hits);
     uint32_t unseen = placement_place(&batch->placement, photons, hits, n, batch->splats + first);
     if (batch->unseen)
         atomic_fetch_add(&batch->unseen->in_batch, unseen);

@@ -33,20 +33,27 @@ static void count_bad_ray(const ps_host *host)
     atomic_fetch_add(&render_of(host)->refused.rays[kind_of(host)], 1);
 }
 
-static void host_intersect(const ps_host *host, const ps_ray *rays, size_t n, ps_hit *hits)
+static void host_intersect_cones(const ps_host *host, const ps_ray *rays, const float *spreads,
+                                 size_t n, ps_hit *hits)
 {
     const struct trace *trace = render_of(host)->trace;
     if (are_rays(rays, n)) {
-        trace_intersect(trace, RAYS_INCOHERENT, rays, n, hits);
+        trace_intersect(trace, RAYS_INCOHERENT, rays, spreads, n, hits);
         return;
     }
     for (size_t i = 0; i < n; i++) {
+        const float *spread = spreads ? &spreads[i] : NULL;
         hits[i] = (ps_hit){.distance = INFINITY, .object = PS_NO_OBJECT};
         if (is_ray(&rays[i]))
-            trace_intersect(trace, RAYS_INCOHERENT, &rays[i], 1, &hits[i]);
+            trace_intersect(trace, RAYS_INCOHERENT, &rays[i], spread, 1, &hits[i]);
         else
             count_bad_ray(host);
     }
+}
+
+static void host_intersect(const ps_host *host, const ps_ray *rays, size_t n, ps_hit *hits)
+{
+    host_intersect_cones(host, rays, NULL, n, hits);
 }
 
 static void host_occluded(const ps_host *host, const ps_ray *rays, size_t n, uint8_t *blocked)
@@ -231,6 +238,7 @@ static void host_project(const ps_host *host, const ps_vec3 *points, size_t n, f
 void host_add_scene(ps_host *host)
 {
     host->intersect = host_intersect;
+    host->intersect_cones = host_intersect_cones;
     host->occluded = host_occluded;
     host->intersect_packets = host_intersect_packets;
     host->sample_bsdf = host_sample_bsdf;

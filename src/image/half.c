@@ -1,6 +1,7 @@
 /* half.c: half floats have 1 sign bit, 5 of exponent (bias 15) and 10 of mantissa. */
 #include "image/half.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -42,4 +43,22 @@ bool half_from_exact(float value, uint16_t *half)
         return false;
     *half = (uint16_t)(sign | (uint32_t)steps);
     return (float)(uint32_t)steps == steps;
+}
+
+uint16_t half_from_float(float value)
+{
+    int exponent;
+    uint16_t half = 0;
+    float size = fabsf(value);
+    if (!(size <= HALF_LARGEST))
+        size = size > HALF_LARGEST ? HALF_LARGEST : 0.0f;
+    (void)frexpf(size, &exponent);            /* in 2^(exponent - 1) .. 2^exponent */
+    int least = exponent - 1 - MANTISSA_BITS; /* what the last bit stands for */
+    if (least < LEAST_EXPONENT - MANTISSA_BITS)
+        least = LEAST_EXPONENT - MANTISSA_BITS;
+    size = ldexpf(rintf(ldexpf(size, -least)), least);
+    bool is_exact = half_from_exact(copysignf(size, value), &half);
+    assert(is_exact);
+    (void)is_exact;
+    return half;
 }

@@ -29,15 +29,15 @@ static ps_vec3 project(ps_vec3 v, ps_vec3 n)
     return ps_add_scaled(v, -ps_dot(v, n), n);
 }
 
-ps_vec3 bump_bump(const struct pigment *height, ps_vec3 point, const float uv[2], ps_vec3 normal,
-                  ps_vec3 dpdu, ps_vec3 dpdv)
+ps_vec3 bump_bump(const struct pigment *height, ps_vec3 point, const float uv[2], float log_width,
+                  ps_vec3 normal, ps_vec3 dpdu, ps_vec3 dpdv)
 {
     if (pigment_is_constant(height))
         return normal;
     ps_vec3 gradient;
     if (height->kind == PIGMENT_IMAGE) {
         float slopes[2];
-        pigment_uv_gradient(height, uv, slopes);
+        pigment_uv_gradient(height, uv, log_width, slopes);
         gradient = surface_gradient(slopes, normal, dpdu, dpdv);
     } else {
         gradient = project(pigment_gradient(height, point), normal);
@@ -46,18 +46,18 @@ ps_vec3 bump_bump(const struct pigment *height, ps_vec3 point, const float uv[2]
 }
 
 /* The map's vector at (u, v): x along u, y along v, z along the normal. */
-static ps_vec3 map_vector(const struct texture *map, const float uv[2])
+static ps_vec3 map_vector(const struct texture *map, const float uv[2], float log_width)
 {
     float rgba[4];
-    texture_sample(map, uv[0], uv[1], rgba);
+    texture_filter(map, uv[0], uv[1], log_width, rgba);
     float middle = map->raster.sample == RASTER_BYTE ? 128.0f / 255.0f : 0.5f;
     float scale = 1.0f / (1.0f - middle);
     return (ps_vec3){(rgba[0] - middle) * scale, (rgba[1] - middle) * scale,
                      fmaxf((rgba[2] - middle) * scale, LEAST_HEIGHT)};
 }
 
-ps_vec3 bump_normal_map(const struct texture *map, const float uv[2], ps_vec3 normal, ps_vec3 dpdu,
-                        ps_vec3 dpdv)
+ps_vec3 bump_normal_map(const struct texture *map, const float uv[2], float log_width,
+                        ps_vec3 normal, ps_vec3 dpdu, ps_vec3 dpdv)
 {
     const ps_vec3 none = {0, 0, 0};
     ps_vec3 along_u = unit_or(project(dpdu, normal), none);
@@ -65,7 +65,7 @@ ps_vec3 bump_normal_map(const struct texture *map, const float uv[2], ps_vec3 no
     float side = ps_dot(along_v, dpdv);
     if (!(fabsf(side) > 0.0f))
         return normal;
-    ps_vec3 vector = map_vector(map, uv);
+    ps_vec3 vector = map_vector(map, uv, log_width);
     ps_vec3 bent = ps_scale(normal, vector.z);
     bent = ps_add_scaled(bent, vector.x, along_u);
     bent = ps_add_scaled(bent, side < 0.0f ? -vector.y : vector.y, along_v);

@@ -17,17 +17,17 @@
 
 #include "scene/pigment.h"
 
-/* `normal` has length 1; `dpdu`, `dpdv` are derivatives of the position by u and v, or 0 where the
+/* log_width: as of pigment_filter, and of texture_filter. `normal` has length 1; `dpdu`, `dpdv` are derivatives of the position by u and v, or 0 where the
  * surface has no (u, v): then images have no effect. */
-ps_vec3 bump_bump(const struct pigment *height, ps_vec3 point, const float uv[2], ps_vec3 normal,
-                  ps_vec3 dpdu, ps_vec3 dpdv);
+ps_vec3 bump_bump(const struct pigment *height, ps_vec3 point, const float uv[2], float log_width,
+                  ps_vec3 normal, ps_vec3 dpdu, ps_vec3 dpdv);
 
 /* A map of normals in the surface's own frame: red along u, green along v (upwards, as OpenGL and
  * glTF have it), blue along the normal. It holds (n + 1) / 2; in 8-bit maps the middle is 128, the
  * value that makers of maps store for "flat", with 255 for 1. It must be loaded with
  * ENCODING_LINEAR. The frame is made orthonormal, u first: tilts do not depend on the picture's
  * stretch. (u, v) are the picture's own: whoever scales them does so first. */
-ps_vec3 bump_normal_map(const struct texture *map, const float uv[2], ps_vec3 normal, ps_vec3 dpdu,
-                        ps_vec3 dpdv);
+ps_vec3 bump_normal_map(const struct texture *map, const float uv[2], float log_width,
+                        ps_vec3 normal, ps_vec3 dpdu, ps_vec3 dpdv);
 
 #endif

@@ -93,6 +93,13 @@ bool camera_project(const struct camera *camera, ps_vec3 point, float *x, float 
     return true;
 }
 
+float camera_pixel_spread(const struct camera *camera, ps_vec3 direction)
+{
+    if (camera->orthographic)
+        return 0.0f;
+    return ps_length(camera->across) * ps_dot(direction, camera->forward);
+}
+
 float camera_pixel_size(const struct camera *camera, ps_vec3 point)
 {
     float side = ps_length(camera->across);

@@ -32,6 +32,9 @@ struct camera camera_of_part(const struct camera *camera, float left, float top,
  * outside of the picture. False behind the camera. */
 bool camera_project(const struct camera *camera, ps_vec3 point, float *x, float *y);
 
+/* By how much the cone through a pixel gets wider with the distance along a ray; 0 without perspective. */
+float camera_pixel_spread(const struct camera *camera, ps_vec3 direction);
+
 /* How long one pixel's side is at a point before the camera; 0 behind it. */
 float camera_pixel_size(const struct camera *camera, ps_vec3 point);
 

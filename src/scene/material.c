@@ -1,5 +1,6 @@
 #include "scene/material.h"
 
+#include "scene/ray_cone.h"
 #include "scene/fresnel.h"
 #include "scene/heuristic.h"
 #include <assert.h>
@@ -126,6 +127,20 @@ static enum material_lookup lookup_of(const struct scene_description *descriptio
     return lookup;
 }
 
+/* Whether some pigment of the material, or of those that it is mixed of, is an image. */
+static bool has_image(const struct scene_description *description, size_t index)
+{
+    struct material_description *from = &description->materials[index];
+    struct pigment_description *pigments[MATERIAL_PIGMENTS];
+    bool found = false;
+    material_pigments(from, pigments);
+    for (size_t i = 0; i < MATERIAL_PIGMENTS; i++)
+        found = found || pigments[i]->kind == PIGMENT_IMAGE;
+    for (size_t i = 0; i < from->component_count && !found; i++)
+        found = has_image(description, from->components[i]);
+    return found;
+}
+
 ps_result material_create(const struct scene_description *description, size_t index,
                           const struct texture *textures, struct material *material,
                           struct error *error)
@@ -139,6 +154,7 @@ ps_result material_create(const struct scene_description *description, size_t in
         .has_bump = from->bump.kind != PIGMENT_COLOR,
         .has_normal_map = from->normal_map.kind == PIGMENT_IMAGE,
         .lookup = lookup_of(description, index),
+        .filters = has_image(description, index) && !has_opacity(from),
         .emission = pigment_create(&from->emission, textures),
         .opacity = pigment_create(&from->opacity, textures),
         .bump = pigment_create(&from->bump, textures),
@@ -223,12 +239,17 @@ static struct view view_of(const struct material *material, const struct microfa
 
 static ps_rgb color_at(const struct pigment *pigment, const ps_hit *hit)
 {
-    return pigment_color(pigment, hit->texture_point, hit->uv);
+    return pigment_filter(pigment, hit->texture_point, hit->uv, ray_cone_log_width(hit));
+}
+
+static float number_at(const struct pigment *pigment, const ps_hit *hit)
+{
+    return pigment_mean(color_at(pigment, hit));
 }
 
 static float roughness_at(const struct component *component, const ps_hit *hit)
 {
-    return pigment_number(&component->roughness, hit->texture_point, hit->uv);
+    return number_at(&component->roughness, hit);
 }
 
 /* The component's part of the material. */
@@ -236,8 +257,7 @@ static float share_at(const struct component *component, const struct view *view
 {
     if (component->sharing == SHARE_CONSTANT)
         return component->share;
-    const ps_hit *hit = view->hit;
-    float first = pigment_number(&view->material->mixing, hit->texture_point, hit->uv);
+    float first = number_at(&view->material->mixing, view->hit);
     return component->share * (component->sharing == SHARE_FIRST ? first : 1.0f - first);
 }
 
@@ -320,7 +340,7 @@ ps_rgb material_emission(const struct material *material, const ps_hit *hit)
 {
     if (!material->emissive || ((hit->flags & PS_HIT_BACK) && !material->emission_both))
         return (ps_rgb){0, 0, 0};
-    return color_at(&material->emission, hit);
+    return pigment_color(&material->emission, hit->texture_point, hit->uv);
 }
 
 /* A way in which light may go on: the other lobe of a component, or the diffuse one of all, which is

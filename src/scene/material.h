@@ -72,6 +72,7 @@ struct material {
     bool has_bump;
     bool has_normal_map;
     enum material_lookup lookup;
+    bool filters; /* by ray cones (ray_cone.h): it has images, and no holes, whose colour must not mix in */
     struct pigment emission; /* radiance */
     struct pigment opacity;
     struct pigment bump;       /* height, scene units */

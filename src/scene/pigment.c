@@ -49,6 +49,8 @@ struct pigment pigment_create(const struct pigment_description *description,
         .octaves = usable_octaves(description->octaves),
         .turbulence = (float)description->turbulence,
     };
+    const float *scale = pigment.scale, *cross = pigment.cross;
+    pigment.log_scale = 0.5f * log2f(fabsf(scale[0] * scale[1] - cross[0] * cross[1]));
     if (pigment.kind == PIGMENT_IMAGE)
         pigment.texture = &textures[description->texture];
     return pigment;
@@ -71,11 +73,11 @@ static void transform_uv(const struct pigment *pigment, const float uv[2], float
         place[i] = pigment->scale[i] * uv[i] + pigment->cross[i] * uv[1 - i] + pigment->offset[i];
 }
 
-static ps_rgb image_color(const struct pigment *pigment, const float uv[2])
+static ps_rgb image_color(const struct pigment *pigment, const float uv[2], float log_width)
 {
     float place[2], rgba[4];
     transform_uv(pigment, uv, place);
-    texture_sample(pigment->texture, place[0], place[1], rgba);
+    texture_filter(pigment->texture, place[0], place[1], log_width + pigment->log_scale, rgba);
     ps_rgb color = ps_rgb_multiply(pigment->colors[0], select_channel(rgba, pigment->channel));
     if (pigment->complement)
         return (ps_rgb){1.0f - color.r, 1.0f - color.g, 1.0f - color.b};
@@ -160,20 +162,23 @@ static ps_rgb within_unit(ps_rgb color)
 }
 
 /* What a mesh file's materials are made of. */
-static ps_rgb vary_by_mesh(const struct pigment *pigment, ps_vec3 point, const float uv[2])
+static ps_rgb vary_by_mesh(const struct pigment *pigment, ps_vec3 point, const float uv[2],
+                           float log_width)
 {
     float at[2];
     choose_uv(pigment, point, uv, at);
-    ps_rgb color = pigment->kind == PIGMENT_IMAGE ? image_color(pigment, at) : pigment->colors[0];
+    ps_rgb color = pigment->kind == PIGMENT_IMAGE ? image_color(pigment, at, log_width)
+                                                  : pigment->colors[0];
     if (pigment->vertex_colors)
         color = ps_rgb_multiply(color, (ps_rgb){point.x, point.y, point.z});
     return pigment->bounded ? within_unit(color) : color;
 }
 
-ps_rgb pigment_vary(const struct pigment *pigment, ps_vec3 point, const float uv[2])
+ps_rgb pigment_vary(const struct pigment *pigment, ps_vec3 point, const float uv[2],
+                    float log_width)
 {
     if (pigment->kind == PIGMENT_IMAGE || pigment->kind == PIGMENT_COLOR)
-        return vary_by_mesh(pigment, point, uv);
+        return vary_by_mesh(pigment, point, uv, log_width);
     float share = pattern_share(pigment, affine_point(&pigment->to_pattern, point));
     return ps_rgb_add(ps_rgb_scale(pigment->colors[0], 1.0f - share),
                       ps_rgb_scale(pigment->colors[1], share));
@@ -218,27 +223,30 @@ ps_vec3 pigment_gradient(const struct pigment *pigment, ps_vec3 point)
 }
 
 /* Along u (axis 0) or v; by what the coordinates differ after rounding. */
-static float image_slope(const struct pigment *pigment, const float uv[2], int axis)
+static float image_slope(const struct pigment *pigment, const float uv[2], float log_width,
+                         int axis)
 {
     const float sizes[2] = {(float)pigment->texture->width, (float)pigment->texture->height};
     float texels = fmaxf(sizes[axis] * fabsf(pigment->scale[axis]),
                          sizes[1 - axis] * fabsf(pigment->cross[1 - axis]));
     if (texels == 0.0f)
         return 0.0f;
-    float step = 0.5f / texels;
+    float step = 0.5f * fmaxf(1.0f / texels, exp2f(log_width));
     float before[2] = {uv[0], uv[1]}, after[2] = {uv[0], uv[1]};
     before[axis] -= step;
     after[axis] += step;
     float way = after[axis] - before[axis];
     if (!(way > 0.0f) || isinf(way))
         return 0.0f;
-    return (pigment_mean(image_color(pigment, after)) -
-            pigment_mean(image_color(pigment, before))) /
+    return (pigment_mean(image_color(pigment, after, log_width)) -
+            pigment_mean(image_color(pigment, before, log_width))) /
            way;
 }
 
-void pigment_uv_gradient(const struct pigment *pigment, const float uv[2], float gradient[2])
+void pigment_uv_gradient(const struct pigment *pigment, const float uv[2], float log_width,
+                         float gradient[2])
 {
     for (int axis = 0; axis < 2; axis++)
-        gradient[axis] = pigment->kind == PIGMENT_IMAGE ? image_slope(pigment, uv, axis) : 0.0f;
+        gradient[axis] =
+            pigment->kind == PIGMENT_IMAGE ? image_slope(pigment, uv, log_width, axis) : 0.0f;
 }

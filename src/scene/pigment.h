@@ -22,6 +22,7 @@
 
 #include "scene/description.h"
 #include "scene/texture.h"
+#include <math.h>
 
 /* Instead of the point where patterns are looked up, a surface may give what its mesh holds for each vertex
  * (material.h): the colour, or the second texture coordinates in x and y. */
@@ -36,6 +37,7 @@ struct pigment {
     const struct texture *texture;       /* borrowed; image */
     int32_t channel;                     /* enum texture_channel; image */
     float scale[2], cross[2], offset[2]; /* u goes to scale * u + cross * v + offset; image */
+    float log_scale;                     /* binary logarithm of their mean factor on lengths; image */
     bool second_uv;                      /* image: by the point's x and y rather than by u and v */
     bool complement;                     /* image */
     bool vertex_colors;                  /* times the point as a colour */
@@ -57,14 +59,24 @@ static inline bool pigment_is_constant(const struct pigment *pigment)
     return pigment->kind == PIGMENT_COLOR && !pigment->vertex_colors;
 }
 
-/* pigment_color for kinds that vary. */
-ps_rgb pigment_vary(const struct pigment *pigment, ps_vec3 point, const float uv[2]);
+/* pigment_filter for kinds that vary. */
+ps_rgb pigment_vary(const struct pigment *pigment, ps_vec3 point, const float uv[2],
+                    float log_width);
+
+/* pigment_color, images as their mean over what a ray cone covers (ray_cone.h); log_width: the binary logarithm of its width
+ * by the surface's (u, v), -INFINITY for a point. */
+static inline ps_rgb pigment_filter(const struct pigment *pigment, ps_vec3 point, const float uv[2],
+                                    float log_width)
+{
+    return pigment_is_constant(pigment) ? pigment->colors[0]
+                                        : pigment_vary(pigment, point, uv, log_width);
+}
 
 /* The colour at a point with the surface's (u, v), which may be 0, 0 where it has none. A channel
  * of an image gives grey. Any numbers are safe; any thread. */
 static inline ps_rgb pigment_color(const struct pigment *pigment, ps_vec3 point, const float uv[2])
 {
-    return pigment_is_constant(pigment) ? pigment->colors[0] : pigment_vary(pigment, point, uv);
+    return pigment_filter(pigment, point, uv, -INFINITY);
 }
 
 static inline float pigment_mean(ps_rgb color)
@@ -91,7 +103,8 @@ void pigment_tangents(const struct pigment *pigment, ps_vec3 *by_u, ps_vec3 *by_
 
 /* How pigment_number changes with u and v: of images; 0 for the other kinds. By central differences
  * of half a texel to both sides, which makes the slopes continuous where bilinear interpolation
- * makes the values so. */
-void pigment_uv_gradient(const struct pigment *pigment, const float uv[2], float gradient[2]);
+ * makes the values so; of half the cone's width, where that is wider. */
+void pigment_uv_gradient(const struct pigment *pigment, const float uv[2], float log_width,
+                         float gradient[2]);
 
 #endif

@@ -46,7 +46,7 @@ static ps_result prepare_storage(struct assembly *assembly, struct texture_stora
 {
     const struct scene_description *description = assembly->description;
     struct scene *scene = assembly->scene;
-    *storage = (struct texture_storage){description->folder, description->cache, NULL};
+    *storage = (struct texture_storage){description->folder, true, description->cache, NULL};
     if (!description->cache || description->texture_count == 0)
         return PS_OK;
     scene->texture_memory = mapped_budget_create(texture_memory(description));

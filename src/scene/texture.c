@@ -14,14 +14,14 @@
 
 /* --- looking up ------------------------------------------------------------------------------ */
 
-/* Where a texel's samples lie: by rows from the top. */
-static const void *texel_at(const struct texture *texture, uint32_t column, uint32_t line)
+/* Where the samples of a level's texel lie: by rows from the top. */
+static const void *texel_at(const struct texture *texture, const struct texels *level,
+                            uint32_t column, uint32_t line)
 {
-    const struct texels *texels = &texture->texels;
     uint32_t shift = texture->tile_shift, mask = (1u << shift) - 1;
-    size_t tile = (size_t)(line >> shift) * texels->tiles_across + (column >> shift);
+    size_t tile = (size_t)(line >> shift) * level->tiles_across + (column >> shift);
     size_t within = (size_t)(line & mask) << shift | (column & mask);
-    const unsigned char *at = texels->bytes + ((tile << 2 * shift) + within) * texture->texel_bytes;
+    const unsigned char *at = level->bytes + ((tile << 2 * shift) + within) * texture->texel_bytes;
     if (texture->file)
         mapped_file_touch(texture->file, at, texture->texel_bytes);
     return at;
@@ -33,11 +33,9 @@ static float decode_float(float display)
     return (float)fmax(-FLT_MAX, fmin(linear, FLT_MAX));
 }
 
-/* All channels of one texel as values; `alpha` is the number of the one that is alpha. */
-static void read_values(const struct texture *texture, const void *samples, uint32_t alpha,
-                        float values[4])
+void texture_values(const struct texture *texture, const void *samples, float values[4])
 {
-    uint32_t channels = texture->raster.channels;
+    uint32_t channels = texture->raster.channels, alpha = texture_alpha(texture);
     for (uint32_t channel = 0; channel < channels; channel++) {
         const float *value_of = channel == alpha ? texture->alpha_of : texture->color_of;
         switch (texture->raster.sample) {
@@ -64,14 +62,19 @@ static void spread_grey(uint32_t channels, float rgba[4])
     rgba[1] = rgba[2] = rgba[0];
 }
 
-void texture_texel(const struct texture *texture, uint32_t column, uint32_t row, float rgba[4])
+static void read_texel(const struct texture *texture, const struct texels *level, uint32_t column,
+                       uint32_t row, float rgba[4])
 {
     uint32_t channels = texture->raster.channels;
-    const void *samples = texel_at(texture, column, texture->height - 1 - row);
     rgba[0] = rgba[1] = rgba[2] = rgba[3] = 1.0f;
-    read_values(texture, samples, channels < 3 ? 1 : 3, rgba);
+    texture_values(texture, texel_at(texture, level, column, level->height - 1 - row), rgba);
     if (channels < 3)
         spread_grey(channels, rgba);
+}
+
+void texture_texel(const struct texture *texture, uint32_t column, uint32_t row, float rgba[4])
+{
+    read_texel(texture, &texture->levels[0], column, row, rgba);
 }
 
 /* Into 0..1, as the wrapping says. */
@@ -116,14 +119,16 @@ static float mix(float a, float b, float share)
     return (1.0f - share) * a + share * b;
 }
 
-static void interpolate(const struct texture *texture, struct neighbors across, struct neighbors up,
+static void interpolate(const struct texture *texture, const struct texels *level, float u, float v,
                         float rgba[4])
 {
+    struct neighbors across = find_neighbors(u, level->width, texture->wrap_u);
+    struct neighbors up = find_neighbors(v, level->height, texture->wrap_v);
     float corners[4][4];
-    texture_texel(texture, across.first, up.first, corners[0]);
-    texture_texel(texture, across.second, up.first, corners[1]);
-    texture_texel(texture, across.first, up.second, corners[2]);
-    texture_texel(texture, across.second, up.second, corners[3]);
+    read_texel(texture, level, across.first, up.first, corners[0]);
+    read_texel(texture, level, across.second, up.first, corners[1]);
+    read_texel(texture, level, across.first, up.second, corners[2]);
+    read_texel(texture, level, across.second, up.second, corners[3]);
     for (int i = 0; i < 4; i++) {
         float low = mix(corners[0][i], corners[1][i], across.share);
         float high = mix(corners[2][i], corners[3][i], across.share);
@@ -133,11 +138,28 @@ static void interpolate(const struct texture *texture, struct neighbors across, 
 
 void texture_sample(const struct texture *texture, float u, float v, float rgba[4])
 {
-    if (texture->nearest) {
+    if (texture->nearest)
         texture_texel(texture, find_nearest(u, texture->width, texture->wrap_u),
                       find_nearest(v, texture->height, texture->wrap_v), rgba);
+    else
+        interpolate(texture, &texture->levels[0], u, v, rgba);
+}
+
+void texture_filter(const struct texture *texture, float u, float v, float log_width, float rgba[4])
+{
+    float place = log_width + texture->log_side, last = (float)(texture->level_count - 1);
+    if (!(place > 0.0f) || texture->nearest || texture->level_count == 1) {
+        texture_sample(texture, u, v, rgba);
         return;
     }
-    interpolate(texture, find_neighbors(u, texture->width, texture->wrap_u),
-                find_neighbors(v, texture->height, texture->wrap_v), rgba);
+    place = fminf(place, last);
+    uint32_t level = (uint32_t)place;
+    float share = place - (float)level;
+    interpolate(texture, &texture->levels[level], u, v, rgba);
+    if (share > 0.0f) {
+        float coarser[4];
+        interpolate(texture, &texture->levels[level + 1], u, v, coarser);
+        for (int i = 0; i < 4; i++)
+            rgba[i] = mix(rgba[i], coarser[i], share);
+    }
 }

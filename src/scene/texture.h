@@ -4,8 +4,7 @@
  * while files store their top row first. Texel (i, j), counted from the lower left, has its centre
  * at ((i + 1/2) / width, (j + 1/2) / height). Samples stay in the precision of the file and are
  * decoded through a table when they are looked up, before they are interpolated: averages of sRGB
- * codes are not averages of light. No mip maps: passes look at other points of a pixel each, and
- * their mean filters what is smaller than it.
+ * codes are not averages of light.
  */
 #ifndef SCENE_TEXTURE_H
 #define SCENE_TEXTURE_H
@@ -22,6 +21,8 @@ struct texels {
     const unsigned char *bytes;
 };
 
+#define TEXTURE_LEVELS 17 /* of 65536 texels */
+
 /* Owns texels and tables. Constant once loaded: any number of threads may sample it. */
 struct texture {
     uint32_t width, height;
@@ -29,7 +30,11 @@ struct texture {
     bool nearest;           /* rather than bilinear */
     struct raster raster;   /* without samples where a file of the cache has them */
     uint32_t texel_bytes, tile_shift;
-    struct texels texels;
+    struct texels
+        levels[TEXTURE_LEVELS]; /* level_count of them: the picture, half of it, ... (mip_map.h) */
+    uint32_t level_count;
+    float log_side;             /* binary logarithm of the picture's mean side in texels */
+    void *halves;               /* owned: levels after the first, where they lie in memory */
     struct mapped_file *file;   /* that has the texels, or NULL */
     float *color_of, *alpha_of; /* values of codes; NULL for floats; may be the same table */
     bool srgb;                  /* colours carry sRGB's function; the tables undo it */
@@ -43,7 +48,9 @@ struct texture {
 /* Where pictures lie. */
 struct texture_storage {
     const char *folder; /* the only one to read them from (input_file.h), or NULL */
-    const char *cache;  /* a folder for what was made of them (texture_cache.h), or NULL */
+    bool mip_maps;      /* whether texture_filter finds more levels than the first */
+    const char
+        *cache; /* a folder for what was made of them (texture_cache.h), or NULL; with MIP maps */
     struct mapped_budget *budget; /* of what lies there, where there is a cache */
 };
 
@@ -61,6 +68,18 @@ void texture_release(struct texture *texture);
  * the picture has none. NaN counts as 0, and so does what is too large to have a fraction where the
  * picture repeats or is mirrored. */
 void texture_sample(const struct texture *texture, float u, float v, float rgba[4]);
+
+/* The same as a mean over a part of the picture whose width, in texture coordinates, has the binary logarithm
+ * log_width; -INFINITY: a point. Between the two levels whose texels are about as wide (Williams 1983). */
+void texture_filter(const struct texture *texture, float u, float v, float log_width,
+                    float rgba[4]);
+
+/* A texel's channels as values, and the number of the one that is alpha, if there are so many. */
+void texture_values(const struct texture *texture, const void *samples, float values[4]);
+static inline uint32_t texture_alpha(const struct texture *texture)
+{
+    return texture->raster.channels < 3 ? 1 : 3;
+}
 
 /* The colour of one texel: column from the left, row from the bottom; both must exist. */
 void texture_texel(const struct texture *texture, uint32_t column, uint32_t row, float rgba[4]);

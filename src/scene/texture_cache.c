@@ -2,6 +2,7 @@
 
 #include "base/output_file.h"
 #include "base/version.h"
+#include "scene/mip_map.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +19,7 @@ struct header {
     uint64_t size; /* of the file */
     uint64_t digest;
     uint64_t mended, file_size; /* as raster.h has them */
-    uint32_t width, height, channels, sample, srgb, has_extremes;
+    uint32_t width, height, levels, channels, sample, srgb, has_extremes;
     float lowest, highest;
 };
 
@@ -27,11 +28,12 @@ static const char magic[8] = "psplatT";
 /* --- names ----------------------------------------------------------------------------------------- */
 
 /* PSPLAT_DECODER is a digest of the sources that decode pictures, and of these. */
-char *texture_cache_path(const char *folder, const unsigned char *bytes, size_t size,
-                         const char *layer)
+char *texture_cache_path(const char *folder, const struct texture_description *description,
+                         const unsigned char *bytes, size_t size)
 {
     static const char program[] = PSPLAT_VERSION " " PSPLAT_DECODER;
-    uint64_t key = XXH3_64bits(program, sizeof program);
+    const char *layer = description->layer;
+    uint64_t key = XXH3_64bits_withSeed(program, sizeof program, (uint64_t)description->encoding);
     key = XXH3_64bits_withSeed(bytes, size, key);
     if (layer)
         key = XXH3_64bits_withSeed(layer, strlen(layer), key);
@@ -55,24 +57,33 @@ static size_t row_bytes(uint32_t width, uint32_t texel_bytes)
     return tiles_along(width) * TILE_TEXELS * texel_bytes;
 }
 
-static uint64_t file_bytes(const struct texture *texture, uint32_t width, uint32_t height)
+/* Of a level. */
+static uint64_t level_bytes(const struct texels *level, uint32_t texel_bytes)
 {
-    return START + (uint64_t)tiles_along(height) * row_bytes(width, texture->texel_bytes);
+    return (uint64_t)tiles_along(level->height) * row_bytes(level->width, texel_bytes);
+}
+
+static uint64_t file_bytes(const struct texture *texture)
+{
+    uint64_t size = START;
+    for (uint32_t i = 0; i < texture->level_count; i++)
+        size += level_bytes(&texture->levels[i], texture->texel_bytes);
+    return size;
 }
 
 /* The texels of a row of tiles, each of which has its own row by row. */
-static void fill_row(const struct texture *texture, uint32_t row, unsigned char *tiles)
+static void fill_row(const struct texels *level, size_t texel_bytes, uint32_t row,
+                     unsigned char *tiles)
 {
-    const struct texels *texels = &texture->texels;
     uint32_t side = 1u << TILE_SHIFT, top = row << TILE_SHIFT;
-    size_t texel = texture->texel_bytes;
-    uint32_t lines = texels->height - top < side ? texels->height - top : side;
+    uint32_t lines = level->height - top < side ? level->height - top : side;
     for (uint32_t line = 0; line < lines; line++) {
-        const unsigned char *from = texels->bytes + (size_t)(top + line) * texels->width * texel;
-        for (uint32_t left = 0; left < texels->width; left += side) {
-            uint32_t count = texels->width - left < side ? texels->width - left : side;
+        const unsigned char *from =
+            level->bytes + (size_t)(top + line) * level->width * texel_bytes;
+        for (uint32_t left = 0; left < level->width; left += side) {
+            uint32_t count = level->width - left < side ? level->width - left : side;
             size_t at = (left >> TILE_SHIFT) * TILE_TEXELS + ((size_t)line << TILE_SHIFT);
-            memcpy(tiles + at * texel, from + left * texel, count * texel);
+            memcpy(tiles + at * texel_bytes, from + left * texel_bytes, count * texel_bytes);
         }
     }
 }
@@ -91,20 +102,32 @@ static ps_result write_pieces(const struct output_file *file, uint64_t at,
     return result;
 }
 
-static ps_result write_texels(const struct texture *texture, const struct output_file *file,
-                              struct error *error)
+static ps_result write_level(const struct texels *level, uint32_t texel_bytes,
+                             const struct output_file *file, uint64_t at, struct error *error)
 {
-    size_t bytes = row_bytes(texture->texels.width, texture->texel_bytes);
+    size_t bytes = row_bytes(level->width, texel_bytes);
     unsigned char *tiles = calloc(1, bytes);
     if (!tiles)
         return error_memory(error, bytes, "a texture's entry in the cache");
     ps_result result = PS_OK;
-    uint32_t rows = tiles_along(texture->texels.height);
+    uint32_t rows = tiles_along(level->height);
     for (uint32_t row = 0; row < rows && result == PS_OK; row++) {
-        fill_row(texture, row, tiles);
-        result = write_pieces(file, START + row * bytes, tiles, bytes, error);
+        fill_row(level, texel_bytes, row, tiles);
+        result = write_pieces(file, at + row * bytes, tiles, bytes, error);
     }
     free(tiles);
+    return result;
+}
+
+static ps_result write_levels(const struct texture *texture, const struct output_file *file,
+                              struct error *error)
+{
+    ps_result result = PS_OK;
+    uint64_t at = START;
+    for (uint32_t i = 0; i < texture->level_count && result == PS_OK; i++) {
+        result = write_level(&texture->levels[i], texture->texel_bytes, file, at, error);
+        at += level_bytes(&texture->levels[i], texture->texel_bytes);
+    }
     return result;
 }
 
@@ -113,12 +136,13 @@ static struct header header_of(struct texture *texture)
     const struct raster *raster = &texture->raster;
     texture_find_extremes(texture);
     struct header header = {
-        .size = file_bytes(texture, raster->width, raster->height),
+        .size = file_bytes(texture),
         .digest = texture_digest(texture),
         .mended = raster->mended,
         .file_size = raster->file_size,
         .width = raster->width,
         .height = raster->height,
+        .levels = texture->level_count,
         .channels = raster->channels,
         .sample = raster->sample,
         .srgb = raster->srgb,
@@ -139,7 +163,7 @@ ps_result texture_cache_store(const char *path, struct texture *texture, struct 
         return result;
     result = output_file_write(&file, 0, &header, sizeof header, error);
     if (result == PS_OK)
-        result = write_texels(texture, &file, error);
+        result = write_levels(texture, &file, error);
     if (result == PS_OK)
         return output_file_commit(&file, error);
     output_file_discard(&file);
@@ -148,15 +172,31 @@ ps_result texture_cache_store(const char *path, struct texture *texture, struct 
 
 /* --- loading --------------------------------------------------------------------------------------- */
 
-static bool is_whole(const struct texture *texture, const struct header *header, size_t size)
+static bool is_possible(const struct header *header)
 {
-    return memcmp(header->magic, magic, sizeof magic) == 0 && header->size == size &&
-           header->width > 0 && header->height > 0 &&
-           size == file_bytes(texture, header->width, header->height);
+    return memcmp(header->magic, magic, sizeof magic) == 0 && header->width > 0 &&
+           header->width <= RASTER_SIDE_LIMIT && header->height > 0 &&
+           header->height <= RASTER_SIDE_LIMIT && header->levels > 0 &&
+           header->levels <= mip_map_level_count(header->width, header->height) &&
+           header->channels > 0 && header->channels <= 4 && header->sample <= RASTER_FLOAT;
 }
 
-/* All but what file, texels and the rest of the description tell. */
-static void take_header(const struct header *header, struct texture *texture)
+static void refer_to_levels(struct texture *texture, uint32_t count, const unsigned char *bytes)
+{
+    uint32_t width = texture->raster.width, height = texture->raster.height;
+    texture->level_count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        struct texels *level = &texture->levels[i];
+        *level = (struct texels){width, height, tiles_along(width), bytes};
+        bytes += level_bytes(level, texture->texel_bytes);
+        width = mip_map_half(width);
+        height = mip_map_half(height);
+    }
+}
+
+/* All that the entry tells of the texture. */
+static void refer_to_entry(struct texture *texture, const struct header *header,
+                           struct mapped_file *file)
 {
     texture->raster = (struct raster){
         .width = header->width,
@@ -173,28 +213,32 @@ static void take_header(const struct header *header, struct texture *texture)
     texture->lowest = header->lowest;
     texture->highest = header->highest;
     texture->digest = header->digest;
+    texture->file = file;
+    texture->halves = NULL;
+    refer_to_levels(texture, header->levels, file->bytes + START);
 }
 
 ps_result texture_cache_load(const char *path, struct mapped_budget *budget,
                              struct texture *texture, struct error *error)
 {
     struct header header;
-    struct texture loaded = {0};
+    struct texture loaded = *texture;
     struct mapped_file *file = mapped_file_open(path, budget, error);
     if (!file)
         return PS_ERROR_IO;
-    if (file->size >= START) {
+    bool good = file->size >= START;
+    if (good) {
         memcpy(&header, file->bytes, sizeof header);
-        if (header.channels <= 4 && header.sample <= RASTER_FLOAT)
-            take_header(&header, &loaded);
+        good = header.size == file->size && is_possible(&header);
     }
-    if (file->size < START || !is_whole(&loaded, &header, file->size)) {
+    if (good) {
+        refer_to_entry(&loaded, &header, file);
+        good = file_bytes(&loaded) == file->size;
+    }
+    if (!good) {
         mapped_file_close(file);
         return error_set(error, PS_ERROR_IO, "%s: it is no whole entry", path);
     }
-    loaded.file = file;
-    loaded.texels = (struct texels){header.width, header.height, tiles_along(header.width),
-                                    file->bytes + START};
     *texture = loaded;
     return PS_OK;
 }

@@ -1,6 +1,7 @@
 /* texture_load.c: from a picture's file to a texture, in memory or in a file of the cache. */
 #include "image/half.h"
 #include "image/tonemap.h"
+#include "scene/mip_map.h"
 #include "scene/texture_cache.h"
 
 #include <assert.h>
@@ -9,7 +10,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-/* Pictures whose samples take less are read faster than they are looked for. */
+/* Pictures whose samples take less are decoded faster than they are looked for. */
 #define LEAST_IN_CACHE ((size_t)1 << 20)
 
 /* --- tables ---------------------------------------------------------------------------------- */
@@ -60,44 +61,70 @@ static void refer_to_raster(struct texture *texture)
 {
     const struct raster *raster = &texture->raster;
     texture->texel_bytes = raster_texel_bytes(raster);
-    texture->tile_shift = 0;
-    texture->texels =
+    texture->levels[0] =
         (struct texels){raster->width, raster->height, raster->width, raster->samples};
+    texture->level_count = 1;
+}
+
+/* What the picture, and what is said of it, tell of how it is looked up. */
+static ps_result prepare(const struct texture_description *description, struct texture *texture,
+                         struct error *error)
+{
+    const struct raster *raster = &texture->raster;
+    texture->srgb = description->encoding == ENCODING_SRGB ||
+                    (description->encoding == ENCODING_AUTO && raster->srgb);
+    texture->width = raster->width;
+    texture->height = raster->height;
+    texture->log_side = 0.5f * log2f((float)raster->width * (float)raster->height);
+    texture->wrap_u = description->wrap_u;
+    texture->wrap_v = description->wrap_v;
+    texture->nearest = description->nearest;
+    if (create_tables(texture))
+        return PS_OK;
+    return error_set(error, PS_ERROR_MEMORY, "%s: out of memory for a table of colours",
+                     description->path);
+}
+
+/* Floats that carry sRGB's function, which none have but those that are said to, stay as they are. */
+static bool has_mip_map(const struct texture *texture)
+{
+    bool is_float = texture->raster.sample == RASTER_HALF || texture->raster.sample == RASTER_FLOAT;
+    return !(is_float && texture->srgb);
 }
 
 /* Moves the texels into the cache, or notes why they stay in memory. */
 static void keep(struct texture *texture, const char *path, const struct texture_storage *storage)
 {
-    struct texture kept = {0};
+    void *samples = texture->raster.samples, *halves = texture->halves;
     struct error reason;
     ps_result result = texture_cache_store(path, texture, &reason);
     if (result == PS_OK)
-        result = texture_cache_load(path, storage->budget, &kept, &reason);
+        result = texture_cache_load(path, storage->budget, texture, &reason);
     if (result != PS_OK) {
         texture->note = strdup(reason.text);
         return;
     }
-    raster_release(&texture->raster);
-    *texture = kept;
+    free(samples);
+    free(halves);
 }
 
 static ps_result decode(const struct texture_description *description, const unsigned char *bytes,
-                        size_t size, const struct texture_storage *storage, struct texture *texture,
-                        struct error *error)
+                        size_t size, const struct texture_storage *storage, const char *path,
+                        struct texture *texture, struct error *error)
 {
     struct error ignored;
-    char *path =
-        storage->cache ? texture_cache_path(storage->cache, bytes, size, description->layer) : NULL;
-    ps_result result = PS_OK;
-    if (!path || texture_cache_load(path, storage->budget, texture, &ignored) != PS_OK) {
-        result = raster_decode(description->path, description->layer, bytes, size, &texture->raster,
-                               error);
-        if (result == PS_OK)
-            refer_to_raster(texture);
-        if (result == PS_OK && path && raster_bytes(&texture->raster) >= LEAST_IN_CACHE)
-            keep(texture, path, storage);
-    }
-    free(path);
+    if (path && texture_cache_load(path, storage->budget, texture, &ignored) == PS_OK)
+        return prepare(description, texture, error);
+    ps_result result =
+        raster_decode(description->path, description->layer, bytes, size, &texture->raster, error);
+    if (result != PS_OK)
+        return result;
+    refer_to_raster(texture);
+    result = prepare(description, texture, error);
+    if (result == PS_OK && storage->mip_maps && has_mip_map(texture))
+        result = mip_map_add(texture, error);
+    if (result == PS_OK && path && raster_bytes(&texture->raster) >= LEAST_IN_CACHE)
+        keep(texture, path, storage);
     return result;
 }
 
@@ -105,16 +132,20 @@ static ps_result fetch_and_decode(const struct texture_description *description,
                                   const struct texture_storage *storage, struct texture *texture,
                                   struct error *error)
 {
-    unsigned char *bytes;
-    size_t size;
-    if (description->bytes)
-        return decode(description, description->bytes, description->byte_count, storage, texture,
-                      error);
-    ps_result result = raster_fetch(description->path, storage->folder, &bytes, &size, error);
-    if (result != PS_OK)
-        return result;
-    result = decode(description, bytes, size, storage, texture, error);
-    free(bytes);
+    unsigned char *fetched = NULL;
+    const unsigned char *bytes = description->bytes;
+    size_t size = description->byte_count;
+    if (!bytes) {
+        ps_result result = raster_fetch(description->path, storage->folder, &fetched, &size, error);
+        if (result != PS_OK)
+            return result;
+        bytes = fetched;
+    }
+    char *path =
+        storage->cache ? texture_cache_path(storage->cache, description, bytes, size) : NULL;
+    ps_result result = decode(description, bytes, size, storage, path, texture, error);
+    free(path);
+    free(fetched);
     return result;
 }
 
@@ -122,25 +153,14 @@ ps_result texture_load(const struct texture_description *description,
                        const struct texture_storage *storage, struct texture *texture,
                        struct error *error)
 {
-    static const struct texture_storage anywhere = {NULL, NULL, NULL};
-    struct texture loaded = {0};
+    static const struct texture_storage anywhere = {.folder = NULL};
+    struct texture loaded = {.width = 0};
     ps_result result = fetch_and_decode(description, storage ? storage : &anywhere, &loaded, error);
-    if (result != PS_OK)
-        return result;
-    loaded.srgb = description->encoding == ENCODING_SRGB ||
-                  (description->encoding == ENCODING_AUTO && loaded.raster.srgb);
-    loaded.width = loaded.raster.width;
-    loaded.height = loaded.raster.height;
-    loaded.wrap_u = description->wrap_u;
-    loaded.wrap_v = description->wrap_v;
-    loaded.nearest = description->nearest;
-    if (!create_tables(&loaded)) {
+    if (result == PS_OK)
+        *texture = loaded;
+    else
         texture_release(&loaded);
-        return error_set(error, PS_ERROR_MEMORY, "%s: out of memory for a table of colours",
-                         description->path);
-    }
-    *texture = loaded;
-    return PS_OK;
+    return result;
 }
 
 void texture_release(struct texture *texture)
@@ -149,6 +169,7 @@ void texture_release(struct texture *texture)
         free(texture->alpha_of);
     free(texture->color_of);
     free(texture->note);
+    free(texture->halves);
     if (texture->file)
         mapped_file_close(texture->file);
     raster_release(&texture->raster);
@@ -162,7 +183,10 @@ size_t texture_bytes(const struct texture *texture)
         size_t count = texture->alpha_of == texture->color_of ? 1 : 2;
         tables = count * code_count(texture->raster.sample) * sizeof(float);
     }
-    return tables + (texture->file ? 0 : raster_bytes(&texture->raster));
+    size_t texels = 0;
+    for (uint32_t i = 0; i < texture->level_count; i++)
+        texels += (size_t)texture->levels[i].width * texture->levels[i].height;
+    return tables + (texture->file ? 0 : texels * texture->texel_bytes);
 }
 
 /* --- of all samples -------------------------------------------------------------------------- */

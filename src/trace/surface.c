@@ -2,6 +2,7 @@
 
 #include "base/sample.h"
 #include "scene/bump.h"
+#include "scene/ray_cone.h"
 #include "scene/triangles.h"
 #include <assert.h>
 #include <string.h>
@@ -145,7 +146,8 @@ static ps_vec3 bend_by_map(const struct shape *shape, const struct pigment *map,
     tangents(shape, map, at, place, &by_u, &by_v);
     pigment_tangents(map, &by_u, &by_v);
     pigment_place(map, hit->texture_point, hit->uv, uv);
-    ps_vec3 bent = bump_normal_map(map->texture, uv, normal, by_u, by_v);
+    float log_width = ray_cone_log_width(hit) + map->log_scale;
+    ps_vec3 bent = bump_normal_map(map->texture, uv, log_width, normal, by_u, by_v);
     float factor = map->colors[0].r;
     if (factor == 1.0f)
         return bent;
@@ -161,9 +163,53 @@ static ps_vec3 bend(const struct shape *shape, const struct material *material,
     if (material->has_bump) {
         ps_vec3 by_u, by_v;
         tangents(shape, &material->bump, at, place, &by_u, &by_v);
-        normal = bump_bump(&material->bump, hit->texture_point, hit->uv, normal, by_u, by_v);
+        normal = bump_bump(&material->bump, hit->texture_point, hit->uv, ray_cone_log_width(hit),
+                           normal, by_u, by_v);
     }
     return normal;
+}
+
+/* --- ray cones ----------------------------------------------------------------------------------- */
+
+/* Of the parallelogram over a triangle's edges. */
+static float uv_area(const float (*uv)[2], const uint32_t corner[3])
+{
+    const float *a = uv[corner[0]], *b = uv[corner[1]], *c = uv[corner[2]];
+    return fabsf((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+}
+
+static float area_in_world(const struct placed *placed, const uint32_t corner[3])
+{
+    ps_vec3 points[3];
+    for (int i = 0; i < 3; i++) {
+        points[i] = placed->shape->vertices[corner[i]];
+        if (placed->instance)
+            points[i] = affine_point(&placed->instance->placement, points[i]);
+    }
+    return ps_length(ps_cross(ps_subtract(points[1], points[0]), ps_subtract(points[2], points[0])));
+}
+
+/* How much of the texture coordinates' area a unit of the surface's area has; of two sets, the smaller. */
+static float uv_density(const struct placed *placed, uint32_t triangle)
+{
+    const struct shape *shape = placed->shape;
+    if (shape->kind == SHAPE_SPHERE) /* in the mean; placed spheres have about this size */
+        return 1.0f / (4.0f * PS_PI * shape->radius * shape->radius);
+    const uint32_t *corner = shape->triangles[triangle];
+    float area = INFINITY;
+    if (shape->uv)
+        area = uv_area((const float(*)[2])shape->uv, corner);
+    if (shape->second_uv)
+        area = fminf(area, uv_area((const float(*)[2])shape->second_uv, corner));
+    return area < INFINITY ? area / area_in_world(placed, corner) : 0.0f;
+}
+
+/* As wide as the cone across its axis: on slanted surfaces the mean over its longer side would blur along the shorter one. */
+static uint32_t cone_flags(const struct placed *placed, const struct intersection *at,
+                             float spread)
+{
+    float width = spread * at->distance;
+    return ray_cone_flags(0.5f * log2f(width * width * uv_density(placed, at->triangle)));
 }
 
 /* Turns both normals to the side that the ray came from. */
@@ -180,7 +226,8 @@ static void face_ray(const ps_ray *ray, bool diffuse, ps_hit *hit)
         hit->normal = hit->geometric_normal;
 }
 
-ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray, const struct intersection *at)
+ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray, float spread,
+                       const struct intersection *at)
 {
     struct placed placed = find(scene, at);
     const struct material *material = &scene->materials[placed.material];
@@ -192,6 +239,8 @@ ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray, const struc
         .flags = (material->specular ? PS_HIT_SPECULAR : 0u) |
                  (material->emissive ? PS_HIT_EMISSIVE : 0u),
     };
+    if (spread > 0.0f && material->filters)
+        hit.flags |= cone_flags(&placed, at, spread);
     locate(&placed, ray, at, &hit);
     ps_vec3 place = hit.texture_point;
     if (material->lookup != LOOKUP_POINT)
@@ -296,7 +345,7 @@ ps_hit surface_at(const struct scene *scene, const ps_surface_point *point, ps_r
     ray->tfar = INFINITY;
     if (!surface_is_opaque(scene, &at))
         return (ps_hit){.distance = INFINITY, .object = PS_NO_OBJECT};
-    ps_hit hit = surface_resolve(scene, ray, &at);
+    ps_hit hit = surface_resolve(scene, ray, 0.0f, &at);
     hit.position = position;
     return hit;
 }

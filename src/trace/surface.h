@@ -17,7 +17,8 @@ struct intersection {
     float distance;
 };
 
-ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray,
+/* `spread`: of the cone that the ray stands for, by which it gets wider with the distance; 0: none. */
+ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray, float spread,
                        const struct intersection *intersection);
 
 /* The surface at a point of a triangle (scene/triangles.h), and a ray at right angles to the triangle that meets it; its

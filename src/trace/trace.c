@@ -327,8 +327,8 @@ static void intersect(const struct trace *trace, const int valid[PACKET], struct
     shim_intersect16(valid, trace->embree, hits, coherent);
 }
 
-static ps_hit resolve(const struct trace *trace, const ps_ray *ray, const struct RTCRayHit16 *hits,
-                      size_t lane)
+static ps_hit resolve(const struct trace *trace, const ps_ray *ray, float spread,
+                      const struct RTCRayHit16 *hits, size_t lane)
 {
     uint32_t geometry = hits->hit.geomID[lane], instance = hits->hit.instID[0][lane];
     if (geometry == RTC_INVALID_GEOMETRY_ID)
@@ -339,11 +339,11 @@ static ps_hit resolve(const struct trace *trace, const ps_ray *ray, const struct
     at.v = hits->hit.v[lane];
     at.normal = (ps_vec3){hits->hit.Ng_x[lane], hits->hit.Ng_y[lane], hits->hit.Ng_z[lane]};
     at.distance = hits->ray.tfar[lane];
-    return surface_resolve(trace->scene, ray, &at);
+    return surface_resolve(trace->scene, ray, spread, &at);
 }
 
-void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray *rays, size_t n,
-                     ps_hit *hits)
+void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray *rays,
+                     const float *spreads, size_t n, ps_hit *hits)
 {
     _Alignas(64) struct RTCRayHit16 packet;
     _Alignas(64) int valid[PACKET];
@@ -353,7 +353,8 @@ void trace_intersect(const struct trace *trace, enum ray_kind kind, const ps_ray
                   kind == RAYS_CAMERA ? MASK_CAMERA : MASK_LIGHT);
         intersect(trace, valid, &packet, kind != RAYS_INCOHERENT);
         for (size_t lane = 0; lane < lanes; lane++)
-            hits[first + lane] = resolve(trace, &rays[first + lane], &packet, lane);
+            hits[first + lane] = resolve(trace, &rays[first + lane],
+                                         spreads ? spreads[first + lane] : 0.0f, &packet, lane);
     }
 }
 

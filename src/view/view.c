@@ -9,6 +9,10 @@
 /* Set of the numbers that choose a point of the lens; surfaces on the way take 0, 1, 2, ... */
 #define LENS_SET 0x10000u
 
+/* Of a pixel's side, over which pictures are averaged: what is left of their finer detail passes average, which look at
+ * other points of the pixel each. */
+#define CONE_SIDE 0.125f
+
 /* Paths of a tile that are still under way. */
 struct camera_paths {
     size_t count;
@@ -16,8 +20,9 @@ struct camera_paths {
     ps_ray rays[PS_TILE_PIXELS];
     ps_rgb throughput[PS_TILE_PIXELS];
     float travelled[PS_TILE_PIXELS];
-    float pdfs[PS_TILE_PIXELS]; /* of the last scattering; 0 from the camera */
-    const uint64_t *indices;    /* of each lane's random numbers */
+    float pdfs[PS_TILE_PIXELS];    /* of the last scattering; 0 from the camera */
+    float spreads[PS_TILE_PIXELS]; /* of the cone that the ray stands for */
+    const uint64_t *indices;       /* of each lane's random numbers */
 };
 
 static ps_ray look(const struct view_pass *pass, const struct view_points *points, uint32_t lane)
@@ -41,6 +46,8 @@ static void start(const struct view_pass *pass, const struct view_points *points
         paths->throughput[i] = (ps_rgb){1, 1, 1};
         paths->travelled[i] = 0.0f;
         paths->pdfs[i] = 0.0f;
+        paths->spreads[i] = CONE_SIDE * camera_pixel_spread(&pass->lighting.scene->camera,
+                                                                 paths->rays[i].direction);
         if (by_chance)
             by_chance[points->lanes[i]] = pass->lighting.scene->camera.aperture > 0.0f;
     }
@@ -100,6 +107,7 @@ static void end_at_diffuse(const struct view_pass *pass, uint32_t tile, struct c
         paths->lanes[left] = paths->lanes[i];
         paths->rays[left] = paths->rays[i];
         paths->throughput[left] = paths->throughput[i];
+        paths->spreads[left] = paths->spreads[i];
         paths->travelled[left++] = travelled;
     }
     paths->count = left;
@@ -188,6 +196,7 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
         paths->throughput[left] = ps_rgb_multiply(paths->throughput[i], on.weight);
         paths->travelled[left] = paths->travelled[i];
         paths->pdfs[left] = on.pdf;
+        paths->spreads[left] = ps_max(paths->spreads[i], ps_cone_spread(on.pdf));
         paths->rays[left++] =
             ps_leave_surface(hits[i].position, on.normal, on.direction, scene->surface_offset);
     }
@@ -220,7 +229,7 @@ void view_trace(const struct view_pass *pass, const struct view_points *points, 
     start(pass, points, index, &paths);
     for (uint32_t depth = 0; paths.count > 0 && depth <= PS_LONGEST_CHAIN; depth++) {
         trace_intersect(pass->lighting.trace, depth == 0 ? RAYS_CAMERA : RAYS_INCOHERENT,
-                        paths.rays, paths.count, hits);
+                        paths.rays, paths.spreads, paths.count, hits);
         if (collects)
             collect_emission(pass, index, depth, &paths, hits);
         end_at_diffuse(pass, index, &paths, hits);

@@ -30,7 +30,7 @@ static double gather(const struct scene *scene, const struct trace *trace, size_
 {
     ps_ray eye = camera_ray(&scene->camera, (float)x + 0.5f, (float)y + 0.5f, NULL), rays[RAYS];
     ps_hit first, hits[RAYS];
-    trace_intersect(trace, RAYS_INCOHERENT, &eye, 1, &first);
+    trace_intersect(trace, RAYS_INCOHERENT, &eye, NULL, 1, &first);
     if (!(first.distance < INFINITY))
         return 0;
     uint32_t key = sample_key(99, 77, (uint32_t)(y * WIDTH + x));
@@ -40,7 +40,7 @@ static double gather(const struct scene *scene, const struct trace *trace, size_
         sample_point(key, i, u);
         rays[i] = (ps_ray){origin, 0, ps_cosine_direction(first.normal, u[0], u[1]), INFINITY};
     }
-    trace_intersect(trace, RAYS_INCOHERENT, rays, RAYS, hits);
+    trace_intersect(trace, RAYS_INCOHERENT, rays, NULL, RAYS, hits);
     struct lighting lighting = {scene, trace, NULL, scene->light_choices, 0.0f};
     double sum = 0;
     for (size_t i = 0; i < RAYS; i++) {

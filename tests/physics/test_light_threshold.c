@@ -50,7 +50,7 @@ static double reflected(const struct lighting *lighting, uint64_t seed)
         ps_rgb asked, emitted;
         float numbers[4];
         const struct light_numbers from = {seed, PS_STREAM_LIGHT, 0, &i};
-        trace_intersect(lighting->trace, RAYS_INCOHERENT, &eye, 1, &hit);
+        trace_intersect(lighting->trace, RAYS_INCOHERENT, &eye, NULL, 1, &hit);
         direct_radiance(lighting, &eye, &hit, 1, &from, &asked);
         sum += (double)asked.g;
         sample_point(sample_key(seed, PS_STREAM_PATH, 0), i, numbers);
@@ -61,7 +61,7 @@ static double reflected(const struct lighting *lighting, uint64_t seed)
             continue;
         on = ps_leave_surface(hit.position, scattered.normal, scattered.direction,
                               scene->surface_offset);
-        trace_intersect(lighting->trace, RAYS_INCOHERENT, &on, 1, &met);
+        trace_intersect(lighting->trace, RAYS_INCOHERENT, &on, NULL, 1, &met);
         emitted_radiance(lighting, &on, &met, &scattered.pdf, 1, &emitted);
         sum += (double)(scattered.weight.g * emitted.g);
     }

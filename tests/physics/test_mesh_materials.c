@@ -104,7 +104,7 @@ static void meet(const char *text, ps_hit hits[4])
     for (int i = 0; i < 4; i++)
         rays[i] =
             (ps_ray){{i % 2 ? 0.5f : -0.5f, i / 2 ? -0.5f : 0.5f, 1}, 0, {0, 0, -1}, INFINITY};
-    trace_intersect(trace, RAYS_INCOHERENT, rays, 4, hits);
+    trace_intersect(trace, RAYS_INCOHERENT, rays, NULL, 4, hits);
     trace_destroy(trace);
     scene_release(&scene);
 }

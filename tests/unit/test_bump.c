@@ -48,7 +48,7 @@ static void assert_waves(const struct texture *texture, ps_vec3 dpdu, ps_vec3 dp
             float slope_v = height * 4 * PS_PI * cosf(4 * PS_PI * v);
             ps_vec3 raised =
                 ps_cross(ps_add_scaled(dpdu, slope_u, n), ps_add_scaled(dpdv, slope_v, n));
-            ps_vec3 bent = bump_bump(&pigment, (ps_vec3){1, 2, 3}, uv, n, dpdu, dpdv);
+            ps_vec3 bent = bump_bump(&pigment, (ps_vec3){1, 2, 3}, uv, -INFINITY, n, dpdu, dpdv);
             assert_direction(bent, ps_scale(raised, side), 2e-3f);
             assert_true(ps_dot(bent, n) > 0);
         }
@@ -77,9 +77,9 @@ static void test_bump_without_uv(void **state)
     const ps_vec3 none = {0, 0, 0}, n = {0.6f, 0, 0.8f}, x = {1, 0, 0};
     (void)state;
     fill_waves(samples);
-    assert_direction(bump_bump(&pigment, none, uv, n, none, none), n, 0);
-    assert_direction(bump_bump(&pigment, none, uv, n, x, none), n, 0);
-    assert_direction(bump_bump(&pigment, none, uv, n, x, ps_scale(x, 2)), n, 0);
+    assert_direction(bump_bump(&pigment, none, uv, -INFINITY, n, none, none), n, 0);
+    assert_direction(bump_bump(&pigment, none, uv, -INFINITY, n, x, none), n, 0);
+    assert_direction(bump_bump(&pigment, none, uv, -INFINITY, n, x, ps_scale(x, 2)), n, 0);
 }
 
 static struct pigment pattern(enum pigment_kind kind, float height)
@@ -99,12 +99,12 @@ static void test_bump_of_ramp(void **state)
     const ps_vec3 none = {0, 0, 0}, p = {0.4f, 3, 2};
     const float uv[2] = {0, 0};
     (void)state;
-    assert_direction(bump_bump(&ramp, p, uv, (ps_vec3){0, 0, 1}, none, none),
+    assert_direction(bump_bump(&ramp, p, uv, -INFINITY, (ps_vec3){0, 0, 1}, none, none),
                      (ps_vec3){-0.5f, 0, 1}, 1e-4f);
-    assert_direction(bump_bump(&ramp, p, uv, (ps_vec3){0, 0, -1}, none, none),
+    assert_direction(bump_bump(&ramp, p, uv, -INFINITY, (ps_vec3){0, 0, -1}, none, none),
                      (ps_vec3){-0.5f, 0, -1}, 1e-4f);
     /* Along the normal it changes nothing. */
-    assert_direction(bump_bump(&ramp, p, uv, (ps_vec3){1, 0, 0}, none, none), (ps_vec3){1, 0, 0},
+    assert_direction(bump_bump(&ramp, p, uv, -INFINITY, (ps_vec3){1, 0, 0}, none, none), (ps_vec3){1, 0, 0},
                      1e-4f);
 }
 
@@ -127,7 +127,7 @@ static void test_bump_of_noise(void **state)
         float slope_z = (pigment_number(&noise, r, uv) - pigment_number(&noise, p, uv)) / (2 * h);
         p.z += h;
         ps_vec3 expected = {-slope_x, 1, -slope_z};
-        assert_direction(bump_bump(&noise, p, uv, n, none, none), expected, 5e-3f);
+        assert_direction(bump_bump(&noise, p, uv, -INFINITY, n, none, none), expected, 5e-3f);
         largest = fmax(largest, hypot(slope_x, slope_z));
     }
     assert_true(largest > 0.3);
@@ -142,8 +142,8 @@ static void test_constant_height(void **state)
     struct texture texture = texture_of(samples, 2, 2, 1);
     struct pigment image = height_image(&texture, 3);
     (void)state;
-    assert_direction(bump_bump(&flat, x, uv, n, x, y), n, 0);
-    assert_direction(bump_bump(&image, x, uv, n, x, y), n, 1e-6f);
+    assert_direction(bump_bump(&flat, x, uv, -INFINITY, n, x, y), n, 0);
+    assert_direction(bump_bump(&image, x, uv, -INFINITY, n, x, y), n, 1e-6f);
 }
 
 /* --- maps of normals ------------------------------------------------------------------------- */
@@ -155,16 +155,16 @@ static void test_map_of_constant_tilt(void **state)
     const float uv[2] = {0.3f, 0.4f};
     const ps_vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1}, minus_x = {-3, 0, 0};
     (void)state;
-    assert_direction(bump_normal_map(&map, uv, z, x, y), (ps_vec3){0.48f, 0.36f, 0.8f}, 1e-6f);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, z, x, y), (ps_vec3){0.48f, 0.36f, 0.8f}, 1e-6f);
     /* Stretched and slanted: u stays, v is made upright. */
-    assert_direction(bump_normal_map(&map, uv, z, ps_scale(x, 9), (ps_vec3){4, 2, 1}),
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, z, ps_scale(x, 9), (ps_vec3){4, 2, 1}),
                      (ps_vec3){0.48f, 0.36f, 0.8f}, 1e-6f);
-    assert_direction(bump_normal_map(&map, uv, z, minus_x, y), (ps_vec3){-0.48f, 0.36f, 0.8f},
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, z, minus_x, y), (ps_vec3){-0.48f, 0.36f, 0.8f},
                      1e-6f);
-    assert_direction(bump_normal_map(&map, uv, z, x, ps_scale(y, -1)),
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, z, x, ps_scale(y, -1)),
                      (ps_vec3){0.48f, -0.36f, 0.8f}, 1e-6f);
-    assert_direction(bump_normal_map(&map, uv, x, y, z), (ps_vec3){0.8f, 0.48f, 0.36f}, 1e-6f);
-    assert_direction(bump_normal_map(&map, uv, ps_scale(z, -1), x, y),
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, x, y, z), (ps_vec3){0.8f, 0.48f, 0.36f}, 1e-6f);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, ps_scale(z, -1), x, y),
                      (ps_vec3){0.48f, 0.36f, -0.8f}, 1e-6f);
 }
 
@@ -180,8 +180,8 @@ static void test_map_agrees_with_bump(void **state)
     const ps_vec3 x = {0, 1, 0}, y = {0, 0, 1}, n = {1, 0, 0};
     (void)state;
     height_map.wrap_u = height_map.wrap_v = WRAP_CLAMP;
-    ps_vec3 bumped = bump_bump(&pigment, n, uv, n, x, y);
-    assert_direction(bump_normal_map(&map, uv, n, x, y), bumped, 1e-5f);
+    ps_vec3 bumped = bump_bump(&pigment, n, uv, -INFINITY, n, x, y);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, n, x, y), bumped, 1e-5f);
 }
 
 static void test_flat_map(void **state)
@@ -193,15 +193,15 @@ static void test_flat_map(void **state)
     const float uv[2] = {0.3f, 0.4f};
     const ps_vec3 n = {0.6f, 0, 0.8f}, x = {0.8f, 0, -0.6f}, y = {0, 1, 0};
     (void)state;
-    assert_direction(bump_normal_map(&map, uv, n, x, y), n, 1e-6f);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, n, x, y), n, 1e-6f);
     for (int i = 0; i < 256; i++) {
         table[i] = (float)i / 255;
     }
     map.raster.sample = RASTER_BYTE;
-    map.texels.bytes = bytes;
+    map.levels[0].bytes = bytes;
     map.texel_bytes = 3;
     map.color_of = map.alpha_of = table;
-    assert_direction(bump_normal_map(&map, uv, n, x, y), n, 1e-6f);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, n, x, y), n, 1e-6f);
 }
 
 static void test_impossible_maps(void **state)
@@ -211,15 +211,15 @@ static void test_impossible_maps(void **state)
     const float uv[2] = {NAN, INFINITY};
     const ps_vec3 n = {0, 0, 1}, x = {1, 0, 0}, y = {0, 1, 0}, none = {0, 0, 0};
     (void)state;
-    assert_direction(bump_normal_map(&map, uv, n, x, y), n, 1e-6f);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, n, x, y), n, 1e-6f);
     samples[0] = 1;
-    assert_true(bump_normal_map(&map, uv, n, x, y).z > 0);
-    assert_direction(bump_normal_map(&map, uv, n, none, none), n, 0);
-    assert_direction(bump_normal_map(&map, uv, n, x, x), n, 0);
-    assert_direction(bump_normal_map(&map, uv, n, n, y), n, 0);
-    assert_direction(bump_normal_map(&map, uv, n, (ps_vec3){NAN, 0, 0}, y), n, 0);
+    assert_true(bump_normal_map(&map, uv, -INFINITY, n, x, y).z > 0);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, n, none, none), n, 0);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, n, x, x), n, 0);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, n, n, y), n, 0);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, n, (ps_vec3){NAN, 0, 0}, y), n, 0);
     samples[1] = 3e38f;
-    assert_true(bump_normal_map(&map, uv, n, x, y).z > 0);
+    assert_true(bump_normal_map(&map, uv, -INFINITY, n, x, y).z > 0);
 }
 
 int main(void)

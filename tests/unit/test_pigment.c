@@ -295,23 +295,23 @@ static void test_slope_of_image(void **state)
     description.offset_v = 1;
     struct pigment pigment = pigment_create(&description, &texture);
     const float uv[2] = {1.1f, 0.27f};
-    pigment_uv_gradient(&pigment, uv, gradient);
+    pigment_uv_gradient(&pigment, uv, -INFINITY, gradient);
     assert_float_equal(gradient[0], 2 * 3 * 5 * 0.5, 1e-3);
     assert_float_equal(gradient[1], 2 * -7 * 4 * -2, 1e-3);
     const float far[2] = {100.3f, -3.0f};
-    pigment_uv_gradient(&pigment, far, gradient);
+    pigment_uv_gradient(&pigment, far, -INFINITY, gradient);
     assert_float_equal(gradient[0], 0, 1e-6);
     assert_float_equal(gradient[1], 0, 1e-6);
     description.scale_u = 0;
     pigment = pigment_create(&description, &texture);
-    pigment_uv_gradient(&pigment, uv, gradient);
+    pigment_uv_gradient(&pigment, uv, -INFINITY, gradient);
     assert_float_equal(gradient[0], 0, 0);
     description.scale_v = 0; /* turned: u' = v / 2, v' = 1 - 2 u */
     description.cross_u = 0.5;
     description.cross_v = -2;
     pigment = pigment_create(&description, &texture);
     const float turned[2] = {0.27f, 1.1f};
-    pigment_uv_gradient(&pigment, turned, gradient);
+    pigment_uv_gradient(&pigment, turned, -INFINITY, gradient);
     assert_float_equal(gradient[0], 2 * -7 * 4 * -2, 1e-3);
     assert_float_equal(gradient[1], 2 * 3 * 5 * 0.5, 1e-3);
 }
@@ -333,7 +333,7 @@ static void test_any_number(void **state)
             float number = pigment_number(&pigment, p, uv);
             assert_true(number >= 0 && number <= 1);
             pigment_gradient(&pigment, p);
-            pigment_uv_gradient(&pigment, uv, gradient);
+            pigment_uv_gradient(&pigment, uv, -INFINITY, gradient);
         }
     }
     texture_release(&texture);

@@ -168,7 +168,7 @@ static void trace_copies(bool shared, enum ray_kind kind, const ps_ray *rays, ps
     assert_int_equal(scene.instance_count, shared ? COPIES : 0);
     assert_int_equal(scene.object_count, COPIES + 1);
     assert_int_equal(trace_create(&scene, NULL, &trace, &error), PS_OK);
-    trace_intersect(trace, kind, rays, RAYS, hits);
+    trace_intersect(trace, kind, rays, NULL, RAYS, hits);
     trace_destroy(trace);
     scene_release(&scene);
     scene_description_release(&description);

@@ -2,49 +2,49 @@
 #include "scene/texture_cache.h"
 
 #include "image/image.h"
+#include "scene/mip_map.h"
 #include "texture_fixture.h"
 
 #define WIDTH 131 /* of three tiles, the last ones mostly beyond the picture */
 #define HEIGHT 70
 
-static const size_t sample_bytes[] = {
-    [RASTER_BYTE] = 1, [RASTER_SHORT] = 2, [RASTER_HALF] = 2, [RASTER_FLOAT] = 4};
-
 /* Of any numbers; those of floats are finite. */
 static struct texture create(enum raster_sample sample, uint32_t channels)
 {
-    size_t count = (size_t)WIDTH * HEIGHT * channels;
-    unsigned char *bytes = malloc(count * sample_bytes[sample]);
-    struct texture texture = texture_of((float *)(void *)bytes, WIDTH, HEIGHT, channels);
-    assert_non_null(bytes);
-    for (size_t i = 0; i < count * sample_bytes[sample]; i++)
+    struct texture texture = texture_create(sample, false, WIDTH, HEIGHT, channels);
+    unsigned char *bytes = texture.raster.samples;
+    for (size_t i = 0; i < raster_bytes(&texture.raster); i++)
         bytes[i] = (unsigned char)((i * 2654435761u >> 9) & (sample >= RASTER_HALF ? 0x3b : 0xff));
-    texture.raster.sample = sample;
     texture.raster.mended = 3;
     texture.raster.file_size = 1234;
-    texture.texel_bytes = raster_texel_bytes(&texture.raster);
     return texture;
 }
 
-/* Without decoding. */
-static void expect_same_texels(struct texture a, struct texture b)
+/* On all levels, without decoding. */
+static void expect_same_texels(const struct texture *a, const struct texture *b)
 {
     static float codes[UINT16_MAX + 1];
     for (size_t i = 0; i <= UINT16_MAX; i++)
         codes[i] = (float)i;
-    a.color_of = b.color_of = a.alpha_of = b.alpha_of = codes;
-    assert_int_equal(a.raster.width, b.raster.width);
-    assert_int_equal(a.raster.height, b.raster.height);
-    a.width = b.width = a.raster.width;
-    a.height = b.height = a.raster.height;
-    for (uint32_t row = 0; row < a.height; row++)
-        for (uint32_t column = 0; column < a.width; column++) {
-            float of_a[4], of_b[4];
-            texture_texel(&a, column, row, of_a);
-            texture_texel(&b, column, row, of_b);
-            if (memcmp(of_a, of_b, sizeof of_a) != 0)
-                fail_msg("texel (%u, %u) is another", column, row);
+    assert_int_equal(a->level_count, b->level_count);
+    for (uint32_t level = 0; level < a->level_count; level++) {
+        struct texture pair[2] = {*a, *b};
+        assert_int_equal(a->levels[level].width, b->levels[level].width);
+        assert_int_equal(a->levels[level].height, b->levels[level].height);
+        for (int i = 0; i < 2; i++) {
+            pair[i].levels[0] = pair[i].levels[level];
+            pair[i].color_of = pair[i].alpha_of = codes;
         }
+        for (uint32_t row = 0; row < a->levels[level].height; row++)
+            for (uint32_t column = 0; column < a->levels[level].width; column++) {
+                float of_a[4], of_b[4];
+                texture_texel(&pair[0], column, row, of_a);
+                texture_texel(&pair[1], column, row, of_b);
+                for (int i = 0; i < 4; i++)
+                    if (of_a[i] != of_b[i])
+                        fail_msg("texel (%u, %u) of level %u is another", column, row, level);
+            }
+    }
 }
 
 static void expect_stored(void **state, enum raster_sample sample, uint32_t channels)
@@ -53,17 +53,18 @@ static void expect_stored(void **state, enum raster_sample sample, uint32_t chan
     struct mapped_budget *budget = mapped_budget_create(2.0 * (double)MAPPED_BLOCK);
     struct error error;
     const char *path = scratch_path(state, "entry");
+    assert_int_equal(mip_map_add(&texture, &error), PS_OK);
     assert_int_equal(texture_cache_store(path, &texture, &error), PS_OK);
     assert_int_equal(texture_cache_load(path, budget, &kept, &error), PS_OK);
-    expect_same_texels(texture, kept);
+    assert_int_equal(kept.level_count, 8);
+    expect_same_texels(&texture, &kept);
     assert_int_equal(kept.raster.mended, 3);
     assert_int_equal(kept.raster.file_size, 1234);
     assert_true(texture_digest(&kept) == texture_digest(&texture));
     assert_true(texture_leaves_range(&kept, 0.9f) == texture_leaves_range(&texture, 0.9f));
-    assert_true(texture_bytes(&kept) == 0);
     texture_release(&kept);
     mapped_budget_destroy(budget);
-    free(texture.raster.samples);
+    texture_release(&texture);
 }
 
 static void test_all_kinds_of_samples(void **state)
@@ -73,22 +74,32 @@ static void test_all_kinds_of_samples(void **state)
             expect_stored(state, (enum raster_sample)sample, channels);
 }
 
+static void expect_other_name(const char *name, const struct texture_description *description,
+                              size_t size)
+{
+    static const unsigned char bytes[] = "bytes";
+    char *other = texture_cache_path("folder", description, bytes, size);
+    assert_string_not_equal(name, other);
+    free(other);
+}
+
 static void test_names(void **state)
 {
     static const unsigned char bytes[] = "bytes";
-    char *path = texture_cache_path("folder", bytes, 5, NULL);
-    char *same = texture_cache_path("folder", bytes, 5, NULL);
-    char *layer = texture_cache_path("folder", bytes, 5, "layer");
-    char *shorter = texture_cache_path("folder", bytes, 4, NULL);
+    static char layer[] = "layer";
+    const struct texture_description plain = {.path = "a"}, same = {.path = "b", .nearest = true},
+                                     of_layer = {.layer = layer},
+                                     linear = {.encoding = ENCODING_LINEAR};
+    char *name = texture_cache_path("folder", &plain, bytes, 5);
+    char *again = texture_cache_path("folder", &same, bytes, 5);
     (void)state;
-    assert_string_equal(path, same);
-    assert_string_not_equal(path, layer);
-    assert_string_not_equal(path, shorter);
-    assert_true(strncmp(path, "folder/", 7) == 0);
-    free(path);
-    free(same);
-    free(layer);
-    free(shorter);
+    assert_string_equal(name, again);
+    assert_true(strncmp(name, "folder/", 7) == 0);
+    expect_other_name(name, &of_layer, 5);
+    expect_other_name(name, &linear, 5);
+    expect_other_name(name, &plain, 4);
+    free(name);
+    free(again);
 }
 
 static void expect_no_entry(const char *path, const unsigned char *bytes, size_t size)
@@ -120,7 +131,7 @@ static void test_damaged_entries(void **state)
     memcpy(bytes, "psplatT", 8);
     expect_no_entry(path, bytes, size);
     free(bytes);
-    free(texture.raster.samples);
+    texture_release(&texture);
 }
 
 /* --- from a picture's file ------------------------------------------------------------------- */
@@ -150,26 +161,34 @@ static struct texture load(const char *path, const struct texture_storage *stora
     return texture;
 }
 
+static void expect_same_colors(const struct texture *a, const struct texture *b)
+{
+    for (int i = 0; i < 200; i++) {
+        float u = -1.0f + 0.0371f * (float)i, of_a[4], of_b[4];
+        texture_filter(a, u, 0.3f * u, -14.0f + 0.1f * (float)i, of_a);
+        texture_filter(b, u, 0.3f * u, -14.0f + 0.1f * (float)i, of_b);
+        assert_memory_equal(of_a, of_b, sizeof of_a);
+    }
+}
+
 static void test_picture(void **state)
 {
     struct scratch *scratch = *state;
     const char *path = write_picture(state);
-    struct texture_storage storage = {NULL, scratch->directory, mapped_budget_create(1e5)};
-    struct texture plain = load(path, NULL);
+    const struct texture_storage in_memory = {.mip_maps = true};
+    struct texture_storage storage = {
+        .mip_maps = true, .cache = scratch->directory, .budget = mapped_budget_create(1e5)};
+    struct texture plain = load(path, &in_memory);
     for (int i = 0; i < 2; i++) { /* made, then there */
         struct texture kept = load(path, &storage);
         assert_non_null(kept.file);
         assert_null(kept.note);
         assert_null(kept.raster.samples);
+        assert_null(kept.halves);
         assert_int_equal(scratch_file_count(state), 2);
         assert_true(kept.srgb);
-        expect_same_texels(plain, kept);
-        for (float u = -1.0f; u < 2.0f; u += 0.0371f) {
-            float a[4], b[4];
-            texture_sample(&plain, u, 0.3f * u, a);
-            texture_sample(&kept, u, 0.3f * u, b);
-            assert_memory_equal(a, b, sizeof a);
-        }
+        expect_same_texels(&plain, &kept);
+        expect_same_colors(&plain, &kept);
         texture_release(&kept);
     }
     texture_release(&plain);
@@ -179,7 +198,7 @@ static void test_picture(void **state)
 static void test_folder_that_is_none(void **state)
 {
     const char *path = write_picture(state);
-    struct texture_storage storage = {NULL, "/nowhere", mapped_budget_create(1e5)};
+    struct texture_storage storage = {.cache = "/nowhere", .budget = mapped_budget_create(1e5)};
     struct texture texture = load(path, &storage);
     assert_null(texture.file);
     assert_non_null(texture.raster.samples);

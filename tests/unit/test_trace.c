@@ -78,8 +78,8 @@ static void test_both_trees_find_the_same(void **state)
     for (size_t i = 0; i < RAYS; i++)
         rays[i] = (ps_ray){point_in_room(&random), 0, random_direction(&random),
                            random_between(&random, 1, 10)};
-    trace_intersect(few.trace, RAYS_INCOHERENT, rays, RAYS, few_hits);
-    trace_intersect(many.trace, RAYS_INCOHERENT, rays, RAYS, many_hits);
+    trace_intersect(few.trace, RAYS_INCOHERENT, rays, NULL, RAYS, few_hits);
+    trace_intersect(many.trace, RAYS_INCOHERENT, rays, NULL, RAYS, many_hits);
     trace_occluded(few.trace, rays, RAYS, few_blocked);
     trace_occluded(many.trace, rays, RAYS, many_blocked);
     size_t met = 0;
@@ -121,7 +121,7 @@ static void expect_closed(const char *text)
         ps_vec3 way = ps_subtract(point_on_edge(&random), from);
         rays[i] = (ps_ray){from, 0, ps_normalize(way), INFINITY};
     }
-    trace_intersect(traced.trace, RAYS_INCOHERENT, rays, RAYS, hits);
+    trace_intersect(traced.trace, RAYS_INCOHERENT, rays, NULL, RAYS, hits);
     for (size_t i = 0; i < RAYS; i++)
         assert_true(hits[i].distance < 2 * SIDE);
     traced_release(&traced);

@@ -2,6 +2,8 @@
 #ifndef TESTS_TEXTURE_FIXTURE_H
 #define TESTS_TEXTURE_FIXTURE_H
 
+#include "image/half.h"
+#include "image/tonemap.h"
 #include "scene/texture.h"
 #include "scratch.h"
 
@@ -50,12 +52,38 @@ static inline struct texture texture_of(float *samples, uint32_t width, uint32_t
     return (struct texture){.width = width,
                             .height = height,
                             .texel_bytes = channels * (uint32_t)sizeof *samples,
-                            .texels = {width, height, width, (const unsigned char *)samples},
+                            .levels = {{width, height, width, (const unsigned char *)samples}},
+                            .level_count = 1,
                             .raster = {.width = width,
                                        .height = height,
                                        .channels = channels,
                                        .sample = RASTER_FLOAT,
                                        .samples = samples}};
+}
+
+/* Owns a picture in which all numbers are 0, with tables as a loaded one has them. */
+static inline struct texture texture_create(enum raster_sample sample, bool srgb, uint32_t width,
+                                            uint32_t height, uint32_t channels)
+{
+    size_t count = (size_t)width * height * channels;
+    uint32_t codes = sample == RASTER_BYTE ? UINT8_MAX + 1 : UINT16_MAX + 1;
+    struct texture texture = texture_of(calloc(count, sizeof(float)), width, height, channels);
+    texture.raster.sample = sample;
+    texture.texel_bytes = raster_texel_bytes(&texture.raster);
+    texture.srgb = srgb;
+    texture.log_side = 0.5f * log2f((float)width * (float)height);
+    if (sample == RASTER_FLOAT)
+        return texture;
+    texture.color_of = malloc(codes * sizeof(float));
+    texture.alpha_of = srgb ? malloc(codes * sizeof(float)) : texture.color_of;
+    for (uint32_t code = 0; code < codes; code++) {
+        double value = (double)code / (codes - 1);
+        texture.alpha_of[code] =
+            sample == RASTER_HALF ? half_to_float((uint16_t)code) : (float)value;
+        if (srgb)
+            texture.color_of[code] = (float)tonemap_linear(value);
+    }
+    return texture;
 }
 
 static inline void assert_color(const float rgba[4], float r, float g, float b, float a,

@@ -43,7 +43,7 @@ static void find_in_tile(void *user, uint64_t index, uint32_t worker)
     ps_ray rays[PS_TILE_PIXELS];
     ps_hit hits[PS_TILE_PIXELS];
     uint64_t indices[PS_TILE_PIXELS];
-    float numbers[PS_TILE_PIXELS][4];
+    float numbers[PS_TILE_PIXELS][4], spreads[PS_TILE_PIXELS];
     memset(surfels->lengths + first, 0, work->rays * sizeof *surfels->lengths);
     host->tile_surfaces(host, (uint32_t)index, sizeof tile, &tile);
     ps_collect_points(&tile, &points);
@@ -58,8 +58,9 @@ static void find_in_tile(void *user, uint64_t index, uint32_t worker)
         rays[i] = ps_leave_surface(points.positions[point], normal,
                                    ps_cosine_direction(normal, numbers[i][0], numbers[i][1]),
                                    work->pass->surface_offset);
+        spreads[i] = PS_DIFFUSE_SPREAD;
     }
-    host->intersect(host, rays, work->rays, hits);
+    host->intersect_cones(host, rays, spreads, work->rays, hits);
     for (uint32_t i = 0; i < work->rays; i++) {
         if (!(hits[i].distance < INFINITY) || !(ps_rgb_maximum(hits[i].albedo) > 0.0f))
             continue;

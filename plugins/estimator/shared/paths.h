@@ -37,6 +37,7 @@ struct paths {
     uint32_t bounces[PS_TILE_PIXELS]; /* diffuse surfaces met */
     uint32_t chain[PS_TILE_PIXELS];   /* others since the last one */
     float pdfs[PS_TILE_PIXELS];       /* of the last scattering, where its lobe was glossy */
+    float spreads[PS_TILE_PIXELS];    /* of the cone around the ray (ps_cone_spread) */
     uint8_t shines[PS_TILE_PIXELS];   /* whether emission that is met counts */
 };
 
@@ -55,6 +56,7 @@ static inline void paths_move(struct paths *paths, size_t from, size_t to)
     paths->bounces[to] = paths->bounces[from];
     paths->chain[to] = paths->chain[from];
     paths->pdfs[to] = paths->pdfs[from];
+    paths->spreads[to] = paths->spreads[from];
     paths->shines[to] = paths->shines[from];
 }
 
@@ -80,7 +82,8 @@ static inline void paths_intersect(const struct paths_setting *setting, const ps
                                    uint32_t number, const struct paths *paths,
                                    struct paths_segment *segment)
 {
-    setting->host->intersect(setting->host, paths->rays, paths->count, segment->hits);
+    setting->host->intersect_cones(setting->host, paths->rays, paths->spreads, paths->count,
+                                   segment->hits);
     if (number == 1)
         ps_forget_own_surface(points, paths->pixels, paths->count, setting->pass->surface_offset,
                               segment->hits);
@@ -96,6 +99,7 @@ static inline void paths_add(struct paths *paths, uint32_t pixel, ps_ray ray, fl
     paths->throughput[i] = (ps_rgb){throughput, throughput, throughput};
     paths->bounces[i] = paths->chain[i] = 0;
     paths->pdfs[i] = 0.0f;
+    paths->spreads[i] = PS_DIFFUSE_SPREAD;
     paths->shines[i] = 0;
 }
 
@@ -249,6 +253,8 @@ static inline int paths_scatter(const struct paths_setting *setting,
                                       scattered->direction, setting->pass->surface_offset);
     paths->shines[i] = scattered->lobe != PS_DIFFUSE;
     paths->pdfs[i] = scattered->lobe == PS_GLOSSY ? scattered->pdf : 0.0f;
+    if (scattered->lobe != PS_SPECULAR) /* a mirror keeps the cone */
+        paths->spreads[i] = ps_cone_spread(scattered->pdf);
     return 1;
 }
 

@@ -1,0 +1,21 @@
+/* mip_map.h: a picture at half of its size, at a quarter, and so on to one texel.
+ *
+ * Williams 1983, "Pyramidal parametrics". A texel of a level has the mean of what it covers of the level before, as light:
+ * codes are decoded, averaged and encoded again, so that a picture of one colour stays so. Sides that are odd become
+ * half of the next smaller even number; their texels then cover a part of a neighbour as well.
+ */
+#ifndef SCENE_MIP_MAP_H
+#define SCENE_MIP_MAP_H
+
+#include "scene/texture.h"
+
+/* How many levels a picture has, itself among them. */
+uint32_t mip_map_level_count(uint32_t width, uint32_t height);
+
+/* Half of a side. */
+uint32_t mip_map_half(uint32_t side);
+
+/* Adds the levels to a texture that lies in memory, has tables and no levels but the first. PS_ERROR_MEMORY. */
+ps_result mip_map_add(struct texture *texture, struct error *error);
+
+#endif
