@@ -1,8 +1,8 @@
 #include "scene/material.h"
 
-#include "scene/ray_cone.h"
 #include "scene/fresnel.h"
 #include "scene/heuristic.h"
+#include "scene/ray_cone.h"
 #include <assert.h>
 
 /* Grazing directions, where cosines divide. */

@@ -72,7 +72,8 @@ struct material {
     bool has_bump;
     bool has_normal_map;
     enum material_lookup lookup;
-    bool filters; /* by ray cones (ray_cone.h): it has images, and no holes, whose colour must not mix in */
+    /* By ray cones (ray_cone.h): it has images, and no holes, whose colour must not mix in. */
+    bool filters;
     struct pigment emission; /* radiance */
     struct pigment opacity;
     struct pigment bump;       /* height, scene units */

@@ -29,6 +29,10 @@ static void check_texture(const struct texture *texture)
         texture_sample(texture, (float)(i % 8) / 7.0f, (float)i / 64.0f, rgba);
         for (int k = 0; k < 4; k++)
             require(isfinite(rgba[k]));
+        texture_filter(texture, (float)i / 64.0f, (float)(i % 8) / 7.0f, (float)(i % 20 - 17),
+                       rgba);
+        for (int k = 0; k < 4; k++)
+            require(isfinite(rgba[k]));
     }
 }
 
@@ -51,9 +55,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         .encoding = (int32_t)(size / 3 % 3),
         .nearest = size % 2 == 0,
     };
+    const struct texture_storage storage = {.mip_maps = true};
     struct texture texture = {0};
     struct error error = {{0}};
-    ps_result result = texture_load(&description, NULL, &texture, &error);
+    ps_result result = texture_load(&description, &storage, &texture, &error);
     if (result == PS_OK)
         check_texture(&texture);
     else
