@@ -68,6 +68,7 @@ static void prepare(struct reader *reader, const char *name, const struct psd_op
     if (options->cache)
         reader->description->cache = reader_copy(reader, options->cache);
     reader->description->texture_memory = options->texture_memory;
+    reader->description->memory_limit = options->memory_limit;
     reader->cache = options->cache;
     reader->allow_plugin_paths = options->allow_plugin_paths;
 }
@@ -93,7 +94,7 @@ static ps_result read_scene(const char *name, const struct main_text *text,
         result = PS_ERROR_MEMORY;
     if (result == PS_OK && diagnostics_error_count(sink) > errors_before)
         result = PS_ERROR_INVALID;
-    if (result == PS_ERROR_MEMORY)
+    if (result == PS_ERROR_MEMORY && diagnostics_error_count(sink) == errors_before)
         report_memory(sink, name);
     if (result != PS_OK)
         scene_description_release(description);

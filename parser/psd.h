@@ -21,7 +21,8 @@ struct psd_options {
     const struct psd_files *files; /* NULL: the file system */
     const char *folder;      /* the only one to read files from (input_folder_resolve), or NULL */
     const char *cache;       /* keeps what is made of meshes and pictures, or NULL */
-    double texture_memory;   /* bytes that pictures may take; 0: half of the machine's */
+    double texture_memory;   /* bytes that pictures may take; 0: half of the following */
+    double memory_limit;     /* bytes that all may take; 0: the machine's */
     bool allow_plugin_paths; /* whether the scene may name plugins, which are programs, by path */
     size_t most_values;      /* 0: 4 million */
 };

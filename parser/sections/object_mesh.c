@@ -151,6 +151,7 @@ void object_mesh_read(struct reader *reader, const struct item *item,
         .path = path,
         .folder = reader->description->folder,
         .cache = reader->cache,
+        .memory_limit = reader->description->memory_limit,
         .geometry = keys->use & USE_GEOMETRY,
         .materials = (keys->use & USE_MATERIALS && keys->object.material == NO_INDEX) ||
                      keys->materials != NULL,
@@ -170,9 +171,8 @@ void object_mesh_read(struct reader *reader, const struct item *item,
         reader_add_file(reader, path);
         warn_of(reader, item->key, path, &report);
         append(reader, item, keys, &content, &placed);
-    } else if (result == PS_ERROR_MEMORY) {
-        reader->out_of_memory = true;
     } else {
+        reader->out_of_memory = reader->out_of_memory || result == PS_ERROR_MEMORY;
         reader_error(reader, keys->file, "%s", error.text);
     }
     scene_description_release(&content);

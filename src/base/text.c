@@ -137,6 +137,16 @@ size_t text_distance(const char *a, const char *b)
     return previous[b_length];
 }
 
+const char *text_of_size(double bytes, char text[TEXT_SIZE_LENGTH])
+{
+    if (bytes < 1024 * 0x1p20)
+        snprintf(text, TEXT_SIZE_LENGTH, "%.0f MiB", ceil(bytes * 0x1p-20));
+    else
+        snprintf(text, TEXT_SIZE_LENGTH, "%.1f GiB", bytes * 0x1p-30);
+    text_delocalize(text);
+    return text;
+}
+
 bool text_has_suffix(const char *text, const char *suffix)
 {
     size_t length = strlen(text), suffix_length = strlen(suffix);

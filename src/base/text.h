@@ -16,6 +16,10 @@ bool text_part_to_number(const char *text, size_t length, double *value);
 void text_from_number(double value, char *text, size_t size);
 void text_from_float(float value, char *text, size_t size);
 
+/* Bytes of memory for people: "1.5 GiB", "640 MiB". Returns `text`. */
+#define TEXT_SIZE_LENGTH 32
+const char *text_of_size(double bytes, char text[TEXT_SIZE_LENGTH]);
+
 /* Gives a number that printf wrote the decimal point '.'. */
 void text_delocalize(char *text);
 

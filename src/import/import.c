@@ -8,11 +8,13 @@
 #include "import/import.h"
 
 #include "base/machine.h"
+#include "base/text.h"
 #include "import/cache.h"
 #include "import/child.h"
 #include "import/job.h"
 #include "import/transfer.h"
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -46,8 +48,10 @@ static void work(void *context)
 static ps_result import(struct task *task, struct error *error)
 {
     const struct mesh_request *request = task->request;
-    const struct child_limits limits = {SHARE_OF_MEMORY * machine_memory(),
+    double share = SHARE_OF_MEMORY * machine_memory(), limit = request->memory_limit;
+    const struct child_limits limits = {limit > 0.0 && limit < share ? limit : share,
                                         request->seconds > 0 ? request->seconds : SECONDS};
+    char most[TEXT_SIZE_LENGTH];
     struct error reason;
     ps_result result = child_run(work, task, &limits, &reason);
     if (result == PS_ERROR_INVALID)
@@ -58,6 +62,10 @@ static ps_result import(struct task *task, struct error *error)
     if (lseek(task->transfer, 0, SEEK_SET) != 0 ||
         !mesh_outcome_receive(task->outcome, task->transfer))
         return error_set(error, PS_ERROR_MEMORY, "%s: out of memory", request->path);
+    if (task->outcome->result == PS_ERROR_MEMORY && isfinite(limits.bytes))
+        return error_set(error, PS_ERROR_MEMORY, "%s: %.1000s; to read it may take %s%s",
+                         request->path, task->outcome->error.text, text_of_size(limits.bytes, most),
+                         limits.bytes < share ? ", by --memory-limit" : "");
     if (task->outcome->result != PS_OK)
         *error = task->outcome->error;
     return task->outcome->result;

@@ -17,8 +17,9 @@
 /* What to take from a mesh file, and how to carry it into the scene. */
 struct mesh_request {
     const char *path;
-    const char *folder; /* the only one to read from (input_file.h), or NULL */
-    const char *cache;  /* a folder for what was made of files (cache.h), or NULL */
+    const char *folder;  /* the only one to read from (input_file.h), or NULL */
+    const char *cache;   /* a folder for what was made of files (cache.h), or NULL */
+    double memory_limit; /* bytes that reading may take; 0: half of the machine's */
     bool geometry, materials, camera, lights; /* what to use */
     double unit;                              /* scene units for each unit of the file */
     int32_t up;        /* which axis of the file points upwards: 0 x, 1 y, 2 z */

@@ -184,7 +184,7 @@ static ps_result report_assimp(struct mesh_job *job)
         length--;
     if (text && strstr(text, "bad_alloc"))
         return error_set(job->error, PS_ERROR_INVALID,
-                         "%s: the file is broken, or too large for this machine's memory",
+                         "%s: the file is broken, or too large for the memory that there is",
                          job->request->path);
     return error_set(job->error, PS_ERROR_INVALID, "%s: %.*s", job->request->path,
                      length < 1000 ? (int)length : 1000,

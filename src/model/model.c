@@ -50,13 +50,14 @@ static bool shines(const struct scene_description *fragment)
     return some;
 }
 
-ps_result model_read(const char *path, const char *folder, const char *cache, struct model *model,
-                     struct error *error)
+ps_result model_read(const struct model_file *file, struct model *model, struct error *error)
 {
+    const char *path = file->path;
     const struct mesh_request request = {
         .path = path,
-        .folder = folder,
-        .cache = cache,
+        .folder = file->folder,
+        .cache = file->cache,
+        .memory_limit = file->memory_limit,
         .geometry = true,
         .materials = true,
         .camera = true,

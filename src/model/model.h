@@ -27,10 +27,14 @@ bool model_is_file(const char *path);
 /* How names of such files end, without the dot; NULL for an index beyond the last. */
 const char *model_extension(size_t index);
 
-/* Reads the file, which lies in the folder where that is not NULL (input_file.h); `cache`: import/cache.h, or NULL. PS_ERROR_INVALID where nothing is
- * to be seen in it, _IO or _MEMORY, with a message that names it. */
-ps_result model_read(const char *path, const char *folder, const char *cache, struct model *model,
-                     struct error *error);
+/* The file, and how it may be read: as of struct mesh_request. */
+struct model_file {
+    const char *path, *folder, *cache;
+    double memory_limit;
+};
+
+/* PS_ERROR_INVALID where nothing is to be seen in it, _IO or _MEMORY, with a message that names it. */
+ps_result model_read(const struct model_file *file, struct model *model, struct error *error);
 
 /* The scene, to be freed, in which the model is `file`: a path from where the scene's text is, in UTF-8, that does not
  * begin as a formula does. NULL when out of memory. */

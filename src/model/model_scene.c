@@ -62,11 +62,12 @@ static ps_result write_text(const struct model *model, const char *file, char **
     return *text ? PS_OK : error_memory(error, 4096, "the scene of a model");
 }
 
-ps_result model_scene_make(const char *model_path, const char *scene_path, const char *folder,
-                           const char *cache, char **text, struct error *error)
+ps_result model_scene_make(const struct model_file *model_file, const char *scene_path, char **text,
+                           struct error *error)
 {
+    const char *model_path = model_file->path;
     struct model model;
-    ps_result result = model_read(model_path, folder, cache, &model, error);
+    ps_result result = model_read(model_file, &model, error);
     if (result != PS_OK)
         return result;
     char *file = relative_path(model_path, scene_path);

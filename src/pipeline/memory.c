@@ -6,12 +6,11 @@
  * by then. What else the system runs is not known, and not asked for.
  */
 #include "base/machine.h"
+#include "base/text.h"
 #include "film/film_sum.h"
 #include "pipeline/planes.h"
 #include "pipeline/render.h"
 #include "pipeline/stages.h"
-
-#define GIB 0x1p30
 
 /* Photons, surfels, splats and stacks of threads, which do not grow with the picture. */
 #define BESIDE 0x1p24
@@ -115,20 +114,25 @@ bool memory_allows(const struct render_settings *settings, double bytes)
     return with_process(bytes) <= there;
 }
 
+/* `beside`: bytes that are taken, or will be, whatever the picture is. */
 static ps_result check(const struct render_settings *settings, size_t width, size_t height,
-                       double wanted, struct error *error)
+                       double picture, double beside, struct error *error)
 {
     struct rectangle film = planes_window(settings, width, height);
     double there;
     bool is_limited = memory_of(settings, &there);
-    if (wanted <= there)
+    char taken[TEXT_SIZE_LENGTH], other[TEXT_SIZE_LENGTH], limit[TEXT_SIZE_LENGTH];
+    if (picture + beside <= there)
         return PS_OK;
-    return error_set(error, PS_ERROR_MEMORY,
-                     "a picture of %zux%zu pixels takes %.1f GiB of memory to render, and %s "
-                     "%.1f GiB; a smaller one is had by --size, a part of it by --crop, all of it "
-                     "in parts by --tile",
-                     film.width, film.height, wanted / GIB,
-                     is_limited ? "--memory-limit is" : "this machine has", there / GIB);
+    return error_set(
+        error, PS_ERROR_MEMORY,
+        "a picture of %zux%zu pixels takes %s of memory to render%s%s%s, and %s %s; a "
+        "smaller one is had by --size, a part of it by --crop, all of it in parts by "
+        "--tile",
+        film.width, film.height, text_of_size(picture, taken), beside > 0.0 ? " beside " : "",
+        beside > 0.0 ? text_of_size(beside, other) : "",
+        beside > 0.0 ? " of the scene and the program" : "",
+        is_limited ? "--memory-limit is" : "this machine has", text_of_size(there, limit));
 }
 
 ps_result render_check_memory(const struct render_settings *settings, size_t width, size_t height,
@@ -137,7 +141,7 @@ ps_result render_check_memory(const struct render_settings *settings, size_t wid
     bool sums = keeps_film || settings_pass_count(settings) > 1;
     struct planes planes = planes_wanted(settings, NULL, sums, keeps_film);
     return check(settings, width, height,
-                 memory_of_picture(settings, &planes, width, height, keeps_film), error);
+                 memory_of_picture(settings, &planes, width, height, keeps_film), 0.0, error);
 }
 
 ps_result memory_check(const struct render_settings *settings, const struct planes *planes,
@@ -145,6 +149,6 @@ ps_result memory_check(const struct render_settings *settings, const struct plan
 {
     size_t width = scene->width, height = scene->height;
     double picture = memory_of_picture(settings, planes, width, height, keeps_film);
-    double wanted = with_process(picture) + scene_bytes_to_come(scene);
-    return check(settings, width, height, wanted, error);
+    double beside = with_process(0.0) + scene_bytes_to_come(scene);
+    return check(settings, width, height, ROUNDED_UP * picture, beside, error);
 }

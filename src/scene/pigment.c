@@ -167,8 +167,8 @@ static ps_rgb vary_by_mesh(const struct pigment *pigment, ps_vec3 point, const f
 {
     float at[2];
     choose_uv(pigment, point, uv, at);
-    ps_rgb color = pigment->kind == PIGMENT_IMAGE ? image_color(pigment, at, log_width)
-                                                  : pigment->colors[0];
+    ps_rgb color =
+        pigment->kind == PIGMENT_IMAGE ? image_color(pigment, at, log_width) : pigment->colors[0];
     if (pigment->vertex_colors)
         color = ps_rgb_multiply(color, (ps_rgb){point.x, point.y, point.z});
     return pigment->bounded ? within_unit(color) : color;

@@ -1,4 +1,5 @@
 #include "scene/scene.h"
+#include "base/machine.h"
 
 #include "scene/camera_frame.h"
 #include "scene/scene_box.h"
@@ -54,6 +55,12 @@ static ps_result add_camera(struct assembly *assembly)
     if (result == PS_OK)
         scene->camera = camera_from_description(&camera, scene->width, scene->height);
     return result;
+}
+
+double assembly_memory(const struct scene_description *description)
+{
+    double limit = description->memory_limit, machine = machine_memory();
+    return limit > 0.0 && limit < machine ? limit : machine;
 }
 
 static ps_result assemble(struct assembly *assembly)
@@ -129,11 +136,7 @@ void scene_release(struct scene *scene)
 
 static size_t shape_bytes(const struct shape *shape)
 {
-    size_t of_vertex = sizeof *shape->vertices + (shape->normals ? sizeof *shape->normals : 0) +
-                       (shape->uv ? sizeof *shape->uv : 0) +
-                       (shape->second_uv ? sizeof *shape->second_uv : 0) +
-                       (shape->colors ? sizeof *shape->colors : 0);
-    return sizeof *shape + shape->vertex_count * of_vertex +
+    return sizeof *shape + shape->vertex_count * VERTEX_BYTES(shape) +
            shape->triangle_count * sizeof *shape->triangles;
 }
 

@@ -19,9 +19,6 @@
 #define NO_LIGHT PS_NO_LIGHT
 #define NO_MATERIAL UINT32_MAX
 
-/* Of memory, that pictures may take where nothing is said of it. */
-#define SCENE_TEXTURE_SHARE 0.5
-
 /* A run of shapes that are placed together. */
 struct group {
     size_t first_shape, shape_count;

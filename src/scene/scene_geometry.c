@@ -2,6 +2,8 @@
  *
  * Planes without an extent are as large as the rest of the scene asks for, so they are made last.
  */
+#include "base/machine.h"
+#include "base/text.h"
 #include "scene/scene_box.h"
 #include "scene/scene_parts.h"
 
@@ -206,6 +208,64 @@ static void number_objects(struct scene *scene)
     }
 }
 
+/* --- memory -------------------------------------------------------------------------------------- */
+
+/* The ray tracer's tree while it is built, for each triangle of a large mesh; 64 of it stay. */
+#define TREE_BYTES 80.0
+
+static double mesh_bytes(const struct mesh_description *mesh)
+{
+    return (double)mesh->vertex_count * (double)VERTEX_BYTES(mesh) +
+           (double)mesh->triangle_count * (sizeof *mesh->triangles + TREE_BYTES);
+}
+
+/* Of a list of objects: what their meshes will take, and how many triangles they have; `most`: the largest one. */
+struct mesh_sums {
+    double bytes, triangles;
+    const struct object_description *most;
+    size_t most_triangles;
+};
+
+static void add_meshes(const struct scene_description *description,
+                       const struct object_description *objects, size_t count,
+                       struct mesh_sums *sums)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (objects[i].kind != OBJECT_MESH)
+            continue;
+        const struct mesh_description *mesh = &description->meshes[objects[i].mesh];
+        sums->bytes += mesh_bytes(mesh);
+        sums->triangles += (double)mesh->triangle_count;
+        if (mesh->triangle_count > sums->most_triangles) {
+            sums->most_triangles = mesh->triangle_count;
+            sums->most = &objects[i];
+        }
+    }
+}
+
+/* Whether the meshes, which the description still has, fit in a second time, with the ray tracer's tree: a system that
+ * lends more memory than it has would end the process later. */
+static ps_result check_memory(struct assembly *assembly)
+{
+    const struct scene_description *description = assembly->description;
+    struct mesh_sums sums = {.bytes = 0.0};
+    add_meshes(description, description->objects, description->object_count, &sums);
+    for (size_t i = 0; i < description->group_count; i++)
+        add_meshes(description, description->groups[i].objects, description->groups[i].object_count,
+                   &sums);
+    double wanted = sums.bytes + machine_memory_of_process();
+    double there = assembly_memory(description);
+    if (!sums.most || wanted <= there)
+        return PS_OK;
+    char taken[TEXT_SIZE_LENGTH], limit[TEXT_SIZE_LENGTH];
+    assembly->where = sums.most->origin;
+    return error_set(assembly->error, PS_ERROR_MEMORY,
+                     "the scene's %.0f triangles take %s of memory while it is made, and %s %s",
+                     sums.triangles, text_of_size(wanted, taken),
+                     there < machine_memory() ? "--memory-limit is" : "this machine has",
+                     text_of_size(there, limit));
+}
+
 /* Room for all shapes, zeroed: such a shape can be released. */
 static ps_result reserve(struct assembly *assembly)
 {
@@ -229,7 +289,9 @@ static ps_result reserve(struct assembly *assembly)
 
 ps_result assembly_add_geometry(struct assembly *assembly)
 {
-    ps_result result = reserve(assembly);
+    ps_result result = check_memory(assembly);
+    if (result == PS_OK)
+        result = reserve(assembly);
     if (result == PS_OK)
         result = add_groups(assembly);
     if (result == PS_OK)

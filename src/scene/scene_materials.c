@@ -1,5 +1,5 @@
 /* scene_materials.c: textures and materials of a scene. */
-#include "base/machine.h"
+#include "base/text.h"
 #include "scene/scene_parts.h"
 
 #include <psplat/math.h>
@@ -9,7 +9,8 @@
 #define EXPANSION 4096
 #define EXCESS_LIMIT ((size_t)1 << 30)
 
-#define MIB 0x1p20
+/* That pictures may take, where nothing else is said. */
+#define SHARE_OF_MEMORY 0.5
 
 static ps_result count_excess(struct assembly *assembly, const struct raster *raster,
                               size_t *excess)
@@ -25,7 +26,7 @@ static ps_result count_excess(struct assembly *assembly, const struct raster *ra
 static double texture_memory(const struct scene_description *description)
 {
     double given = description->texture_memory;
-    return given > 0.0 ? given : SCENE_TEXTURE_SHARE * machine_memory();
+    return given > 0.0 ? given : SHARE_OF_MEMORY * assembly_memory(description);
 }
 
 static ps_result check_memory(const struct assembly *assembly, double taken)
@@ -33,10 +34,11 @@ static ps_result check_memory(const struct assembly *assembly, double taken)
     double most = texture_memory(assembly->description);
     if (taken <= most)
         return PS_OK;
+    char all[TEXT_SIZE_LENGTH], limit[TEXT_SIZE_LENGTH];
     return error_set(assembly->error, PS_ERROR_MEMORY,
-                     "up to this one the scene's pictures take %.1f MiB of memory, and "
-                     "--texture-memory is %.1f MiB%s",
-                     taken / MIB, most / MIB,
+                     "up to this one the scene's pictures take %s of memory, and --texture-memory "
+                     "is %s%s",
+                     text_of_size(taken, all), text_of_size(most, limit),
                      assembly->description->cache
                          ? ""
                          : "; with --cache large ones are read in tiles, as they are looked at");

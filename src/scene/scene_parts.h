@@ -13,6 +13,16 @@ struct assembly {
     struct error *error;
 };
 
+/* Bytes that the process may take. */
+double assembly_memory(const struct scene_description *description);
+
+/* Of a mesh's description, or of a shape. */
+#define VERTEX_BYTES(mesh_)                                                                        \
+    (sizeof *(mesh_)->vertices + ((mesh_)->normals ? sizeof *(mesh_)->normals : 0) +               \
+     ((mesh_)->uv ? sizeof *(mesh_)->uv : 0) +                                                     \
+     ((mesh_)->second_uv ? sizeof *(mesh_)->second_uv : 0) +                                       \
+     ((mesh_)->colors ? sizeof *(mesh_)->colors : 0))
+
 /* Zeroed room, at least for one element; NULL, reported, when out of memory. */
 void *assembly_allocate(struct assembly *assembly, size_t count, size_t size);
 

@@ -147,6 +147,7 @@ void transfer_description(struct transfer *transfer, struct scene_description *d
     transfer_text(transfer, &description->folder);
     transfer_text(transfer, &description->cache);
     transfer_bytes(transfer, &description->texture_memory, sizeof description->texture_memory);
+    transfer_bytes(transfer, &description->memory_limit, sizeof description->memory_limit);
     move_cameras(transfer, description);
     move_textures(transfer, description);
     move_materials(transfer, description);

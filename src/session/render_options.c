@@ -197,7 +197,9 @@ static ps_result set_exposure(struct render_options *options, const char *value,
 static ps_result set_memory_limit(struct render_options *options, const char *value,
                                   struct error *error)
 {
-    return option_bytes("memory-limit", value, &options->memory_limit, error);
+    ps_result result = option_bytes("memory-limit", value, &options->memory_limit, error);
+    options->scene.psd.memory_limit = options->memory_limit;
+    return result;
 }
 
 static ps_result set_layers(struct render_options *options, const char *value, struct error *error)

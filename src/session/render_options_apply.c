@@ -66,8 +66,6 @@ ps_result render_options_lay_over(const struct render_options *options, struct s
         if (result != PS_OK)
             return result;
     }
-    if (description->texture_memory == 0.0)
-        description->texture_memory = SCENE_TEXTURE_SHARE * options->memory_limit;
     if (options->seed >= 0)
         description->render.seed = (int64_t)options->seed;
     if (options->direct_resolution > 0)

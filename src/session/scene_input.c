@@ -19,7 +19,8 @@ static ps_result read_model(struct scene_input *input, const char *path,
 {
     struct error error;
     char *text = NULL;
-    ps_result result = model_scene_make(path, NULL, options->folder, options->cache, &text, &error);
+    const struct model_file file = {path, options->folder, options->cache, options->memory_limit};
+    ps_result result = model_scene_make(&file, NULL, &text, &error);
     if (result != PS_OK) {
         diagnostics_report(input->sink, SEVERITY_ERROR, NULL, 0, "%s", error.text);
         return result;

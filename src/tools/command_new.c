@@ -40,8 +40,9 @@ static int write_scene(const char *path, const char *model)
 {
     struct error error;
     char *text = NULL;
-    ps_result result = model ? model_scene_make(model, path, NULL, NULL, &text, &error)
-                             : first_scene(&text, &error);
+    ps_result result =
+        model ? model_scene_make(&(struct model_file){.path = model}, path, &text, &error)
+              : first_scene(&text, &error);
     if (result == PS_OK)
         result = write_text(path, text, &error);
     free(text);

@@ -133,9 +133,31 @@ fi
 
 # shellcheck disable=SC2086
 run 1 $job --memory-limit 1M -o no.exr
-expect_match err "^psplat: error: a picture of 96x54 pixels takes 0.0 GiB of memory to render, and --memory-limit is 0.0 GiB"
+expect_match err "^psplat: error: a picture of 96x54 pixels takes [0-9]+ MiB of memory to render, and --memory-limit is 1 MiB; a smaller one is had by --size"
 # shellcheck disable=SC2086
 run 0 -q $job --memory-limit 1T -o a.exr
+
+# A mesh is refused before the scene is made of it: half a million triangles.
+awk 'BEGIN {
+    n = 500
+    for (y = 0; y < n; y++) for (x = 0; x < n; x++) print "v", x / n, 0.1 * sin(x * y), y / n
+    for (y = 0; y + 1 < n; y++) for (x = 1; x < n; x++) {
+        i = y * n + x
+        print "f", i, i + 1, i + n + 1
+        print "f", i, i + n + 1, i + n
+    }
+}' >mesh.obj
+cat >mesh.psd <<'END'
+psd: 1
+camera: {location: [0.5, 1, -1], look_at: [0.5, 0, 0.5]}
+lights: [{point: {location: [0.5, 2, 0], intensity: 10}}]
+objects:
+  - mesh: {file: mesh.obj}
+END
+run 2 -q --size 32x18 --memory-limit 60M mesh.psd -o mesh.exr
+expect_match err "^mesh.psd:5:5: error: the scene's 498002 triangles take [0-9]+ MiB of memory while it is made, and --memory-limit is 60 MiB"
+[ ! -e mesh.exr ] || fail "a picture beyond the limit"
+run 0 -q --size 32x18 --quality draft --memory-limit 2G mesh.psd -o mesh.exr
 
 # What is asked for is what a render takes, and no more than a fifth over it: with the denoiser, halves of the passes, the
 # film's file, and splats.

@@ -80,8 +80,8 @@ ls textures >after
 grep -q '\.texture$' after && [ "$(wc -l <after)" -eq 1 ] || fail "not one entry for the picture"
 run 0 check --cache textures --texture-memory 100K textured.psd
 run 2 $quick --texture-memory 500K -o none.exr textured.psd
-expect_text err "textured.psd:4:45: error: up to this one the scene's pictures take 1.4 MiB of memory"
-expect_text err "--texture-memory is 0.5 MiB"
+expect_text err "textured.psd:4:45: error: up to this one the scene's pictures take 2 MiB of memory"
+expect_text err "--texture-memory is 1 MiB"
 expect_text err "with --cache large ones are read in tiles"
 [ ! -e none.exr ] || fail "a picture in spite of the error"
 run 2 $quick --texture-memory some -o none.exr textured.psd

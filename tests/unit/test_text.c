@@ -269,6 +269,24 @@ static void test_near_words(void **state)
     assert_false(text_is_near("xyz", "box"));
 }
 
+static void expect_size(double bytes, const char *expected)
+{
+    char text[TEXT_SIZE_LENGTH];
+    assert_string_equal(text_of_size(bytes, text), expected);
+}
+
+static void test_sizes(void **state)
+{
+    (void)state;
+    expect_size(0, "0 MiB");
+    expect_size(1, "1 MiB");
+    expect_size(0x1p20, "1 MiB");
+    expect_size(640.2 * 0x1p20, "641 MiB");
+    expect_size(0x1p30, "1.0 GiB");
+    expect_size(5.26 * 0x1p30, "5.3 GiB");
+    expect_size(INFINITY, "inf GiB");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -283,6 +301,7 @@ int main(void)
         cmocka_unit_test(test_distances),
         cmocka_unit_test(test_long_words_are_far),
         cmocka_unit_test(test_near_words),
+        cmocka_unit_test(test_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
