@@ -30,9 +30,8 @@ struct texture {
     bool nearest;           /* rather than bilinear */
     struct raster raster;   /* without samples where a file of the cache has them */
     uint32_t texel_bytes, tile_shift;
-    struct texels
-        levels[TEXTURE_LEVELS]; /* level_count of them: the picture, half of it, ... (mip_map.h) */
-    uint32_t level_count;
+    uint32_t level_count; /* of the picture, half of it, and so on (mip_map.h) */
+    struct texels levels[TEXTURE_LEVELS];
     float log_side;             /* binary logarithm of the picture's mean side in texels */
     void *halves;               /* owned: levels after the first, where they lie in memory */
     struct mapped_file *file;   /* that has the texels, or NULL */
@@ -47,10 +46,9 @@ struct texture {
 
 /* Where pictures lie. */
 struct texture_storage {
-    const char *folder; /* the only one to read them from (input_file.h), or NULL */
-    bool mip_maps;      /* whether texture_filter finds more levels than the first */
-    const char
-        *cache; /* a folder for what was made of them (texture_cache.h), or NULL; with MIP maps */
+    const char *folder;           /* the only one to read them from (input_file.h), or NULL */
+    bool mip_maps;                /* whether texture_filter finds more levels than the first */
+    const char *cache;            /* with MIP maps: a folder for both (texture_cache.h), or NULL */
     struct mapped_budget *budget; /* of what lies there, where there is a cache */
 };
 
