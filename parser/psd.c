@@ -94,7 +94,7 @@ static ps_result read_scene(const char *name, const struct main_text *text,
         result = PS_ERROR_MEMORY;
     if (result == PS_OK && diagnostics_error_count(sink) > errors_before)
         result = PS_ERROR_INVALID;
-    if (result == PS_ERROR_MEMORY && diagnostics_error_count(sink) == errors_before)
+    if (result == PS_ERROR_MEMORY)
         report_memory(sink, name);
     if (result != PS_OK)
         scene_description_release(description);
