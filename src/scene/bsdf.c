@@ -1,0 +1,329 @@
+/* bsdf.c: how a surface scatters: drawing directions, and evaluating and weighing those that were drawn otherwise.
+ *
+ * Facets: Walter et al. 2007, Heitz 2018 (microfacet.h). Shading normals on light paths: Veach 1997, section 5.3.
+ */
+#include "scene/bsdf_lobes.h"
+
+#include "scene/fresnel.h"
+#include "scene/heuristic.h"
+
+/* --- lobes ----------------------------------------------------------------------------------- */
+
+/* Chooses a lobe, and rescales the number so that it can be used again. */
+static const struct bsdf_lobe *choose_lobe(const struct bsdf_lobe *lobes, size_t count,
+                                           float *number)
+{
+    float left = *number;
+    size_t i = 0;
+    while (i + 1 < count && left >= lobes[i].probability)
+        left -= lobes[i++].probability;
+    *number = fminf(left / lobes[i].probability, 0x1.fffffep-1f);
+    return &lobes[i];
+}
+
+static ps_vec3 to_frame(const ps_vec3 frame[3], ps_vec3 w)
+{
+    return (ps_vec3){ps_dot(w, frame[0]), ps_dot(w, frame[1]), ps_dot(w, frame[2])};
+}
+
+static ps_vec3 from_frame(const ps_vec3 frame[3], ps_vec3 w)
+{
+    return ps_add_scaled(ps_add_scaled(ps_scale(frame[0], w.x), w.y, frame[1]), w.z, frame[2]);
+}
+
+static void shading_frame(const ps_hit *hit, ps_vec3 frame[3])
+{
+    frame[2] = hit->normal;
+    ps_frame(frame[2], &frame[0], &frame[1]);
+}
+
+static ps_bsdf_sample mirror(const struct bsdf_lobe *lobe, const struct bsdf_view *view)
+{
+    const struct component *component = lobe->component;
+    ps_vec3 n = view->hit->normal;
+    ps_rgb reflected = bsdf_reflector_albedo(component, view, view->cosine);
+    return (ps_bsdf_sample){
+        .direction =
+            ps_normalize(ps_add_scaled(ps_scale(view->out, -1.0f), 2.0f * ps_dot(view->out, n), n)),
+        .weight = ps_rgb_scale(reflected, bsdf_share(component, view)),
+        .lobe = PS_SPECULAR,
+    };
+}
+
+static ps_bsdf_sample reflect_roughly(const struct bsdf_lobe *lobe, const struct bsdf_view *view,
+                                      ps_direction direction, const float sample[4])
+{
+    const struct component *component = lobe->component;
+    float roughness = bsdf_roughness(component, view->hit);
+    ps_rgb f0 = bsdf_color(&component->specular, view->hit);
+    ps_vec3 frame[3];
+    shading_frame(view->hit, frame);
+    ps_vec3 out = to_frame(frame, view->out);
+    out.z = fmaxf(out.z, BSDF_LEAST_COSINE);
+    ps_vec3 in = microfacet_sample(roughness, out, sample[0], sample[1]);
+    float eye = direction == PS_FROM_CAMERA ? out.z : in.z;
+    ps_rgb weight = ps_rgb_multiply(microfacet_weight(roughness, f0, out, in),
+                                    microfacet_compensation(view->table, f0, roughness, eye));
+    return (ps_bsdf_sample){
+        .direction = ps_normalize(from_frame(frame, in)),
+        .weight = ps_rgb_scale(weight, bsdf_share(component, view)),
+        .pdf = microfacet_pdf(roughness, out, in),
+        .lobe = PS_GLOSSY,
+    };
+}
+
+static ps_bsdf_sample scatter_diffusely(const struct bsdf_view *view, ps_direction direction,
+                                        const float sample[4])
+{
+    ps_vec3 n = view->hit->normal;
+    ps_vec3 w = ps_cosine_direction(n, sample[0], sample[1]);
+    float cosine = ps_dot(w, n);
+    return (ps_bsdf_sample){
+        .direction = w,
+        .weight = bsdf_diffuse_albedo(view, direction == PS_FROM_CAMERA ? view->cosine : cosine),
+        .pdf = cosine / PS_PI,
+        .lobe = PS_DIFFUSE,
+    };
+}
+
+static ps_rgb transmittance(ps_rgb absorption, float distance)
+{
+    return (ps_rgb){expf(-absorption.r * distance), expf(-absorption.g * distance),
+                    expf(-absorption.b * distance)};
+}
+
+/* Chance by which glass mirrors, of the share that it does. Of eight samples of a pixel, which are stratified, camera
+ * paths send at least one either way, so that what is rare is seen in all pixels and not in some. Photons
+ * keep their power. */
+static float chance_to_mirror(float reflectance, ps_direction direction)
+{
+    const float least = 0.125f;
+    if (direction == PS_FROM_LIGHT || reflectance <= 0.0f || reflectance >= 1.0f)
+        return reflectance;
+    return fminf(fmaxf(reflectance, least), 1.0f - least);
+}
+
+/* Mirrors or refracts, by chance. Radiance is squeezed into a smaller solid angle on the denser side;
+ * power is not. */
+static ps_bsdf_sample pass_surface(const struct bsdf_lobe *lobe, const struct bsdf_view *view,
+                                   ps_direction direction, float number)
+{
+    const struct component *component = lobe->component;
+    bool inside = view->hit->flags & PS_HIT_BACK;
+    float eta = inside ? 1.0f / component->ior : component->ior;
+    float far_cosine, reflectance = fresnel_dielectric(view->cosine, eta, &far_cosine);
+    ps_vec3 n = view->hit->normal;
+    ps_rgb weight = {component->share, component->share, component->share};
+    if (inside)
+        weight = ps_rgb_multiply(weight, transmittance(component->absorption, view->hit->distance));
+    ps_bsdf_sample scattered = {.lobe = PS_SPECULAR, .weight = weight};
+    float chance = chance_to_mirror(reflectance, direction);
+    if (number < chance) {
+        scattered.weight = ps_rgb_scale(weight, reflectance / chance);
+        scattered.direction =
+            ps_add_scaled(ps_scale(view->out, -1.0f), 2.0f * ps_dot(view->out, n), n);
+    } else {
+        weight = ps_rgb_scale(weight, (1.0f - reflectance) / (1.0f - chance));
+        ps_vec3 along = ps_scale(view->out, -1.0f / eta);
+        scattered.direction = ps_add_scaled(along, view->cosine / eta - far_cosine, n);
+        scattered.weight = ps_rgb_multiply(weight, bsdf_color(&component->specular, view->hit));
+        if (direction == PS_FROM_CAMERA)
+            scattered.weight = ps_rgb_scale(scattered.weight, 1.0f / (eta * eta));
+    }
+    scattered.direction = ps_normalize(scattered.direction);
+    return scattered;
+}
+
+static ps_bsdf_sample follow_lobe(const struct bsdf_lobe *lobe, const struct bsdf_view *view,
+                                  ps_direction direction, const float sample[4], float number)
+{
+    const struct component *component = lobe->component;
+    if (!component)
+        return scatter_diffusely(view, direction, sample);
+    if (component->kind == COMPONENT_DIELECTRIC)
+        return pass_surface(lobe, view, direction, number);
+    if (component->constant || bsdf_is_smooth(bsdf_roughness(component, view->hit)))
+        return mirror(lobe, view);
+    return reflect_roughly(lobe, view, direction, sample);
+}
+
+/* What light paths lose or gain at smoothed and bent normals (Veach 1997, section 5.3): where they arrive, along
+ * view->out, and where they leave along w. */
+static float arrival_correction(const struct bsdf_view *view)
+{
+    ps_vec3 shading = view->hit->normal, true_normal = view->hit->geometric_normal;
+    if (ps_same(shading, true_normal))
+        return 1.0f;
+    float in =
+        ps_dot(view->out, shading) / fmaxf(ps_dot(view->out, true_normal), BSDF_LEAST_COSINE);
+    return fmaxf(in, 0.0f);
+}
+
+static float shading_correction(const struct bsdf_view *view, ps_vec3 w)
+{
+    ps_vec3 shading = view->hit->normal, true_normal = view->hit->geometric_normal;
+    if (ps_same(shading, true_normal))
+        return 1.0f;
+    float away =
+        fabsf(ps_dot(w, true_normal)) / fmaxf(fabsf(ps_dot(w, shading)), BSDF_LEAST_COSINE);
+    return arrival_correction(view) * away;
+}
+
+/* --- surfaces that are diffuse alone ---------------------------------------------------------------
+ *
+ * What arrives counts by the shading normal, and what leaves goes to all directions of the surface itself, whichever side of
+ * its shading normal they are on. So camera paths draw by the shading normal, and light paths by the geometric one. */
+
+static ps_bsdf_sample scatter_light_diffusely(const struct bsdf_view *view, const float sample[4])
+{
+    ps_vec3 n = view->hit->geometric_normal;
+    ps_vec3 w = ps_cosine_direction(n, sample[0], sample[1]);
+    return (ps_bsdf_sample){
+        .direction = w,
+        .normal = n,
+        .weight = ps_rgb_scale(bsdf_diffuse_albedo(view, view->cosine), arrival_correction(view)),
+        .probability = 1.0f,
+        .pdf = ps_dot(w, n) / PS_PI,
+        .lobe = PS_DIFFUSE,
+    };
+}
+
+static ps_bsdf_value evaluate_diffuse(const struct bsdf_view *view, ps_direction direction,
+                                      ps_vec3 away)
+{
+    const ps_hit *hit = view->hit;
+    ps_rgb albedo = bsdf_diffuse_albedo(view, view->cosine);
+    float shading = fmaxf(ps_dot(away, hit->normal), 0.0f) / PS_PI;
+    float geometric = ps_dot(away, hit->geometric_normal) / PS_PI;
+    float back_shading = fmaxf(ps_dot(view->out, hit->normal), 0.0f) / PS_PI;
+    float back_geometric = ps_dot(view->out, hit->geometric_normal) / PS_PI;
+    if (!(geometric > 0.0f))
+        return (ps_bsdf_value){.pdf = 0.0f};
+    if (direction == PS_FROM_CAMERA)
+        return (ps_bsdf_value){ps_rgb_scale(albedo, shading), shading, back_geometric};
+    return (ps_bsdf_value){ps_rgb_scale(albedo, geometric * arrival_correction(view)), geometric,
+                           back_shading};
+}
+
+/* --- any surface ------------------------------------------------------------------------------- */
+
+ps_bsdf_sample material_scatter(const struct material *material,
+                                const struct microfacet_table *table, ps_direction direction,
+                                const ps_ray *ray, const ps_hit *hit, const float sample[4])
+{
+    struct bsdf_lobe lobes[BSDF_MOST_LOBES];
+    struct bsdf_view view = bsdf_view_of(material, table, hit, ray->direction);
+    if (!material->specular && direction == PS_FROM_LIGHT)
+        return scatter_light_diffusely(&view, sample);
+    size_t count = bsdf_list_lobes(&view, lobes);
+    if (count == 0)
+        return (ps_bsdf_sample){
+            .direction = hit->normal, .normal = hit->normal, .probability = 1.0f};
+    float number = sample[3];
+    const struct bsdf_lobe *lobe = choose_lobe(lobes, count, &number);
+    ps_bsdf_sample scattered = follow_lobe(lobe, &view, direction, sample, number);
+    scattered.probability = lobe->probability;
+    scattered.pdf *= lobe->probability;
+    float factor = 1.0f / lobe->probability;
+    float side = ps_dot(scattered.direction, hit->geometric_normal);
+    bool crosses = ps_dot(scattered.direction, hit->normal) < 0.0f;
+    scattered.normal = crosses ? ps_scale(hit->geometric_normal, -1.0f) : hit->geometric_normal;
+    if (crosses != (side < 0.0f)) /* a bent normal would send it through the surface */
+        factor = 0.0f;
+    else if (direction == PS_FROM_LIGHT)
+        factor *= shading_correction(&view, scattered.direction);
+    scattered.weight = ps_rgb_scale(scattered.weight, factor);
+    return scattered;
+}
+
+/* The lobe's part of the value, with light that comes from `in` and leaves to `out`, or the other way round;
+ * `eye`: the cosine of where it leaves to. Directions in the shading frame; `pdf` becomes the density by which
+ * material_scatter draws `in`, given `out`. */
+static ps_rgb evaluate_lobe(const struct bsdf_lobe *lobe, const struct bsdf_view *view, ps_vec3 out,
+                            ps_vec3 in, float eye, float *pdf)
+{
+    const struct component *component = lobe->component;
+    *pdf = 0.0f;
+    if (!component) {
+        *pdf = lobe->probability * in.z / PS_PI;
+        return ps_rgb_scale(bsdf_diffuse_albedo(view, eye), in.z / PS_PI);
+    }
+    float roughness =
+        component->kind == COMPONENT_DIELECTRIC ? 0.0f : bsdf_roughness(component, view->hit);
+    if (component->constant || bsdf_is_smooth(roughness))
+        return (ps_rgb){0, 0, 0};
+    ps_rgb f0 = bsdf_color(&component->specular, view->hit);
+    *pdf = lobe->probability * microfacet_pdf(roughness, out, in);
+    return ps_rgb_scale(ps_rgb_multiply(microfacet_reflect(roughness, f0, out, in),
+                                        microfacet_compensation(view->table, f0, roughness, eye)),
+                        bsdf_share(component, view));
+}
+
+/* All lobes; the ray leaves them along view->out, or comes from there. */
+static ps_rgb evaluate_lobes(const struct bsdf_view *view, ps_direction direction, ps_vec3 out,
+                             ps_vec3 in, float *pdf)
+{
+    struct bsdf_lobe lobes[BSDF_MOST_LOBES];
+    size_t count = bsdf_list_lobes(view, lobes);
+    ps_rgb sum = {0, 0, 0};
+    *pdf = 0.0f;
+    for (size_t i = 0; i < count; i++) {
+        float own;
+        float eye = direction == PS_FROM_CAMERA ? view->cosine : in.z;
+        sum = ps_rgb_add(sum, evaluate_lobe(&lobes[i], view, out, in, eye, &own));
+        *pdf += own;
+    }
+    return sum;
+}
+
+ps_bsdf_value material_evaluate(const struct material *material,
+                                const struct microfacet_table *table, ps_direction direction,
+                                const ps_ray *ray, const ps_hit *hit, ps_vec3 away)
+{
+    struct bsdf_view view = bsdf_view_of(material, table, hit, ray->direction);
+    if (!material->specular)
+        return evaluate_diffuse(&view, direction, away);
+    struct bsdf_view reverse = bsdf_view_of(material, table, hit, ps_scale(away, -1.0f));
+    ps_bsdf_value value = {.pdf = 0.0f};
+    ps_vec3 frame[3];
+    shading_frame(hit, frame);
+    ps_vec3 out = to_frame(frame, view.out), in = to_frame(frame, away);
+    if (!(in.z > 0.0f && ps_dot(away, hit->geometric_normal) > 0.0f))
+        return value;
+    out.z = fmaxf(out.z, BSDF_LEAST_COSINE);
+    value.value = evaluate_lobes(&view, direction, out, in, &value.pdf);
+    evaluate_lobes(&reverse, direction, in, out, &value.reverse_pdf);
+    if (direction == PS_FROM_LIGHT)
+        value.value = ps_rgb_scale(value.value, shading_correction(&view, away));
+    return value;
+}
+
+ps_rgb material_gloss(const struct material *material, const struct microfacet_table *table,
+                      const ps_ray *ray, const ps_hit *hit, ps_vec3 in, float light_pdf)
+{
+    struct bsdf_lobe lobes[BSDF_MOST_LOBES];
+    struct bsdf_view view = bsdf_view_of(material, table, hit, ray->direction);
+    size_t count = bsdf_list_lobes(&view, lobes);
+    ps_vec3 frame[3];
+    shading_frame(hit, frame);
+    ps_vec3 to_eye = to_frame(frame, view.out), to_light = to_frame(frame, in);
+    to_eye.z = fmaxf(to_eye.z, BSDF_LEAST_COSINE);
+    ps_rgb sum = {0, 0, 0};
+    if (!(to_light.z > 0.0f && ps_dot(in, hit->geometric_normal) > 0.0f))
+        return sum;
+    for (size_t i = 0; i < count; i++) {
+        const struct component *component = lobes[i].component;
+        if (!component || component->kind == COMPONENT_DIELECTRIC || component->constant)
+            continue;
+        float roughness = bsdf_roughness(component, hit);
+        if (bsdf_is_smooth(roughness))
+            continue;
+        ps_rgb f0 = bsdf_color(&component->specular, hit);
+        ps_rgb reflected = ps_rgb_multiply(microfacet_reflect(roughness, f0, to_eye, to_light),
+                                           microfacet_compensation(table, f0, roughness, to_eye.z));
+        float own = lobes[i].probability * microfacet_pdf(roughness, to_eye, to_light);
+        float share = power_heuristic(light_pdf, own);
+        sum = ps_rgb_add(sum, ps_rgb_scale(reflected, bsdf_share(component, &view) * share));
+    }
+    return sum;
+}
