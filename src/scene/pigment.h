@@ -37,10 +37,10 @@ struct pigment {
     const struct texture *texture;       /* borrowed; image */
     int32_t channel;                     /* enum texture_channel; image */
     float scale[2], cross[2], offset[2]; /* u goes to scale * u + cross * v + offset; image */
-    float log_scale;                     /* binary logarithm of their mean factor on lengths; image */
-    bool second_uv;                      /* image: by the point's x and y rather than by u and v */
-    bool complement;                     /* image */
-    bool vertex_colors;                  /* times the point as a colour */
+    float log_scale;          /* binary logarithm of their mean factor on lengths; image */
+    bool second_uv;           /* image: by the point's x and y rather than by u and v */
+    bool complement;          /* image */
+    bool vertex_colors;       /* times the point as a colour */
     bool bounded;             /* kept within 0..1, as reflectances are; image, vertex_colors */
     struct affine to_pattern; /* from the space of the points */
     ps_vec3 axis;             /* unit, or 0: all is colors[0]; gradient */
