@@ -186,7 +186,8 @@ static float area_in_world(const struct placed *placed, const uint32_t corner[3]
         if (placed->instance)
             points[i] = affine_point(&placed->instance->placement, points[i]);
     }
-    return ps_length(ps_cross(ps_subtract(points[1], points[0]), ps_subtract(points[2], points[0])));
+    return ps_length(
+        ps_cross(ps_subtract(points[1], points[0]), ps_subtract(points[2], points[0])));
 }
 
 /* How much of the texture coordinates' area a unit of the surface's area has; of two sets, the smaller. */
@@ -205,8 +206,7 @@ static float uv_density(const struct placed *placed, uint32_t triangle)
 }
 
 /* As wide as the cone across its axis: on slanted surfaces the mean over its longer side would blur along the shorter one. */
-static uint32_t cone_flags(const struct placed *placed, const struct intersection *at,
-                             float spread)
+static uint32_t cone_flags(const struct placed *placed, const struct intersection *at, float spread)
 {
     float width = spread * at->distance;
     return ray_cone_flags(0.5f * log2f(width * width * uv_density(placed, at->triangle)));
