@@ -47,7 +47,7 @@ static void start(const struct view_pass *pass, const struct view_points *points
         paths->travelled[i] = 0.0f;
         paths->pdfs[i] = 0.0f;
         paths->spreads[i] = CONE_SIDE * camera_pixel_spread(&pass->lighting.scene->camera,
-                                                                 paths->rays[i].direction);
+                                                            paths->rays[i].direction);
         if (by_chance)
             by_chance[points->lanes[i]] = pass->lighting.scene->camera.aperture > 0.0f;
     }

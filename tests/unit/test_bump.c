@@ -104,8 +104,8 @@ static void test_bump_of_ramp(void **state)
     assert_direction(bump_bump(&ramp, p, uv, -INFINITY, (ps_vec3){0, 0, -1}, none, none),
                      (ps_vec3){-0.5f, 0, -1}, 1e-4f);
     /* Along the normal it changes nothing. */
-    assert_direction(bump_bump(&ramp, p, uv, -INFINITY, (ps_vec3){1, 0, 0}, none, none), (ps_vec3){1, 0, 0},
-                     1e-4f);
+    assert_direction(bump_bump(&ramp, p, uv, -INFINITY, (ps_vec3){1, 0, 0}, none, none),
+                     (ps_vec3){1, 0, 0}, 1e-4f);
 }
 
 /* A plane raised by noise, with its normal from the raised points themselves. */
@@ -155,15 +155,17 @@ static void test_map_of_constant_tilt(void **state)
     const float uv[2] = {0.3f, 0.4f};
     const ps_vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1}, minus_x = {-3, 0, 0};
     (void)state;
-    assert_direction(bump_normal_map(&map, uv, -INFINITY, z, x, y), (ps_vec3){0.48f, 0.36f, 0.8f}, 1e-6f);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, z, x, y), (ps_vec3){0.48f, 0.36f, 0.8f},
+                     1e-6f);
     /* Stretched and slanted: u stays, v is made upright. */
     assert_direction(bump_normal_map(&map, uv, -INFINITY, z, ps_scale(x, 9), (ps_vec3){4, 2, 1}),
                      (ps_vec3){0.48f, 0.36f, 0.8f}, 1e-6f);
-    assert_direction(bump_normal_map(&map, uv, -INFINITY, z, minus_x, y), (ps_vec3){-0.48f, 0.36f, 0.8f},
-                     1e-6f);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, z, minus_x, y),
+                     (ps_vec3){-0.48f, 0.36f, 0.8f}, 1e-6f);
     assert_direction(bump_normal_map(&map, uv, -INFINITY, z, x, ps_scale(y, -1)),
                      (ps_vec3){0.48f, -0.36f, 0.8f}, 1e-6f);
-    assert_direction(bump_normal_map(&map, uv, -INFINITY, x, y, z), (ps_vec3){0.8f, 0.48f, 0.36f}, 1e-6f);
+    assert_direction(bump_normal_map(&map, uv, -INFINITY, x, y, z), (ps_vec3){0.8f, 0.48f, 0.36f},
+                     1e-6f);
     assert_direction(bump_normal_map(&map, uv, -INFINITY, ps_scale(z, -1), x, y),
                      (ps_vec3){0.48f, 0.36f, -0.8f}, 1e-6f);
 }
