@@ -2,6 +2,7 @@
 
 #include "image/half.h"
 #include <assert.h>
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -119,6 +120,14 @@ static void add_line(const struct halving *halving, uint32_t y, float weight)
         ADD_CODES(uint16_t)
 }
 
+/* Sums of floats near the largest one may have left their range. */
+static float within_floats(float value)
+{
+    if (value != value)
+        return 0.0f;
+    return fminf(fmaxf(value, -FLT_MAX), FLT_MAX);
+}
+
 static void store(const struct halving *halving, size_t sample, uint32_t channel, float value)
 {
     const struct texture *texture = halving->texture;
@@ -136,7 +145,7 @@ static void store(const struct halving *halving, size_t sample, uint32_t channel
         ((uint16_t *)samples)[sample] = half_from_float(value);
         break;
     case RASTER_FLOAT:
-        ((float *)samples)[sample] = value;
+        ((float *)samples)[sample] = within_floats(value);
         break;
     }
 }

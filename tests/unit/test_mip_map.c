@@ -3,6 +3,7 @@
 
 #include "image/half.h"
 #include "texture_fixture.h"
+#include <float.h>
 
 static void test_level_counts(void **state)
 {
@@ -124,6 +125,21 @@ static void test_means(void **state)
             }
 }
 
+static void test_large_floats(void **state)
+{
+    struct texture texture = texture_create(RASTER_FLOAT, false, 7, 5, 1);
+    float *samples = texture.raster.samples;
+    (void)state;
+    for (int i = 0; i < 35; i++)
+        samples[i] = i % 2 == 0 ? FLT_MAX : -FLT_MAX;
+    samples[3] = samples[2] = samples[1] = FLT_MAX;
+    add_levels(&texture);
+    for (uint32_t level = 1; level < texture.level_count; level++)
+        for (uint32_t i = 0; i < texture.levels[level].width * texture.levels[level].height; i++)
+            assert_true(isfinite(((const float *)(const void *)texture.levels[level].bytes)[i]));
+    texture_release(&texture);
+}
+
 /* Red to the left, blue to the right. */
 static struct texture create_halves(void)
 {
@@ -168,9 +184,8 @@ static void test_filter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_level_counts),
-        cmocka_unit_test(test_colors_stay),
-        cmocka_unit_test(test_means),
+        cmocka_unit_test(test_level_counts), cmocka_unit_test(test_colors_stay),
+        cmocka_unit_test(test_means),        cmocka_unit_test(test_large_floats),
         cmocka_unit_test(test_filter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
