@@ -69,7 +69,6 @@ static void prepare(struct reader *reader, const char *name, const struct psd_op
         reader->description->cache = reader_copy(reader, options->cache);
     reader->description->texture_memory = options->texture_memory;
     reader->description->memory_limit = options->memory_limit;
-    reader->cache = options->cache;
     reader->allow_plugin_paths = options->allow_plugin_paths;
 }
 

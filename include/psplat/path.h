@@ -35,7 +35,7 @@ static inline float ps_cone_spread(float pdf)
     return pdf > 0.0f ? ps_min(sqrtf(1.0f / (PS_CONES * pdf)), PS_WIDEST_CONE) : 0.0f;
 }
 
-/* Of directions by the cosine, in the mean. */
+/* Of directions by the cosine, in the mean: sqrt(pi / PS_CONES). */
 #define PS_DIFFUSE_SPREAD 0.0627f
 
 /* Traces n rays, and moves those that meet something to the front, with their hits; returns how many.

@@ -150,7 +150,7 @@ void object_mesh_read(struct reader *reader, const struct item *item,
     const struct mesh_request request = {
         .path = path,
         .folder = reader->description->folder,
-        .cache = reader->cache,
+        .cache = reader->description->cache,
         .memory_limit = reader->description->memory_limit,
         .geometry = keys->use & USE_GEOMETRY,
         .materials = (keys->use & USE_MATERIALS && keys->object.material == NO_INDEX) ||

@@ -17,7 +17,6 @@ struct reader {
     struct names textures;             /* indices, by what makes them the same */
     struct group_entry *group_entries; /* of each group, see group.c */
     size_t object_count;               /* in the file and all groups */
-    const char *cache;                 /* as psd_options says */
     bool allow_plugin_paths;           /* likewise */
     bool out_of_memory;
 };

@@ -69,6 +69,12 @@ double machine_memory(void)
     return fmin(physical, machine_memory_of_groups(""));
 }
 
+double machine_memory_within(double limit)
+{
+    double machine = machine_memory();
+    return limit > 0.0 ? fmin(limit, machine) : machine;
+}
+
 /* Of proc(5)'s statm, which counts pages: size, resident, shared, text, lib, data. */
 static double bytes_of_process(int field)
 {

@@ -6,6 +6,9 @@
  * one above it has a limit; infinite where the system does not tell. */
 double machine_memory(void);
 
+/* The same, or `limit` where that is less, and not 0. */
+double machine_memory_within(double limit);
+
 /* The limit of its control groups alone, by what /proc and /sys say under `root` ("": the machine's). */
 double machine_memory_of_groups(const char *root);
 

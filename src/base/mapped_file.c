@@ -17,9 +17,8 @@ struct mapped_budget {
     _Atomic size_t held;  /* bytes in memory */
     pthread_mutex_t lock; /* of the following */
     struct mapped_file *files;
-    size_t blocks; /* of all files */
-    struct mapped_file
-        *hand; /* the file that the clock's hand stands in, or NULL: before the first */
+    size_t blocks;            /* of all files */
+    struct mapped_file *hand; /* where the clock's hand stands; NULL: before the first */
     size_t hand_block;
 };
 

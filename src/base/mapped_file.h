@@ -3,7 +3,8 @@
  * A file is mapped (mmap(2)): the system reads pages when they are first looked at. Which blocks were looked at lately is
  * marked, and when the files of a budget hold more than it, those that were not are given back, as the clock algorithm
  * chooses them (Corbato, "A paging experiment with the Multics system", 1969). Who looks at what is there needs no lock:
- * what is given back under its eyes is read again. Not a cache of read blocks, whose every look-up would have to lock or count references.
+ * what is given back under its eyes is read again. Not a cache of read blocks, whose every look-up would have to lock or
+ * count references.
  *
  * A file must not become shorter as long as it is mapped (SIGBUS); one that is replaced (output_file.h) stays as it was.
  */

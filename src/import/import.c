@@ -48,8 +48,8 @@ static void work(void *context)
 static ps_result import(struct task *task, struct error *error)
 {
     const struct mesh_request *request = task->request;
-    double share = SHARE_OF_MEMORY * machine_memory(), limit = request->memory_limit;
-    const struct child_limits limits = {limit > 0.0 && limit < share ? limit : share,
+    double share = SHARE_OF_MEMORY * machine_memory();
+    const struct child_limits limits = {fmin(share, machine_memory_within(request->memory_limit)),
                                         request->seconds > 0 ? request->seconds : SECONDS};
     char most[TEXT_SIZE_LENGTH];
     struct error reason;

@@ -94,11 +94,8 @@ static double memory_of_picture(const struct render_settings *settings, const st
 /* What there is, and whether the settings say so. */
 static bool memory_of(const struct render_settings *settings, double *there)
 {
-    *there = machine_memory();
-    bool is_limited = settings->memory_limit > 0 && settings->memory_limit < *there;
-    if (is_limited)
-        *there = settings->memory_limit;
-    return is_limited;
+    *there = machine_memory_within(settings->memory_limit);
+    return *there == settings->memory_limit;
 }
 
 /* Beside what the process has. */

@@ -249,7 +249,7 @@ struct group_description {
 struct scene_description {
     char *path;   /* of the main file */
     char *folder; /* the only one to read meshes and pictures from (input_file.h), or NULL */
-    char *cache;  /* a folder for what was made of pictures (texture_cache.h), or NULL */
+    char *cache;  /* a folder for what was made of meshes and pictures, or NULL */
     double texture_memory;              /* bytes that pictures may take; 0: half of the following */
     double memory_limit;                /* bytes that all may take; 0: the machine's */
     struct camera_description *cameras; /* the first is the default; at least one */

@@ -180,18 +180,30 @@ static void halve(const struct halving *halving)
 
 /* --- all levels ------------------------------------------------------------------------------------ */
 
-/* Where the levels after the first lie, one after the other from `bytes` on; returns how many bytes they take. */
-static size_t place_levels(struct texture *texture, const unsigned char *bytes)
+size_t mip_map_level_bytes(const struct texels *level, uint32_t tile_shift, uint32_t texel_bytes)
 {
-    size_t texels = 0;
-    for (uint32_t i = 1; i < texture->level_count; i++) {
-        const struct texels *before = &texture->levels[i - 1];
-        uint32_t width = mip_map_half(before->width), height = mip_map_half(before->height);
-        const unsigned char *at = bytes ? bytes + texels * texture->texel_bytes : NULL;
-        texture->levels[i] = (struct texels){width, height, width, at};
-        texels += (size_t)width * height;
+    uint32_t beyond = (1u << tile_shift) - 1;
+    size_t across = (level->width + beyond) >> tile_shift;
+    size_t down = (level->height + beyond) >> tile_shift;
+    return (across * down << 2 * tile_shift) * texel_bytes;
+}
+
+size_t mip_map_place(struct texture *texture, uint32_t first, const unsigned char *bytes)
+{
+    uint32_t shift = texture->tile_shift, beyond = (1u << shift) - 1;
+    uint32_t width = texture->levels[0].width, height = texture->levels[0].height;
+    size_t sum = 0;
+    for (uint32_t i = 0; i < texture->level_count; i++) {
+        struct texels *level = &texture->levels[i];
+        if (i >= first) {
+            *level = (struct texels){width, height, (width + beyond) >> shift,
+                                     bytes ? bytes + sum : NULL};
+            sum += mip_map_level_bytes(level, shift, texture->texel_bytes);
+        }
+        width = mip_map_half(width);
+        height = mip_map_half(height);
     }
-    return texels * texture->texel_bytes;
+    return sum;
 }
 
 static void fill_levels(struct texture *texture, float *line, struct encoder *color_codes,
@@ -200,7 +212,10 @@ static void fill_levels(struct texture *texture, float *line, struct encoder *co
     if (texture->color_of && texture->raster.sample != RASTER_HALF) {
         uint32_t last = texture->raster.sample == RASTER_BYTE ? UINT8_MAX : UINT16_MAX;
         prepare(color_codes, texture->color_of, last);
-        prepare(alpha_codes, texture->alpha_of, last);
+        if (texture->alpha_of == texture->color_of)
+            alpha_codes = color_codes;
+        else
+            prepare(alpha_codes, texture->alpha_of, last);
     }
     unsigned char *bytes = texture->halves;
     for (uint32_t i = 1; i < texture->level_count; i++) {
@@ -212,7 +227,7 @@ static void fill_levels(struct texture *texture, float *line, struct encoder *co
                                   .color_codes = color_codes,
                                   .alpha_codes = alpha_codes};
         halve(&halving);
-        bytes += (size_t)halving.to.width * halving.to.height * texture->texel_bytes;
+        bytes += mip_map_level_bytes(&halving.to, 0, texture->texel_bytes);
     }
 }
 
@@ -222,11 +237,11 @@ ps_result mip_map_add(struct texture *texture, struct error *error)
     struct encoder *codes = malloc(2 * sizeof *codes);
     float *line = malloc((size_t)texture->width * 4 * sizeof *line);
     texture->level_count = mip_map_level_count(texture->width, texture->height);
-    size_t bytes = place_levels(texture, NULL);
+    size_t bytes = mip_map_place(texture, 1, NULL);
     texture->halves = malloc(bytes + 1);
     bool is_there = codes && line && texture->halves;
     if (is_there) {
-        place_levels(texture, texture->halves);
+        mip_map_place(texture, 1, texture->halves);
         fill_levels(texture, line, &codes[0], &codes[1]);
     } else {
         free(texture->halves);

@@ -15,6 +15,13 @@ uint32_t mip_map_level_count(uint32_t width, uint32_t height);
 /* Half of a side. */
 uint32_t mip_map_half(uint32_t side);
 
+/* Of a level in tiles of 2^tile_shift texels a side; 0: in rows. */
+size_t mip_map_level_bytes(const struct texels *level, uint32_t tile_shift, uint32_t texel_bytes);
+
+/* Sizes of the levels from `first` on, by that of level 0, and where they lie, one after the other from `bytes` on, which
+ * may be NULL; returns the bytes of all. */
+size_t mip_map_place(struct texture *texture, uint32_t first, const unsigned char *bytes);
+
 /* Adds the levels to a texture that lies in memory, has tables and no levels but the first. PS_ERROR_MEMORY. */
 ps_result mip_map_add(struct texture *texture, struct error *error);
 

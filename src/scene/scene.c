@@ -57,12 +57,6 @@ static ps_result add_camera(struct assembly *assembly)
     return result;
 }
 
-double assembly_memory(const struct scene_description *description)
-{
-    double limit = description->memory_limit, machine = machine_memory();
-    return limit > 0.0 && limit < machine ? limit : machine;
-}
-
 static ps_result assemble(struct assembly *assembly)
 {
     struct scene *scene = assembly->scene;

@@ -254,7 +254,7 @@ static ps_result check_memory(struct assembly *assembly)
         add_meshes(description, description->groups[i].objects, description->groups[i].object_count,
                    &sums);
     double wanted = sums.bytes + machine_memory_of_process();
-    double there = assembly_memory(description);
+    double there = machine_memory_within(description->memory_limit);
     if (!sums.most || wanted <= there)
         return PS_OK;
     char taken[TEXT_SIZE_LENGTH], limit[TEXT_SIZE_LENGTH];
@@ -262,7 +262,7 @@ static ps_result check_memory(struct assembly *assembly)
     return error_set(assembly->error, PS_ERROR_MEMORY,
                      "the scene's %.0f triangles take %s of memory while it is made, and %s %s",
                      sums.triangles, text_of_size(wanted, taken),
-                     there < machine_memory() ? "--memory-limit is" : "this machine has",
+                     there == description->memory_limit ? "--memory-limit is" : "this machine has",
                      text_of_size(there, limit));
 }
 

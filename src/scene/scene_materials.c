@@ -1,4 +1,5 @@
 /* scene_materials.c: textures and materials of a scene. */
+#include "base/machine.h"
 #include "base/text.h"
 #include "scene/scene_parts.h"
 
@@ -23,15 +24,15 @@ static ps_result count_excess(struct assembly *assembly, const struct raster *ra
                      "the scene's textures take 1 GiB more than %d times their files", EXPANSION);
 }
 
+/* That pictures may take. */
 static double texture_memory(const struct scene_description *description)
 {
     double given = description->texture_memory;
-    return given > 0.0 ? given : SHARE_OF_MEMORY * assembly_memory(description);
+    return given > 0.0 ? given : SHARE_OF_MEMORY * machine_memory_within(description->memory_limit);
 }
 
-static ps_result check_memory(const struct assembly *assembly, double taken)
+static ps_result check_memory(const struct assembly *assembly, double taken, double most)
 {
-    double most = texture_memory(assembly->description);
     if (taken <= most)
         return PS_OK;
     char all[TEXT_SIZE_LENGTH], limit[TEXT_SIZE_LENGTH];
@@ -44,48 +45,63 @@ static ps_result check_memory(const struct assembly *assembly, double taken)
                          : "; with --cache large ones are read in tiles, as they are looked at");
 }
 
-static ps_result prepare_storage(struct assembly *assembly, struct texture_storage *storage)
+/* Marks the textures that materials take, which rays filter; skies are looked up at points. */
+static void mark_filtered(const struct scene_description *description, bool *filtered)
 {
-    const struct scene_description *description = assembly->description;
-    struct scene *scene = assembly->scene;
-    *storage = (struct texture_storage){description->folder, true, description->cache, NULL};
-    if (!description->cache || description->texture_count == 0)
-        return PS_OK;
-    scene->texture_memory = mapped_budget_create(texture_memory(description));
-    storage->budget = scene->texture_memory;
-    return storage->budget ? PS_OK
-                           : error_memory(assembly->error, sizeof(void *), "the textures' cache");
+    struct pigment_description *pigments[MATERIAL_PIGMENTS];
+    for (size_t i = 0; i < description->material_count; i++) {
+        material_pigments(&description->materials[i], pigments);
+        for (size_t k = 0; k < MATERIAL_PIGMENTS; k++)
+            if (pigments[k]->kind == PIGMENT_IMAGE)
+                filtered[pigments[k]->texture] = true;
+    }
 }
 
-static ps_result load_textures(struct assembly *assembly)
+static ps_result load_all(struct assembly *assembly, struct texture_storage *storage, double most,
+                          const bool *filtered)
 {
     const struct scene_description *description = assembly->description;
     struct scene *scene = assembly->scene;
-    struct texture_storage storage;
-    ps_result prepared = prepare_storage(assembly, &storage);
-    if (prepared != PS_OK)
-        return prepared;
-    scene->textures =
-        assembly_allocate(assembly, description->texture_count, sizeof *scene->textures);
-    if (!scene->textures)
-        return PS_ERROR_MEMORY;
     size_t excess = 0;
     double taken = 0.0;
     for (size_t i = 0; i < description->texture_count; i++) {
         assembly->where = description->textures[i].origin;
+        storage->mip_maps = filtered[i];
         ps_result result =
-            texture_load(&description->textures[i], &storage, &scene->textures[i], assembly->error);
+            texture_load(&description->textures[i], storage, &scene->textures[i], assembly->error);
         if (result != PS_OK)
             return result;
         scene->texture_count++;
         taken += (double)texture_bytes(&scene->textures[i]);
         result = count_excess(assembly, &scene->textures[i].raster, &excess);
         if (result == PS_OK)
-            result = check_memory(assembly, taken);
+            result = check_memory(assembly, taken, most);
         if (result != PS_OK)
             return result;
     }
     return PS_OK;
+}
+
+static ps_result load_textures(struct assembly *assembly)
+{
+    const struct scene_description *description = assembly->description;
+    struct scene *scene = assembly->scene;
+    size_t count = description->texture_count;
+    double most = texture_memory(description);
+    struct texture_storage storage = {.folder = description->folder, .cache = description->cache};
+    if (description->cache && count > 0) {
+        storage.budget = scene->texture_memory = mapped_budget_create(most);
+        if (!storage.budget)
+            return error_memory(assembly->error, sizeof(void *), "the textures' cache");
+    }
+    scene->textures = assembly_allocate(assembly, count, sizeof *scene->textures);
+    bool *filtered = scene->textures ? assembly_allocate(assembly, count, sizeof *filtered) : NULL;
+    if (!filtered)
+        return PS_ERROR_MEMORY;
+    mark_filtered(description, filtered);
+    ps_result result = load_all(assembly, &storage, most, filtered);
+    free(filtered);
+    return result;
 }
 
 /* Lookups keep reflectances within 0..1 (pigment.h); here is noted which pictures that changes. */

@@ -13,9 +13,6 @@ struct assembly {
     struct error *error;
 };
 
-/* Bytes that the process may take. */
-double assembly_memory(const struct scene_description *description);
-
 /* Of a mesh's description, or of a shape. */
 #define VERTEX_BYTES(mesh_)                                                                        \
     (sizeof *(mesh_)->vertices + ((mesh_)->normals ? sizeof *(mesh_)->normals : 0) +               \

@@ -57,17 +57,11 @@ static size_t row_bytes(uint32_t width, uint32_t texel_bytes)
     return tiles_along(width) * TILE_TEXELS * texel_bytes;
 }
 
-/* Of a level. */
-static uint64_t level_bytes(const struct texels *level, uint32_t texel_bytes)
-{
-    return (uint64_t)tiles_along(level->height) * row_bytes(level->width, texel_bytes);
-}
-
 static uint64_t file_bytes(const struct texture *texture)
 {
     uint64_t size = START;
     for (uint32_t i = 0; i < texture->level_count; i++)
-        size += level_bytes(&texture->levels[i], texture->texel_bytes);
+        size += mip_map_level_bytes(&texture->levels[i], TILE_SHIFT, texture->texel_bytes);
     return size;
 }
 
@@ -126,7 +120,7 @@ static ps_result write_levels(const struct texture *texture, const struct output
     uint64_t at = START;
     for (uint32_t i = 0; i < texture->level_count && result == PS_OK; i++) {
         result = write_level(&texture->levels[i], texture->texel_bytes, file, at, error);
-        at += level_bytes(&texture->levels[i], texture->texel_bytes);
+        at += mip_map_level_bytes(&texture->levels[i], TILE_SHIFT, texture->texel_bytes);
     }
     return result;
 }
@@ -181,19 +175,6 @@ static bool is_possible(const struct header *header)
            header->channels > 0 && header->channels <= 4 && header->sample <= RASTER_FLOAT;
 }
 
-static void refer_to_levels(struct texture *texture, uint32_t count, const unsigned char *bytes)
-{
-    uint32_t width = texture->raster.width, height = texture->raster.height;
-    texture->level_count = count;
-    for (uint32_t i = 0; i < count; i++) {
-        struct texels *level = &texture->levels[i];
-        *level = (struct texels){width, height, tiles_along(width), bytes};
-        bytes += level_bytes(level, texture->texel_bytes);
-        width = mip_map_half(width);
-        height = mip_map_half(height);
-    }
-}
-
 /* All that the entry tells of the texture. */
 static void refer_to_entry(struct texture *texture, const struct header *header,
                            struct mapped_file *file)
@@ -215,7 +196,9 @@ static void refer_to_entry(struct texture *texture, const struct header *header,
     texture->digest = header->digest;
     texture->file = file;
     texture->halves = NULL;
-    refer_to_levels(texture, header->levels, file->bytes + START);
+    texture->level_count = header->levels;
+    texture->levels[0] = (struct texels){.width = header->width, .height = header->height};
+    mip_map_place(texture, 0, file->bytes + START);
 }
 
 ps_result texture_cache_load(const char *path, struct mapped_budget *budget,

@@ -16,7 +16,7 @@
 char *texture_cache_path(const char *folder, const struct texture_description *description,
                          const unsigned char *bytes, size_t size);
 
-/* The texels from the entry: `texture` refers to them, whatever it referred to. PS_ERROR_IO or _MEMORY leave it as it was. */
+/* The texels from the entry: `texture` refers to them, whatever it referred to. PS_ERROR_IO leaves it as it was. */
 ps_result texture_cache_load(const char *path, struct mapped_budget *budget,
                              struct texture *texture, struct error *error);
 

@@ -121,7 +121,8 @@ static ps_result decode(const struct texture_description *description, const uns
         return result;
     refer_to_raster(texture);
     result = prepare(description, texture, error);
-    if (result == PS_OK && storage->mip_maps && has_mip_map(texture))
+    bool mip_maps = storage->mip_maps || path; /* entries have them, whoever asks first */
+    if (result == PS_OK && mip_maps && has_mip_map(texture))
         result = mip_map_add(texture, error);
     if (result == PS_OK && path && raster_bytes(&texture->raster) >= LEAST_IN_CACHE)
         keep(texture, path, storage);

@@ -197,9 +197,7 @@ static ps_result set_exposure(struct render_options *options, const char *value,
 static ps_result set_memory_limit(struct render_options *options, const char *value,
                                   struct error *error)
 {
-    ps_result result = option_bytes("memory-limit", value, &options->memory_limit, error);
-    options->scene.psd.memory_limit = options->memory_limit;
-    return result;
+    return option_bytes("memory-limit", value, &options->scene.psd.memory_limit, error);
 }
 
 static ps_result set_layers(struct render_options *options, const char *value, struct error *error)

@@ -24,7 +24,6 @@ struct render_options {
     double tile;                                    /* 0: not given */
     double seed, threads, batch, direct_resolution; /* negative: not given */
     double exposure;                                /* NAN: not given */
-    double memory_limit;                            /* bytes; 0: what the machine lends */
     int32_t direct;                                 /* enum direct_light; negative: not given */
     bool preview;
 };

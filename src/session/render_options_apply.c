@@ -108,7 +108,7 @@ ps_result render_options_resolve(const struct render_options *options,
     settings->isa = options->isa;
     settings->crop = crop_of(options, &description->image);
     settings->tile = (uint32_t)options->tile;
-    settings->memory_limit = options->memory_limit;
+    settings->memory_limit = options->scene.psd.memory_limit;
     if (options->passes.is_given) {
         settings->first_pass = options->passes.first;
         settings->passes = options->passes.end;
