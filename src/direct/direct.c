@@ -67,17 +67,25 @@ void direct_radiance(const struct lighting *lighting, const ps_ray *rays, const 
     }
 }
 
-static ps_rgb sky_radiance(const struct scene *scene, const ps_ray *ray, float pdf)
+/* The density by which receivers at the ray's origin draw its direction. */
+static float density_from_afar(const struct lighting *lighting, const struct light *light,
+                               const ps_ray *ray)
 {
+    return lighting->portals && light->emitter == EMITTER_SKY
+               ? portals_pdf(lighting->portals, light, ray->origin, ray->direction)
+               : light_pdf(light, ray->origin, ray->direction, INFINITY, (ps_vec3){0, 0, 0});
+}
+
+static ps_rgb sky_radiance(const struct lighting *lighting, const ps_ray *ray, float pdf)
+{
+    const struct scene *scene = lighting->scene;
     ps_rgb sum = {0, 0, 0};
     for (size_t i = 0; i < scene->afar_count; i++) {
         const struct light *light = &scene->lights[scene->afar[i]];
         ps_rgb radiance = light_radiance_from(light, ray->direction);
         if (!(ps_rgb_maximum(radiance) > 0.0f))
             continue;
-        float light_density =
-            pdf > 0.0f ? light_pdf(light, ray->origin, ray->direction, INFINITY, (ps_vec3){0, 0, 0})
-                       : 0.0f;
+        float light_density = pdf > 0.0f ? density_from_afar(lighting, light, ray) : 0.0f;
         sum = ps_rgb_add(sum, ps_rgb_scale(radiance, power_heuristic(pdf, light_density)));
     }
     return sum;
@@ -107,7 +115,7 @@ void emitted_radiance(const struct lighting *lighting, const ps_ray *rays, const
         float pdf = pdfs ? pdfs[i] : 0.0f;
         radiance[i] = hits[i].distance < INFINITY
                           ? surface_radiance(lighting, &rays[i], &hits[i], pdf)
-                          : sky_radiance(lighting->scene, &rays[i], pdf);
+                          : sky_radiance(lighting, &rays[i], pdf);
     }
 }
 

@@ -6,6 +6,7 @@
 #ifndef DIRECT_DIRECT_H
 #define DIRECT_DIRECT_H
 
+#include "direct/portals.h"
 #include "direct/shadow_maps.h"
 #include "film/gbuffer.h"
 
@@ -14,6 +15,7 @@ struct lighting {
     const struct scene *scene;
     const struct trace *trace;
     const struct shadow_maps *maps; /* NULL: by shadow rays alone */
+    const struct portals *portals;  /* through which the sky is looked for; NULL: all around */
     uint32_t choices;               /* lights that a point draws where it can't ask all */
     float light_threshold;          /* as in struct light_draws; 0: none */
 };

@@ -161,11 +161,23 @@ struct chosen {
     uint32_t receivers[RECEIVERS_MOST];
 };
 
+/* Samples a light from points: the sky through the portals, where there are any. */
+static void look_at_light(const struct receivers *to, size_t index, const ps_vec3 *origins,
+                          const ps_vec3 *normals, const float (*pairs)[2], size_t n,
+                          struct light_sample *samples)
+{
+    const struct lighting *lighting = to->lighting;
+    const struct light *light = &lighting->scene->lights[index];
+    if (lighting->portals && light->emitter == EMITTER_SKY)
+        portals_sample(lighting->portals, light, origins, normals, pairs, n, samples);
+    else
+        light_sample(light, origins, normals, pairs, n, samples);
+}
+
 /* Each of these samples a light once. */
 static void sample_light(const struct receivers *to, const struct chosen *by, size_t light,
                          ps_rgb *sums)
 {
-    const struct scene *scene = to->lighting->scene;
     struct connections connections;
     ps_vec3 normals[RECEIVERS_MOST], origins[RECEIVERS_MOST];
     float pairs[RECEIVERS_MOST][2];
@@ -179,8 +191,8 @@ static void sample_light(const struct receivers *to, const struct chosen *by, si
         connections.weights[k] = 1.0f;
     }
     connections.count = by->count;
-    light_sample(&scene->lights[light], origins, normals, (const float(*)[2])pairs, by->count,
-                 connections.samples);
+    look_at_light(to, light, origins, normals, (const float(*)[2])pairs, by->count,
+                  connections.samples);
     trace_connections(to, &connections, sums);
 }
 

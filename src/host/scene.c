@@ -171,8 +171,12 @@ static void host_evaluate_bsdf(const ps_host *host, ps_direction direction, cons
 /* Shadow rays alone, and fewer choices than for a point that is seen: there are many such points behind each pixel. */
 static struct lighting lighting_of_paths(const struct render *render)
 {
-    return (struct lighting){render->scene, render->trace, NULL, render->scene->path_light_choices,
-                             render->importance.light_threshold};
+    return (struct lighting){
+        .scene = render->scene,
+        .trace = render->trace,
+        .choices = render->scene->path_light_choices,
+        .light_threshold = render->importance.light_threshold,
+    };
 }
 
 static void host_direct_radiance(const ps_host *host, const ps_ray *rays, const ps_hit *hits,

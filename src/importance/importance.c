@@ -1,6 +1,7 @@
 #include "importance/importance.h"
 
 #include "importance/pilot.h"
+#include "importance/portal_search.h"
 #include "scene/scene.h"
 #include <math.h>
 #include <stdlib.h>
@@ -47,11 +48,19 @@ static void bound_seen(const struct scene *scene, const struct seen_places *seen
     importance->radius = (float)radius;
 }
 
+/* Lights that share the light paths. */
+#define FEWEST_SHARED 2
+
 /* Below, it costs little to ask all lights. */
 #define FEWEST_LIGHTS 4
 
 /* The threshold over the irradiance that the camera sees. A light that is drawn below it counts for as much. */
 #define THRESHOLD 0.02
+
+bool importance_is_for_pixels(const struct scene *scene)
+{
+    return importance_has_threshold(scene) || scene_has_sky(scene);
+}
 
 bool importance_has_threshold(const struct scene *scene)
 {
@@ -73,7 +82,10 @@ static ps_result share_by_pilot(const ps_host *host, const ps_pass *pass, const 
 {
     struct seen_places seen;
     ps_result result = pilot_trace(host, pass, scene, sharing->found, &seen, error);
-    if (result != PS_OK)
+    if (result == PS_OK && scene_has_sky(scene))
+        result = portal_search(host, pass, seen.surfaces, seen.count, &importance->portals, error);
+    free(seen.surfaces);
+    if (result != PS_OK || scene->light_count < FEWEST_SHARED)
         return result;
     bound_seen(scene, &seen, importance);
     if (importance_has_threshold(scene))
@@ -93,7 +105,7 @@ ps_result importance_create(const ps_host *host, const ps_pass *pass, const stru
 {
     size_t count = scene->light_count;
     *importance = (struct importance){.radius = 0.0f};
-    if (count < 2)
+    if (count < FEWEST_SHARED && !scene_has_sky(scene))
         return PS_OK;
     struct sharing sharing = {
         calloc(count, sizeof *sharing.found),  calloc(count, sizeof *sharing.order),
@@ -111,5 +123,6 @@ ps_result importance_create(const ps_host *host, const ps_pass *pass, const stru
 void importance_release(struct importance *importance)
 {
     distribution_release(&importance->lights);
+    free(importance->portals);
     *importance = (struct importance){.radius = 0.0f};
 }

@@ -11,6 +11,7 @@
 #ifndef IMPORTANCE_IMPORTANCE_H
 #define IMPORTANCE_IMPORTANCE_H
 
+#include "direct/portals.h"
 #include "scene/distribution.h"
 #include <psplat/host.h>
 #include <stdbool.h>
@@ -26,10 +27,14 @@ struct importance {
     float radius;
     /* Light that hardly counts beside what the camera sees, see struct light_draws; 0: none, or there are few lights. */
     float light_threshold;
+    struct portals *portals; /* through which that sees the sky; NULL: none were found */
 };
 
 /* Whether there are so many lights that a threshold pays, and none that every point asks and that has no noise. */
 bool importance_has_threshold(const struct scene *scene);
+
+/* Whether direct light at pixels goes by what is found here. */
+bool importance_is_for_pixels(const struct scene *scene);
 
 /* PS_ERROR_MEMORY, or PS_OK: release it. Main thread. */
 ps_result importance_create(const ps_host *host, const ps_pass *pass, const struct scene *scene,

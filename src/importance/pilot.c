@@ -22,8 +22,8 @@ struct record {
 /* What a chunk found: of lamps that paths met, and of lights that surfaces sampled; and where it met surfaces. */
 struct findings {
     struct record met[MOST_SEGMENTS][CHUNK], sampled[MOST_SEGMENTS][CHUNK];
-    size_t place_count;
-    ps_vec3 places[MOST_SEGMENTS * CHUNK];
+    size_t count;
+    struct seen_surface surfaces[MOST_SEGMENTS * CHUNK];
     double root_irradiance; /* the sum of theirs */
 };
 
@@ -177,11 +177,14 @@ static void scatter(const struct pilot *pilot, uint64_t chunk, uint32_t set,
     paths->count = alive;
 }
 
-static void note_places(const struct pilot_paths *paths, struct findings *findings)
+static void note_surfaces(const struct pilot_paths *paths, struct findings *findings)
 {
     for (size_t i = 0; i < paths->count; i++)
-        if (paths->bounces[i] <= 1)
-            findings->places[findings->place_count++] = paths->hits[i].position;
+        findings->surfaces[findings->count++] = (struct seen_surface){
+            .position = paths->hits[i].position,
+            .normal = paths->hits[i].geometric_normal,
+            .is_near = paths->bounces[i] <= 1,
+        };
 }
 
 static void trace_chunk(void *user, uint64_t chunk, uint32_t worker)
@@ -194,7 +197,7 @@ static void trace_chunk(void *user, uint64_t chunk, uint32_t worker)
     for (uint32_t segment = 0; segment < MOST_SEGMENTS && paths.count > 0; segment++) {
         pilot->host->intersect(pilot->host, paths.rays, paths.count, paths.hits);
         record_emission(pilot, &paths, findings->met[segment]);
-        note_places(&paths, findings);
+        note_surfaces(&paths, findings);
         if (segment > 0 || pilot->asks_first)
             record_direct(pilot, chunk, segment, &paths, findings);
         scatter(pilot, chunk, 2 + 2 * segment, &paths);
@@ -213,28 +216,47 @@ static void add_records(const struct record *records, size_t count, struct found
     }
 }
 
-static struct seen_places find_places(const struct findings *findings)
+/* `roots`: the sum of the roots of their irradiance. */
+static void measure(struct seen_places *seen, double roots)
 {
-    double count = 0.0, x = 0.0, y = 0.0, z = 0.0, squares = 0.0, roots = 0.0;
-    for (size_t chunk = 0; chunk < CHUNKS; chunk++) {
-        roots += findings[chunk].root_irradiance;
-        for (size_t i = 0; i < findings[chunk].place_count; i++) {
-            ps_vec3 place = findings[chunk].places[i];
-            count += 1.0;
-            x += (double)place.x;
-            y += (double)place.y;
-            z += (double)place.z;
-            squares += (double)ps_dot(place, place);
-        }
+    double count = 0.0, x = 0.0, y = 0.0, z = 0.0, squares = 0.0;
+    for (size_t i = 0; i < seen->count; i++) {
+        ps_vec3 place = seen->surfaces[i].position;
+        if (!seen->surfaces[i].is_near)
+            continue;
+        count += 1.0;
+        x += (double)place.x;
+        y += (double)place.y;
+        z += (double)place.z;
+        squares += (double)ps_dot(place, place);
     }
     if (!(count > 0.0))
-        return (struct seen_places){{0, 0, 0}, 0.0, 0.0};
+        return;
     x /= count;
     y /= count;
     z /= count;
     double variance = squares / count - x * x - y * y - z * z;
-    return (struct seen_places){
-        {(float)x, (float)y, (float)z}, sqrt(fmax(variance, 0.0)), roots * roots / (count * count)};
+    seen->middle = (ps_vec3){(float)x, (float)y, (float)z};
+    seen->spread = sqrt(fmax(variance, 0.0));
+    seen->irradiance = roots * roots / (count * count);
+}
+
+static ps_result collect(const struct findings *findings, struct seen_places *seen,
+                         struct error *error)
+{
+    size_t bytes = (size_t)CHUNKS * MOST_SEGMENTS * CHUNK * sizeof *seen->surfaces;
+    double roots = 0.0;
+    seen->surfaces = malloc(bytes);
+    if (!seen->surfaces)
+        return error_memory(error, bytes, "camera paths");
+    for (size_t chunk = 0; chunk < CHUNKS; chunk++) {
+        const struct findings *from = &findings[chunk];
+        memcpy(seen->surfaces + seen->count, from->surfaces, from->count * sizeof *from->surfaces);
+        seen->count += from->count;
+        roots += from->root_irradiance;
+    }
+    measure(seen, roots);
+    return PS_OK;
 }
 
 ps_result pilot_trace(const ps_host *host, const ps_pass *pass, const struct scene *scene,
@@ -242,6 +264,7 @@ ps_result pilot_trace(const ps_host *host, const ps_pass *pass, const struct sce
 {
     struct pilot pilot = {host, pass, scene, importance_has_threshold(scene),
                           calloc(CHUNKS, sizeof *pilot.findings)};
+    *seen = (struct seen_places){.surfaces = NULL};
     if (!pilot.findings)
         return error_memory(error, CHUNKS * sizeof *pilot.findings, "camera paths");
     host->parallel_for(host, CHUNKS, trace_chunk, &pilot);
@@ -250,7 +273,7 @@ ps_result pilot_trace(const ps_host *host, const ps_pass *pass, const struct sce
         add_records(findings->met[0], MOST_SEGMENTS * CHUNK, found);
         add_records(findings->sampled[0], MOST_SEGMENTS * CHUNK, found);
     }
-    *seen = find_places(pilot.findings);
+    ps_result result = collect(pilot.findings, seen, error);
     free(pilot.findings);
-    return PS_OK;
+    return result;
 }

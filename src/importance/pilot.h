@@ -10,12 +10,16 @@
 
 #include "base/error.h"
 #include "importance/light_shares.h"
+#include "importance/portal_search.h"
 #include <psplat/host.h>
 
 struct scene;
 
-/* Where paths met surfaces, up to the one after the first diffuse one. */
+/* What paths met. */
 struct seen_places {
+    struct seen_surface *surfaces;
+    size_t count;
+    /* Of those that are near. */
     ps_vec3 middle;
     double spread; /* the root mean square of the distances from there */
     /* The square of the mean root of their irradiance straight from the lights, which a few bright places do not rule; W/m^2,
@@ -23,7 +27,7 @@ struct seen_places {
     double irradiance;
 };
 
-/* Adds what is found of each light to found[light]. PS_ERROR_MEMORY, or PS_OK. Main thread. */
+/* Adds what is found of each light to found[light]. PS_ERROR_MEMORY, or PS_OK: free seen->surfaces. Main thread. */
 ps_result pilot_trace(const ps_host *host, const ps_pass *pass, const struct scene *scene,
                       struct found_light *found, struct seen_places *seen, struct error *error);
 

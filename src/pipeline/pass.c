@@ -47,9 +47,14 @@ struct tile_work {
 static struct lighting lighting_of(const struct render *render)
 {
     bool asks_all = render->settings->discontinuity_buffer;
-    return (struct lighting){render->scene, render->trace, render->shadow_maps,
-                             render->scene->light_choices,
-                             asks_all ? 0.0f : render->importance.light_threshold};
+    return (struct lighting){
+        .scene = render->scene,
+        .trace = render->trace,
+        .maps = render->shadow_maps,
+        .portals = render->importance.portals,
+        .choices = render->scene->light_choices,
+        .light_threshold = asks_all ? 0.0f : render->importance.light_threshold,
+    };
 }
 
 static void trace_tile(void *user, uint64_t index, uint32_t worker)

@@ -72,7 +72,7 @@ static ps_result run_passes(struct render *render, struct error *error)
     pass_describe(render, 0);
     render->has_tiles = true;
     ps_result result =
-        importance_has_threshold(render->scene) ? render_find_importance(render, error) : PS_OK;
+        importance_is_for_pixels(render->scene) ? render_find_importance(render, error) : PS_OK;
     if (result == PS_OK && !render->has_begun)
         result = begin_estimates(render, error);
     if (result == PS_OK)

@@ -55,7 +55,7 @@ struct render {
     bool *edges;          /* pixels that take several samples (edges.h), owned; NULL: none does */
     uint32_t part, parts; /* see ps_pass */
     struct photon_stream photons;
-    /* Made when light paths are first asked for, or before, where lights have a threshold. */
+    /* Made when light paths are first asked for, or before, where pixels need it. */
     struct importance importance;
     bool has_importance;
     struct kernel_variant kernel;

@@ -258,9 +258,16 @@ float light_pdf(const struct light *light, ps_vec3 position, ps_vec3 direction, 
     case EMITTER_SPHERE:
         return light_sphere_pdf(&light->sphere, position, direction, distance, normal);
     case EMITTER_SKY:
-        return light_sky_pdf(&light->sky, direction);
+        return light_pdf_by_normal(light, (ps_vec3){0, 0, 0}, direction);
     }
     return 0.0f;
+}
+
+float light_pdf_by_normal(const struct light *light, ps_vec3 normal, ps_vec3 direction)
+{
+    assert(light_is_afar(light));
+    return light->emitter == EMITTER_SUN ? light_sun_pdf(&light->sun, direction)
+                                         : light_sky_pdf(&light->sky, normal, direction);
 }
 
 float light_arrival(const struct light *light, ps_vec3 position, ps_vec3 direction, float distance,

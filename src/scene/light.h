@@ -207,6 +207,9 @@ ps_vec3 light_sample_normal(const struct light *light, ps_vec3 position, const f
 float light_pdf(const struct light *light, ps_vec3 position, ps_vec3 direction, float distance,
                 ps_vec3 normal);
 
+/* That of a sun or a sky for a surface whose normal light_sample is given. */
+float light_pdf_by_normal(const struct light *light, ps_vec3 normal, ps_vec3 direction);
+
 /* The density by which light_emit sends a ray from a point of the light through an area across it at `position`,
  * 1/m^2, over the density by which light_sample draws the point there. `direction`, `distance`: of the point, seen from
  * there; `normal`: of its front. 0 where it does not shine there. */

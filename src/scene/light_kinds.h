@@ -85,7 +85,7 @@ ps_rgb light_sky_radiance(const struct light_sky *sky, ps_vec3 direction);
 ps_rgb light_sky_emit(const struct light_sky *sky, const float u[4], ps_ray *ray);
 void light_sky_sample(const struct light_sky *sky, ps_vec3 normal, const float u[2],
                       struct light_sample *sample);
-float light_sky_pdf(const struct light_sky *sky, ps_vec3 direction);
+float light_sky_pdf(const struct light_sky *sky, ps_vec3 normal, ps_vec3 direction);
 
 /* Emission and sampling that surfaces share: density by solid angle of a point chosen uniformly
  * over an area, seen from `distance` at `cosine` to its normal; 0 where that is not positive. Compilers make

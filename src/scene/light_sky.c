@@ -264,10 +264,11 @@ static size_t cell_index(double place, uint32_t count)
     return index < count ? index : count - 1;
 }
 
-float light_sky_pdf(const struct light_sky *sky, ps_vec3 direction)
+float light_sky_pdf(const struct light_sky *sky, ps_vec3 normal, ps_vec3 direction)
 {
     if (!sky->picture.rgb)
-        return 0.25f / PS_PI;
+        return ps_dot(normal, normal) > 0.0f ? ps_max(ps_dot(direction, normal), 0.0f) / PS_PI
+                                             : 0.25f / PS_PI;
     struct place place = place_of(sky, direction);
     size_t column = cell_index(place.u, sky->picture.width);
     size_t row = cell_index(place.v, sky->picture.height);

@@ -103,6 +103,9 @@ bool scene_has_shading_normals(const struct scene *scene);
 /* Whether points choose lights, or parts of them. */
 bool scene_needs_choices(const struct scene *scene);
 
+/* Whether some light is a sky. */
+bool scene_has_sky(const struct scene *scene);
+
 /* Whether some light is a point or a spot. */
 bool scene_has_delta_lamps(const struct scene *scene);
 

@@ -318,6 +318,14 @@ bool scene_needs_choices(const struct scene *scene)
     return scene->has_split_lights || scene_chooses_lights(scene);
 }
 
+bool scene_has_sky(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->afar_count; i++)
+        if (scene->lights[scene->afar[i]].emitter == EMITTER_SKY)
+            return true;
+    return false;
+}
+
 bool scene_has_delta_lamps(const struct scene *scene)
 {
     for (size_t i = 0; i < scene->light_count; i++)

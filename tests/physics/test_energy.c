@@ -41,7 +41,7 @@ static double gather(const struct scene *scene, const struct trace *trace, size_
         rays[i] = (ps_ray){origin, 0, ps_cosine_direction(first.normal, u[0], u[1]), INFINITY};
     }
     trace_intersect(trace, RAYS_INCOHERENT, rays, NULL, RAYS, hits);
-    struct lighting lighting = {scene, trace, NULL, scene->light_choices, 0.0f};
+    struct lighting lighting = {.scene = scene, .trace = trace, .choices = scene->light_choices};
     double sum = 0;
     for (size_t i = 0; i < RAYS; i++) {
         ps_rgb radiance;
