@@ -155,7 +155,7 @@ static void host_sample_bsdf(const ps_host *host, ps_direction direction, const 
     const struct scene *scene = render_of(host)->scene;
     for (size_t i = 0; i < n; i++)
         scattered[i] = material_scatter(&scene->materials[hits[i].material], scene->microfacets,
-                                        direction, &rays[i], &hits[i], samples[i]);
+                                        direction, &rays[i], &hits[i], samples[i], NULL);
 }
 
 static void host_evaluate_bsdf(const ps_host *host, ps_direction direction, const ps_ray *rays,

@@ -9,16 +9,44 @@
 
 /* --- lobes ----------------------------------------------------------------------------------- */
 
-/* Chooses a lobe, and rescales the number so that it can be used again. */
-static const struct bsdf_lobe *choose_lobe(const struct bsdf_lobe *lobes, size_t count,
-                                           float *number)
+/* How many of the paths go by each lobe: whole numbers, about in proportion, and at least one. */
+static void share_paths(const struct bsdf_lobe *lobes, size_t count, uint32_t paths,
+                        uint32_t shares[BSDF_MOST_LOBES])
 {
-    float left = *number;
+    uint32_t left = paths - (uint32_t)count;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t more = (uint32_t)(lobes[i].probability * (float)paths);
+        more = more > 0 ? more - 1 : 0;
+        shares[i] = 1 + (more < left ? more : left);
+        left -= shares[i] - 1;
+    }
+    for (size_t i = 0; left > 0; i = (i + 1) % count, left--)
+        shares[i]++;
+}
+
+/* Chooses a lobe by *number, and rescales that so that it can be used again. Returns the lobe's probability. */
+static float choose_lobe(const struct bsdf_lobe *lobes, size_t count, float *number,
+                         struct stratum *stratum, const struct bsdf_lobe **lobe)
+{
+    uint32_t shares[BSDF_MOST_LOBES], paths = stratum ? stratum->paths : 1;
+    bool shared = paths > 1 && paths >= count;
+    float left = shared ? stratum->number : *number, chance;
     size_t i = 0;
-    while (i + 1 < count && left >= lobes[i].probability)
-        left -= lobes[i++].probability;
-    *number = fminf(left / lobes[i].probability, 0x1.fffffep-1f);
-    return &lobes[i];
+    if (shared)
+        share_paths(lobes, count, paths, shares);
+    for (;; i++) {
+        chance = shared ? (float)shares[i] / (float)paths : lobes[i].probability;
+        if (i + 1 == count || left < chance)
+            break;
+        left -= chance;
+    }
+    left = fminf(left / chance, 0x1.fffffep-1f);
+    if (shared)
+        *stratum = (struct stratum){left, shares[i]};
+    else
+        *number = left;
+    *lobe = &lobes[i];
+    return chance;
 }
 
 static ps_vec3 to_frame(const ps_vec3 frame[3], ps_vec3 w)
@@ -92,21 +120,35 @@ static ps_rgb transmittance(ps_rgb absorption, float distance)
                     expf(-absorption.b * distance)};
 }
 
-/* Chance by which glass mirrors, of the share that it does. Of eight samples of a pixel, which are stratified, camera
- * paths send at least one either way, so that what is rare is seen in all pixels and not in some. Photons
- * keep their power. */
-static float chance_to_mirror(float reflectance, ps_direction direction)
+/* Chance by which glass mirrors, of the share that it does. Of camera paths of a pixel a whole number goes either way, at
+ * least one, so that what is rare is seen in all pixels, and as often; a path alone goes the rarer way one time in eight.
+ * Photons keep their power. */
+static float chance_to_mirror(float reflectance, ps_direction direction, uint32_t paths)
 {
-    const float least = 0.125f;
+    float parts = paths > 1 ? (float)paths : 8.0f;
     if (direction == PS_FROM_LIGHT || reflectance <= 0.0f || reflectance >= 1.0f)
         return reflectance;
-    return fminf(fmaxf(reflectance, least), 1.0f - least);
+    float part = paths > 1 ? ceilf(parts * reflectance) : parts * reflectance;
+    return fminf(fmaxf(part, 1.0f), parts - 1.0f) / parts;
+}
+
+/* Whether glass mirrors. */
+static bool choose_to_mirror(float chance, float number, struct stratum *stratum)
+{
+    if (!stratum || stratum->paths <= 1)
+        return number < chance;
+    float paths = (float)stratum->paths, within = stratum->number;
+    bool mirrors = within < chance;
+    within = mirrors ? within / chance : (within - chance) / (1.0f - chance);
+    stratum->number = fminf(within, 0x1.fffffep-1f);
+    stratum->paths = (uint32_t)(paths * (mirrors ? chance : 1.0f - chance) + 0.5f);
+    return mirrors;
 }
 
 /* Mirrors or refracts, by chance. Radiance is squeezed into a smaller solid angle on the denser side;
  * power is not. */
 static ps_bsdf_sample pass_surface(const struct bsdf_lobe *lobe, const struct bsdf_view *view,
-                                   ps_direction direction, float number)
+                                   ps_direction direction, float number, struct stratum *stratum)
 {
     const struct component *component = lobe->component;
     bool inside = view->hit->flags & PS_HIT_BACK;
@@ -117,8 +159,8 @@ static ps_bsdf_sample pass_surface(const struct bsdf_lobe *lobe, const struct bs
     if (inside)
         weight = ps_rgb_multiply(weight, transmittance(component->absorption, view->hit->distance));
     ps_bsdf_sample scattered = {.lobe = PS_SPECULAR, .weight = weight};
-    float chance = chance_to_mirror(reflectance, direction);
-    if (number < chance) {
+    float chance = chance_to_mirror(reflectance, direction, stratum ? stratum->paths : 1);
+    if (choose_to_mirror(chance, number, stratum)) {
         scattered.weight = ps_rgb_scale(weight, reflectance / chance);
         scattered.direction =
             ps_add_scaled(ps_scale(view->out, -1.0f), 2.0f * ps_dot(view->out, n), n);
@@ -135,13 +177,14 @@ static ps_bsdf_sample pass_surface(const struct bsdf_lobe *lobe, const struct bs
 }
 
 static ps_bsdf_sample follow_lobe(const struct bsdf_lobe *lobe, const struct bsdf_view *view,
-                                  ps_direction direction, const float sample[4], float number)
+                                  ps_direction direction, const float sample[4], float number,
+                                  struct stratum *stratum)
 {
     const struct component *component = lobe->component;
     if (!component)
         return scatter_diffusely(view, direction, sample);
     if (component->kind == COMPONENT_DIELECTRIC)
-        return pass_surface(lobe, view, direction, number);
+        return pass_surface(lobe, view, direction, number, stratum);
     if (component->constant || bsdf_is_smooth(bsdf_roughness(component, view->hit)))
         return mirror(lobe, view);
     return reflect_roughly(lobe, view, direction, sample);
@@ -209,7 +252,8 @@ static ps_bsdf_value evaluate_diffuse(const struct bsdf_view *view, ps_direction
 
 ps_bsdf_sample material_scatter(const struct material *material,
                                 const struct microfacet_table *table, ps_direction direction,
-                                const ps_ray *ray, const ps_hit *hit, const float sample[4])
+                                const ps_ray *ray, const ps_hit *hit, const float sample[4],
+                                struct stratum *stratum)
 {
     struct bsdf_lobe lobes[BSDF_MOST_LOBES];
     struct bsdf_view view = bsdf_view_of(material, table, hit, ray->direction);
@@ -220,11 +264,12 @@ ps_bsdf_sample material_scatter(const struct material *material,
         return (ps_bsdf_sample){
             .direction = hit->normal, .normal = hit->normal, .probability = 1.0f};
     float number = sample[3];
-    const struct bsdf_lobe *lobe = choose_lobe(lobes, count, &number);
-    ps_bsdf_sample scattered = follow_lobe(lobe, &view, direction, sample, number);
-    scattered.probability = lobe->probability;
+    const struct bsdf_lobe *lobe;
+    float chance = choose_lobe(lobes, count, &number, stratum, &lobe);
+    ps_bsdf_sample scattered = follow_lobe(lobe, &view, direction, sample, number, stratum);
+    scattered.probability = chance;
     scattered.pdf *= lobe->probability;
-    float factor = 1.0f / lobe->probability;
+    float factor = 1.0f / chance;
     float side = ps_dot(scattered.direction, hit->geometric_normal);
     bool crosses = ps_dot(scattered.direction, hit->normal) < 0.0f;
     scattered.normal = crosses ? ps_scale(hit->geometric_normal, -1.0f) : hit->geometric_normal;

@@ -121,10 +121,20 @@ ps_rgb material_emission(const struct material *material, const ps_hit *hit);
 /* Whether it holds glass, which mirrors or lets through by chance. */
 bool material_refracts(const struct material *material);
 
-/* See ps_host.sample_bsdf. */
+/* A camera path as one of `paths` of its pixel that have chosen alike so far, and whose numbers of [0, 1) are as evenly
+ * spaced. */
+struct stratum {
+    float number;
+    uint32_t paths;
+};
+
+/* See ps_host.sample_bsdf. `stratum`, if not NULL, chooses in place of sample[3] by what the surface scatters, as long as
+ * there are several paths, of which whole numbers go each way; and becomes that of the path that goes on. The pdf remains that
+ * of a path alone, by which light that was asked is weighed against light that was hit (material_gloss). */
 ps_bsdf_sample material_scatter(const struct material *material,
                                 const struct microfacet_table *table, ps_direction direction,
-                                const ps_ray *ray, const ps_hit *hit, const float sample[4]);
+                                const ps_ray *ray, const ps_hit *hit, const float sample[4],
+                                struct stratum *stratum);
 
 /* See ps_host.evaluate_bsdf. */
 ps_bsdf_value material_evaluate(const struct material *material,

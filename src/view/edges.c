@@ -234,6 +234,7 @@ static void look_again(const struct edge_pass *pass, uint32_t tile, const bool *
     struct looks looks;
     draw_pattern(pass, &looks);
     looks.points.count = 0;
+    looks.points.of_pixel = pass->samples;
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
         if (!edges[lane])
             continue;

@@ -20,9 +20,10 @@ struct camera_paths {
     ps_ray rays[PS_TILE_PIXELS];
     ps_rgb throughput[PS_TILE_PIXELS];
     float travelled[PS_TILE_PIXELS];
-    float pdfs[PS_TILE_PIXELS];    /* of the last scattering; 0 from the camera */
-    float spreads[PS_TILE_PIXELS]; /* of the cone that the ray stands for */
-    const uint64_t *indices;       /* of each lane's random numbers */
+    float pdfs[PS_TILE_PIXELS];            /* of the last scattering; 0 from the camera */
+    float spreads[PS_TILE_PIXELS];         /* of the cone that the ray stands for */
+    struct stratum strata[PS_TILE_PIXELS]; /* what glass chooses by */
+    const uint64_t *indices;               /* of each lane's random numbers */
 };
 
 static ps_ray look(const struct view_pass *pass, const struct view_points *points, uint32_t lane)
@@ -45,6 +46,7 @@ static void start(const struct view_pass *pass, const struct view_points *points
         paths->rays[i] = look(pass, points, points->lanes[i]);
         paths->throughput[i] = (ps_rgb){1, 1, 1};
         paths->travelled[i] = 0.0f;
+        paths->strata[i].paths = points->of_pixel;
         paths->pdfs[i] = 0.0f;
         paths->spreads[i] = CONE_SIDE * camera_pixel_spread(&pass->lighting.scene->camera,
                                                             paths->rays[i].direction);
@@ -108,6 +110,7 @@ static void end_at_diffuse(const struct view_pass *pass, uint32_t tile, struct c
         paths->rays[left] = paths->rays[i];
         paths->throughput[left] = paths->throughput[i];
         paths->spreads[left] = paths->spreads[i];
+        paths->strata[left] = paths->strata[i];
         paths->travelled[left++] = travelled;
     }
     paths->count = left;
@@ -180,9 +183,11 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
     for (size_t i = 0; i < paths->count; i++) {
         float numbers[4];
         sample_point(key, paths->indices[paths->lanes[i]], numbers);
+        if (depth == 0)
+            paths->strata[i].number = numbers[3];
         ps_bsdf_sample on =
             material_scatter(&scene->materials[hits[i].material], scene->microfacets,
-                             PS_FROM_CAMERA, &paths->rays[i], &hits[i], numbers);
+                             PS_FROM_CAMERA, &paths->rays[i], &hits[i], numbers, &paths->strata[i]);
         note_chance(pass, tile, paths, i, &hits[i], &on);
         if (on.lobe == PS_DIFFUSE) {
             ps_rgb throughput = ps_rgb_scale(paths->throughput[i], 1.0f / on.probability);
@@ -195,6 +200,7 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
         paths->lanes[left] = paths->lanes[i];
         paths->throughput[left] = ps_rgb_multiply(paths->throughput[i], on.weight);
         paths->travelled[left] = paths->travelled[i];
+        paths->strata[left] = paths->strata[i];
         paths->pdfs[left] = on.pdf;
         paths->spreads[left] = ps_max(paths->spreads[i], ps_cone_spread(on.pdf));
         paths->rays[left++] =
@@ -208,6 +214,7 @@ void view_pixels(const struct gbuffer *gbuffer, uint32_t tile_number, uint32_t n
                  float jitter_x, float jitter_y, struct view_points *points)
 {
     points->count = 0;
+    points->of_pixel = 1;
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
         uint32_t x, y, lane = gbuffer_block_lane(i);
         if (!gbuffer_picture_pixel(gbuffer, tile_number, lane, &x, &y))

@@ -25,7 +25,7 @@ static double reflected(const struct lighting *lighting, uint64_t seed)
         sample_point(sample_key(seed, PS_STREAM_PATH, 0), i, numbers);
         ps_bsdf_sample scattered =
             material_scatter(&scene->materials[hit.material], scene->microfacets, PS_FROM_CAMERA,
-                             &eye, &hit, numbers);
+                             &eye, &hit, numbers, NULL);
         if (scattered.lobe == PS_DIFFUSE)
             continue;
         on = ps_leave_surface(hit.position, scattered.normal, scattered.direction,

@@ -87,7 +87,8 @@ static ps_bsdf_sample scatter(const struct material *material, const struct meet
     float numbers[4];
     for (int k = 0; k < 4; k++)
         numbers[k] = random_unit(random);
-    return material_scatter(material, table, direction, &meeting->ray, &meeting->hit, numbers);
+    return material_scatter(material, table, direction, &meeting->ray, &meeting->hit, numbers,
+                            NULL);
 }
 
 static double mean_weight(const struct material *material, float cosine, ps_direction direction)
@@ -302,6 +303,77 @@ static void test_power_is_not_squeezed(void **state)
     (void)state;
     struct material glass = made_one(plain(MATERIAL_DIELECTRIC, 1));
     assert_true(fabs(mean_weight(&glass, 0.7f, PS_FROM_LIGHT) - 1) < 1e-5);
+}
+
+/* --- paths of a pixel ---------------------------------------------------------------------------- */
+
+enum { MOST_PATHS = 8 };
+
+/* What `paths` paths carry on, with numbers that are evenly spaced from `offset` on. Those that go the same way are as many
+ * as their strata say, with numbers that are evenly spaced in turn. */
+static double carried_by_paths(const struct material *material, const struct meeting *meeting,
+                               uint32_t paths, float offset)
+{
+    static const float numbers[4] = {0.3f, 0.6f, 0, 0.5f};
+    struct stratum strata[MOST_PATHS];
+    ps_vec3 directions[MOST_PATHS];
+    double sum = 0;
+    for (uint32_t i = 0; i < paths; i++) {
+        strata[i] = (struct stratum){((float)i + offset) / (float)paths, paths};
+        ps_bsdf_sample on = material_scatter(material, table, PS_FROM_CAMERA, &meeting->ray,
+                                             &meeting->hit, numbers, &strata[i]);
+        directions[i] = on.direction;
+        sum += (double)on.weight.g;
+    }
+    for (uint32_t i = 0, first = 0; i < paths; i++) {
+        first = i > 0 && ps_same(directions[i], directions[i - 1]) ? first : i;
+        float place = ((float)(i - first) + offset) / (float)strata[i].paths;
+        assert_true(fabsf(strata[i].number - place) < 1e-4f);
+        if (i + 1 == paths || !ps_same(directions[i], directions[i + 1]))
+            assert_int_equal(strata[i].paths, i + 1 - first);
+    }
+    return sum / paths;
+}
+
+/* However they lie, they carry what a path alone carries in the mean. */
+static void expect_no_chance(struct material_description description, float cosine)
+{
+    static const uint32_t counts[] = {2, 3, MOST_PATHS};
+    struct material material = made_one(description);
+    struct meeting meeting = meet(cosine, 0);
+    double mean = mean_weight(&material, cosine, PS_FROM_CAMERA);
+    for (int i = 0; i < 3; i++)
+        for (float offset = 0.1f; offset < 1; offset += 0.2f)
+            assert_true(fabs(carried_by_paths(&material, &meeting, counts[i], offset) - mean) <
+                        0.005);
+}
+
+static void test_paths_share_what_glass_does(void **state)
+{
+    (void)state;
+    for (float cosine = 0.1f; cosine <= 1.0f; cosine += 0.3f)
+        expect_no_chance(plain(MATERIAL_DIELECTRIC, 1), cosine);
+}
+
+static void test_paths_share_lobes(void **state)
+{
+    (void)state;
+    struct material_description coated = plain(MATERIAL_GLOSSY, 0.6f);
+    coated.roughness = grey(0);
+    for (float cosine = 0.1f; cosine <= 1.0f; cosine += 0.3f)
+        expect_no_chance(coated, cosine);
+}
+
+static void test_a_path_alone_has_no_stratum(void **state)
+{
+    (void)state;
+    static const float numbers[4] = {0.3f, 0.6f, 0, 0.01f};
+    struct material glass = made_one(plain(MATERIAL_DIELECTRIC, 1));
+    struct meeting meeting = meet(1, 0);
+    struct stratum alone = {0.9f, 1};
+    ps_bsdf_sample on = material_scatter(&glass, table, PS_FROM_CAMERA, &meeting.ray, &meeting.hit,
+                                         numbers, &alone);
+    assert_true(on.direction.y > 0); /* by sample[3], it mirrors */
 }
 
 static void test_glass_absorbs_by_distance(void **state)
@@ -524,6 +596,9 @@ int main(void)
         cmocka_unit_test(test_glass_reflects_totally_inside),
         cmocka_unit_test(test_power_is_not_squeezed),
         cmocka_unit_test(test_glass_absorbs_by_distance),
+        cmocka_unit_test(test_paths_share_what_glass_does),
+        cmocka_unit_test(test_paths_share_lobes),
+        cmocka_unit_test(test_a_path_alone_has_no_stratum),
         cmocka_unit_test(test_mirror_direction),
         cmocka_unit_test(test_directions_follow_the_densities),
         cmocka_unit_test(test_tilted_normals),
