@@ -21,7 +21,7 @@
  * one sign (the dependent wild bootstrap, Shao 2010).
  *
  * Bright samples that few pixels found would leave speckles in narrow bands. So what exceeds twice the first fit, and
- * may be noise, is left out of the bands. At last the rest, E - E', gets a fit as wide as possible, and is added: with
+ * may be noise, is left out of the bands, where halves are known only if few pixels near by are like it. At last the rest, E - E', gets a fit as wide as possible, and is added: with
  * it what was left out, so that nothing is lost as clamping loses it, and what all fits are too dark or too bright by
  * (twicing, Tukey 1977).
  *

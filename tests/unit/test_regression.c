@@ -271,6 +271,35 @@ static void test_what_is_no_noise_stays(void **state)
     assert_true(unknown > 0.1);
 }
 
+/* A disc of sun, whose border is a penumbra of few shadow rays: its inside is nothing that few pixels found by chance. */
+static void test_sun_beside_noise_stays(void **state)
+{
+    (void)state;
+    static float room[2][3][PIXELS];
+    struct picture *picture = level_floor();
+    struct random random = {5};
+    double worst = 0;
+    picture->halves = room;
+    for (int i = 0; i < PIXELS; i++) {
+        float far = hypotf((float)(i % WIDTH - 70), (float)(i / WIDTH - 12));
+        float lit = ps_min(ps_max(6.0f - far, 0.0f) / 2.0f, 1.0f); /* from 4 to 6 pixels */
+        for (int half = 0; half < 2; half++) {
+            int met = (random_unit(&random) < lit) + (random_unit(&random) < lit);
+            for (int c = 0; c < 3; c++)
+                room[half][c][i] = 0.1f + 5.0f * (float)met;
+        }
+        for (int c = 0; c < 3; c++)
+            picture->light[c][i] = 0.5f * (room[0][c][i] + room[1][c][i]);
+    }
+    denoise(picture, CHOICE, 2);
+    for (int i = 0; i < PIXELS; i++)
+        if (hypotf((float)(i % WIDTH - 70), (float)(i / WIDTH - 12)) < 3.5f)
+            worst = fmax(worst, fabs((double)picture->light[0][i] - 10.1));
+    print_message("inside of the disc: off by %.3f of 10\n", worst);
+    assert_true(worst < 1.5);
+    free(picture);
+}
+
 /* One pixel as bright as a thousand: what is left of it is no speckle, and nothing of its light is lost. */
 static void test_outliers_spread(void **state)
 {
@@ -448,6 +477,7 @@ int main(void)
         cmocka_unit_test(test_chance_leaves_no_grain),
         cmocka_unit_test(test_shared_noise_of_gloss_is_noise),
         cmocka_unit_test(test_what_is_no_noise_stays),
+        cmocka_unit_test(test_sun_beside_noise_stays),
         cmocka_unit_test(test_outliers_spread),
         cmocka_unit_test(test_noise_of_thin_things_falls),
         cmocka_unit_test(test_what_is_no_surface_stays),

@@ -6,7 +6,8 @@
 #define FAR_ABOVE 2.0f     /* of the first fit: what is brighter may be left out of the bands */
 #define OUTLIER_NOISE 1.5f /* times the noise near by, by which outliers may be too bright */
 #define NEAR 3             /* pixels to each side are near by */
-#define SHARED 4           /* pixels along a block whose noise may be one */
+#define FEW 4    /* pixels near by, with itself, that are half as bright as an outlier, at most */
+#define SHARED 4 /* pixels along a block whose noise may be one */
 
 /* --- irradiance and surfaces --- */
 
@@ -136,7 +137,20 @@ static float largest_noise_near(const struct work *work, size_t x, size_t y)
     return most;
 }
 
-/* From the first fit, in `fine`. What is bright without noise is no outlier. */
+/* Whether few pixels near by are about as bright. */
+static bool is_alone(const struct work *work, size_t at, float bright)
+{
+    size_t stride = regression_stride(work->width);
+    int like = 0;
+    for (size_t row = 0; row <= 2 * NEAR; row++)
+        for (size_t column = 0; column <= 2 * NEAR; column++)
+            like += brightness_at(work->light, at + (row - NEAR) * stride + column - NEAR) >
+                    0.5f * bright;
+    return like <= FEW;
+}
+
+/* From the first fit, in `fine`. What is bright without noise is no outlier, nor, where the noise is known, is what several
+ * pixels show: a patch of sun is as bright as it is, whatever the noise of its penumbra. */
 static void make_body(const struct work *work, size_t x, size_t y, size_t at)
 {
     size_t pixel = y * work->width + x;
@@ -144,7 +158,8 @@ static void make_body(const struct work *work, size_t x, size_t y, size_t at)
     bool known = work->image->even_r != NULL;
     float noise = known ? largest_noise_near(work, x, y) : bright;
     float limit = ps_max(FAR_ABOVE * ps_max(first, work->least), bright - OUTLIER_NOISE * noise);
-    float keep = bright > limit ? limit / bright : 1.0f;
+    bool is_outlier = bright > limit && (!known || is_alone(work, at, bright));
+    float keep = is_outlier ? limit / bright : 1.0f;
     for (int c = 0; c < REGRESSION_COLOURS; c++)
         work->body[c][at] = keep * work->light[c][at];
     work->body[NOISE][at] =
