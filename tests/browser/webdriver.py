@@ -18,7 +18,7 @@ import urllib.request
 
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # the key of elements in the protocol
 KEYS = {"right": "\ue014", "enter": "\ue007"}
-PATIENCE = 60  # seconds that anything may take on a machine that is busy with other things
+PATIENCE = 240  # seconds that anything may take on a machine that is busy with other things
 
 
 class WebDriverError(Exception):
