@@ -22,7 +22,7 @@ struct camera_paths {
     float travelled[PS_TILE_PIXELS];
     float pdfs[PS_TILE_PIXELS];            /* of the last scattering; 0 from the camera */
     float spreads[PS_TILE_PIXELS];         /* of the cone that the ray stands for */
-    struct stratum strata[PS_TILE_PIXELS]; /* what glass chooses by */
+    struct stratum strata[PS_TILE_PIXELS]; /* what lobes and glass choose by */
     const uint64_t *indices;               /* of each lane's random numbers */
 };
 

@@ -25,7 +25,7 @@ struct view_pass {
 /* Where lanes of a tile look. */
 struct view_points {
     size_t count;                   /* of lanes that look anywhere */
-    uint32_t of_pixel;              /* lanes whose indices follow each other look at one pixel */
+    uint32_t of_pixel;              /* so many that follow each other look at one pixel */
     uint32_t lanes[PS_TILE_PIXELS]; /* these, compact ones next to each other */
     float x[PS_TILE_PIXELS], y[PS_TILE_PIXELS]; /* of each lane, in pixels of the picture */
     uint64_t indices[PS_TILE_PIXELS];           /* of each lane's random numbers */
