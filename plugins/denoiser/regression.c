@@ -21,9 +21,9 @@
  * one sign (the dependent wild bootstrap, Shao 2010).
  *
  * Bright samples that few pixels found would leave speckles in narrow bands. So what exceeds twice the first fit, and
- * may be noise, is left out of the bands, where halves are known only if few pixels near by are like it. At last the rest, E - E', gets a fit as wide as possible, and is added: with
- * it what was left out, so that nothing is lost as clamping loses it, and what all fits are too dark or too bright by
- * (twicing, Tukey 1977).
+ * may be noise, is left out of the bands; where halves are known, only if few pixels near by are like it. At last the
+ * rest, E - E', gets a fit as wide as possible, and is added: with it what was left out, so that nothing is lost as
+ * clamping loses it, and what all fits are too dark or too bright by (twicing, Tukey 1977).
  *
  * E is radiance over albedo, so that colours of surfaces stay sharp. A channel that a surface hardly reflects says
  * nothing about the light, and is taken for the mean of its other channels. What gloss mirrors is fitted along

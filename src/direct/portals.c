@@ -38,10 +38,10 @@ static float place_along(const struct portals *portals, ps_vec3 position, uint32
     return (coordinate(position, axis) - low) / (high - low);
 }
 
-static size_t part_of(float place, size_t count)
+static uint32_t part_of(float place, uint32_t count)
 {
     float part = place * (float)count;
-    size_t index = part > 0.0f ? (size_t)part : 0;
+    uint32_t index = part > 0.0f ? (uint32_t)part : 0;
     return index < count ? index : count - 1;
 }
 
@@ -69,7 +69,8 @@ struct portal_exit portals_exit(const struct portals *portals, ps_vec3 position,
     }
     ps_vec3 point = ps_add_scaled(position, exit.distance, direction);
     for (uint32_t k = 0; k < 2; k++)
-        exit.place[k] = place_along(portals, point, (exit.face.axis + 1 + k) % 3);
+        exit.bin[k] =
+            part_of(place_along(portals, point, (exit.face.axis + 1 + k) % 3), PORTAL_BINS);
     return exit;
 }
 
@@ -176,15 +177,9 @@ bool portals_choose(const struct portals *portals, ps_vec3 position, ps_vec3 nor
     return true;
 }
 
-static size_t bin_of(float place)
-{
-    return part_of(place, PORTAL_BINS);
-}
-
 uint32_t portals_at(const struct portals *portals, const struct portal_exit *exit)
 {
-    return portals->portal_of[exit->face.axis][exit->face.high][bin_of(exit->place[1])]
-                             [bin_of(exit->place[0])];
+    return portals->portal_of[exit->face.axis][exit->face.high][exit->bin[1]][exit->bin[0]];
 }
 
 /* The pdf of a direction by portals alone. */
@@ -208,12 +203,11 @@ static float by_sky(const struct light *sky, const struct choice *choice, ps_vec
     return least + (1.0f - least) * ps_min(WIDE_OPEN * choice->sum / all, 1.0f);
 }
 
-/* The first number tells whether a ray goes by the sky, too. */
+/* The first number tells whether a ray goes by the sky, too, as the share `share` does. */
 static ps_vec3 direction_of(const struct portals *portals, const struct light *sky,
-                            const struct choice *choice, ps_vec3 position, ps_vec3 normal,
-                            const float numbers[2])
+                            const struct choice *choice, float share, ps_vec3 position,
+                            ps_vec3 normal, const float numbers[2])
 {
-    float share = by_sky(sky, choice, normal);
     float rest[1][2] = {{numbers[0] / share, numbers[1]}};
     if (numbers[0] < share) {
         struct light_sample sample;
@@ -234,8 +228,8 @@ static void sample_one(const struct portals *portals, const struct light *sky, p
         light_sample(sky, &position, &normal, numbers, 1, sample);
         return;
     }
-    ps_vec3 direction = direction_of(portals, sky, &choice, position, normal, numbers[0]);
     float share = by_sky(sky, &choice, normal);
+    ps_vec3 direction = direction_of(portals, sky, &choice, share, position, normal, numbers[0]);
     float pdf = share * light_pdf_by_normal(sky, normal, direction) +
                 (1.0f - share) * portal_pdf(portals, &choice, position, direction);
     *sample = (struct light_sample){.direction = direction, .distance = INFINITY, .pdf = pdf};
@@ -247,10 +241,8 @@ void portals_sample(const struct portals *portals, const struct light *sky,
                     const ps_vec3 *positions, const ps_vec3 *normals, const float (*numbers)[2],
                     size_t n, struct light_sample *samples)
 {
-    static const ps_vec3 unknown = {0, 0, 0};
     for (size_t i = 0; i < n; i++)
-        sample_one(portals, sky, positions[i], normals ? normals[i] : unknown, numbers + i,
-                   &samples[i]);
+        sample_one(portals, sky, positions[i], normals[i], numbers + i, &samples[i]);
 }
 
 float portals_pdf(const struct portals *portals, const struct light *sky, ps_vec3 position,

@@ -28,7 +28,7 @@ enum {
 };
 
 /* A face of the box: across axis `axis` (0: x), the one on the side of +axis where `high`. Places on it are counted along
- * the next two axes, from 0 to 1. */
+ * the next two axes. */
 struct portal_face {
     uint32_t axis;
     bool high;
@@ -43,7 +43,7 @@ struct portal_bins {
 /* Where a ray leaves the box. */
 struct portal_exit {
     struct portal_face face;
-    float place[2]; /* on the face, 0..1 */
+    uint32_t bin[2]; /* of the face */
     float distance;
     float cosine; /* with the face's normal */
 };

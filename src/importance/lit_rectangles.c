@@ -8,13 +8,7 @@
 
 void exit_counts_add(struct exit_counts *counts, const struct portal_exit *exit)
 {
-    uint32_t bin[2];
-    for (uint32_t k = 0; k < 2; k++) {
-        float place = exit->place[k] * PORTAL_BINS;
-        bin[k] = place > 0.0f ? (uint32_t)place : 0;
-        bin[k] = bin[k] < PORTAL_BINS ? bin[k] : PORTAL_BINS - 1;
-    }
-    counts->bins[exit->face.axis][exit->face.high][bin[1]][bin[0]]++;
+    counts->bins[exit->face.axis][exit->face.high][exit->bin[1]][exit->bin[0]]++;
 }
 
 /* Bins of one face, `count` across and down. */

@@ -84,14 +84,12 @@ static void trace(struct search *search)
                                search);
 }
 
-static double share_open(const struct search *search)
+static size_t count_open(const struct search *search)
 {
-    size_t open = 0, all = 0;
-    for (size_t i = 0; i < search->count * RAYS; i++) {
-        open += !search->blocked[i];
-        all += search->drawn[i];
-    }
-    return all > 0 ? (double)open / (double)all : 0.0;
+    size_t open = 0;
+    for (size_t ray = 0; ray < search->count * RAYS; ray++)
+        open += !search->blocked[ray];
+    return open;
 }
 
 /* --- the box --- */
@@ -226,9 +224,9 @@ struct room {
 static bool find(struct search *search, const struct room *room, struct portals *portals)
 {
     trace(search);
-    double open = share_open(search);
-    if (open * (double)search->count * RAYS < FEWEST_OPEN || open > MOST_OPEN ||
-        !bound_room(search, room->numbers, portals))
+    size_t open = count_open(search);
+    double share = (double)open / (double)(search->count * RAYS);
+    if (open < FEWEST_OPEN || share > MOST_OPEN || !bound_room(search, room->numbers, portals))
         return false;
     size_t exits = count_exits(search, portals, room->counts);
     if (exits < FEWEST_OPEN || !lit_rectangles(room->counts, exits, portals))
@@ -237,7 +235,7 @@ static bool find(struct search *search, const struct room *room, struct portals 
     trace(search);
     exits += count_exits(search, portals, room->counts);
     return lit_rectangles(room->counts, exits, portals) &&
-           learn_visibility(search, portals, room->tries) > LEAST_GAIN * open;
+           learn_visibility(search, portals, room->tries) > LEAST_GAIN * share;
 }
 
 static void release_room(struct room *room)

@@ -24,13 +24,14 @@ static void share_paths(const struct bsdf_lobe *lobes, size_t count, uint32_t pa
         shares[i]++;
 }
 
-/* Chooses a lobe by *number, and rescales that so that it can be used again. Returns the lobe's probability. */
+/* Chooses a lobe by *number, and rescales that so that it can be used again. Returns the lobe's probability. Fewer paths than
+ * lobes do not share them out: each is alone. */
 static float choose_lobe(const struct bsdf_lobe *lobes, size_t count, float *number,
                          struct stratum *stratum, const struct bsdf_lobe **lobe)
 {
     uint32_t shares[BSDF_MOST_LOBES], paths = stratum ? stratum->paths : 1;
     bool shared = paths > 1 && paths >= count;
-    float left = shared ? stratum->number : *number, chance;
+    float left = *number, chance;
     size_t i = 0;
     if (shared)
         share_paths(lobes, count, paths, shares);
@@ -40,11 +41,9 @@ static float choose_lobe(const struct bsdf_lobe *lobes, size_t count, float *num
             break;
         left -= chance;
     }
-    left = fminf(left / chance, 0x1.fffffep-1f);
-    if (shared)
-        *stratum = (struct stratum){left, shares[i]};
-    else
-        *number = left;
+    *number = fminf(left / chance, 0x1.fffffep-1f);
+    if (stratum)
+        *stratum = (struct stratum){*number, shared ? shares[i] : 1};
     *lobe = &lobes[i];
     return chance;
 }
@@ -135,13 +134,12 @@ static float chance_to_mirror(float reflectance, ps_direction direction, uint32_
 /* Whether glass mirrors. */
 static bool choose_to_mirror(float chance, float number, struct stratum *stratum)
 {
+    bool mirrors = number < chance;
     if (!stratum || stratum->paths <= 1)
-        return number < chance;
-    float paths = (float)stratum->paths, within = stratum->number;
-    bool mirrors = within < chance;
-    within = mirrors ? within / chance : (within - chance) / (1.0f - chance);
-    stratum->number = fminf(within, 0x1.fffffep-1f);
-    stratum->paths = (uint32_t)(paths * (mirrors ? chance : 1.0f - chance) + 0.5f);
+        return mirrors;
+    float within = mirrors ? number : number - chance, share = mirrors ? chance : 1.0f - chance;
+    stratum->number = fminf(within / share, 0x1.fffffep-1f);
+    stratum->paths = (uint32_t)(share * (float)stratum->paths + 0.5f);
     return mirrors;
 }
 
@@ -263,7 +261,7 @@ ps_bsdf_sample material_scatter(const struct material *material,
     if (count == 0)
         return (ps_bsdf_sample){
             .direction = hit->normal, .normal = hit->normal, .probability = 1.0f};
-    float number = sample[3];
+    float number = stratum && stratum->paths > 1 ? stratum->number : sample[3];
     const struct bsdf_lobe *lobe;
     float chance = choose_lobe(lobes, count, &number, stratum, &lobe);
     ps_bsdf_sample scattered = follow_lobe(lobe, &view, direction, sample, number, stratum);

@@ -364,6 +364,36 @@ static void test_paths_share_lobes(void **state)
         expect_no_chance(coated, cosine);
 }
 
+/* One of eight goes by the glass of this mix, and is alone with its choice: it must not be the same number that chose the
+ * lobe. */
+static void test_choices_of_a_mix_are_independent(void **state)
+{
+    (void)state;
+    enum { OFFSETS = 4000 };
+    size_t components[2] = {0, 1};
+    double weights[2] = {0.9, 0.1};
+    struct material_description materials[3] = {
+        plain(MATERIAL_DIFFUSE, 0.8f), plain(MATERIAL_DIELECTRIC, 1), plain(MATERIAL_MIX, 0)};
+    materials[2].components = components;
+    materials[2].weights = weights;
+    materials[2].component_count = 2;
+    struct material mix = made(materials, 3, 2);
+    struct meeting meeting = meet(0.5f, 0);
+    double sum = 0, mirrored = 0;
+    for (int i = 0; i < OFFSETS * MOST_PATHS; i++) {
+        float number = ((float)i + 0.5f) / (OFFSETS * MOST_PATHS);
+        const float numbers[4] = {0.3f, 0.6f, 0, number};
+        struct stratum stratum = {number, MOST_PATHS};
+        ps_bsdf_sample on = material_scatter(&mix, table, PS_FROM_CAMERA, &meeting.ray,
+                                             &meeting.hit, numbers, &stratum);
+        sum += (double)on.weight.g;
+        mirrored += on.lobe == PS_SPECULAR && on.direction.y > 0;
+    }
+    assert_true(mirrored > 0);
+    assert_true(fabs(sum / (OFFSETS * MOST_PATHS) - mean_weight(&mix, 0.5f, PS_FROM_CAMERA)) <
+                0.005);
+}
+
 static void test_a_path_alone_has_no_stratum(void **state)
 {
     (void)state;
@@ -598,6 +628,7 @@ int main(void)
         cmocka_unit_test(test_glass_absorbs_by_distance),
         cmocka_unit_test(test_paths_share_what_glass_does),
         cmocka_unit_test(test_paths_share_lobes),
+        cmocka_unit_test(test_choices_of_a_mix_are_independent),
         cmocka_unit_test(test_a_path_alone_has_no_stratum),
         cmocka_unit_test(test_mirror_direction),
         cmocka_unit_test(test_directions_follow_the_densities),

@@ -79,8 +79,9 @@ static void expect_density(const struct light *sky)
         assert_true(sample.pdf > 0.0f);
         expect_close((double)sample.pdf, (double)pdf, 1e-3);
         sphere += 1.0 / (double)pdf;
-        through += exit.face.axis == 2 && exit.face.high && fabsf(exit.place[0] - 0.5f) < 0.25f &&
-                   fabsf(exit.place[1] - 0.5f) < 0.25f;
+        through += exit.face.axis == 2 && exit.face.high && exit.bin[0] >= large.first[0] &&
+                   exit.bin[0] < large.end[0] && exit.bin[1] >= large.first[1] &&
+                   exit.bin[1] < large.end[1];
     }
     expect_close(sphere / SAMPLES, 4.0 * PI, 0.02);
     assert_true(through > 0.3 * SAMPLES);
@@ -147,10 +148,7 @@ static size_t count_rays(struct exit_counts *counts, const struct portal_bins *b
     for (uint32_t y = bins->first[1]; y < bins->end[1]; y++)
         for (uint32_t x = bins->first[0]; x < bins->end[0]; x++)
             for (uint32_t i = 0; i < times; i++, rays++)
-                exit_counts_add(counts,
-                                &(struct portal_exit){.face = bins->face,
-                                                      .place = {((float)x + 0.5f) / PORTAL_BINS,
-                                                                ((float)y + 0.5f) / PORTAL_BINS}});
+                exit_counts_add(counts, &(struct portal_exit){.face = bins->face, .bin = {x, y}});
     return rays;
 }
 
@@ -217,8 +215,8 @@ static void test_few_rays_make_no_holes(void **state)
     for (int i = 0; i < RAYS; i++)
         exit_counts_add(&counts, &(struct portal_exit){
                                      .face = large.face,
-                                     .place = {0.25f + 0.5f * random_unit(&random),
-                                               0.25f + 0.5f * random_unit(&random)},
+                                     .bin = {16 + (uint32_t)(32 * random_unit(&random)),
+                                             16 + (uint32_t)(32 * random_unit(&random))},
                                  });
     const struct portal_bins window = {large.face, {16 - STEP, 16 - STEP}, {48 + STEP, 48 + STEP}};
     portals_begin(&found, low, high);
