@@ -58,7 +58,7 @@ static void take_rest_of_row(void *user, uint64_t row, uint32_t worker)
     (void)worker;
     const struct work *work = user;
     for (size_t x = 0; x < work->width; x++) {
-        size_t at = regression_at(&work->guides, x, row);
+        size_t at = regression_at(&work->guides, (int)x, (int)row);
         for (int c = 0; c < REGRESSION_COLOURS && work->guides.size[at] > 0.0f; c++)
             work->body[c][at] = work->light[c][at] - work->sum[c][row * work->width + x];
     }
@@ -73,8 +73,8 @@ static void store_row(void *user, uint64_t row, uint32_t worker)
     const float *const albedo[3] = {image->albedo_r, image->albedo_g, image->albedo_b};
     for (size_t x = 0; x < work->width; x++) {
         size_t i = row * work->width + x;
-        for (int c = 0; c < 3 && work->guides.size[regression_at(&work->guides, x, row)] > 0.0f;
-             c++)
+        for (int c = 0;
+             c < 3 && work->guides.size[regression_at(&work->guides, (int)x, (int)row)] > 0.0f; c++)
             out[c][i] = albedo[c][i] * ps_max(work->sum[c][i] + work->fine[c][i], 0.0f);
     }
 }
@@ -87,7 +87,7 @@ static void store_error_of_row(void *user, uint64_t row, uint32_t worker)
     const ps_image_view *image = work->image;
     for (size_t x = 0; x < work->width; x++) {
         size_t i = row * work->width + x;
-        if (!(work->guides.size[regression_at(&work->guides, x, row)] > 0.0f))
+        if (!(work->guides.size[regression_at(&work->guides, (int)x, (int)row)] > 0.0f))
             continue;
         float off = UNSEEN * sqrtf(work->error[i] / work->scale[i]);
         float irradiance = brightness_at(work->sum, i) + brightness_at(work->fine, i);
@@ -117,70 +117,95 @@ static void denoise(struct works *works)
 
 /* --- the strategy --- */
 
-/* Points `planes` to the next `count` planes of memory. */
-static float *lay_out(float *memory, size_t size, int count, float *planes[])
+/* Where the next planes go: those with a margin, whose runs lie together, and the others. */
+struct room {
+    float *with_margin, *without;
+    size_t pixels;
+};
+
+static void lay_out(float **next, size_t apart, int count, float *planes[])
 {
-    for (int i = 0; i < count; i++)
-        planes[i] = memory + (size_t)i * size;
-    return memory + (size_t)count * size;
+    for (int i = 0; i < count; i++, *next += apart)
+        planes[i] = *next;
+}
+
+static void lay_out_with_margin(struct room *room, int count, float *planes[])
+{
+    lay_out(&room->with_margin, REGRESSION_LANES, count, planes);
+}
+
+static void lay_out_without(struct room *room, int count, float *planes[])
+{
+    lay_out(&room->without, room->pixels, count, planes);
 }
 
 /* Planes that all images share, with a margin and without, and those of each. */
-enum { GUIDES = 8, SCRATCH = 3 };
+enum { GUIDES = 8, SCRATCH = 4 };
 enum { IMAGE_WITH_MARGIN = 2 * VALUES, IMAGE = 2 * VALUES + REGRESSION_COLOURS + 4 };
 
 #define IMAGE_BYTES ((IMAGE_WITH_MARGIN + IMAGE) * sizeof(float) + REGRESSION_PLANES_PIXEL)
 
-static float *lay_out_shared(struct work *work, float *next, size_t with_margin, size_t pixels)
+static void lay_out_shared(struct work *work, struct room *room)
 {
-    next = lay_out(next, with_margin, 3, work->guides.normal);
-    next = lay_out(next, with_margin, 3, work->guides.position);
-    next = lay_out(next, with_margin, 1, &work->guides.gloss);
-    next = lay_out(next, with_margin, 1, &work->guides.size);
-    next = lay_out(next, pixels, 1, &work->signal);
-    next = lay_out(next, pixels, 1, &work->room);
-    return lay_out(next, pixels, 1, &work->around);
+    lay_out_with_margin(room, 3, work->guides.normal);
+    lay_out_with_margin(room, 3, work->guides.position);
+    lay_out_with_margin(room, 1, &work->guides.gloss);
+    lay_out_with_margin(room, 1, &work->guides.size);
+    lay_out_without(room, 1, &work->signal);
+    lay_out_without(room, 1, &work->room);
+    lay_out_without(room, 1, &work->near_by);
+    lay_out_without(room, 1, &work->around);
 }
 
-static float *lay_out_image(struct work *work, float *next, size_t with_margin, size_t pixels)
+static void lay_out_image(struct work *work, struct room *room)
 {
-    next = lay_out(next, with_margin, VALUES, work->light);
-    next = lay_out(next, with_margin, VALUES, work->body);
-    next = lay_out(next, pixels, VALUES, work->fine);
-    next = lay_out(next, pixels, VALUES, work->coarse);
-    next = lay_out(next, pixels, REGRESSION_COLOURS, work->sum);
-    next = lay_out(next, pixels, 1, &work->scale);
-    next = lay_out(next, pixels, 1, &work->noise);
-    next = lay_out(next, pixels, 1, &work->kept);
-    float *error, *end = lay_out(next, pixels, 1, &error);
+    float *error;
+    lay_out_with_margin(room, VALUES, work->light);
+    lay_out_with_margin(room, VALUES, work->body);
+    lay_out_without(room, VALUES, work->fine);
+    lay_out_without(room, VALUES, work->coarse);
+    lay_out_without(room, REGRESSION_COLOURS, work->sum);
+    lay_out_without(room, 1, &work->scale);
+    lay_out_without(room, 1, &work->noise);
+    lay_out_without(room, 1, &work->kept);
+    lay_out_without(room, 1, &error);
     work->error = work->image->error ? error : NULL;
-    return end;
 }
 
-static size_t floats_of(size_t width, size_t height, int count)
+static size_t planes_with_margin(int images)
 {
-    size_t with_margin = regression_plane_size(width, height), pixels = width * height;
-    return (GUIDES + (size_t)count * IMAGE_WITH_MARGIN) * with_margin +
-           (SCRATCH + (size_t)count * IMAGE) * pixels;
+    return GUIDES + (size_t)images * IMAGE_WITH_MARGIN;
+}
+
+static size_t floats_with_margin(size_t width, size_t height, int images)
+{
+    return planes_with_margin(images) * REGRESSION_LANES * regression_runs(width, height);
+}
+
+static size_t floats_of(size_t width, size_t height, int images)
+{
+    return floats_with_margin(width, height, images) +
+           (SCRATCH + (size_t)images * IMAGE) * width * height;
 }
 
 /* Images with halves may show means over several passes, and come first. The first one's guides are all of them's. */
 static void lay_out_all(struct works *works, const struct work *shared, float *memory,
                         const ps_image_view *images)
 {
-    size_t with_margin = regression_plane_size(shared->width, shared->height);
-    size_t pixels = shared->width * shared->height;
-    struct work each = *shared;
     int count = works->count, halved = 0;
-    float *next = lay_out_shared(&each, memory, with_margin, pixels);
+    size_t width = shared->width, height = shared->height;
+    struct room room = {memory, memory + floats_with_margin(width, height, count), width * height};
+    struct work each = *shared;
+    lay_out_shared(&each, &room);
     for (int i = 0; i < count; i++)
         halved += images[i].even_r != NULL;
+    each.guides.runs_apart = planes_with_margin(count) * REGRESSION_LANES;
     each.guides.narrow = halved * VALUES;
     for (int i = 0, with = 0, without = halved; i < count; i++) {
         struct work *work = &works->of[images[i].even_r ? with++ : without++];
         *work = each;
         work->image = &images[i];
-        next = lay_out_image(work, next, with_margin, pixels);
+        lay_out_image(work, &room);
     }
 }
 
@@ -197,6 +222,7 @@ static ps_result filter_all(const void *opaque, const ps_host *host, const ps_im
         .host = host,
         .width = width,
         .height = height,
+        .runs_of_row = regression_runs_of_row(width),
         .bend_scale = (float)(1 / (1 - cos(state->normal * (double)PS_PI / 180))),
         .distance = state->distance.choice >= 0 ? 0.0f : (float)state->distance.number,
         .bounds = host->allocate(host, regression_bounds_bytes(width, height), "denoiser"),

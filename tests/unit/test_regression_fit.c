@@ -14,16 +14,19 @@
 
 enum { WIDTH = 133, HEIGHT = 41, PIXELS = WIDTH * HEIGHT };
 
+enum { PLANES = 8 + REGRESSION_VALUES, RUNS_APART = PLANES * REGRESSION_LANES };
+
 struct fixture {
     struct bare_host bare;
     struct regression surfaces;
+    float *memory, *next; /* of all planes, and the next one's */
     float *values[REGRESSION_VALUES];
 };
 
-static float *new_plane(void)
+static float *new_plane(struct fixture *fixture)
 {
-    float *plane = calloc(regression_plane_size(WIDTH, HEIGHT), sizeof *plane);
-    assert_non_null(plane);
+    float *plane = fixture->next;
+    fixture->next += REGRESSION_LANES;
     return plane;
 }
 
@@ -31,7 +34,7 @@ static float *new_plane(void)
 static void set_pixel(struct fixture *fixture, struct random *random, int x, int y)
 {
     struct regression *surfaces = &fixture->surfaces;
-    size_t at = regression_at(surfaces, (size_t)x, (size_t)y);
+    size_t at = regression_at(surfaces, x, y);
     struct random box = {(uint64_t)(x / 5 + 1000 * (y / 9))};
     float angle = random_between(&box, 0, 2 * PS_PI), tilt = random_between(&box, 0, 0.6f);
     if (random_between(&box, 0, 1) < 0.1f)
@@ -53,12 +56,17 @@ static void create(struct fixture *fixture, float degrees)
     struct regression *surfaces = &fixture->surfaces;
     struct random random = {4};
     bare_host_create(&fixture->bare, 2);
+    fixture->memory = calloc(regression_runs(WIDTH, HEIGHT), RUNS_APART * sizeof(float));
+    fixture->next = fixture->memory;
+    assert_non_null(fixture->memory);
     *surfaces = (struct regression){
         .host = &fixture->bare.host,
         .width = WIDTH,
         .height = HEIGHT,
-        .gloss = new_plane(),
-        .size = new_plane(),
+        .runs_of_row = regression_runs_of_row(WIDTH),
+        .runs_apart = RUNS_APART,
+        .gloss = new_plane(fixture),
+        .size = new_plane(fixture),
         .bend_scale = 1 / (1 - cosf(degrees * PS_PI / 180)),
         .bounds = malloc(regression_bounds_bytes(WIDTH, HEIGHT)),
         .fits = malloc(regression_fits_bytes(WIDTH, HEIGHT)),
@@ -67,11 +75,11 @@ static void create(struct fixture *fixture, float degrees)
     assert_non_null(surfaces->bounds);
     assert_non_null(surfaces->fits);
     for (int i = 0; i < 3; i++) {
-        surfaces->normal[i] = new_plane();
-        surfaces->position[i] = new_plane();
+        surfaces->normal[i] = new_plane(fixture);
+        surfaces->position[i] = new_plane(fixture);
     }
     for (int c = 0; c < REGRESSION_VALUES; c++)
-        fixture->values[c] = new_plane();
+        fixture->values[c] = new_plane(fixture);
     for (int i = 0; i < PIXELS; i++)
         set_pixel(fixture, &random, i % WIDTH, i / WIDTH);
 }
@@ -79,14 +87,7 @@ static void create(struct fixture *fixture, float degrees)
 static void destroy(struct fixture *fixture)
 {
     struct regression *surfaces = &fixture->surfaces;
-    for (int c = 0; c < REGRESSION_VALUES; c++)
-        free(fixture->values[c]);
-    for (int i = 0; i < 3; i++) {
-        free(surfaces->normal[i]);
-        free(surfaces->position[i]);
-    }
-    free(surfaces->gloss);
-    free(surfaces->size);
+    free(fixture->memory);
     free(surfaces->bounds);
     free(surfaces->fits);
     free(surfaces->planes);
@@ -129,7 +130,7 @@ static void test_bounds_change_nothing(void **state)
     }
 }
 
-/* Each run of 16 pixels lies within the bounds that are its. */
+/* Each pixel lies within the bounds of its run. */
 static void test_bounds_hold_their_pixels(void **state)
 {
     (void)state;
@@ -137,21 +138,41 @@ static void test_bounds_hold_their_pixels(void **state)
     create(&fixture, 30);
     const struct regression *surfaces = &fixture.surfaces;
     regression_bounds_find(surfaces);
-    for (size_t y = 0; y < HEIGHT; y++)
-        for (size_t x = 0; x < WIDTH; x++)
-            for (size_t i = 0; i < REGRESSION_LANES && x + i < WIDTH; i++) {
-                size_t from = regression_at(surfaces, x, y), at = from + i;
-                const struct regression_bounds *of = &surfaces->bounds[from / BOUNDS_STEP];
-                if (!(surfaces->size[at] > 0))
-                    continue;
-                for (int c = 0; c < 3; c++) {
-                    float off = fabsf(surfaces->position[c][at] - of->position[c]);
-                    float bend = fabsf(surfaces->normal[c][at] - of->normal[c]);
-                    assert_true(off <= of->position_extent[c]);
-                    assert_true(bend <= of->normal_extent[c]);
-                }
-                assert_true(fabsf(surfaces->gloss[at] - of->gloss) <= of->gloss_extent);
-            }
+    for (int i = 0; i < PIXELS; i++) {
+        size_t at = regression_at(surfaces, i % WIDTH, i / WIDTH);
+        const struct regression_bounds *of = &surfaces->bounds[at / RUNS_APART];
+        if (!(surfaces->size[at] > 0))
+            continue;
+        for (int c = 0; c < 3; c++) {
+            float off = fabsf(surfaces->position[c][at] - of->position[c]);
+            float bend = fabsf(surfaces->normal[c][at] - of->normal[c]);
+            assert_true(off <= of->position_extent[c]);
+            assert_true(bend <= of->normal_extent[c]);
+        }
+        assert_true(fabsf(surfaces->gloss[at] - of->gloss) <= of->gloss_extent);
+    }
+    destroy(&fixture);
+}
+
+/* Every pixel of a picture and its margin has a place of its own, in each plane. */
+static void test_planes_lie_apart(void **state)
+{
+    (void)state;
+    struct fixture fixture;
+    create(&fixture, 30);
+    size_t floats = regression_runs(WIDTH, HEIGHT) * RUNS_APART, places = 0;
+    memset(fixture.memory, 0, floats * sizeof(float));
+    for (int y = -REGRESSION_MARGIN; y < HEIGHT + REGRESSION_MARGIN; y++)
+        for (int x = -REGRESSION_MARGIN; x < WIDTH + REGRESSION_MARGIN; x++, places++)
+            for (int c = 0; c < REGRESSION_VALUES; c++)
+                fixture.values[c][regression_at(&fixture.surfaces, x, y)] += 1;
+    float sum = 0, most = 0;
+    for (size_t i = 0; i < floats; i++) {
+        sum += fixture.memory[i];
+        most = fmaxf(most, fixture.memory[i]);
+    }
+    assert_true(most == 1);
+    assert_true(sum == (float)(places * REGRESSION_VALUES));
     destroy(&fixture);
 }
 
@@ -160,6 +181,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bounds_change_nothing),
         cmocka_unit_test(test_bounds_hold_their_pixels),
+        cmocka_unit_test(test_planes_lie_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

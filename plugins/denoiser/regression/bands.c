@@ -59,43 +59,29 @@ static void count_row(void *user, uint64_t row, uint32_t worker)
     const struct work *work = user;
     for (size_t x = 0; x < work->width; x++) {
         size_t i = row * work->width + x;
-        bool shown = work->guides.size[regression_at(&work->guides, x, row)] > 0.0f;
-        work->around[i] = shown && is_in_class(work, i) ? 1.0f : 0.0f;
+        bool shown = work->guides.size[regression_at(&work->guides, (int)x, (int)row)] > 0.0f;
+        work->near_by[i] = work->around[i] = shown && is_in_class(work, i) ? 1.0f : 0.0f;
     }
 }
 
-static void divide_row(void *user, uint64_t row, uint32_t worker)
+/* Replaces values by their sums over a square around. */
+static void sum_around(const struct work *work, int radius, float *plane)
 {
-    (void)worker;
-    const struct work *work = user;
-    for (size_t i = row * work->width; i < (row + 1) * work->width; i++)
-        work->averaged[i] *= work->around[i] > 0.0f ? 1.0f / work->around[i] : 0.0f;
-}
-
-static void sum_around(struct work *work, int radius, float *plane)
-{
-    const struct regression_box box = {work->width, work->height, (size_t)radius, plane,
-                                       work->room};
+    struct regression_box box = {work->width, work->height, (size_t)radius, plane, work->room};
     regression_box_sums(work->host, &box);
-}
-
-/* Replaces values of the class by their means over its pixels in a square around. */
-static void average_around(struct work *work, int radius, float *plane)
-{
-    sum_around(work, radius, plane);
-    work->host->parallel_for(work->host, work->height, count_row, work);
-    sum_around(work, radius, work->around);
-    work->averaged = plane;
-    work->host->parallel_for(work->host, work->height, divide_row, work);
 }
 
 /* Of a band of mean square S of which N is noise, and of which the share k is kept: k^2 N + (1 - k)^2 (S - N), Stein's
  * estimate of the risk. Of what S exceeds N by, as much as half of the caution is taken for chance. */
-static float risk_of_band(const struct work *work, size_t i, float caution, float keep)
+static float risk_of_band(float signal, float noise, float caution, float keep)
 {
-    float noise = work->noise[i];
-    float lost = ps_max(work->signal[i] - 0.5f * caution * noise, 0.0f);
+    float lost = ps_max(signal - 0.5f * caution * noise, 0.0f);
     return keep * keep * noise + (1.0f - keep) * (1.0f - keep) * lost;
+}
+
+static float one_over(float count)
+{
+    return count > 0.0f ? 1.0f / count : 0.0f;
 }
 
 static void add_row(void *user, uint64_t row, uint32_t worker)
@@ -105,36 +91,50 @@ static void add_row(void *user, uint64_t row, uint32_t worker)
     for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
         if (!is_in_class(work, i))
             continue;
-        float caution = ALONE + (work->caution - ALONE) * work->kept[i];
-        float noise = caution * work->noise[i], signal = work->signal[i];
-        float share = signal > noise ? noise / signal : 1.0f, keep = 1.0f - share * share;
+        float signal = work->signal[i] * one_over(work->near_by[i]);
+        float noise = work->noise[i] * one_over(work->around[i]);
+        float caution = ALONE + (work->caution - ALONE) * work->kept[i], limit = caution * noise;
+        float share = signal > limit ? limit / signal : 1.0f, keep = 1.0f - share * share;
         work->kept[i] = keep;
         for (int c = 0; c < REGRESSION_COLOURS; c++)
             work->sum[c][i] += keep * (work->fine[c][i] - work->coarse[c][i]);
         if (work->error)
-            work->error[i] += risk_of_band(work, i, caution, keep);
+            work->error[i] += risk_of_band(signal, noise, caution, keep);
     }
 }
 
-/* The difference of `fine` and `coarse`, to the pixels of one class: what gloss mirrors has noise of its own, which
- * says nothing about the walls around. One picture of the noise may have less of it than there is: of that, more
- * pixels are asked. */
-static void add_band_of_class(struct work *work, int radius)
+static bool has_band(const struct work *work, bool of_pixels)
 {
-    work->host->parallel_for(work->host, work->height, measure_row, work);
-    average_around(work, radius, work->signal);
-    average_around(work, 2 * radius, work->noise);
-    work->host->parallel_for(work->host, work->height, add_row, work);
+    return work->image->even_r || !of_pixels;
 }
 
-static void add_band(struct work *work, int radius, float caution)
+/* Adds the difference of `fine` and `coarse`, to the pixels of one class: what gloss mirrors has noise of its own, which
+ * says nothing about the walls around. One picture of the noise may have less of it than there is: of that, more
+ * pixels are asked. */
+static void add_band_of_class(struct works *works, int radius, bool of_pixels, bool glossy)
 {
-    work->caution = caution;
-    work->glossy = false;
-    add_band_of_class(work, radius);
-    work->glossy = true;
-    if (work->image->gloss)
-        add_band_of_class(work, radius);
+    struct work *first = &works->of[0];
+    for (int i = 0; i < works->count; i++)
+        works->of[i].glossy = glossy;
+    first->host->parallel_for(first->host, first->height, count_row, first);
+    sum_around(first, radius, first->near_by);
+    sum_around(first, 2 * radius, first->around);
+    for (int i = 0; i < works->count; i++) {
+        struct work *work = &works->of[i];
+        if (!has_band(work, of_pixels))
+            continue;
+        work->host->parallel_for(work->host, work->height, measure_row, work);
+        sum_around(work, radius, work->signal);
+        sum_around(work, 2 * radius, work->noise);
+        work->host->parallel_for(work->host, work->height, add_row, work);
+    }
+}
+
+static void add_band(struct works *works, int radius, bool of_pixels)
+{
+    add_band_of_class(works, radius, of_pixels, false);
+    if (works->of[0].image->gloss)
+        add_band_of_class(works, radius, of_pixels, true);
 }
 
 static void copy_row(void *user, uint64_t row, uint32_t worker)
@@ -144,7 +144,7 @@ static void copy_row(void *user, uint64_t row, uint32_t worker)
     for (size_t x = 0; x < work->width; x++)
         for (int c = 0; c < VALUES; c++)
             work->fine[c][row * work->width + x] =
-                work->body[c][regression_at(&work->guides, x, row)];
+                work->body[c][regression_at(&work->guides, (int)x, (int)row)];
 }
 
 static void swap_fits(struct work *work)
@@ -158,21 +158,24 @@ static void swap_fits(struct work *work)
 
 void regression_add_bands(struct works *works)
 {
+    bool any_halves = false;
     regression_fit_all(works, bandwidths[0], body_of, coarse_of);
     regression_for_each_row(works, begin_row);
     for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {
         regression_fit_all(works, bandwidths[k], body_of, fine_of);
-        for (int i = 0; i < works->count; i++) {
-            bool guessed = k > 1 && !works->of[i].image->even_r;
-            add_band(&works->of[i], bandwidths[k], guessed ? GUESSED_CAUTION : CAUTION);
+        for (int i = 0; i < works->count; i++)
+            works->of[i].caution = k > 1 && !works->of[i].image->even_r ? GUESSED_CAUTION : CAUTION;
+        add_band(works, bandwidths[k], false);
+        for (int i = 0; i < works->count; i++)
             swap_fits(&works->of[i]);
+    }
+    for (int i = 0; i < works->count; i++)
+        if (works->of[i].image->even_r) {
+            works->of[i].host->parallel_for(works->of[i].host, works->of[i].height, copy_row,
+                                            &works->of[i]);
+            works->of[i].caution = PIXELS_CAUTION;
+            any_halves = true;
         }
-    }
-    for (int i = 0; i < works->count; i++) {
-        struct work *work = &works->of[i];
-        if (!work->image->even_r)
-            continue;
-        work->host->parallel_for(work->host, work->height, copy_row, work);
-        add_band(work, PIXELS_WINDOW, PIXELS_CAUTION);
-    }
+    if (any_halves)
+        add_band(works, PIXELS_WINDOW, true);
 }

@@ -63,7 +63,7 @@ void regression_take_row(void *user, uint64_t row, uint32_t worker)
     (void)worker;
     const struct work *work = user;
     for (size_t x = 0; x < work->width; x++)
-        take_pixel(work, row * work->width + x, regression_at(&work->guides, x, row));
+        take_pixel(work, row * work->width + x, regression_at(&work->guides, (int)x, (int)row));
 }
 
 /* --- what the bands are made of --- */
@@ -73,7 +73,7 @@ static float mean_brightness(const struct work *work, float *const planes[])
     double sum = 0.0, count = 1.0;
     for (size_t y = 0; y < work->height; y++)
         for (size_t x = 0; x < work->width; x++)
-            if (work->guides.size[regression_at(&work->guides, x, y)] > 0.0f) {
+            if (work->guides.size[regression_at(&work->guides, (int)x, (int)y)] > 0.0f) {
                 sum += (double)brightness_at(planes, y * work->width + x);
                 count += 1.0;
             }
@@ -116,9 +116,10 @@ static void take_noise_of_row(void *user, uint64_t row, uint32_t worker)
     const struct work *work = user;
     size_t first = row * work->width;
     for (size_t x = 0; x < work->width; x++)
-        work->noise[first + x] = work->guides.size[regression_at(&work->guides, x, row)] > 0.0f
-                                     ? noise_of_halves(work->image, first + x)
-                                     : 0.0f;
+        work->noise[first + x] =
+            work->guides.size[regression_at(&work->guides, (int)x, (int)row)] > 0.0f
+                ? noise_of_halves(work->image, first + x)
+                : 0.0f;
     for (size_t x = 0; x < work->width; x++) {
         size_t from = x > NEAR ? x - NEAR : 0, end = x + NEAR + 1;
         float most = 0.0f;
@@ -138,14 +139,14 @@ static float largest_noise_near(const struct work *work, size_t x, size_t y)
 }
 
 /* Whether few pixels near by are about as bright. */
-static bool is_alone(const struct work *work, size_t at, float bright)
+static bool is_alone(const struct work *work, size_t x, size_t y, float bright)
 {
-    size_t stride = regression_stride(work->width);
     int like = 0;
-    for (size_t row = 0; row <= 2 * NEAR; row++)
-        for (size_t column = 0; column <= 2 * NEAR; column++)
-            like += brightness_at(work->light, at + (row - NEAR) * stride + column - NEAR) >
-                    0.5f * bright;
+    for (int dy = -NEAR; dy <= NEAR; dy++)
+        for (int dx = -NEAR; dx <= NEAR; dx++) {
+            size_t at = regression_at(&work->guides, (int)x + dx, (int)y + dy);
+            like += brightness_at(work->light, at) > 0.5f * bright;
+        }
     return like <= FEW;
 }
 
@@ -158,7 +159,7 @@ static void make_body(const struct work *work, size_t x, size_t y, size_t at)
     bool known = work->image->even_r != NULL;
     float noise = known ? largest_noise_near(work, x, y) : bright;
     float limit = ps_max(FAR_ABOVE * ps_max(first, work->least), bright - OUTLIER_NOISE * noise);
-    bool is_outlier = bright > limit && (!known || is_alone(work, at, bright));
+    bool is_outlier = bright > limit && (!known || is_alone(work, x, y, bright));
     float keep = is_outlier ? limit / bright : 1.0f;
     for (int c = 0; c < REGRESSION_COLOURS; c++)
         work->body[c][at] = keep * work->light[c][at];
@@ -171,7 +172,7 @@ static void make_body_of_row(void *user, uint64_t row, uint32_t worker)
     (void)worker;
     const struct work *work = user;
     for (size_t x = 0; x < work->width; x++) {
-        size_t at = regression_at(&work->guides, x, row);
+        size_t at = regression_at(&work->guides, (int)x, (int)row);
         if (work->guides.size[at] > 0.0f)
             make_body(work, x, row, at);
     }

@@ -3,14 +3,14 @@
 #include "fit.h"
 
 _Static_assert(sizeof(struct regression_bounds) <=
-                   (size_t)REGRESSION_BOUNDS_PIXEL * (size_t)BOUNDS_STEP,
-               "bounds of a place");
+                   (size_t)REGRESSION_BOUNDS_PIXEL * (size_t)REGRESSION_LANES,
+               "bounds of a run");
 
 /* Of one plane, over the pixels of a run that show a surface. */
 static void find_extent(const float *plane, const float *size, float *centre, float *extent)
 {
     float least = INFINITY, most = -INFINITY;
-    for (int i = 0; i < BOUNDS_PIXELS; i++)
+    for (int i = 0; i < REGRESSION_LANES; i++)
         if (size[i] > 0.0f) {
             least = ps_min(least, plane[i]);
             most = ps_max(most, plane[i]);
@@ -23,10 +23,10 @@ static void find_bounds_of_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
     const struct regression *of = user;
-    size_t first = regression_at(of, 0, row) - REGRESSION_MARGIN;
-    size_t end = first + regression_stride(of->width) - BOUNDS_PIXELS; /* no run begins later */
-    for (size_t at = first; at <= end; at += BOUNDS_STEP) {
-        struct regression_bounds *bounds = &of->bounds[at / BOUNDS_STEP];
+    int end = (int)of->width + REGRESSION_MARGIN;
+    for (int x = -REGRESSION_MARGIN; x < end; x += REGRESSION_LANES) {
+        size_t at = regression_at(of, x, (int)row);
+        struct regression_bounds *bounds = &of->bounds[at / of->runs_apart];
         const float *size = of->size + at;
         for (int i = 0; i < 3; i++) {
             find_extent(of->normal[i] + at, size, &bounds->normal[i], &bounds->normal_extent[i]);
@@ -39,7 +39,7 @@ static void find_bounds_of_row(void *user, uint64_t row, uint32_t worker)
 
 size_t regression_bounds_bytes(size_t width, size_t height)
 {
-    return regression_plane_size(width, height) / BOUNDS_STEP * sizeof(struct regression_bounds);
+    return regression_runs(width, height) * sizeof(struct regression_bounds);
 }
 
 void regression_bounds_find(const struct regression *regression)

@@ -1,7 +1,7 @@
 /* bounds.h: bounds of what a few pixels of a row show, by which fits pass over pixels that are unlike their centre.
  *
  * Where things are small, most pixels of a window have no weight. Bounds of the positions, normals and shares of gloss
- * of a run of pixels tell that without a look at any: a plane of normal n lies within n . c +- |n| . e of each point
+ * of a run of pixels (fit.h) tell that without a look at any: a plane of normal n lies within n . c +- |n| . e of each point
  * of a box of centre c and half extents e.
  */
 #ifndef PSPLAT_DENOISER_REGRESSION_BOUNDS_H
@@ -11,17 +11,14 @@
 
 struct regression;
 
-/* There are some for every 8th place of a plane, of 24 pixels from it on: each run of 16 lies in such. */
-enum { BOUNDS_STEP = 8, BOUNDS_PIXELS = 24 };
-#define REGRESSION_BOUNDS_PIXEL 8 /* bytes of them for each place of a plane, at most */
-
-/* Centres and half extents; 0 where no surface is seen, so that such normals are upright to all. */
+/* Of a run. Centres and half extents; 0 where no surface is seen, so that such normals are upright to all. */
 struct regression_bounds {
     float normal[3], normal_extent[3];
     float position[3], position_extent[3];
     float gloss, gloss_extent;
 };
 
+#define REGRESSION_BOUNDS_PIXEL 4 /* bytes of them for each pixel of a plane, at most */
 size_t regression_bounds_bytes(size_t width, size_t height);
 
 /* Fills regression->bounds in from its other planes. Runs on all workers. */

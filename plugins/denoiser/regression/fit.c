@@ -1,4 +1,4 @@
-/* fit.c: see fit.h. Loops take LANES pixels of a row at a time, with weights of zero where they go too far, and keep
+/* fit.c: see fit.h. Loops take a run of LANES pixels at a time, with weights of zero where they go too far, and keep
  * as many sums, so that a compiler makes vectors of them without changing the order of any sum. */
 #include "fit.h"
 
@@ -12,11 +12,12 @@
 #define ROOM 0.2f      /* D over R, in pixels' sizes */
 #define LEAST_FIT 0.5f /* weight of blended fits below which a pixel becomes a centre */
 
-/* The largest bandwidth around such a pixel. In one pass it is WIDE if the pixels of a narrow fit weigh less than THIN. */
+/* The largest bandwidth around such a pixel. In one pass it is WIDE if the pixels of a narrow fit weigh less than THIN, but
+ * no less than FEW. */
 enum { NARROW = 24, WIDE = 48 };
 #define THIN 256.0f
 
-/* If the pixels of such a fit weigh less than FEW, D and 1 - cos(normal) are SLACK times as large. */
+/* If they weigh less than FEW, D and 1 - cos(normal) are SLACK times as large. */
 #define FEW 4.0f
 #define SLACK 4.0f
 
@@ -29,33 +30,27 @@ struct work {
     size_t columns, rows; /* of fits */
 };
 
-_Static_assert(MARGIN % BOUNDS_STEP == 0, "rows begin where bounds do");
+_Static_assert(MARGIN % LANES == 0 && BLOCK % LANES == 0, "they begin where runs do");
 
-size_t regression_stride(size_t width)
+size_t regression_runs_of_row(size_t width)
 {
-    size_t steps = (width + BOUNDS_STEP - 1) / BOUNDS_STEP;
-    return steps * BOUNDS_STEP + (size_t)2 * MARGIN;
+    return (width + (size_t)LANES - 1) / LANES + 2 * (MARGIN / LANES);
 }
 
-size_t regression_plane_size(size_t width, size_t height)
+size_t regression_runs(size_t width, size_t height)
 {
-    return regression_stride(width) * (height + (size_t)2 * MARGIN);
+    return regression_runs_of_row(width) * (height + (size_t)2 * MARGIN);
 }
 
-size_t regression_at(const struct regression *regression, size_t x, size_t y)
+/* The column where the run begins that holds a pixel. */
+static int start_of_run(int x)
 {
-    return (y + MARGIN) * regression_stride(regression->width) + x + MARGIN;
-}
-
-/* Of a pixel that may lie in the margin. */
-static size_t place_of(const struct work *work, int x, int y)
-{
-    return (size_t)(y + MARGIN) * regression_stride(work->to->width) + (size_t)(x + MARGIN);
+    return (x + MARGIN) / LANES * LANES - MARGIN;
 }
 
 static bool shows_surface(const struct work *work, int x, int y)
 {
-    return work->to->size[place_of(work, x, y)] > 0.0f;
+    return work->to->size[regression_at(work->to, x, y)] > 0.0f;
 }
 
 static void set_tangent_plane(const struct work *work, size_t at, float slack,
@@ -88,21 +83,22 @@ struct sums {
     float values[REGRESSION_MOST][3][LANES]; /* w E, w u E, w v E */
 };
 
-/* Adds LANES pixels of a row, from the one at `from`, which is dx to the right and sqrt(row) above or below the
- * centre. */
+/* Adds a run of pixels, the first of which is dx to the right and sqrt(row) above or below the centre. */
 static INLINED void add_pixels(const struct work *work, const struct regression_fit *fit,
-                               size_t from, int dx, float row, struct sums *sums)
+                               size_t run, int dx, float row, struct sums *sums)
 {
     _Alignas(64) float w[LANES], u[LANES], v[LANES], wu[LANES], wv[LANES];
     float scale = 1.0f / (((float)work->bandwidth + 0.5f) * ((float)work->bandwidth + 0.5f));
-    if (!take_pixels(work->to, fit, from, w, u, v))
+    if (!take_pixels(work->to, fit, run, w, u, v))
         return;
+#pragma omp simd
     for (int i = 0; i < LANES; i++) {
         float x = (float)(dx + i), near = above_zero(1.0f - (x * x + row) * scale);
         w[i] *= near * near;
         wu[i] = w[i] * u[i];
         wv[i] = w[i] * v[i];
     }
+#pragma omp simd
     for (int i = 0; i < LANES; i++) {
         sums->moments[W][i] += w[i];
         sums->moments[WU][i] += wu[i];
@@ -112,7 +108,8 @@ static INLINED void add_pixels(const struct work *work, const struct regression_
         sums->moments[WVV][i] += wv[i] * v[i];
     }
     for (int c = work->first; c < work->end; c++) {
-        const float *restrict value = work->values[c] + from;
+        const float *restrict value = work->values[c] + run * work->to->runs_apart;
+#pragma omp simd
         for (int i = 0; i < LANES; i++) {
             sums->values[c][0][i] += w[i] * value[i];
             sums->values[c][1][i] += wu[i] * value[i];
@@ -164,13 +161,14 @@ EVERY_ISA static void make_fit(const struct work *work, int x, int y, float slac
         return;
     memset(sums.moments, 0, sizeof sums.moments);
     memset(sums.values[work->first], 0, (size_t)(work->end - work->first) * sizeof sums.values[0]);
-    set_tangent_plane(work, place_of(work, x, y), slack, fit);
+    set_tangent_plane(work, regression_at(work->to, x, y), slack, fit);
     for (int dy = -work->bandwidth; dy <= work->bandwidth; dy++) {
         if (y + dy < 0 || y + dy >= (int)work->to->height)
             continue;
-        int half = (int)sqrtf(reach - (float)(dy * dy));
-        for (int dx = -half; dx <= half; dx += LANES)
-            add_pixels(work, fit, place_of(work, x + dx, y + dy), dx, (float)(dy * dy), &sums);
+        int half = (int)sqrtf(reach - (float)(dy * dy)), left = start_of_run(x - half);
+        size_t run = regression_run(work->to, left, y + dy);
+        for (int dx = left - x; dx <= half; dx += LANES)
+            add_pixels(work, fit, run++, dx, (float)(dy * dy), &sums);
     }
     solve(work, &sums, fit);
 }
@@ -229,36 +227,37 @@ static void make_row_of_fits(void *user, uint64_t row, uint32_t worker)
 
 /* --- what fits say, blended --- */
 
-/* Sums over the fits that reach into a square of pixels, with room past its right edge. Weights of values that ask for narrow
- * fits, and of the others. */
+/* Sums over the fits that reach into a square of pixels. Weights of values that ask for narrow fits, and of the others. */
 enum { NARROW_ONES, OTHERS, GROUPS };
 
 struct block {
     int x, y, columns, rows;
     int group; /* whose weights are added to */
-    _Alignas(64) float weights[GROUPS][BLOCK][BLOCK + LANES];
-    float values[REGRESSION_MOST][BLOCK][BLOCK + LANES];
+    _Alignas(64) float weights[GROUPS][BLOCK][BLOCK / LANES][LANES];
+    float values[REGRESSION_MOST][BLOCK][BLOCK / LANES][LANES];
 };
 
-/* What a fit says of LANES pixels, in proportion to its weight there: one by geometry, times a tent that ends at
+/* What a fit says of a run of pixels, in proportion to its weight there: one by geometry, times a tent that ends at
  * the centres next to it. */
-static INLINED void add_prediction(const struct work *work, const struct regression_fit *fit, int x,
-                                   int y, struct block *block)
+static INLINED void add_prediction(const struct work *work, const struct regression_fit *fit,
+                                   size_t run, int x, int y, struct block *block)
 {
     _Alignas(64) float w[LANES], u[LANES], v[LANES];
-    int column = x - block->x, row = y - block->y;
+    int at = (x - block->x) / LANES, row = y - block->y;
     float scale = 1.0f / (float)spacing(work->bandwidth);
     float down = 1.0f - fabsf((float)(y - fit->y)) * scale;
-    float *restrict weight = &block->weights[block->group][row][column];
-    if (!take_pixels(work->to, fit, place_of(work, x, y), w, u, v))
+    float *restrict weight = block->weights[block->group][row][at];
+    if (!take_pixels(work->to, fit, run, w, u, v))
         return;
+#pragma omp simd
     for (int i = 0; i < LANES; i++) {
         w[i] *= down * above_zero(1.0f - fabsf((float)(x + i - fit->x)) * scale);
         weight[i] += w[i];
     }
     for (int c = work->first; c < work->end; c++) {
         float a = fit->plane[c][0], b = fit->plane[c][1], d = fit->plane[c][2];
-        float *restrict sum = &block->values[c][row][column];
+        float *restrict sum = block->values[c][row][at];
+#pragma omp simd
         for (int i = 0; i < LANES; i++)
             sum[i] += w[i] * (a + b * u[i] + d * v[i]);
     }
@@ -282,9 +281,11 @@ EVERY_ISA static void blend(const struct work *work, const struct regression_fit
     int right = smaller(fit->x + reach, block->x + block->columns - 1);
     int top = larger(fit->y - reach, block->y);
     int bottom = smaller(fit->y + reach, block->y + block->rows - 1);
-    for (int y = top; y <= bottom; y++)
-        for (int x = left; x <= right; x += LANES)
-            add_prediction(work, fit, x, y, block);
+    for (int y = top; y <= bottom; y++) {
+        size_t run = regression_run(work->to, left, y);
+        for (int x = start_of_run(left); x <= right; x += LANES)
+            add_prediction(work, fit, run++, x, y, block);
+    }
 }
 
 /* A centre at or before the first one that reaches a pixel. */
@@ -316,12 +317,12 @@ static void blend_for(const struct work *narrow, int bandwidth, struct regressio
 {
     struct work rest = *narrow;
     int x = fit.x, y = fit.y;
-    if (fit.weight < THIN && bandwidth > NARROW && block->group != NARROW_ONES) {
+    if (fit.weight < FEW && rest.bandwidth == NARROW) {
+        make_fit(&rest, x, y, SLACK, fit.plane, &fit);
+    } else if (fit.weight < THIN && bandwidth > NARROW && block->group != NARROW_ONES) {
         rest.bandwidth = smaller(bandwidth, WIDE);
         make_fit(&rest, x, y, 1.0f, fit.plane, &fit);
     }
-    if (fit.weight < FEW && rest.bandwidth >= NARROW)
-        make_fit(&rest, x, y, SLACK, fit.plane, &fit);
     blend(&rest, &fit, block);
 }
 
@@ -356,14 +357,22 @@ static void blend_rest(const struct work *work, struct block *block)
     memcpy(block->weights[OTHERS], block->weights[NARROW_ONES], sizeof block->weights[OTHERS]);
     for (int row = 0; row < block->rows; row++)
         for (int column = 0; column < block->columns; column++) {
-            int x = block->x + column, y = block->y + row;
+            int x = block->x + column, y = block->y + row, run = column / LANES, i = column % LANES;
             const bool asks[GROUPS] = {
-                narrow > 0 && block->weights[NARROW_ONES][row][column] < LEAST_FIT,
-                narrow < work->end && block->weights[OTHERS][row][column] < LEAST_FIT,
+                narrow > 0 && block->weights[NARROW_ONES][row][run][i] < LEAST_FIT,
+                narrow < work->end && block->weights[OTHERS][row][run][i] < LEAST_FIT,
             };
             if ((asks[NARROW_ONES] || asks[OTHERS]) && shows_surface(work, x, y))
                 blend_one(work, x, y, asks, block);
         }
+}
+
+static void store_run(const struct block *block, int row, int run, int c, int group, float *out)
+{
+    const float *weights = block->weights[group][row][run], *values = block->values[c][row][run];
+    int count = smaller(block->columns - run * LANES, LANES);
+    for (int i = 0; i < count; i++)
+        out[i] = weights[i] > 0.0f ? values[i] / weights[i] : 0.0f;
 }
 
 static void store_block(const struct work *work, const struct block *block)
@@ -371,10 +380,10 @@ static void store_block(const struct work *work, const struct block *block)
     for (int row = 0; row < block->rows; row++)
         for (int c = work->first; c < work->end; c++) {
             size_t first = (size_t)(block->y + row) * work->to->width + (size_t)block->x;
-            const float *weights = block->weights[c < work->to->narrow ? NARROW_ONES : OTHERS][row];
-            float *out = work->fitted[c] + first;
-            for (int i = 0; i < block->columns; i++)
-                out[i] = weights[i] > 0.0f ? block->values[c][row][i] / weights[i] : 0.0f;
+            int group = c < work->to->narrow ? NARROW_ONES : OTHERS;
+            for (int run = 0; run * LANES < block->columns; run++)
+                store_run(block, row, run, c, group,
+                          work->fitted[c] + first + (size_t)(run * LANES));
         }
 }
 

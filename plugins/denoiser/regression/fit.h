@@ -14,7 +14,8 @@
  * Centres lie 2/3 R apart; between them planes are blended. Pixels that no centre is like become centres; if hardly any
  * pixel is like one, D and 1 - cos(normal) are four times as large around it.
  *
- * Pictures are planes of floats with a margin, so that no loop asks for bounds: pixel (x, y) is regression_at().
+ * Pictures are planes of floats with a margin, so that no loop asks for bounds. The runs of 16 pixels of a row, of all
+ * planes, lie one after the other, since a fit takes what is near in all of them: pixel (x, y) is regression_at().
  */
 #ifndef PSPLAT_DENOISER_REGRESSION_FIT_H
 #define PSPLAT_DENOISER_REGRESSION_FIT_H
@@ -23,7 +24,7 @@
 #include <stdbool.h>
 
 enum { REGRESSION_SMALLEST = 3, REGRESSION_LARGEST = 64 }; /* bandwidths, in pixels */
-enum { REGRESSION_LANES = 16 }; /* pixels of a row that are taken at a time */
+enum { REGRESSION_LANES = 16 }; /* pixels of a run, which are taken at a time */
 
 /* Values of an image: three colours, and one more. Those of several images that show the same surfaces are fitted together,
  * since most of the work is to weigh pixels. */
@@ -37,6 +38,8 @@ struct regression_fit;
 struct regression {
     const ps_host *host;
     size_t width, height;
+    size_t runs_of_row;             /* regression_runs_of_row() */
+    size_t runs_apart;              /* floats: REGRESSION_LANES for each plane that lies there */
     float *normal[3], *position[3]; /* of length 1; in the scene's units */
     float *gloss;                   /* share of the reflectance that is not diffuse */
     float *size;      /* of a pixel there, in the scene's units; 0: no surface is seen */
@@ -48,12 +51,25 @@ struct regression {
     float (*planes)[3];               /* room for regression_planes_bytes() */
 };
 
-/* Floats of a plane with its margin, which are 0 where there is no pixel, and of a row of it; and the place of a pixel
- * in it. */
-#define REGRESSION_MARGIN (REGRESSION_LARGEST + REGRESSION_LANES)
-size_t regression_stride(size_t width);
-size_t regression_plane_size(size_t width, size_t height);
-size_t regression_at(const struct regression *regression, size_t x, size_t y);
+/* Pixels around a picture, whose floats are 0: whole runs. */
+enum { REGRESSION_MARGIN = REGRESSION_LARGEST };
+
+/* Runs of a row, and of a plane, with the margin. */
+size_t regression_runs_of_row(size_t width);
+size_t regression_runs(size_t width, size_t height);
+
+/* The place of a pixel in a plane, and the run that holds it. It may lie in the margin. */
+static inline size_t regression_run(const struct regression *regression, int x, int y)
+{
+    return (size_t)(y + REGRESSION_MARGIN) * regression->runs_of_row +
+           (size_t)(x + REGRESSION_MARGIN) / REGRESSION_LANES;
+}
+
+static inline size_t regression_at(const struct regression *regression, int x, int y)
+{
+    return regression_run(regression, x, y) * regression->runs_apart +
+           (size_t)(x + REGRESSION_MARGIN) % REGRESSION_LANES;
+}
 
 size_t regression_fits_bytes(size_t width, size_t height);
 size_t regression_planes_bytes(size_t width, size_t height, int count);

@@ -1,4 +1,4 @@
-/* weights.h: what pixels count for a fit (fit.h), LANES of a row at a time.
+/* weights.h: what pixels count for a fit (fit.h), a run of LANES at a time.
  *
  * These loops are to be inlined into functions that are EVERY_ISA.
  */
@@ -9,6 +9,8 @@
 #include "fit.h"
 
 #include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
 
 /* Such functions are compiled for several instruction sets, of which one is picked as the plugin is loaded. All give the
  * same result to the last bit: no multiplication is joined with an addition. */
@@ -28,8 +30,6 @@
 #endif
 
 enum { LANES = REGRESSION_LANES };
-_Static_assert(BOUNDS_PIXELS >= BOUNDS_STEP + LANES - 1,
-               "a run of pixels lies in one of the bounds");
 
 #define MOST_GLOSS 0.25f /* G */
 
@@ -50,11 +50,11 @@ static INLINED float above_zero(float s)
     return 0.5f * (s + fabsf(s));
 }
 
-/* Whether their bounds tell that none of LANES pixels from `from` on has any weight. */
+/* Whether its bounds tell that no pixel of a run has any weight. */
 static INLINED bool are_unlike(const struct regression *to, const struct regression_fit *fit,
-                               size_t from)
+                               size_t run)
 {
-    const struct regression_bounds *of = &to->bounds[from / BOUNDS_STEP];
+    const struct regression_bounds *of = &to->bounds[run];
     float cosine = 0.0f, height = 0.0f, extent = 0.0f;
     for (int i = 0; i < 3; i++) {
         float n = fit->normal[i];
@@ -69,12 +69,15 @@ static INLINED bool are_unlike(const struct regression *to, const struct regress
            over * over * fit->height_scale + other * other >= 1.0f;
 }
 
+/* Of numbers that are not negative: by their bits, which compilers make vectors of. */
 static INLINED bool all_zero(const float weight[LANES])
 {
-    int above = 0;
+    uint32_t bits[LANES], any = 0;
+    memcpy(bits, weight, sizeof bits);
+#pragma omp simd reduction(| : any)
     for (int i = 0; i < LANES; i++)
-        above |= weight[i] > 0.0f;
-    return !above;
+        any |= bits[i];
+    return any == 0;
 }
 
 /* Their weights by geometry. */
@@ -86,6 +89,7 @@ static INLINED void weigh(const struct regression *to, const struct regression_f
     const float *restrict nz = to->normal[2] + from, *restrict pz = to->position[2] + from;
     const float *restrict gloss = to->gloss + from;
     float bend_scale = fit->bend_scale, height_scale = fit->height_scale;
+#pragma omp simd
     for (int i = 0; i < LANES; i++) {
         float dx = px[i] - fit->position[0];
         float dy = py[i] - fit->position[1];
@@ -107,6 +111,7 @@ static INLINED void locate(const struct regression *to, const struct regression_
 {
     const float *restrict px = to->position[0] + from, *restrict py = to->position[1] + from,
                           *restrict pz = to->position[2] + from;
+#pragma omp simd
     for (int i = 0; i < LANES; i++) {
         float dx = px[i] - fit->position[0];
         float dy = py[i] - fit->position[1];
@@ -118,10 +123,11 @@ static INLINED void locate(const struct regression *to, const struct regression_
 
 /* All of that. False: none of the pixels has any weight, and the rest is not set. */
 static INLINED bool take_pixels(const struct regression *to, const struct regression_fit *fit,
-                                size_t from, float *restrict weight, float *restrict u,
+                                size_t run, float *restrict weight, float *restrict u,
                                 float *restrict v)
 {
-    if (are_unlike(to, fit, from))
+    size_t from = run * to->runs_apart;
+    if (are_unlike(to, fit, run))
         return false;
     weigh(to, fit, from, weight);
     if (all_zero(weight))

@@ -21,13 +21,12 @@ struct work {
      * the bands `noise` holds N, where halves tell it. */
     float *fine[VALUES], *coarse[VALUES], *sum[REGRESSION_COLOURS];
     float *scale, *signal, *noise, *room;
-    float *around;   /* pixels of the class in a square */
-    float *kept;     /* k of the band before */
-    float *averaged; /* the plane under way */
-    float *error;    /* where it is asked for: its square, times `scale` */
-    float caution;   /* with the band under way */
-    bool glossy;     /* the class of pixels under way */
-    float least;     /* brightness that counts as dark */
+    float *near_by, *around; /* pixels of the class in the squares of B^2 and N^2, for all images */
+    float *kept;             /* k of the band before */
+    float *error;            /* where it is asked for: its square, times `scale` */
+    float caution;           /* with the band under way */
+    bool glossy;             /* the class of pixels under way */
+    float least;             /* brightness that counts as dark */
 };
 
 struct works {
