@@ -104,7 +104,7 @@ expect_part whole.exr part.exr R indirect weight
 }
 expect_part whole.exr part.exr R indirect weight
 # Of a picture so large that some of its tiles stand for it.
-large="-q --size 2000x2000 $few -p estimator=gather:samples=8,paths=0 -p denoiser=none"
+large="-q --size 1504x1504 $few -p estimator=gather:samples=8,paths=0 -p denoiser=none"
 # shellcheck disable=SC2086
 {
     run 0 $large --crop 901,900,47,48 -o whole.exr "$area"

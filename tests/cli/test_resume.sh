@@ -4,6 +4,7 @@
 
 passes=2000 kills=20
 [ -n "$PSPLAT_QUICK" ] && passes=600 kills=5
+is_on PSPLAT_SANITIZE && passes=$((passes / 4)) # each takes four times as long
 job="-q --size 96x54 -p injection=photon:count=3000 -p estimator=pathtrace:samples=2 --passes $passes $cornell"
 
 # shellcheck disable=SC2086

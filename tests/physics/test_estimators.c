@@ -57,8 +57,10 @@ static const struct method in_furnace[] = {
     {"lpv",
      {"estimator=lpv", NULL},
      0.4}, /* light goes astray between cells, and walls at slopes keep it */
-    {"radiosity", {"estimator=radiosity:samples=4", NULL}, 0.01},
-    {"radiosity, elements", {"estimator=radiosity:reconstruction=elements", NULL}, 0.001},
+    {"radiosity", {"estimator=radiosity:samples=4,epsilon=2e-3", NULL}, 0.01},
+    {"radiosity, elements",
+     {"estimator=radiosity:reconstruction=elements,epsilon=2e-3", NULL},
+     0.001},
 };
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -109,7 +111,7 @@ static void test_large_furnace(void **state)
         {"irradiance_cache", {"estimator=irradiance_cache:samples=64", NULL}, 0.001},
         {"voxel_cone", {"estimator=voxel_cone:resolution=64", NULL}, 0.04},
         {"lpv", {"estimator=lpv", NULL}, 0.4},
-        {"radiosity", {"estimator=radiosity:samples=4", NULL}, 0.01},
+        {"radiosity", {"estimator=radiosity:samples=4,epsilon=2e-3", NULL}, 0.01},
     };
     check("large furnace", large, methods, COUNT(methods), 0.6 / PI * (0.6 + 0.36));
 }

@@ -152,7 +152,7 @@ int main(void)
         cmocka_unit_test(test_a_mirror_leaves_one_photon),
         cmocka_unit_test(test_caustics_have_walks_of_their_own),
         SLOW_TEST(test_power_does_not_depend_on_it),
-        cmocka_unit_test(test_bumps),
+        SLOW_TEST(test_bumps),
     };
     return RUN_TESTS(tests);
 }
