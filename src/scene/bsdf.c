@@ -41,7 +41,7 @@ static float choose_lobe(const struct bsdf_lobe *lobes, size_t count, float *num
             break;
         left -= chance;
     }
-    *number = fminf(left / chance, 0x1.fffffep-1f);
+    *number = ps_min(left / chance, 0x1.fffffep-1f);
     if (stratum)
         *stratum = (struct stratum){*number, shared ? shares[i] : 1};
     *lobe = &lobes[i];
@@ -86,7 +86,7 @@ static ps_bsdf_sample reflect_roughly(const struct bsdf_lobe *lobe, const struct
     ps_vec3 frame[3];
     shading_frame(view->hit, frame);
     ps_vec3 out = to_frame(frame, view->out);
-    out.z = fmaxf(out.z, BSDF_LEAST_COSINE);
+    out.z = ps_max(out.z, BSDF_LEAST_COSINE);
     ps_vec3 in = microfacet_sample(roughness, out, sample[0], sample[1]);
     float eye = direction == PS_FROM_CAMERA ? out.z : in.z;
     ps_rgb weight = ps_rgb_multiply(microfacet_weight(roughness, f0, out, in),
@@ -128,7 +128,7 @@ static float chance_to_mirror(float reflectance, ps_direction direction, uint32_
     if (direction == PS_FROM_LIGHT || reflectance <= 0.0f || reflectance >= 1.0f)
         return reflectance;
     float part = paths > 1 ? ceilf(parts * reflectance) : parts * reflectance;
-    return fminf(fmaxf(part, 1.0f), parts - 1.0f) / parts;
+    return ps_min(ps_max(part, 1.0f), parts - 1.0f) / parts;
 }
 
 /* Whether glass mirrors. */
@@ -138,7 +138,7 @@ static bool choose_to_mirror(float chance, float number, struct stratum *stratum
     if (!stratum || stratum->paths <= 1)
         return mirrors;
     float within = mirrors ? number : number - chance, share = mirrors ? chance : 1.0f - chance;
-    stratum->number = fminf(within / share, 0x1.fffffep-1f);
+    stratum->number = ps_min(within / share, 0x1.fffffep-1f);
     stratum->paths = (uint32_t)(share * (float)stratum->paths + 0.5f);
     return mirrors;
 }
@@ -196,8 +196,8 @@ static float arrival_correction(const struct bsdf_view *view)
     if (ps_same(shading, true_normal))
         return 1.0f;
     float in =
-        ps_dot(view->out, shading) / fmaxf(ps_dot(view->out, true_normal), BSDF_LEAST_COSINE);
-    return fmaxf(in, 0.0f);
+        ps_dot(view->out, shading) / ps_max(ps_dot(view->out, true_normal), BSDF_LEAST_COSINE);
+    return ps_max(in, 0.0f);
 }
 
 static float shading_correction(const struct bsdf_view *view, ps_vec3 w)
@@ -206,7 +206,7 @@ static float shading_correction(const struct bsdf_view *view, ps_vec3 w)
     if (ps_same(shading, true_normal))
         return 1.0f;
     float away =
-        fabsf(ps_dot(w, true_normal)) / fmaxf(fabsf(ps_dot(w, shading)), BSDF_LEAST_COSINE);
+        fabsf(ps_dot(w, true_normal)) / ps_max(fabsf(ps_dot(w, shading)), BSDF_LEAST_COSINE);
     return arrival_correction(view) * away;
 }
 
@@ -234,9 +234,9 @@ static ps_bsdf_value evaluate_diffuse(const struct bsdf_view *view, ps_direction
 {
     const ps_hit *hit = view->hit;
     ps_rgb albedo = bsdf_diffuse_albedo(view, view->cosine);
-    float shading = fmaxf(ps_dot(away, hit->normal), 0.0f) / PS_PI;
+    float shading = ps_max(ps_dot(away, hit->normal), 0.0f) / PS_PI;
     float geometric = ps_dot(away, hit->geometric_normal) / PS_PI;
-    float back_shading = fmaxf(ps_dot(view->out, hit->normal), 0.0f) / PS_PI;
+    float back_shading = ps_max(ps_dot(view->out, hit->normal), 0.0f) / PS_PI;
     float back_geometric = ps_dot(view->out, hit->geometric_normal) / PS_PI;
     if (!(geometric > 0.0f))
         return (ps_bsdf_value){.pdf = 0.0f};
@@ -333,7 +333,7 @@ ps_bsdf_value material_evaluate(const struct material *material,
     ps_vec3 out = to_frame(frame, view.out), in = to_frame(frame, away);
     if (!(in.z > 0.0f && ps_dot(away, hit->geometric_normal) > 0.0f))
         return value;
-    out.z = fmaxf(out.z, BSDF_LEAST_COSINE);
+    out.z = ps_max(out.z, BSDF_LEAST_COSINE);
     value.value = evaluate_lobes(&view, direction, out, in, &value.pdf);
     evaluate_lobes(&reverse, direction, in, out, &value.reverse_pdf);
     if (direction == PS_FROM_LIGHT)
@@ -350,7 +350,7 @@ ps_rgb material_gloss(const struct material *material, const struct microfacet_t
     ps_vec3 frame[3];
     shading_frame(hit, frame);
     ps_vec3 to_eye = to_frame(frame, view.out), to_light = to_frame(frame, in);
-    to_eye.z = fmaxf(to_eye.z, BSDF_LEAST_COSINE);
+    to_eye.z = ps_max(to_eye.z, BSDF_LEAST_COSINE);
     ps_rgb sum = {0, 0, 0};
     if (!(to_light.z > 0.0f && ps_dot(in, hit->geometric_normal) > 0.0f))
         return sum;

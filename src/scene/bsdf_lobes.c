@@ -17,7 +17,7 @@ ps_rgb bsdf_reflector_albedo(const struct component *component, const struct bsd
 
 static ps_rgb complement(ps_rgb a)
 {
-    return (ps_rgb){fmaxf(0.0f, 1.0f - a.r), fmaxf(0.0f, 1.0f - a.g), fmaxf(0.0f, 1.0f - a.b)};
+    return (ps_rgb){ps_max(1.0f - a.r, 0.0f), ps_max(1.0f - a.g, 0.0f), ps_max(1.0f - a.b, 0.0f)};
 }
 
 /* The component's diffuse albedo towards `cosine`, with its share. */
@@ -120,7 +120,7 @@ float material_roughness(const struct material *material, const ps_hit *hit)
         if (component->kind == COMPONENT_DIFFUSE)
             continue;
         bool mirrors = component->kind == COMPONENT_DIELECTRIC || component->constant;
-        least = fminf(least, mirrors ? 0.0f : bsdf_roughness(component, hit));
+        least = ps_min(least, mirrors ? 0.0f : bsdf_roughness(component, hit));
     }
     return bsdf_is_smooth(least) ? 0.0f : least;
 }

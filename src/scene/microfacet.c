@@ -11,15 +11,15 @@ static float square(float x)
 
 static float alpha_of(float roughness)
 {
-    return square(fmaxf(roughness, MICROFACET_SMOOTHEST));
+    return square(ps_max(roughness, MICROFACET_SMOOTHEST));
 }
 
 /* Smith's Lambda. */
 static float shadowing(float alpha, ps_vec3 w)
 {
     float cosine2 = square(w.z);
-    float tangent2 = (1.0f - cosine2) / fmaxf(cosine2, 1e-12f);
-    return 0.5f * (sqrtf(1.0f + square(alpha) * fmaxf(tangent2, 0.0f)) - 1.0f);
+    float tangent2 = (1.0f - cosine2) / ps_max(cosine2, 1e-12f);
+    return 0.5f * (sqrtf(1.0f + square(alpha) * ps_max(tangent2, 0.0f)) - 1.0f);
 }
 
 static float distribution(float alpha, ps_vec3 half)
@@ -45,10 +45,10 @@ ps_vec3 microfacet_sample(float roughness, ps_vec3 out, float u1, float u2)
     ps_vec3 u = length > 1e-6f ? ps_scale(side, 1.0f / length) : (ps_vec3){1, 0, 0};
     ps_vec3 v = ps_cross(stretched, u);
     float x = radius * cosf(phi);
-    float y = (1.0f - s) * sqrtf(fmaxf(0.0f, 1.0f - x * x)) + s * radius * sinf(phi);
-    float z = sqrtf(fmaxf(0.0f, 1.0f - x * x - y * y));
+    float y = (1.0f - s) * sqrtf(ps_max(1.0f - x * x, 0.0f)) + s * radius * sinf(phi);
+    float z = sqrtf(ps_max(1.0f - x * x - y * y, 0.0f));
     ps_vec3 facet = ps_add_scaled(ps_add_scaled(ps_scale(u, x), y, v), z, stretched);
-    facet = ps_normalize((ps_vec3){alpha * facet.x, alpha * facet.y, fmaxf(facet.z, 1e-6f)});
+    facet = ps_normalize((ps_vec3){alpha * facet.x, alpha * facet.y, ps_max(facet.z, 1e-6f)});
     return ps_normalize(ps_add_scaled(ps_scale(out, -1.0f), 2.0f * ps_dot(out, facet), facet));
 }
 
@@ -80,7 +80,7 @@ ps_rgb microfacet_reflect(float roughness, ps_rgb f0, ps_vec3 out, ps_vec3 in)
  * is 1 - (1 - t)^2, which puts more points to the steepest facets, whose light is lost. */
 static void integrate(float roughness, float cosine, float *scale, float *bias)
 {
-    ps_vec3 out = {sqrtf(fmaxf(0.0f, 1.0f - square(cosine))), 0.0f, cosine};
+    ps_vec3 out = {sqrtf(ps_max(1.0f - square(cosine), 0.0f)), 0.0f, cosine};
     *scale = *bias = 0.0f;
     for (int i = 0; i < QUADRATURE * QUADRATURE; i++) {
         int row = i / QUADRATURE, column = i % QUADRATURE;
@@ -105,36 +105,52 @@ void microfacet_tabulate(struct microfacet_table *table)
 {
     for (int row = 0; row < MICROFACET_TABLE_SIZE; row++)
         for (int column = 0; column < MICROFACET_TABLE_SIZE; column++)
-            integrate(grid_value(row), fmaxf(grid_value(column), 1e-3f), &table->scale[row][column],
-                      &table->bias[row][column]);
+            integrate(grid_value(row), ps_max(grid_value(column), 1e-3f),
+                      &table->scale[row][column], &table->bias[row][column]);
 }
 
-static float look_up(const float table[MICROFACET_TABLE_SIZE][MICROFACET_TABLE_SIZE],
-                     float roughness, float cosine)
+/* A place in the table: a cell, and where in it. */
+struct place {
+    int row, column;
+    float y, x;
+};
+
+static struct place place_of(float roughness, float cosine)
 {
     const float last = MICROFACET_TABLE_SIZE - 1;
-    float y = fminf(fmaxf(roughness, 0.0f), 1.0f) * last;
-    float x = fminf(fmaxf(cosine, 0.0f), 1.0f) * last;
-    int row = (int)fminf(y, last - 1.0f), column = (int)fminf(x, last - 1.0f);
-    float fy = y - (float)row, fx = x - (float)column;
-    const float *low = table[row], *high = table[row + 1];
-    return (1.0f - fy) * ((1.0f - fx) * low[column] + fx * low[column + 1]) +
-           fy * ((1.0f - fx) * high[column] + fx * high[column + 1]);
+    float y = ps_min(ps_max(roughness, 0.0f), 1.0f) * last;
+    float x = ps_min(ps_max(cosine, 0.0f), 1.0f) * last;
+    int row = (int)ps_min(y, last - 1.0f), column = (int)ps_min(x, last - 1.0f);
+    return (struct place){row, column, y - (float)row, x - (float)column};
+}
+
+static float interpolate(const float table[MICROFACET_TABLE_SIZE][MICROFACET_TABLE_SIZE],
+                         const struct place *at)
+{
+    const float *low = &table[at->row][at->column], *high = &table[at->row + 1][at->column];
+    return (1.0f - at->y) * ((1.0f - at->x) * low[0] + at->x * low[1]) +
+           at->y * ((1.0f - at->x) * high[0] + at->x * high[1]);
+}
+
+/* `single`: albedo of the single-bounce model where F0 is 1. */
+static ps_rgb compensate(ps_rgb f0, float single)
+{
+    float lost = (1.0f - single) / ps_max(single, 1e-3f);
+    return (ps_rgb){1.0f + f0.r * lost, 1.0f + f0.g * lost, 1.0f + f0.b * lost};
 }
 
 ps_rgb microfacet_compensation(const struct microfacet_table *table, ps_rgb f0, float roughness,
                                float eye)
 {
-    float single = look_up(table->scale, roughness, eye) + look_up(table->bias, roughness, eye);
-    float lost = (1.0f - single) / fmaxf(single, 1e-3f);
-    return (ps_rgb){1.0f + f0.r * lost, 1.0f + f0.g * lost, 1.0f + f0.b * lost};
+    struct place at = place_of(roughness, eye);
+    return compensate(f0, interpolate(table->scale, &at) + interpolate(table->bias, &at));
 }
 
 ps_rgb microfacet_albedo(const struct microfacet_table *table, ps_rgb f0, float roughness,
                          float out)
 {
-    float scale = look_up(table->scale, roughness, out);
-    float bias = look_up(table->bias, roughness, out);
+    struct place at = place_of(roughness, out);
+    float scale = interpolate(table->scale, &at), bias = interpolate(table->bias, &at);
     ps_rgb single = {f0.r * scale + bias, f0.g * scale + bias, f0.b * scale + bias};
-    return ps_rgb_multiply(single, microfacet_compensation(table, f0, roughness, out));
+    return ps_rgb_multiply(single, compensate(f0, scale + bias));
 }
