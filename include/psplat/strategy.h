@@ -204,6 +204,9 @@ typedef struct ps_image_view {
      * channels is likely to be off, noise and blur together, in W/(m^2 sr). It is 0 before. */
     float *error;
     float odd_share; /* since 1.4: of the samples, how many are in odd_r, _g, _b: 0..1 */
+    /* Since 1.13: camera samples of a pixel at an edge, in each pass. Where there are several, their indirect light is the
+     * mean of what the pixels around, up to two away, found on the same surfaces: its noise is not a pixel's own. */
+    uint32_t edge_samples;
 } ps_image_view;
 
 /* Whether a pixel has light to denoise: false where nothing is seen, or a mirror alone with nothing behind. Of such a mirror

@@ -16,9 +16,9 @@
  * Where two halves of the light are known, of passes or of shadow rays, their difference is the noise, and the pixels
  * themselves are a last band: light without noise stays as it is, with its hard shadows. Of a single pass of indirect
  * light the noise is what pixels differ from a first fit, with signs drawn by lot (the wild bootstrap, Wu 1986). That
- * needs noise that is independent from pixel to pixel, as that of paths is and that of splats is not. In gloss, and
- * behind a lens, where samples of a pixel share the light of those around it (src/view/edges.h), blocks of pixels take
- * one sign (the dependent wild bootstrap, Shao 2010).
+ * needs noise that is independent from pixel to pixel, as that of paths is and that of splats is not. At edges, in gloss
+ * and behind a lens, where samples of a pixel share the light of those around it (src/view/edges.h), blocks of pixels
+ * take one sign (the dependent wild bootstrap, Shao 2010).
  *
  * Bright samples that few pixels found would leave speckles in narrow bands. So what exceeds twice the first fit, and
  * may be noise, is left out of the bands; where halves are known, only if few pixels near by are like it. At last the

@@ -216,8 +216,10 @@ static ps_result set_bounds(struct image *image, const struct scene *scene, stru
     return set_floats(image, "psplat.bounds", "", numbers, 4, error);
 }
 
-ps_result facts_view(const struct image *facts, struct scene *scene, struct error *error)
+ps_result facts_view(const struct image *facts, struct scene *scene, uint32_t *aa_samples,
+                     struct error *error)
 {
+    const char *samples = image_attribute(facts, "psplat.aa_samples");
     const char *camera = image_attribute(facts, "psplat.camera");
     const char *bounds = image_attribute(facts, "psplat.bounds");
     float *numbers[CAMERA_NUMBERS];
@@ -229,9 +231,12 @@ ps_result facts_view(const struct image *facts, struct scene *scene, struct erro
     camera_numbers(&scene->camera, numbers);
     if (!read_floats(camera ? strchr(camera, ' ') : NULL, numbers, CAMERA_NUMBERS))
         return error_set(error, PS_ERROR_INVALID, "the film does not tell its camera");
-    return read_floats(bounds, of_bounds, 4)
+    if (!read_floats(bounds, of_bounds, 4))
+        return error_set(error, PS_ERROR_INVALID, "the film does not tell its scene's bounds");
+    *aa_samples = samples ? (uint32_t)strtoul(samples, NULL, 10) : 0;
+    return *aa_samples > 0
                ? PS_OK
-               : error_set(error, PS_ERROR_INVALID, "the film does not tell its scene's bounds");
+               : error_set(error, PS_ERROR_INVALID, "the film does not tell its aa_samples");
 }
 
 ps_result facts_of_job(struct image *image, const struct scene_description *description,

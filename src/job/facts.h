@@ -28,9 +28,10 @@ ps_result facts_of_job(struct image *image, const struct scene_description *desc
                        const struct scene *scene, const struct render_settings *settings,
                        struct error *error);
 
-/* Puts what denoisers ask of a film's scene into one that has nothing else: its camera, and its bounding sphere.
- * PS_ERROR_INVALID where the facts do not tell it. */
-ps_result facts_view(const struct image *facts, struct scene *scene, struct error *error);
+/* Puts what denoisers ask of a film's scene into one that has nothing else: its camera, and its bounding sphere; and
+ * samples of a pixel at an edge. PS_ERROR_INVALID where the facts do not tell it. */
+ps_result facts_view(const struct image *facts, struct scene *scene, uint32_t *aa_samples,
+                     struct error *error);
 
 /* A number that two films of one job have in common. */
 uint64_t facts_digest(const struct image *facts);

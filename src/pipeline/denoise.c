@@ -58,6 +58,7 @@ static ps_image_view image_of(const struct render *render, struct rgb_planes ind
         .gloss = planes[FILM_GLOSS],
         .error = error,
         .odd_share = halves->odd_share,
+        .edge_samples = render->settings->aa_samples,
     };
 }
 

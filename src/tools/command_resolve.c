@@ -224,7 +224,7 @@ static ps_result resolve_with(struct job *job, struct render_settings *settings,
     struct image image;
     struct scene scene = {.width = 0};
     struct error reason;
-    ps_result result = facts_view(&job->facts, &scene, error);
+    ps_result result = facts_view(&job->facts, &scene, &settings->aa_samples, error);
     if (result != PS_OK)
         return result;
     progress_start(&progress, PROGRESS_AUTO, job->quiet);

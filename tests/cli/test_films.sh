@@ -48,6 +48,14 @@ expect_match out '^estimated error of the indirect light, not denoised: [0-9.]+ 
 run 0 info 4.exr # of a single pass nothing is known
 expect_no_text out 'estimated error'
 
+# Of a single pass the noise is guessed, by what the film tells of its edges.
+for samples in 1 8; do
+    rm -f one.exr
+    run 0 $few --passes 1 --set render.aa_samples=$samples --checkpoint one.exr -o alone.exr "$glossy"
+    run 0 resolve -q one.exr -o again.exr
+    expect_same_pixels alone.exr again.exr
+done
+
 # Another denoiser, normalization and exposure, without rendering.
 run 0 $few --passes 8 -p denoiser=gaussian:size=7x7 -p normalization=intensity --exposure 2 -o other.png -o other.exr "$glossy"
 run 0 resolve sum.exr -q -p denoiser=gaussian:size=7x7 -p normalization=intensity --exposure 2 -o same.png -o same.exr --threads 1

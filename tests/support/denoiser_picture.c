@@ -105,6 +105,7 @@ static ps_image_view view_of(struct picture *picture, float coverage[PIXELS])
         .odd_g = picture->halves ? picture->halves[1][1] : NULL,
         .odd_b = picture->halves ? picture->halves[1][2] : NULL,
         .odd_share = 0.5f,
+        .edge_samples = picture->edge_samples,
     };
 }
 

@@ -210,35 +210,59 @@ static void test_chance_leaves_no_grain(void **state)
     assert_true(halves < 0.01);
 }
 
-/* Where samples of gloss take the mean light of 5x5 pixels, noise is as wide. */
-static void test_shared_noise_of_gloss_is_noise(void **state)
+/* Noise whose pixels have the mean of what 5x5 around them found on the same surface. */
+static void add_shared_noise(struct picture *picture)
 {
-    (void)state;
-    static float noise[PIXELS], gloss[PIXELS];
-    struct picture *picture = level_floor();
+    static float noise[PIXELS];
     struct random random = {5};
-    for (int i = 0; i < PIXELS; i++) {
+    for (int i = 0; i < PIXELS; i++)
         noise[i] = random_between(&random, -1, 1);
-        gloss[i] = 0.5f;
-    }
     for (int i = 0; i < PIXELS; i++) {
         float sum = 0, count = 0;
         for (int y = i / WIDTH - 2; y <= i / WIDTH + 2; y++)
             for (int x = i % WIDTH - 2; x <= i % WIDTH + 2; x++)
-                if (x >= 0 && y >= 0 && x < WIDTH && y < HEIGHT) {
+                if (x >= 0 && y >= 0 && x < WIDTH && y < HEIGHT &&
+                    picture->position[2][y * WIDTH + x] == picture->position[2][i]) {
                     sum += noise[y * WIDTH + x];
                     count++;
                 }
         for (int c = 0; c < 3; c++)
             picture->light[c][i] = 1 + sum / count;
     }
-    picture->gloss = gloss;
+}
+
+static void expect_shared_noise_to_fall(const char *where, struct picture *picture, double left)
+{
+    add_shared_noise(picture);
     double before = grain_of(picture);
     denoise(picture, CHOICE, 2);
     double after = grain_of(picture);
-    print_message("grain of shared noise %.4f -> %.4f\n", before, after);
-    assert_true(after < 0.1 * before);
+    print_message("grain of shared noise %s %.4f -> %.4f\n", where, before, after);
+    assert_true(after < left * before);
     free(picture);
+}
+
+/* Where samples of gloss take the mean light of 5x5 pixels, noise is as wide. */
+static void test_shared_noise_of_gloss_is_noise(void **state)
+{
+    (void)state;
+    static float gloss[PIXELS];
+    struct picture *picture = level_floor();
+    for (int i = 0; i < PIXELS; i++)
+        gloss[i] = 0.5f;
+    picture->gloss = gloss;
+    expect_shared_noise_to_fall("in gloss", picture, 0.1);
+}
+
+/* So it is where samples are taken at edges: strips of two pixels, every other one far above the floor. */
+static void test_shared_noise_at_edges_is_noise(void **state)
+{
+    (void)state;
+    struct picture *picture = level_floor();
+    for (int i = 0; i < PIXELS; i++)
+        picture->position[2][i] = i % WIDTH % 4 < 2 ? 0 : 50;
+    picture->edge_samples = 8;
+    expect_shared_noise_to_fall("at edges", picture, 0.3);
 }
 
 /* A disc of light ten pixels wide, as a caustic is: halves tell that it is no noise, a single pass cannot know. */
@@ -476,6 +500,7 @@ int main(void)
         cmocka_unit_test(test_noise_falls_and_the_mean_stays),
         cmocka_unit_test(test_chance_leaves_no_grain),
         cmocka_unit_test(test_shared_noise_of_gloss_is_noise),
+        cmocka_unit_test(test_shared_noise_at_edges_is_noise),
         cmocka_unit_test(test_what_is_no_noise_stays),
         cmocka_unit_test(test_sun_beside_noise_stays),
         cmocka_unit_test(test_outliers_spread),
