@@ -73,8 +73,7 @@ static void store_row(void *user, uint64_t row, uint32_t worker)
     const float *const albedo[3] = {image->albedo_r, image->albedo_g, image->albedo_b};
     for (size_t x = 0; x < work->width; x++) {
         size_t i = row * work->width + x;
-        for (int c = 0;
-             c < 3 && work->guides.size[regression_at(&work->guides, (int)x, (int)row)] > 0.0f; c++)
+        for (int c = 0; c < 3 && regression_shows_surface(&work->guides, (int)x, (int)row); c++)
             out[c][i] = albedo[c][i] * ps_max(work->sum[c][i] + work->fine[c][i], 0.0f);
     }
 }
@@ -87,7 +86,7 @@ static void store_error_of_row(void *user, uint64_t row, uint32_t worker)
     const ps_image_view *image = work->image;
     for (size_t x = 0; x < work->width; x++) {
         size_t i = row * work->width + x;
-        if (!(work->guides.size[regression_at(&work->guides, (int)x, (int)row)] > 0.0f))
+        if (!(regression_shows_surface(&work->guides, (int)x, (int)row)))
             continue;
         float off = UNSEEN * sqrtf(work->error[i] / work->scale[i]);
         float irradiance = brightness_at(work->sum, i) + brightness_at(work->fine, i);

@@ -59,7 +59,7 @@ static void count_row(void *user, uint64_t row, uint32_t worker)
     const struct work *work = user;
     for (size_t x = 0; x < work->width; x++) {
         size_t i = row * work->width + x;
-        bool shown = work->guides.size[regression_at(&work->guides, (int)x, (int)row)] > 0.0f;
+        bool shown = regression_shows_surface(&work->guides, (int)x, (int)row);
         work->near_by[i] = work->around[i] = shown && is_in_class(work, i) ? 1.0f : 0.0f;
     }
 }
@@ -103,26 +103,19 @@ static void add_row(void *user, uint64_t row, uint32_t worker)
     }
 }
 
-static bool has_band(const struct work *work, bool of_pixels)
-{
-    return work->image->even_r || !of_pixels;
-}
-
-/* Adds the difference of `fine` and `coarse`, to the pixels of one class: what gloss mirrors has noise of its own, which
- * says nothing about the walls around. One picture of the noise may have less of it than there is: of that, more
- * pixels are asked. */
-static void add_band_of_class(struct works *works, int radius, bool of_pixels, bool glossy)
+/* Adds the difference of `fine` and `coarse` of the first `count` images, to the pixels of one class: what gloss mirrors
+ * has noise of its own, which says nothing about the walls around. One picture of the noise may have less of it than there
+ * is: of that, more pixels are asked. */
+static void add_band_of_class(struct works *works, int count, int radius, bool glossy)
 {
     struct work *first = &works->of[0];
-    for (int i = 0; i < works->count; i++)
+    for (int i = 0; i < count; i++)
         works->of[i].glossy = glossy;
     first->host->parallel_for(first->host, first->height, count_row, first);
     sum_around(first, radius, first->near_by);
     sum_around(first, 2 * radius, first->around);
-    for (int i = 0; i < works->count; i++) {
+    for (int i = 0; i < count; i++) {
         struct work *work = &works->of[i];
-        if (!has_band(work, of_pixels))
-            continue;
         work->host->parallel_for(work->host, work->height, measure_row, work);
         sum_around(work, radius, work->signal);
         sum_around(work, 2 * radius, work->noise);
@@ -130,11 +123,11 @@ static void add_band_of_class(struct works *works, int radius, bool of_pixels, b
     }
 }
 
-static void add_band(struct works *works, int radius, bool of_pixels)
+static void add_band(struct works *works, int count, int radius)
 {
-    add_band_of_class(works, radius, of_pixels, false);
+    add_band_of_class(works, count, radius, false);
     if (works->of[0].image->gloss)
-        add_band_of_class(works, radius, of_pixels, true);
+        add_band_of_class(works, count, radius, true);
 }
 
 static void copy_row(void *user, uint64_t row, uint32_t worker)
@@ -156,26 +149,39 @@ static void swap_fits(struct work *work)
     }
 }
 
+/* Images with halves come first. */
+static int with_halves(const struct works *works)
+{
+    int count = 0;
+    while (count < works->count && works->of[count].image->even_r)
+        count++;
+    return count;
+}
+
+/* The pixels themselves, of images whose noise is known. */
+static void add_pixels(struct works *works)
+{
+    int count = with_halves(works);
+    for (int i = 0; i < count; i++) {
+        struct work *work = &works->of[i];
+        work->host->parallel_for(work->host, work->height, copy_row, work);
+        work->caution = PIXELS_CAUTION;
+    }
+    if (count > 0)
+        add_band(works, count, PIXELS_WINDOW);
+}
+
 void regression_add_bands(struct works *works)
 {
-    bool any_halves = false;
     regression_fit_all(works, bandwidths[0], body_of, coarse_of);
     regression_for_each_row(works, begin_row);
     for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {
         regression_fit_all(works, bandwidths[k], body_of, fine_of);
         for (int i = 0; i < works->count; i++)
             works->of[i].caution = k > 1 && !works->of[i].image->even_r ? GUESSED_CAUTION : CAUTION;
-        add_band(works, bandwidths[k], false);
+        add_band(works, works->count, bandwidths[k]);
         for (int i = 0; i < works->count; i++)
             swap_fits(&works->of[i]);
     }
-    for (int i = 0; i < works->count; i++)
-        if (works->of[i].image->even_r) {
-            works->of[i].host->parallel_for(works->of[i].host, works->of[i].height, copy_row,
-                                            &works->of[i]);
-            works->of[i].caution = PIXELS_CAUTION;
-            any_halves = true;
-        }
-    if (any_halves)
-        add_band(works, PIXELS_WINDOW, true);
+    add_pixels(works);
 }

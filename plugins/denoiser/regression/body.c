@@ -74,7 +74,7 @@ static float mean_brightness(const struct work *work, float *const planes[])
     double sum = 0.0, count = 1.0;
     for (size_t y = 0; y < work->height; y++)
         for (size_t x = 0; x < work->width; x++)
-            if (work->guides.size[regression_at(&work->guides, (int)x, (int)y)] > 0.0f) {
+            if (regression_shows_surface(&work->guides, (int)x, (int)y)) {
                 sum += (double)brightness_at(planes, y * work->width + x);
                 count += 1.0;
             }
@@ -138,10 +138,9 @@ static void take_noise_of_row(void *user, uint64_t row, uint32_t worker)
     const struct work *work = user;
     size_t first = row * work->width;
     for (size_t x = 0; x < work->width; x++)
-        work->noise[first + x] =
-            work->guides.size[regression_at(&work->guides, (int)x, (int)row)] > 0.0f
-                ? noise_of_halves(work->image, first + x)
-                : 0.0f;
+        work->noise[first + x] = regression_shows_surface(&work->guides, (int)x, (int)row)
+                                     ? noise_of_halves(work->image, first + x)
+                                     : 0.0f;
     for (size_t x = 0; x < work->width; x++) {
         size_t from = x > NEAR ? x - NEAR : 0, end = x + NEAR + 1;
         float most = 0.0f;

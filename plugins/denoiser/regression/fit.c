@@ -48,11 +48,6 @@ static int start_of_run(int x)
     return (x + MARGIN) / LANES * LANES - MARGIN;
 }
 
-static bool shows_surface(const struct work *work, int x, int y)
-{
-    return work->to->size[regression_at(work->to, x, y)] > 0.0f;
-}
-
 static void set_tangent_plane(const struct work *work, size_t at, float slack,
                               struct regression_fit *fit)
 {
@@ -155,8 +150,8 @@ EVERY_ISA static void make_fit(const struct work *work, int x, int y, float slac
 {
     float reach = ((float)work->bandwidth + 0.5f) * ((float)work->bandwidth + 0.5f);
     struct sums sums;
-    *fit =
-        (struct regression_fit){.plane = plane, .x = x, .y = y, .valid = shows_surface(work, x, y)};
+    *fit = (struct regression_fit){
+        .plane = plane, .x = x, .y = y, .valid = regression_shows_surface(work->to, x, y)};
     if (!fit->valid)
         return;
     memset(sums.moments, 0, sizeof sums.moments);
@@ -362,7 +357,7 @@ static void blend_rest(const struct work *work, struct block *block)
                 narrow > 0 && block->weights[NARROW_ONES][row][run][i] < LEAST_FIT,
                 narrow < work->end && block->weights[OTHERS][row][run][i] < LEAST_FIT,
             };
-            if ((asks[NARROW_ONES] || asks[OTHERS]) && shows_surface(work, x, y))
+            if ((asks[NARROW_ONES] || asks[OTHERS]) && regression_shows_surface(work->to, x, y))
                 blend_one(work, x, y, asks, block);
         }
 }

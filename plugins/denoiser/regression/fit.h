@@ -76,6 +76,11 @@ size_t regression_planes_bytes(size_t width, size_t height, int count);
 #define REGRESSION_FITS_PIXEL 24   /* bytes of them for each pixel, at most */
 #define REGRESSION_PLANES_PIXEL 12 /* the same for each image */
 
+static inline bool regression_shows_surface(const struct regression *regression, int x, int y)
+{
+    return regression->size[regression_at(regression, x, y)] > 0.0f;
+}
+
 /* Fits `count` values, at most REGRESSION_MOST planes with a margin, by a bandwidth in pixels. Puts what the planes of all
  * fits say at each pixel into `fitted`, planes without a margin; 0 where no surface is seen. Each value is fitted as if it
  * were alone, to the last bit. Runs on all workers; after the host was cancelled, what `fitted` holds means nothing. */
