@@ -58,7 +58,7 @@ enum { REGRESSION_MARGIN = REGRESSION_LARGEST };
 size_t regression_runs_of_row(size_t width);
 size_t regression_runs(size_t width, size_t height);
 
-/* The place of a pixel in a plane, and the run that holds it. It may lie in the margin. */
+/* The run that holds a pixel, and the pixel's place in a plane. It may lie in the margin. */
 static inline size_t regression_run(const struct regression *regression, int x, int y)
 {
     return (size_t)(y + REGRESSION_MARGIN) * regression->runs_of_row +
@@ -71,15 +71,15 @@ static inline size_t regression_at(const struct regression *regression, int x, i
            (size_t)(x + REGRESSION_MARGIN) % REGRESSION_LANES;
 }
 
-size_t regression_fits_bytes(size_t width, size_t height);
-size_t regression_planes_bytes(size_t width, size_t height, int count);
-#define REGRESSION_FITS_PIXEL 24   /* bytes of them for each pixel, at most */
-#define REGRESSION_PLANES_PIXEL 12 /* the same for each image */
-
 static inline bool regression_shows_surface(const struct regression *regression, int x, int y)
 {
     return regression->size[regression_at(regression, x, y)] > 0.0f;
 }
+
+size_t regression_fits_bytes(size_t width, size_t height);
+size_t regression_planes_bytes(size_t width, size_t height, int count);
+#define REGRESSION_FITS_PIXEL 24   /* bytes of them for each pixel, at most */
+#define REGRESSION_PLANES_PIXEL 12 /* the same for each image */
 
 /* Fits `count` values, at most REGRESSION_MOST planes with a margin, by a bandwidth in pixels. Puts what the planes of all
  * fits say at each pixel into `fitted`, planes without a margin; 0 where no surface is seen. Each value is fitted as if it
