@@ -21,9 +21,17 @@ command_of() {
         grep -v -e "-DKERNEL_VARIANT=[^ ]*[^2] " | sed 's/\\\(["\\]\)/\1/g' | head -n 1
 }
 
+# source_of FILE: what it is compiled with: of a header, the first source beside it that includes it.
+source_of() {
+    case $1 in
+    *.h) (cd "$PSPLAT_SOURCE" && grep -l "^#include \"\(.*/\)*$(basename "$1")\"" "$(dirname "$1")"/*.c | head -n 1) ;;
+    *) echo "$1" ;;
+    esac
+}
+
 # expect_vectors FILE
 expect_vectors() {
-    command=$(command_of "$1")
+    command=$(command_of "$(source_of "$1")")
     if [ -z "$command" ]; then
         [ "$1" = "$kernel" ] || fail "$1 is not compiled"
         return # another kind of processor
