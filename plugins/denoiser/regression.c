@@ -73,7 +73,9 @@ static void store_row(void *user, uint64_t row, uint32_t worker)
     const float *const albedo[3] = {image->albedo_r, image->albedo_g, image->albedo_b};
     for (size_t x = 0; x < work->width; x++) {
         size_t i = row * work->width + x;
-        for (int c = 0; c < 3 && regression_shows_surface(&work->guides, (int)x, (int)row); c++)
+        if (!regression_shows_surface(&work->guides, (int)x, (int)row))
+            continue;
+        for (int c = 0; c < 3; c++)
             out[c][i] = albedo[c][i] * ps_max(work->sum[c][i] + work->fine[c][i], 0.0f);
     }
 }
@@ -86,7 +88,7 @@ static void store_error_of_row(void *user, uint64_t row, uint32_t worker)
     const ps_image_view *image = work->image;
     for (size_t x = 0; x < work->width; x++) {
         size_t i = row * work->width + x;
-        if (!(regression_shows_surface(&work->guides, (int)x, (int)row)))
+        if (!regression_shows_surface(&work->guides, (int)x, (int)row))
             continue;
         float off = UNSEEN * sqrtf(work->error[i] / work->scale[i]);
         float irradiance = brightness_at(work->sum, i) + brightness_at(work->fine, i);
@@ -191,16 +193,16 @@ static size_t floats_of(size_t width, size_t height, int images)
 static void lay_out_all(struct works *works, const struct work *shared, float *memory,
                         const ps_image_view *images)
 {
-    int count = works->count, halved = 0;
+    int count = works->count;
     size_t width = shared->width, height = shared->height;
     struct room room = {memory, memory + floats_with_margin(width, height, count), width * height};
     struct work each = *shared;
     lay_out_shared(&each, &room);
     for (int i = 0; i < count; i++)
-        halved += images[i].even_r != NULL;
+        works->halved += images[i].even_r != NULL;
     each.guides.runs_apart = planes_with_margin(count) * REGRESSION_LANES;
-    each.guides.narrow = halved * VALUES;
-    for (int i = 0, with = 0, without = halved; i < count; i++) {
+    each.guides.narrow = works->halved * VALUES;
+    for (int i = 0, with = 0, without = works->halved; i < count; i++) {
         struct work *work = &works->of[images[i].even_r ? with++ : without++];
         *work = each;
         work->image = &images[i];

@@ -87,7 +87,7 @@ expect_same_pixels jumped.exr again.exr
 # to the next. An allocator may take more once, at any time; and while a checkpoint is written its copy is there.
 passes=60 most=0.02
 [ -n "${PSPLAT_QUICK:-}" ] || passes=400
-! is_on PSPLAT_SANITIZE || passes=24 most=0.15 # its allocator scatters what it gives
+! is_on PSPLAT_SANITIZE || passes=$((passes * 2 / 5)) most=0.15 # its allocator scatters what it gives
 export ASAN_OPTIONS="quarantine_size_mb=1:thread_local_quarantine_size_kb=64:$ASAN_OPTIONS"
 for estimator in gather splat; do
     run 0 -t 2 --size 160x90 -p injection=photon:count=2000 -p estimator=$estimator --set render.aa_samples=2 \

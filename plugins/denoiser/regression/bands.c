@@ -149,26 +149,16 @@ static void swap_fits(struct work *work)
     }
 }
 
-/* Images with halves come first. */
-static int with_halves(const struct works *works)
-{
-    int count = 0;
-    while (count < works->count && works->of[count].image->even_r)
-        count++;
-    return count;
-}
-
 /* The pixels themselves, of images whose noise is known. */
 static void add_pixels(struct works *works)
 {
-    int count = with_halves(works);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < works->halved; i++) {
         struct work *work = &works->of[i];
         work->host->parallel_for(work->host, work->height, copy_row, work);
         work->caution = PIXELS_CAUTION;
     }
-    if (count > 0)
-        add_band(works, count, PIXELS_WINDOW);
+    if (works->halved > 0)
+        add_band(works, works->halved, PIXELS_WINDOW);
 }
 
 void regression_add_bands(struct works *works)
@@ -178,7 +168,7 @@ void regression_add_bands(struct works *works)
     for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {
         regression_fit_all(works, bandwidths[k], body_of, fine_of);
         for (int i = 0; i < works->count; i++)
-            works->of[i].caution = k > 1 && !works->of[i].image->even_r ? GUESSED_CAUTION : CAUTION;
+            works->of[i].caution = k > 1 && i >= works->halved ? GUESSED_CAUTION : CAUTION;
         add_band(works, works->count, bandwidths[k]);
         for (int i = 0; i < works->count; i++)
             swap_fits(&works->of[i]);

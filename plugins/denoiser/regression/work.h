@@ -31,7 +31,7 @@ struct work {
 
 struct works {
     struct work of[REGRESSION_IMAGES];
-    int count;
+    int count, halved; /* so many, the first ones, have halves */
 };
 
 static inline float brightness(const float colour[REGRESSION_COLOURS])
