@@ -164,12 +164,13 @@ static ps_result gather(const struct state *state, struct work *work)
     const struct gather_setting setting = {
         .paths = {work->host, work->pass, (uint32_t)state->roulette, work->pass->specular != 0,
                   false},
+        .samples = (uint64_t)state->samples,
         .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
         .lookup = work->cache.irradiance ? look_up : NULL,
         .cache = &work->cache,
     };
     struct gather_shares shares = {.are_known = false};
-    ps_result result = gather_picture(&setting, (uint64_t)state->samples, state->adaptive, &shares);
+    ps_result result = gather_picture(&setting, state->adaptive, &shares);
     if (result == PS_OK && work->caustics.index)
         result = photon_map_light_pixels(&work->caustics, &work->how);
     return result;

@@ -190,6 +190,7 @@ static ps_result correct_cache(struct work *work)
     pass.bounces -= pass.bounces != PS_ALL_BOUNCES; /* surfels are one surface on */
     correcting.setting = (struct gather_setting){
         .paths = {host, &pass, work->setting.paths.roulette, false, true},
+        .samples = paths_of_surfel(work->state),
         .most = paths_of_surfel(work->state),
     };
     correcting.traced = host->allocate(host, 2 * count * sizeof(ps_rgb), "surfels");
@@ -320,6 +321,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     struct work work = {
         .state = state,
         .setting = {.paths = {host, pass, (uint32_t)state->roulette, pass->specular != 0, false},
+                    .samples = (uint64_t)state->samples,
                     .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
                     .share_before = SURFEL_SHARE},
         .surfels = &whole->surfels,
@@ -328,8 +330,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     ps_result result = splat_pass(&work, whole);
     host->count(host, "surfels", (double)whole->surfels.count);
     if (result == PS_OK)
-        result = gather_picture(&work.setting, (uint64_t)state->samples, state->adaptive,
-                                &whole->shares);
+        result = gather_picture(&work.setting, state->adaptive, &whole->shares);
     if (whole == &own || result != PS_OK)
         forget(whole);
     return result;

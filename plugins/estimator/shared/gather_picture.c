@@ -8,7 +8,6 @@
 
 struct work {
     const struct gather_setting *setting;
-    uint64_t samples; /* of each point, on average */
     /* When tiles take samples by their need: what the first round found in each tile that is there, and in those that stand for
      * the picture. It is kept for the former, `places` being their places. */
     const struct gather_shares *shares; /* NULL: they do not */
@@ -30,17 +29,30 @@ static bool begin_tile(const struct work *work, uint64_t index, const ps_tile *t
     return gather->points.count > 0;
 }
 
-/* In the brightness that a pixel has of it. */
-static struct tile_pilot pilot_of(const struct gather *gather, const ps_tile *tile)
+enum half { FIRST_HALF, SECOND_HALF, BOTH_HALVES };
+
+/* What the first round found at those points, in the brightness that a pixel has of it. */
+static struct tile_pilot pilot_of(const struct gather *gather, const ps_tile *tile, enum half which)
 {
+    uint32_t lanes[PS_TILE_PIXELS];
     float found[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
+    size_t count = 0;
     for (size_t i = 0; i < gather->points.count; i++) {
+        float light = 0.0f, of_half = 0.0f;
+        if (which != BOTH_HALVES && gather_half_of(gather, i) != (int)which)
+            continue;
+        for (int number = 0; number < GATHER_FIRST; number++) {
+            if (number == GATHER_FIRST / 2)
+                of_half = light;
+            light += ps_luminance(gather->first.found[number][i]);
+        }
         uint32_t lane = gather->points.lanes[i];
-        float albedo = ps_luminance(ps_tile_reflectance(tile, lane));
-        found[i] = albedo * ps_luminance(gather->irradiance[i]);
-        half[i] = 2.0f * albedo * ps_luminance(gather->half[i]);
+        float scale = ps_luminance(ps_tile_reflectance(tile, lane)) / (float)GATHER_FIRST;
+        found[count] = scale * light;
+        half[count] = 2.0f * scale * of_half;
+        lanes[count++] = lane;
     }
-    return tile_pilot(gather->points.lanes, found, half, gather->points.count);
+    return tile_pilot(lanes, found, half, count);
 }
 
 static bool stands_for_picture(const struct work *work, uint64_t tile)
@@ -61,7 +73,7 @@ static void take_first_round(void *user, uint64_t index, uint32_t worker)
     if (!begin_tile(work, index, &tile, &gather))
         return;
     gather_samples(&gather, GATHER_FIRST);
-    work->pilots[index] = pilot_of(&gather, &tile);
+    work->pilots[index] = pilot_of(&gather, &tile, BOTH_HALVES);
     if (work->places[index] != NO_PLACE)
         work->first_rounds[work->places[index]] = gather.first;
 }
@@ -74,12 +86,18 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     ps_tile *tile = host->tile(host, (uint32_t)index);
     uint64_t samples = work->shares
                            ? allocated_samples(&work->shares->allocation, &work->pilots[index])
-                           : work->samples;
+                           : work->setting->samples;
     struct gather gather;
     if (!begin_tile(work, index, tile, &gather))
         return;
-    if (work->shares)
+    if (work->shares) {
+        const struct allocation *allocation = &work->shares->allocation;
         gather_resume(&gather, &work->first_rounds[work->places[index]]);
+        struct tile_pilot first = pilot_of(&gather, tile, FIRST_HALF);
+        struct tile_pilot second = pilot_of(&gather, tile, SECOND_HALF);
+        gather.expected[0] = allocated_samples(allocation, &second);
+        gather.expected[1] = allocated_samples(allocation, &first);
+    }
     gather_samples(&gather, samples);
     for (size_t i = 0; i < gather.points.count; i++)
         ps_add_irradiance(tile, gather.points.lanes[i], gather.irradiance[i]);
@@ -119,11 +137,11 @@ static struct allocation allocation_of(const struct work *work, struct tile_pilo
     size_t tiles = work->setting->paths.pass->tile_count, count = 0;
     /* The first round may have missed all that there is to be found in a tile, and has much more noise than guided rays:
      * half of those are taken everywhere. */
-    uint64_t least = GATHER_FIRST + (work->samples - GATHER_FIRST + 1) / 2;
+    uint64_t least = GATHER_FIRST + (work->setting->samples - GATHER_FIRST + 1) / 2;
     for (size_t i = 0; i < tiles; i++)
         if (stands_for_picture(work, i))
             pilots[count++] = work->pilots[i];
-    return allocation_for(pilots, count, least, work->samples, work->setting->most);
+    return allocation_for(pilots, count, least, work->setting->samples, work->setting->most);
 }
 
 /* Takes the first round of tiles, and finds the shares, where they are not known, by those that stand for the picture. */
@@ -153,7 +171,7 @@ static ps_result share_out_samples(struct work *work, struct gather_shares *shar
     memset(work->pilots, 0, bytes);
     ps_result result = make_places(work);
     double before = work->setting->share_before;
-    double first = before + (1.0 - before) * (double)GATHER_FIRST / (double)work->samples;
+    double first = before + (1.0 - before) * (double)GATHER_FIRST / (double)work->setting->samples;
     host->progress_part(host, before, first);
     if (result == PS_OK)
         result = find_shares(work, shares);
@@ -162,14 +180,14 @@ static ps_result share_out_samples(struct work *work, struct gather_shares *shar
     return result;
 }
 
-ps_result gather_picture(const struct gather_setting *setting, uint64_t samples, bool adaptive,
+ps_result gather_picture(const struct gather_setting *setting, bool adaptive,
                          struct gather_shares *shares)
 {
     const ps_host *host = setting->paths.host;
-    struct work work = {.setting = setting, .samples = samples};
+    struct work work = {.setting = setting};
     host->progress_part(host, setting->share_before, 1.0);
     ps_result result =
-        adaptive && samples > GATHER_FIRST ? share_out_samples(&work, shares) : PS_OK;
+        adaptive && setting->samples > GATHER_FIRST ? share_out_samples(&work, shares) : PS_OK;
     if (result == PS_OK)
         result = host->for_each_tile(host, gather_tile, &work);
     host->release(host, work.first_rounds);

@@ -19,9 +19,9 @@ struct gather_shares {
     struct allocation allocation;
 };
 
-/* Adds what so many samples of each pixel find, on average over the picture; `adaptive`: more of them where they are
- * needed, as `shares` tells, or then knows. PS_ERROR_MEMORY or PS_CANCELLED. */
-ps_result gather_picture(const struct gather_setting *setting, uint64_t samples, bool adaptive,
+/* Adds what setting->samples of each pixel find; `adaptive`: more of them where they are needed, and so many on average, as
+ * `shares` tells, or then knows. PS_ERROR_MEMORY or PS_CANCELLED. */
+ps_result gather_picture(const struct gather_setting *setting, bool adaptive,
                          struct gather_shares *shares);
 
 #endif

@@ -26,6 +26,7 @@ static uint8_t choose_guide(struct gather *gather, ps_vec3 normal)
 void gather_begin(struct gather *gather)
 {
     gather->guide_count = 0;
+    gather->expected[0] = gather->expected[1] = gather->setting->samples;
     for (size_t i = 0; i < gather->points.count; i++)
         gather->guide_of[i] = choose_guide(gather, gather->points.normals[i]);
 }
@@ -34,9 +35,16 @@ void gather_begin(struct gather *gather)
 
 /* Of the samples of a call. */
 struct round {
-    uint64_t samples, all; /* of the round, and of all rounds */
+    uint64_t samples;
+    float share;           /* of the guided samples of all rounds */
     bool is_first, learns; /* more rays will be drawn by what these find */
 };
+
+/* Guided ones of so many samples. */
+static uint64_t guided_of(uint64_t samples)
+{
+    return samples > GATHER_FIRST ? samples - GATHER_FIRST : 0;
+}
 
 static void add(struct gather *gather, size_t i, ps_rgb found, float weight, bool half)
 {
@@ -46,21 +54,32 @@ static void add(struct gather *gather, size_t i, ps_rgb found, float weight, boo
         gather->half[i] = ps_rgb_add(gather->half[i], weighed);
 }
 
-static float learnt_of(ps_rgb found)
+int gather_half_of(const struct gather *gather, size_t point)
 {
-    return found.r + found.g + found.b;
+    return ps_lane_along_curve(gather->points.lanes[point]) >= PS_TILE_PIXELS / 2;
 }
 
-/* 1 / (c p_c + g p_g), over 1 / p_c, where p_g is `ratio` of p_c. */
-static float balanced(uint64_t all, float ratio)
+static float expected_of(const struct gather *gather, size_t i)
 {
-    return 1.0f / ((float)GATHER_FIRST + (float)(all - GATHER_FIRST) * ratio);
+    return (float)guided_of(gather->expected[gather_half_of(gather, i)]);
 }
 
-static float smooth_ratio(const struct gather *gather, size_t i, ps_vec3 direction, float learnt)
+/* p_c / (c p_c + g q), where q is `ratio` of p_c and g the guided rays that are expected. */
+static float balanced(const struct gather *gather, size_t i, float ratio)
 {
-    return guide_smooth_ratio(&gather->guides[gather->guide_of[i]], gather->points.normals[i],
-                              direction, learnt);
+    return 1.0f / ((float)GATHER_FIRST + expected_of(gather, i) * ratio);
+}
+
+static void learn(struct gather *gather, size_t i, ps_vec3 direction, ps_rgb found)
+{
+    guide_learn(&gather->guides[gather->guide_of[i]], gather_half_of(gather, i), direction,
+                found.r + found.g + found.b);
+}
+
+static float smooth_ratio(const struct gather *gather, size_t i, ps_vec3 direction)
+{
+    return guide_smooth_ratio(&gather->guides[gather->guide_of[i]], gather_half_of(gather, i),
+                              gather->points.normals[i], direction);
 }
 
 static void end_sample(struct gather *gather, const struct round *round, uint64_t number)
@@ -73,28 +92,28 @@ static void end_sample(struct gather *gather, const struct round *round, uint64_
             gather->first.directions[number][i] = gather->directions[i];
             add(gather, i, found, 1.0f / (float)round->samples, half);
         } else {
-            float smooth = smooth_ratio(gather, i, gather->directions[i], 0.0f);
-            add(gather, i, found, smooth * balanced(round->all, smooth), half);
+            float ratio = smooth_ratio(gather, i, gather->directions[i]);
+            float each = round->share / (float)round->samples;
+            add(gather, i, found,
+                each * expected_of(gather, i) * ratio * balanced(gather, i, ratio), half);
         }
         gather->samples[i]++;
         if (round->learns)
-            guide_learn(&gather->guides[gather->guide_of[i]], gather->directions[i],
-                        learnt_of(found), gather->ratios[i]);
+            learn(gather, i, gather->directions[i], found);
     }
 }
 
 /* Weighs the rays of the first round by the guides of the round that begins, for its share of the guided rays. */
 static void add_first(struct gather *gather, const struct round *round)
 {
-    float share = (float)round->samples / (float)(round->all - GATHER_FIRST);
     for (size_t number = 0; number < GATHER_FIRST; number++)
         for (size_t i = 0; i < gather->points.count; i++) {
             ps_rgb found = gather->first.found[number][i];
-            float learnt = learnt_of(found);
-            if (!(learnt > 0.0f))
+            if (!(ps_luminance(found) > 0.0f))
                 continue;
-            float ratio = smooth_ratio(gather, i, gather->first.directions[number][i], learnt);
-            add(gather, i, found, share * balanced(round->all, ratio), number < GATHER_FIRST / 2);
+            float ratio = smooth_ratio(gather, i, gather->first.directions[number][i]);
+            add(gather, i, found, round->share * balanced(gather, i, ratio),
+                number < GATHER_FIRST / 2);
         }
 }
 
@@ -113,7 +132,6 @@ static void start_paths(struct gather *gather, struct paths *paths, struct paths
         ps_vec3 direction =
             guide_sample(guide, normal, segment->numbers[i][0], segment->numbers[i][1]);
         gather->directions[i] = direction;
-        gather->ratios[i] = guide_ratio(guide, normal, direction);
         gather->places[i][0] = segment->numbers[i][2];
         gather->places[i][1] = segment->numbers[i][3];
         gather->found[i] = (ps_rgb){0, 0, 0};
@@ -122,7 +140,7 @@ static void start_paths(struct gather *gather, struct paths *paths, struct paths
         paths_add(paths, i,
                   ps_leave_surface(points->positions[i], normal, direction,
                                    setting->pass->surface_offset),
-                  PS_PI / gather->ratios[i]);
+                  PS_PI / guide_ratio(guide, normal, direction));
     }
 }
 
@@ -206,8 +224,7 @@ void gather_resume(struct gather *gather, const struct gather_first *first)
     gather->done = GATHER_FIRST;
     for (size_t number = 0; number < GATHER_FIRST; number++)
         for (size_t i = 0; i < gather->points.count; i++)
-            guide_learn(&gather->guides[gather->guide_of[i]], first->directions[number][i],
-                        learnt_of(first->found[number][i]), 1.0f);
+            learn(gather, i, first->directions[number][i], first->found[number][i]);
     update_guides(gather);
 }
 
@@ -239,9 +256,10 @@ void gather_samples(struct gather *gather, uint64_t samples)
         uint64_t most = gather->done == 0 ? GATHER_FIRST : 3 * gather->done;
         uint64_t left = samples - gather->done;
         bool last = most >= left;
+        uint64_t taken = last ? left : most;
         struct round round = {
-            .samples = last ? left : most,
-            .all = samples,
+            .samples = taken,
+            .share = gather->done > 0 ? (float)taken / (float)guided_of(samples) : 0.0f,
             .is_first = gather->done == 0,
             .learns = !last,
         };

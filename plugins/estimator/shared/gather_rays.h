@@ -8,6 +8,10 @@
  * c rays by the cosine and g guided ones, the former have the share c p_c / (c p_c + g q) of each direction and the latter
  * the rest. That needs no pdf: q is smoother than that of the guided rays (guide.h). Where there are guides of several
  * rounds, this is done with each, and the mean over all guided rays is taken.
+ *
+ * Neither q nor g may come from what the weighed rays found, or bright ones count for less than they should. So the points
+ * of a group are two halves, and rays from either are weighed by the guide that the other half taught, and by as many rays
+ * as that would ask for.
  */
 #ifndef PSPLAT_ESTIMATOR_GATHER_RAYS_H
 #define PSPLAT_ESTIMATOR_GATHER_RAYS_H
@@ -29,7 +33,8 @@ typedef bool (*gather_lookup)(const void *cache, ps_vec3 position, ps_vec3 norma
 
 struct gather_setting {
     struct paths_setting paths;
-    uint64_t most; /* samples from each point, of any group: random numbers are counted by it */
+    uint64_t samples;     /* from each point, in the mean over groups */
+    uint64_t most;        /* from each point, of any group: random numbers are counted by it */
     gather_lookup lookup; /* NULL: there is no cache, and paths go on to their ends */
     const void *cache;
     double share_before; /* of a pass's time, which what comes before the picture takes */
@@ -46,21 +51,24 @@ struct gather {
     uint64_t index; /* of the group, among all that draw random numbers: a tile's own */
     ps_points points;
     uint64_t done; /* samples */
+    uint64_t expected
+        [2]; /* samples in all by which rays of either half are weighed: set by gather_begin() to the mean */
     /* Estimates of the irradiance, W/m^2, at each point, when all samples are done; `half` is what the first half of each
      * round has of it. */
     ps_rgb irradiance[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
     struct gather_first first;
-    /* Of the sample under way: its index, what it found, its first direction with its pdf over that of the cosine, and
-     * random numbers for lookups. */
+    /* Of the sample under way: its index, what it found, its first direction, and random numbers for lookups. */
     uint64_t samples[PS_TILE_PIXELS];
     ps_rgb found[PS_TILE_PIXELS];
     ps_vec3 directions[PS_TILE_PIXELS];
-    float ratios[PS_TILE_PIXELS];
     float places[PS_TILE_PIXELS][2];
     uint8_t guide_of[PS_TILE_PIXELS];
     uint32_t guide_count;
     struct guide guides[GATHER_GUIDES];
 };
+
+/* Which half of the group a point is of, 0 or 1: of the curve, along which samples are stratified. */
+int gather_half_of(const struct gather *gather, size_t point);
 
 /* Chooses guides, when setting, index and points are given and the rest is 0. */
 void gather_begin(struct gather *gather);

@@ -33,15 +33,14 @@ static void bin_of(const struct guide *guide, ps_vec3 direction, float cosine, i
     *sector = sector_of(ps_dot(direction, guide->u), ps_dot(direction, guide->v));
 }
 
-void guide_learn(struct guide *guide, ps_vec3 direction, float irradiance, float ratio)
+void guide_learn(struct guide *guide, int half, ps_vec3 direction, float irradiance)
 {
     float cosine = ps_dot(direction, guide->normal);
     int ring, sector;
     if (!(cosine > 0.0f))
         return;
     bin_of(guide, direction, cosine, &ring, &sector);
-    guide->found[ring][sector] += irradiance;
-    guide->rays[ring][sector] += 1.0f / ratio;
+    guide->found[half][ring][sector] += irradiance;
 }
 
 /* --- smoothing --- */
@@ -58,20 +57,11 @@ static float of_sector(int away)
     return away == 0 ? 0.5f : 0.25f;
 }
 
-static int first_ring(int ring)
+static float smoothed(guide_bins bins, int ring, int sector)
 {
-    return ring > 0 ? ring - 1 : 0;
-}
-
-static int last_ring(int ring)
-{
-    return ring < GUIDE_RINGS - 1 ? ring + 1 : ring;
-}
-
-static float smoothed(float bins[GUIDE_RINGS][GUIDE_SECTORS], int ring, int sector)
-{
+    int first = ring > 0 ? ring - 1 : 0, last = ring < GUIDE_RINGS - 1 ? ring + 1 : ring;
     float sum = 0.0f;
-    for (int from = first_ring(ring); from <= last_ring(ring); from++)
+    for (int from = first; from <= last; from++)
         for (int away = -1; away <= 1; away++) {
             int other = (sector + away + GUIDE_SECTORS) % GUIDE_SECTORS;
             sum += of_ring(ring, from) * of_sector(away) * bins[from][other];
@@ -79,42 +69,36 @@ static float smoothed(float bins[GUIDE_RINGS][GUIDE_SECTORS], int ring, int sect
     return sum;
 }
 
-/* What of a bin is left in it, and in all bins together, when they are smoothed twice. */
-static float left_in_bin(int ring)
+/* Returns the sum of all bins. */
+static float smooth(guide_bins from, guide_bins to)
 {
-    float of_rings = 0.0f, of_sectors = 0.25f * 0.25f + 0.5f * 0.5f + 0.25f * 0.25f;
-    for (int other = first_ring(ring); other <= last_ring(ring); other++)
-        of_rings += of_ring(ring, other) * of_ring(other, ring);
-    return of_rings * of_sectors;
-}
-
-static float left_in_all(int ring)
-{
-    float left = 0.0f;
-    for (int once = first_ring(ring); once <= last_ring(ring); once++)
-        for (int twice = first_ring(once); twice <= last_ring(once); twice++)
-            left += of_ring(twice, once) * of_ring(once, ring);
-    return left;
+    float sum = 0.0f;
+    for (int ring = 0; ring < GUIDE_RINGS; ring++)
+        for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
+            to[ring][sector] = smoothed(from, ring, sector);
+            sum += to[ring][sector];
+        }
+    return sum;
 }
 
 void guide_update(struct guide *guide)
 {
-    guide->total = guide->smooth_total = 0.0f;
+    guide_bins once[2];
+    for (int half = 0; half < 2; half++) {
+        smooth(guide->found[half], once[half]);
+        guide->smooth_total[half] = smooth(once[half], guide->smooth[half]);
+    }
+    guide->total = 0.0f;
     for (int ring = 0; ring < GUIDE_RINGS; ring++) {
         float sectors = 0.0f;
         for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
-            guide->known[ring][sector] = smoothed(guide->found, ring, sector);
+            guide->known[ring][sector] = once[0][ring][sector] + once[1][ring][sector];
             sectors += guide->known[ring][sector];
             guide->sector_ends[ring][sector] = sectors;
         }
         guide->total += sectors;
         guide->ring_ends[ring] = guide->total;
     }
-    for (int ring = 0; ring < GUIDE_RINGS; ring++)
-        for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
-            guide->smooth[ring][sector] = smoothed(guide->known, ring, sector);
-            guide->smooth_total += guide->smooth[ring][sector];
-        }
     guide->ready = guide->total > 0.0f;
 }
 
@@ -148,59 +132,31 @@ ps_vec3 guide_sample(const struct guide *guide, ps_vec3 normal, float a, float b
     return guided_direction(guide, (a - BY_COSINE) / (1.0f - BY_COSINE), b);
 }
 
-/* Where a direction lies in a guide; `slope` is its cosine with the guide's normal over that with a surface's. */
-struct place {
-    int ring, sector;
-    float slope;
-};
-
-/* False where the guide does not reach: rays go there by the cosine alone. */
-static bool find_place(const struct guide *guide, ps_vec3 normal, ps_vec3 direction,
-                       struct place *place)
+/* By the light that is known; `total`: of all bins. */
+static float ratio_of(const struct guide *guide, const float (*light)[GUIDE_SECTORS], float total,
+                      ps_vec3 normal, ps_vec3 direction)
 {
     float cosine = ps_dot(direction, normal), guided = ps_dot(direction, guide->normal);
-    if (!(guided > 0.0f))
-        return false;
-    bin_of(guide, direction, guided, &place->ring, &place->sector);
-    place->slope = guided / ps_max(cosine, 1e-6f);
-    return true;
-}
-
-/* `share`: what of all light is in the bin. */
-static float ratio_of(float share, float slope)
-{
-    return BY_COSINE + (1.0f - BY_COSINE) * share * (float)GUIDE_BINS * slope;
+    int ring, sector;
+    if (!(total > 0.0f))
+        return 1.0f;
+    if (!(guided > 0.0f)) /* rays go there by the cosine alone */
+        return BY_COSINE;
+    bin_of(guide, direction, guided, &ring, &sector);
+    float share = light[ring][sector] / total;
+    return BY_COSINE +
+           (1.0f - BY_COSINE) * share * (float)GUIDE_BINS * (guided / ps_max(cosine, 1e-6f));
 }
 
 float guide_ratio(const struct guide *guide, ps_vec3 normal, ps_vec3 direction)
 {
-    struct place at;
-    if (!guide->ready)
-        return 1.0f;
-    return find_place(guide, normal, direction, &at)
-               ? ratio_of(guide->known[at.ring][at.sector] / guide->total, at.slope)
-               : BY_COSINE;
+    return guide->ready ? ratio_of(guide, guide->known, guide->total, normal, direction) : 1.0f;
 }
 
-/* By how much a bin has more light for that of one ray, than if that had found what the others did. */
-static float excess(const struct guide *guide, const struct place *at, float learnt)
+float guide_smooth_ratio(const struct guide *guide, int half, ps_vec3 normal, ps_vec3 direction)
 {
-    float others = guide->rays[at->ring][at->sector] - 1.0f;
-    float rest = guide->found[at->ring][at->sector] - learnt;
-    return others > 0.5f ? learnt - rest / others : learnt;
-}
-
-float guide_smooth_ratio(const struct guide *guide, ps_vec3 normal, ps_vec3 direction, float learnt)
-{
-    struct place at;
-    if (!guide->ready)
-        return 1.0f;
-    if (!find_place(guide, normal, direction, &at))
-        return BY_COSINE;
-    float more = learnt > 0.0f ? excess(guide, &at, learnt) : 0.0f;
-    float total = guide->smooth_total - more * left_in_all(at.ring);
-    if (!(total > 1e-6f * guide->smooth_total))
-        return 1.0f; /* the guide knows of that ray alone */
-    float in_bin = guide->smooth[at.ring][at.sector] - more * left_in_bin(at.ring);
-    return ratio_of(ps_max(in_bin, 0.0f) / total, at.slope);
+    int other = 1 - half;
+    return guide->ready ? ratio_of(guide, guide->smooth[other], guide->smooth_total[other], normal,
+                                   direction)
+                        : 1.0f;
 }

@@ -8,10 +8,9 @@
  * pdf of both together.
  *
  * Rays that a guide learnt from may be weighed by it, too (multiple importance sampling). Where a ray was lucky, the guide
- * points there because of it, so that such weights would lose light. And rays are stratified: those beside it are elsewhere,
- * and without it the guide would know too little of its direction. So guide_smooth_ratio() has, in place of what a ray found,
- * what others of its bin did on average; and it is smoother than the pdf, so that what is left of this, which the curvature
- * of the weights makes of chance, is less than half a percent.
+ * points there because of it, so that such weights would lose light. So rays are of two halves, and those of either are
+ * weighed by what the other half found (cross-fitting, Chernozhukov et al. 2018): by guide_smooth_ratio(), which is smoother
+ * than the pdf, since half of the rays tell less.
  */
 #ifndef PSPLAT_ESTIMATOR_GUIDE_H
 #define PSPLAT_ESTIMATOR_GUIDE_H
@@ -20,23 +19,24 @@
 
 enum { GUIDE_RINGS = 8, GUIDE_SECTORS = 16, GUIDE_BINS = GUIDE_RINGS * GUIDE_SECTORS };
 
+typedef float guide_bins[GUIDE_RINGS][GUIDE_SECTORS];
+
 struct guide {
-    ps_vec3 normal, u, v;                     /* a frame, of ps_frame */
-    float found[GUIDE_RINGS][GUIDE_SECTORS];  /* sums of the light that rays found */
-    float rays[GUIDE_RINGS][GUIDE_SECTORS];   /* how many they were, or would be by the cosine */
-    int ready;                                /* whether the rest is set */
-    float known[GUIDE_RINGS][GUIDE_SECTORS];  /* `found`, smoothed: the density, but for a factor */
-    float smooth[GUIDE_RINGS][GUIDE_SECTORS]; /* the same, smoothed twice */
-    float total, smooth_total;                /* of these */
-    float ring_ends[GUIDE_RINGS];             /* cumulative */
-    float sector_ends[GUIDE_RINGS][GUIDE_SECTORS];
+    ps_vec3 normal, u, v;         /* a frame, of ps_frame */
+    guide_bins found[2];          /* sums of the light that rays of either half found */
+    int ready;                    /* whether the rest is set */
+    guide_bins known;             /* both, smoothed: the density, but for a factor */
+    guide_bins smooth[2];         /* each, smoothed twice */
+    float total, smooth_total[2]; /* of these */
+    float ring_ends[GUIDE_RINGS]; /* cumulative */
+    guide_bins sector_ends;
 };
 
 /* Nothing is known yet. */
 void guide_begin(struct guide *guide, ps_vec3 normal);
 
-/* A ray found so much irradiance, in a direction whose pdf was `ratio` of that of the cosine. */
-void guide_learn(struct guide *guide, ps_vec3 direction, float irradiance, float ratio);
+/* A ray of that half, 0 or 1, found so much irradiance. */
+void guide_learn(struct guide *guide, int half, ps_vec3 direction, float irradiance);
 
 /* From now on rays are drawn by what was learnt. */
 void guide_update(struct guide *guide);
@@ -47,9 +47,7 @@ ps_vec3 guide_sample(const struct guide *guide, ps_vec3 normal, float a, float b
 /* The pdf of a direction above that surface, over that of the cosine. */
 float guide_ratio(const struct guide *guide, ps_vec3 normal, ps_vec3 direction);
 
-/* The same by smoother light, for weights. `learnt`: the irradiance of a ray by the cosine that guide_learn() was told for
- * this direction, in place of which others count; 0: all counts. */
-float guide_smooth_ratio(const struct guide *guide, ps_vec3 normal, ps_vec3 direction,
-                         float learnt);
+/* The same for weights: smoother, and by what the rays of the other half found. */
+float guide_smooth_ratio(const struct guide *guide, int half, ps_vec3 normal, ps_vec3 direction);
 
 #endif
