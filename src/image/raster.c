@@ -113,19 +113,35 @@ ps_result raster_check_expansion(const struct raster_source *source, uint64_t de
                      source->path, source->size);
 }
 
-ps_result raster_allocate(const char *path, struct raster *raster, struct error *error)
+static ps_result allocate(const char *path, const struct raster *raster, size_t bytes,
+                          void **samples, struct error *error)
 {
     ps_result result =
         raster_check_size(path, raster->width, raster->height, raster_texel_bytes(raster), error);
     if (result != PS_OK)
         return result;
-    raster->samples = malloc(raster_bytes(raster));
-    if (!raster->samples) {
+    *samples = malloc(bytes);
+    if (!*samples)
         return error_set(error, PS_ERROR_MEMORY,
-                         "%s: out of memory: wanted %zu bytes for %u x %u pixels", path,
-                         raster_bytes(raster), raster->width, raster->height);
-    }
+                         "%s: out of memory: wanted %zu bytes for %u x %u pixels", path, bytes,
+                         raster->width, raster->height);
     return PS_OK;
+}
+
+ps_result raster_allocate(const char *path, struct raster *raster, struct error *error)
+{
+    return allocate(path, raster, raster_bytes(raster), &raster->samples, error);
+}
+
+ps_result raster_allocate_line(const char *path, const struct raster *raster, void **line,
+                               struct error *error)
+{
+    return allocate(path, raster, (size_t)raster->width * raster_texel_bytes(raster), line, error);
+}
+
+bool raster_wants_lines(const struct raster_source *source, const struct raster *raster)
+{
+    return source->lines && source->lines->want(source->lines->user, raster);
 }
 
 /* By the header's compression. */
@@ -225,16 +241,16 @@ ps_result raster_fetch(const char *path, const char *folder, unsigned char **byt
 }
 
 ps_result raster_decode(const char *path, const char *layer, const unsigned char *bytes,
-                        size_t size, struct raster *raster, struct error *error)
+                        size_t size, const struct raster_lines *lines, struct raster *raster,
+                        struct error *error)
 {
-    struct raster_source source = {path, bytes, size, layer};
-    struct raster decoded = {0};
+    struct raster_source source = {path, bytes, size, layer, lines};
+    struct raster decoded = {.file_size = size};
     ps_result result = decode(&source, &decoded, error);
     if (result != PS_OK) {
         raster_release(&decoded);
         return result;
     }
-    decoded.file_size = size;
     *raster = decoded;
     return PS_OK;
 }

@@ -33,6 +33,15 @@ struct raster {
     void *samples;    /* row-major, top row first, native byte order */
 };
 
+/* Who takes a picture line by line, the top one first, so that it need not lie in memory as a whole. */
+struct raster_lines {
+    /* Whether lines of such a picture are wanted, whose samples are not read yet. */
+    bool (*want)(void *user, const struct raster *raster);
+    /* Takes one; anything but PS_OK ends the reading with that, and with the message. */
+    ps_result (*take)(void *user, const void *samples, struct error *error);
+    void *user;
+};
+
 /* The bytes of a picture's file, to be freed; `folder`: the only one to read from (input_file_open), or NULL. PS_ERROR_IO,
  * _INVALID or _MEMORY; messages start with `path`. Any number of threads. */
 ps_result raster_fetch(const char *path, const char *folder, unsigned char **bytes, size_t *size,
@@ -55,11 +64,15 @@ ps_result raster_fetch(const char *path, const char *folder, unsigned char **byt
  * the header of a TGA says that it is none, is left out. BMP in runs is
  * refused. Radiance: linear floats, as they stand, lines in any order. WebP: one picture, 8 bits.
  *
+ * `lines`: who wants it line by line, or NULL. PNG that is not interlaced and JPEG come so, and leave `raster` without
+ * samples; others are whole whoever asks. (Progressive JPEG takes libjpeg six bytes a pixel all the same.)
+ *
  * Other kinds have no layers: PS_ERROR_INVALID. PS_ERROR_IO: the file is truncated or damaged; PS_ERROR_INVALID: no picture of a
  * known kind or size; PS_ERROR_MEMORY. Messages start with `path`. `raster` is written only on
  * success, and what it held is not released: pass an empty one. Any number of threads. */
 ps_result raster_decode(const char *path, const char *layer, const unsigned char *bytes,
-                        size_t size, struct raster *raster, struct error *error);
+                        size_t size, const struct raster_lines *lines, struct raster *raster,
+                        struct error *error);
 
 /* Whether a file that starts with these bytes, RASTER_MAGIC of them or the whole file, is of a kind that is read. */
 #define RASTER_MAGIC 34

@@ -10,7 +10,8 @@ struct raster_source {
     const char *path; /* for messages */
     const unsigned char *bytes;
     size_t size;
-    const char *layer; /* of an OpenEXR file; NULL: its picture */
+    const char *layer;                /* of an OpenEXR file; NULL: its picture */
+    const struct raster_lines *lines; /* or NULL */
 };
 
 /* Each reads `source` into `raster`, as raster_read says; on failure the caller releases `raster`,
@@ -76,6 +77,13 @@ ps_result raster_check_expansion(const struct raster_source *source, uint64_t de
 
 /* Checks the size that `raster` states, and allocates its samples. */
 ps_result raster_allocate(const char *path, struct raster *raster, struct error *error);
+
+/* The same size check, and room for one row. */
+ps_result raster_allocate_line(const char *path, const struct raster *raster, void **line,
+                               struct error *error);
+
+/* Whether that picture, whose size is checked, shall go to source->lines->take() rather than into memory. */
+bool raster_wants_lines(const struct raster_source *source, const struct raster *raster);
 
 /* Where a row's samples start, 0 is the top one. */
 void *raster_row(const struct raster *raster, size_t row);

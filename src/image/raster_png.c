@@ -7,6 +7,7 @@
 #include "image/raster_decode.h"
 
 #include <png.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct png_job {
@@ -16,6 +17,7 @@ struct png_job {
     png_structp png;
     png_infop info;
     struct raster *raster;
+    void *line;       /* owned; where lines go one by one */
     ps_result result; /* what to return after a jump */
 };
 
@@ -90,12 +92,26 @@ static void choose_form(struct png_job *job)
     job->raster->srgb = true;
 }
 
+static bool is_interlaced(const struct png_job *job)
+{
+    return png_get_interlace_type(job->png, job->info) != PNG_INTERLACE_NONE;
+}
+
+static void hand_on_lines(struct png_job *job)
+{
+    const struct raster_lines *lines = job->source->lines;
+    expect(job, raster_allocate_line(job->source->path, job->raster, &job->line, job->error));
+    for (size_t row = 0; row < job->raster->height; row++) {
+        png_read_row(job->png, job->line, NULL);
+        expect(job, lines->take(lines->user, job->line, job->error));
+    }
+}
+
 /* Interlaced pictures come in seven passes, each of which fills in some pixels of all rows. */
 static void read_rows(struct png_job *job)
 {
-    int passes = png_get_interlace_type(job->png, job->info) == PNG_INTERLACE_NONE
-                     ? 1
-                     : PNG_INTERLACE_ADAM7_PASSES;
+    int passes = is_interlaced(job) ? PNG_INTERLACE_ADAM7_PASSES : 1;
+    expect(job, raster_allocate(job->source->path, job->raster, job->error));
     for (int pass = 0; pass < passes; pass++) {
         for (size_t row = 0; row < job->raster->height; row++)
             png_read_row(job->png, raster_row(job->raster, row), NULL);
@@ -111,8 +127,10 @@ static void read_picture(struct png_job *job)
     png_set_keep_unknown_chunks(job->png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
     read_header(job);
     choose_form(job);
-    expect(job, raster_allocate(job->source->path, job->raster, job->error));
-    read_rows(job);
+    if (!is_interlaced(job) && raster_wants_lines(job->source, job->raster))
+        hand_on_lines(job);
+    else
+        read_rows(job);
     png_read_end(job->png, NULL);
 }
 
@@ -130,5 +148,6 @@ ps_result raster_read_png(const struct raster_source *source, struct raster *ras
             error_set(error, PS_ERROR_MEMORY, "%s: out of memory for a PNG reader", source->path);
     }
     png_destroy_read_struct(&job.png, &job.info, NULL);
+    free(job.line);
     return job.result;
 }

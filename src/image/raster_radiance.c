@@ -92,8 +92,8 @@ static ps_result retitle(const struct raster_source *source, const struct resolu
     memcpy(bytes, source->bytes, resolution->start);
     memcpy(bytes + resolution->start, line, (size_t)length);
     memcpy(bytes + resolution->start + length, source->bytes + resolution->end, rest);
-    *retitled = (struct raster_source){source->path, bytes,
-                                       resolution->start + (size_t)length + rest, NULL};
+    *retitled = (struct raster_source){
+        .path = source->path, .bytes = bytes, .size = resolution->start + (size_t)length + rest};
     return PS_OK;
 }
 

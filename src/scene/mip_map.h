@@ -22,6 +22,9 @@ size_t mip_map_level_bytes(const struct texels *level, uint32_t tile_shift, uint
  * may be NULL; returns the bytes of all. */
 size_t mip_map_place(struct texture *texture, uint32_t first, const unsigned char *bytes);
 
+/* Floats that carry sRGB's function, which none have but those that are said to, have the first level alone. */
+bool mip_map_has_more(const struct texture *texture);
+
 /* Adds the levels to a texture that lies in memory, has tables and no levels but the first. PS_ERROR_MEMORY. */
 ps_result mip_map_add(struct texture *texture, struct error *error);
 

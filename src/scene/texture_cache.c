@@ -3,6 +3,7 @@
 #include "base/output_file.h"
 #include "base/version.h"
 #include "scene/mip_map.h"
+#include "scene/mip_map_stream.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -65,24 +66,21 @@ static uint64_t file_bytes(const struct texture *texture)
     return size;
 }
 
-/* The texels of a row of tiles, each of which has its own row by row. */
-static void fill_row(const struct texels *level, size_t texel_bytes, uint32_t row,
-                     unsigned char *tiles)
-{
-    uint32_t side = 1u << TILE_SHIFT, top = row << TILE_SHIFT;
-    uint32_t lines = level->height - top < side ? level->height - top : side;
-    for (uint32_t line = 0; line < lines; line++) {
-        const unsigned char *from =
-            level->bytes + (size_t)(top + line) * level->width * texel_bytes;
-        for (uint32_t left = 0; left < level->width; left += side) {
-            uint32_t count = level->width - left < side ? level->width - left : side;
-            size_t at = (left >> TILE_SHIFT) * TILE_TEXELS + ((size_t)line << TILE_SHIFT);
-            memcpy(tiles + at * texel_bytes, from + left * texel_bytes, count * texel_bytes);
-        }
-    }
-}
-
 /* --- storing --------------------------------------------------------------------------------------- */
+
+/* The row of tiles that fills with lines, and where it goes in the file. */
+struct tile_row {
+    unsigned char *tiles; /* owned */
+    uint64_t at;
+};
+
+struct texture_entry {
+    struct output_file file;
+    struct texture texture; /* what is known of it; owns nothing */
+    struct mip_map_stream *stream;
+    XXH3_state_t *digest;
+    struct tile_row levels[TEXTURE_LEVELS];
+};
 
 /* In pieces: Linux maps at once as much of a file as was written at once, which would be more than a block. */
 static ps_result write_pieces(const struct output_file *file, uint64_t at,
@@ -96,42 +94,115 @@ static ps_result write_pieces(const struct output_file *file, uint64_t at,
     return result;
 }
 
-static ps_result write_level(const struct texels *level, uint32_t texel_bytes,
-                             const struct output_file *file, uint64_t at, struct error *error)
+/* Each tile of the row has the samples of a line where its own line begins. */
+static void spread_line(const struct texels *level, size_t texel_bytes, uint32_t line,
+                        const unsigned char *samples, unsigned char *tiles)
 {
-    size_t bytes = row_bytes(level->width, texel_bytes);
-    unsigned char *tiles = calloc(1, bytes);
-    if (!tiles)
-        return error_memory(error, bytes, "a texture's entry in the cache");
-    ps_result result = PS_OK;
-    uint32_t rows = tiles_along(level->height);
-    for (uint32_t row = 0; row < rows && result == PS_OK; row++) {
-        fill_row(level, texel_bytes, row, tiles);
-        result = write_pieces(file, at + row * bytes, tiles, bytes, error);
+    uint32_t side = 1u << TILE_SHIFT;
+    for (uint32_t left = 0; left < level->width; left += side) {
+        uint32_t count = level->width - left < side ? level->width - left : side;
+        size_t at = (left >> TILE_SHIFT) * TILE_TEXELS + ((size_t)(line % side) << TILE_SHIFT);
+        memcpy(tiles + at * texel_bytes, samples + left * texel_bytes, count * texel_bytes);
     }
-    free(tiles);
-    return result;
 }
 
-static ps_result write_levels(const struct texture *texture, const struct output_file *file,
-                              struct error *error)
+/* A mip_map_take. */
+static ps_result take_line(void *user, uint32_t number, uint32_t line, const void *samples,
+                           struct error *error)
 {
-    ps_result result = PS_OK;
+    struct texture_entry *entry = user;
+    const struct texels *level = &entry->texture.levels[number];
+    struct tile_row *row = &entry->levels[number];
+    size_t texel_bytes = entry->texture.texel_bytes;
+    size_t bytes = row_bytes(level->width, entry->texture.texel_bytes);
+    if (line % (1u << TILE_SHIFT) == 0)
+        memset(row->tiles, 0, bytes);
+    spread_line(level, texel_bytes, line, samples, row->tiles);
+    if ((line + 1) % (1u << TILE_SHIFT) > 0 && line + 1 < level->height)
+        return PS_OK;
+    uint64_t at = row->at;
+    row->at += bytes;
+    return write_pieces(&entry->file, at, row->tiles, bytes, error);
+}
+
+/* Where the levels go, and room for a row of tiles of each. */
+static bool place_rows(struct texture_entry *entry)
+{
+    const struct texture *texture = &entry->texture;
     uint64_t at = START;
-    for (uint32_t i = 0; i < texture->level_count && result == PS_OK; i++) {
-        result = write_level(&texture->levels[i], texture->texel_bytes, file, at, error);
-        at += mip_map_level_bytes(&texture->levels[i], TILE_SHIFT, texture->texel_bytes);
+    bool good = true;
+    for (uint32_t i = 0; i < texture->level_count && good; i++) {
+        const struct texels *level = &texture->levels[i];
+        entry->levels[i] =
+            (struct tile_row){malloc(row_bytes(level->width, texture->texel_bytes)), at};
+        at += mip_map_level_bytes(level, TILE_SHIFT, texture->texel_bytes);
+        good = entry->levels[i].tiles != NULL;
     }
-    return result;
+    return good;
 }
 
-static struct header header_of(struct texture *texture)
+static void release_entry(struct texture_entry *entry)
 {
+    for (int i = 0; i < TEXTURE_LEVELS; i++)
+        free(entry->levels[i].tiles);
+    if (entry->digest)
+        XXH3_freeState(entry->digest);
+    mip_map_close(entry->stream);
+    free(entry);
+}
+
+/* All but the file; NULL with a message. */
+static struct texture_entry *create_entry(const struct texture *texture, struct error *error)
+{
+    struct texture_entry *entry = calloc(1, sizeof *entry);
+    size_t wanted = 2 * row_bytes(texture->raster.width, texture->texel_bytes);
+    bool good = entry != NULL;
+    if (good) {
+        struct texture *own = &entry->texture;
+        *own = *texture;
+        own->levels[0] =
+            (struct texels){.width = texture->raster.width, .height = texture->raster.height};
+        own->level_count =
+            mip_map_has_more(own) ? mip_map_level_count(own->raster.width, own->raster.height) : 1;
+        mip_map_place(own, 1, NULL);
+        entry->digest = XXH3_createState();
+        good = place_rows(entry) && entry->digest && XXH3_64bits_reset(entry->digest) == XXH_OK;
+    }
+    if (good) {
+        entry->stream = mip_map_open(&entry->texture, take_line, entry, error);
+    } else {
+        error_memory(error, wanted, "a texture's entry in the cache");
+    }
+    if (!entry || entry->stream)
+        return entry;
+    release_entry(entry);
+    return NULL;
+}
+
+struct texture_entry *texture_entry_begin(const char *path, const struct texture *texture,
+                                          struct error *error)
+{
+    struct texture_entry *entry = create_entry(texture, error);
+    if (!entry || output_file_open(&entry->file, path, error) == PS_OK)
+        return entry;
+    release_entry(entry);
+    return NULL;
+}
+
+ps_result texture_entry_add(struct texture_entry *entry, const void *samples, struct error *error)
+{
+    size_t bytes = (size_t)entry->texture.raster.width * entry->texture.texel_bytes;
+    XXH3_64bits_update(entry->digest, samples, bytes);
+    return mip_map_add_line(entry->stream, samples, error);
+}
+
+static struct header header_of(const struct texture_entry *entry)
+{
+    const struct texture *texture = &entry->texture;
     const struct raster *raster = &texture->raster;
-    texture_find_extremes(texture);
     struct header header = {
         .size = file_bytes(texture),
-        .digest = texture_digest(texture),
+        .digest = XXH3_64bits_digest(entry->digest),
         .mended = raster->mended,
         .file_size = raster->file_size,
         .width = raster->width,
@@ -148,19 +219,40 @@ static struct header header_of(struct texture *texture)
     return header;
 }
 
+ps_result texture_entry_end(struct texture_entry *entry, struct error *error)
+{
+    struct header header = header_of(entry);
+    ps_result result = output_file_write(&entry->file, 0, &header, sizeof header, error);
+    if (result == PS_OK)
+        result = output_file_commit(&entry->file, error);
+    else
+        output_file_discard(&entry->file);
+    release_entry(entry);
+    return result;
+}
+
+void texture_entry_discard(struct texture_entry *entry)
+{
+    if (!entry)
+        return;
+    output_file_discard(&entry->file);
+    release_entry(entry);
+}
+
 ps_result texture_cache_store(const char *path, struct texture *texture, struct error *error)
 {
-    struct output_file file;
-    struct header header = header_of(texture);
-    ps_result result = output_file_open(&file, path, error);
-    if (result != PS_OK)
-        return result;
-    result = output_file_write(&file, 0, &header, sizeof header, error);
+    texture_find_extremes(texture);
+    struct texture_entry *entry = texture_entry_begin(path, texture, error);
+    if (!entry)
+        return PS_ERROR_IO;
+    ps_result result = PS_OK;
+    const unsigned char *samples = texture->raster.samples;
+    size_t bytes = (size_t)texture->raster.width * texture->texel_bytes;
+    for (uint32_t line = 0; line < texture->raster.height && result == PS_OK; line++)
+        result = texture_entry_add(entry, samples + line * bytes, error);
     if (result == PS_OK)
-        result = write_levels(texture, &file, error);
-    if (result == PS_OK)
-        return output_file_commit(&file, error);
-    output_file_discard(&file);
+        return texture_entry_end(entry, error);
+    texture_entry_discard(entry);
     return result;
 }
 

@@ -5,6 +5,9 @@
  * mapped (mapped_file.h). Entries are whole or not there (output_file.h), and any number of processes can use one folder. What
  * lies in it is believed, so the folder has to be one's own.
  *
+ * Entries are made of a picture's lines, from the top, so that it need not lie in memory: what is kept of each level is a row of
+ * tiles.
+ *
  * Not OpenImageIO, which has tiles, MIP maps and a cache of them: its interface is C++ alone.
  */
 #ifndef SCENE_TEXTURE_CACHE_H
@@ -20,7 +23,22 @@ char *texture_cache_path(const char *folder, const struct texture_description *d
 ps_result texture_cache_load(const char *path, struct mapped_budget *budget,
                              struct texture *texture, struct error *error);
 
-/* Makes the entry of texels that lie in memory. PS_ERROR_IO or _MEMORY, with a reason in lower case. */
+/* An entry under way. One thread. */
+struct texture_entry;
+
+/* Begins one, for a texture whose raster is known but for samples, and which has tables. NULL with a reason in lower case. The texture
+ * is borrowed until the end. */
+struct texture_entry *texture_entry_begin(const char *path, const struct texture *texture,
+                                          struct error *error);
+
+/* Adds a line. PS_ERROR_IO or _MEMORY, with a reason as above. */
+ps_result texture_entry_add(struct texture_entry *entry, const void *samples, struct error *error);
+
+/* Puts it in its place when all lines are there; releases it, whatever happens. PS_ERROR_IO. */
+ps_result texture_entry_end(struct texture_entry *entry, struct error *error);
+void texture_entry_discard(struct texture_entry *entry); /* or NULL */
+
+/* Makes the entry of a picture that lies in memory. As above. */
 ps_result texture_cache_store(const char *path, struct texture *texture, struct error *error);
 
 #endif

@@ -85,27 +85,87 @@ static ps_result prepare(const struct texture_description *description, struct t
                      description->path);
 }
 
-/* Floats that carry sRGB's function, which none have but those that are said to, stay as they are. */
-static bool has_mip_map(const struct texture *texture)
+/* --- into the cache -------------------------------------------------------------------------- */
+
+/* A picture that goes into the cache line by line, if it may. */
+struct keeping {
+    const struct texture_description *description;
+    const char *path;      /* of the entry */
+    struct texture tables; /* what the entry needs to know of the texture */
+    struct texture_entry *entry;
+    ps_result result; /* of the entry */
+    struct error reason;
+};
+
+/* raster_lines.want */
+static bool begin_entry(void *user, const struct raster *raster)
 {
-    bool is_float = texture->raster.sample == RASTER_HALF || texture->raster.sample == RASTER_FLOAT;
-    return !(is_float && texture->srgb);
+    struct keeping *keeping = user;
+    struct texture *tables = &keeping->tables;
+    struct error ignored;
+    if (raster_bytes(raster) < LEAST_IN_CACHE)
+        return false;
+    tables->raster = *raster;
+    tables->texel_bytes = raster_texel_bytes(raster);
+    if (prepare(keeping->description, tables, &ignored) == PS_OK)
+        keeping->entry = texture_entry_begin(keeping->path, tables, &keeping->reason);
+    return keeping->entry != NULL;
 }
 
-/* Moves the texels into the cache, or notes why they stay in memory. */
+/* raster_lines.take */
+static ps_result add_to_entry(void *user, const void *samples, struct error *error)
+{
+    struct keeping *keeping = user;
+    keeping->result = texture_entry_add(keeping->entry, samples, &keeping->reason);
+    return keeping->result == PS_OK ? PS_OK : error_set(error, keeping->result, "not kept");
+}
+
+/* Puts the entry, if one was begun, in its place, and refers to it. */
+static void end_entry(struct keeping *keeping, const struct texture_storage *storage,
+                      struct texture *texture)
+{
+    if (!keeping->entry)
+        return;
+    keeping->result = texture_entry_end(keeping->entry, &keeping->reason);
+    if (keeping->result == PS_OK)
+        keeping->result =
+            texture_cache_load(keeping->path, storage->budget, texture, &keeping->reason);
+}
+
+/* Decodes into the cache what comes line by line, and else into memory. */
+static ps_result decode_for_cache(const struct texture_description *description,
+                                  const unsigned char *bytes, size_t size,
+                                  const struct texture_storage *storage, const char *path,
+                                  struct texture *texture, struct error *error)
+{
+    struct keeping keeping = {.description = description, .path = path};
+    const struct raster_lines lines = {begin_entry, add_to_entry, &keeping};
+    ps_result result = raster_decode(description->path, description->layer, bytes, size, &lines,
+                                     &texture->raster, error);
+    if (result == PS_OK)
+        end_entry(&keeping, storage, texture);
+    else
+        texture_entry_discard(keeping.entry);
+    texture_release(&keeping.tables);
+    if (keeping.result == PS_OK)
+        return result;
+    texture->note = strdup(keeping.reason.text);
+    return raster_decode(description->path, description->layer, bytes, size, NULL, &texture->raster,
+                         error);
+}
+
+/* Moves texels from memory into the cache, or notes why they stay. */
 static void keep(struct texture *texture, const char *path, const struct texture_storage *storage)
 {
-    void *samples = texture->raster.samples, *halves = texture->halves;
+    void *samples = texture->raster.samples;
     struct error reason;
     ps_result result = texture_cache_store(path, texture, &reason);
     if (result == PS_OK)
         result = texture_cache_load(path, storage->budget, texture, &reason);
-    if (result != PS_OK) {
+    if (result == PS_OK)
+        free(samples);
+    else
         texture->note = strdup(reason.text);
-        return;
-    }
-    free(samples);
-    free(halves);
 }
 
 static ps_result decode(const struct texture_description *description, const unsigned char *bytes,
@@ -116,17 +176,20 @@ static ps_result decode(const struct texture_description *description, const uns
     if (path && texture_cache_load(path, storage->budget, texture, &ignored) == PS_OK)
         return prepare(description, texture, error);
     ps_result result =
-        raster_decode(description->path, description->layer, bytes, size, &texture->raster, error);
+        path ? decode_for_cache(description, bytes, size, storage, path, texture, error)
+             : raster_decode(description->path, description->layer, bytes, size, NULL,
+                             &texture->raster, error);
+    if (result == PS_OK && !texture->file)
+        refer_to_raster(texture);
+    if (result == PS_OK)
+        result = prepare(description, texture, error);
     if (result != PS_OK)
         return result;
-    refer_to_raster(texture);
-    result = prepare(description, texture, error);
-    bool mip_maps = storage->mip_maps || path; /* entries have them, whoever asks first */
-    if (result == PS_OK && mip_maps && has_mip_map(texture))
-        result = mip_map_add(texture, error);
-    if (result == PS_OK && path && raster_bytes(&texture->raster) >= LEAST_IN_CACHE)
+    if (path && !texture->file && !texture->note &&
+        raster_bytes(&texture->raster) >= LEAST_IN_CACHE)
         keep(texture, path, storage);
-    return result;
+    bool wants_levels = storage->mip_maps && mip_map_has_more(texture);
+    return wants_levels && !texture->file ? mip_map_add(texture, error) : PS_OK;
 }
 
 static ps_result fetch_and_decode(const struct texture_description *description,

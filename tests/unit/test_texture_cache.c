@@ -195,6 +195,26 @@ static void test_picture(void **state)
     mapped_budget_destroy(storage.budget);
 }
 
+/* A file that ends among its lines leaves no entry, and what it lacks is said. */
+static void test_truncated_picture(void **state)
+{
+    struct scratch *scratch = *state;
+    const char *path = write_picture(state);
+    struct texture_storage storage = {.cache = scratch->directory,
+                                      .budget = mapped_budget_create(1e5)};
+    struct texture_description description = {.path = (char *)path};
+    struct texture texture = {0};
+    struct error error;
+    size_t size;
+    unsigned char *bytes = scratch_load(path, &size);
+    scratch_store(path, bytes, size / 2);
+    assert_int_equal(texture_load(&description, &storage, &texture, &error), PS_ERROR_IO);
+    assert_non_null(strstr(error.text, "too early"));
+    assert_int_equal(scratch_file_count(state), 1);
+    free(bytes);
+    mapped_budget_destroy(storage.budget);
+}
+
 static void test_folder_that_is_none(void **state)
 {
     const char *path = write_picture(state);
@@ -212,7 +232,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         SCRATCH_TEST(test_all_kinds_of_samples), cmocka_unit_test(test_names),
         SCRATCH_TEST(test_damaged_entries),      SCRATCH_TEST(test_picture),
-        SCRATCH_TEST(test_folder_that_is_none),
+        SCRATCH_TEST(test_truncated_picture),    SCRATCH_TEST(test_folder_that_is_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -213,7 +213,7 @@ static void test_exr_wanted_channels(void **state)
     struct error error;
     size_t size;
     unsigned char *bytes = scratch_load(write_exr(state, names, samples), &size);
-    struct raster_source source = {"some.exr", bytes, size, "a"};
+    struct raster_source source = {"some.exr", bytes, size, "a", NULL};
     struct exr_facts facts;
     assert_int_equal(exr_read_layer(&source, &image, &facts, &error), PS_OK);
     assert_int_equal(image.channel_count, 1);
