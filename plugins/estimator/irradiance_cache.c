@@ -248,9 +248,9 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
 }
 
 static const ps_param params[] = {
-    PS_ROW(struct state, samples, PS_PARAM_INT, "1024", 6, 1 << 16, PS_PARAM_QUALITY, NULL, "rays",
+    PS_ROW(struct state, samples, PS_PARAM_INT, "512", 6, 1 << 16, PS_PARAM_QUALITY, NULL, "rays",
            "rays from each record, or a few less, which fill whole rings"),
-    PS_NUMBER(struct state, spacing, "0.1", 0, 10, PS_PARAM_OPEN_MIN, "",
+    PS_NUMBER(struct state, spacing, "0.07", 0, 10, PS_PARAM_OPEN_MIN, "",
               "how far apart records are; their number falls with its square"),
     PS_ROW(struct state, roulette, PS_PARAM_INT, "3", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),
