@@ -47,16 +47,27 @@ struct exr_facts {
     int64_t left,
         top; /* of the display window's upper left corner to that of the data window, in pixels */
     int64_t width, height; /* of the display window, as stated */
+    uint64_t pixels;       /* of the data window */
     bool layer_is_part;    /* channels have their own names alone */
+    bool halves;           /* all channels that are read are half floats in the file */
     bool has_chromaticities;
     struct chromaticities chromaticities;
 };
 
+/* Who takes an OpenEXR picture in bands of lines, from the top. */
+struct exr_bands {
+    /* The first `lines` lines of the planes are the next ones; they may be changed. Anything but PS_OK ends the reading. */
+    ps_result (*take)(void *user, const struct image *band, const struct exr_facts *facts,
+                      size_t lines, struct error *error);
+    void *user;
+};
+
 /* As image_read_exr, from memory, with the limits of a raster, and with messages that start with
  * the path. Only the channels of the layer's picture (exr_layer.h), maybe none where it is the file's. Of several parts the
- * first that has some beside alpha. */
-ps_result exr_read_layer(const struct raster_source *source, struct image *image,
-                         struct exr_facts *facts, struct error *error);
+ * first that has some beside alpha. `bands`: who takes them, so that the image has planes for the lines of one alone in the
+ * end; or NULL. */
+ps_result exr_read_layer(const struct raster_source *source, const struct exr_bands *bands,
+                         struct image *image, struct exr_facts *facts, struct error *error);
 
 /* chromaticities.c: makes the colours in planes of red, green and blue Rec.709's. No-op where the primaries are
  * those, or cannot be. */

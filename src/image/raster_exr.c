@@ -9,6 +9,7 @@
 #include "image/raster_decode.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define CHANNELS_AT_MOST 4
@@ -98,53 +99,58 @@ static bool fits_halves(const struct planes *planes, size_t pixels)
     return true;
 }
 
-/* Outside of the data window there is nothing: 0, which is transparent where there is alpha. */
+/* A line of the planes as a row of the raster. Outside of the data window there is nothing: 0, which is transparent where there
+ * is alpha. */
+static void store_row(const struct planes *planes, const struct image *image, size_t line,
+                      const struct exr_facts *facts, const struct raster *raster, void *row)
+{
+    memset(row, 0, (size_t)raster->width * raster_texel_bytes(raster));
+    for (int64_t i = 0; i < (int64_t)image->width; i++) {
+        int64_t column = i + facts->left;
+        if (column < 0 || column >= (int64_t)raster->width)
+            continue;
+        size_t from = line * image->width + (size_t)i, to = (size_t)column * planes->count;
+        for (uint32_t k = 0; k < planes->count; k++) {
+            if (raster->sample == RASTER_HALF)
+                half_from_exact(planes->samples[k][from], (uint16_t *)row + to + k);
+            else
+                ((float *)row)[to + k] = planes->samples[k][from];
+        }
+    }
+}
+
 static void store(const struct planes *planes, const struct image *image,
                   const struct exr_facts *facts, struct raster *raster)
 {
     memset(raster->samples, 0, raster_bytes(raster));
     for (int64_t line = 0; line < (int64_t)image->height; line++) {
         int64_t row = line + facts->top;
-        if (row < 0 || row >= (int64_t)raster->height)
-            continue;
-        for (int64_t i = 0; i < (int64_t)image->width; i++) {
-            int64_t column = i + facts->left;
-            if (column < 0 || column >= (int64_t)raster->width)
-                continue;
-            size_t from = (size_t)line * image->width + (size_t)i;
-            size_t to = ((size_t)row * raster->width + (size_t)column) * planes->count;
-            for (uint32_t k = 0; k < planes->count; k++) {
-                if (raster->sample == RASTER_HALF)
-                    half_from_exact(planes->samples[k][from], (uint16_t *)raster->samples + to + k);
-                else
-                    ((float *)raster->samples)[to + k] = planes->samples[k][from];
-            }
-        }
+        if (row >= 0 && row < (int64_t)raster->height)
+            store_row(planes, image, (size_t)line, facts, raster, raster_row(raster, (size_t)row));
     }
 }
 
 /* A display window may be of any size: one that is much larger than the data takes memory that no data fill. */
-static ps_result check_display(const char *path, const struct image *image,
-                               const struct exr_facts *facts, struct error *error)
+static ps_result check_display(const char *path, const struct exr_facts *facts, struct error *error)
 {
     ps_result result =
         raster_check_size(path, facts->width, facts->height, 4 * sizeof(float), error);
-    if (result == PS_OK && (uint64_t)facts->width * (uint64_t)facts->height / DISPLAY_TO_DATA >
-                               image->width * image->height)
+    if (result == PS_OK &&
+        (uint64_t)facts->width * (uint64_t)facts->height / DISPLAY_TO_DATA > facts->pixels)
         return error_set(error, PS_ERROR_INVALID,
                          "%s: of its display window of %lld x %lld pixels less than 1/%d is there",
                          path, (long long)facts->width, (long long)facts->height, DISPLAY_TO_DATA);
     return result;
 }
 
-static ps_result interleave(const struct raster_source *source, const struct image *image,
-                            const struct exr_facts *facts, struct raster *raster,
-                            struct error *error)
+/* Finds the picture's planes, and what they tell of the raster but for its samples. */
+static ps_result describe(const struct raster_source *source, const struct image *image,
+                          const struct exr_facts *facts, struct planes *planes,
+                          struct raster *raster, struct error *error)
 {
     const char *path = source->path;
     const struct layer layer = {image, facts->layer_is_part ? NULL : source->layer, !source->layer};
-    struct planes planes;
-    if (!choose_planes(&layer, &planes))
+    if (!choose_planes(&layer, planes))
         return source->layer
                    ? error_set(error, PS_ERROR_INVALID, "%s: its layer '%s' has no colours", path,
                                source->layer)
@@ -152,33 +158,183 @@ static ps_result interleave(const struct raster_source *source, const struct ima
                                "%s: it has no colours (channels R, G and B, or Y); 'layer' names "
                                "one of its layers",
                                path);
-    ps_result result = check_display(path, image, facts, error);
-    if (result != PS_OK)
-        return result;
-    size_t pixels = image->width * image->height;
-    size_t mended = mend(&planes, pixels);
-    if (planes.colored && facts->has_chromaticities)
-        chromaticities_to_rec709(&facts->chromaticities, planes.samples, pixels);
     raster->width = (uint32_t)facts->width;
     raster->height = (uint32_t)facts->height;
-    raster->channels = planes.count;
+    raster->channels = planes->count;
+    return check_display(path, facts, error);
+}
+
+static bool is_converted(const struct planes *planes, const struct exr_facts *facts)
+{
+    return planes->colored && facts->has_chromaticities;
+}
+
+/* Makes the first pixels of the planes finite, and their colours Rec.709's. */
+static void make_usual(const struct planes *planes, const struct exr_facts *facts, size_t pixels,
+                       struct raster *raster)
+{
+    raster->mended += mend(planes, pixels);
+    if (is_converted(planes, facts))
+        chromaticities_to_rec709(&facts->chromaticities, planes->samples, pixels);
+}
+
+/* --- as a whole --- */
+
+static ps_result interleave(const struct raster_source *source, const struct image *image,
+                            const struct exr_facts *facts, struct raster *raster,
+                            struct error *error)
+{
+    struct planes planes;
+    size_t pixels = image->width * image->height;
+    ps_result result = describe(source, image, facts, &planes, raster, error);
+    if (result != PS_OK)
+        return result;
+    make_usual(&planes, facts, pixels, raster);
     raster->sample = fits_halves(&planes, pixels) ? RASTER_HALF : RASTER_FLOAT;
-    raster->mended = mended;
-    result = raster_allocate(path, raster, error);
+    result = raster_allocate(source->path, raster, error);
     if (result == PS_OK)
         store(&planes, image, facts, raster);
+    return result;
+}
+
+static ps_result read_whole(const struct raster_source *source, struct raster *raster,
+                            struct error *error)
+{
+    struct image image = {0};
+    struct exr_facts facts;
+    ps_result result = exr_read_layer(source, NULL, &image, &facts, error);
+    if (result == PS_OK) {
+        result = interleave(source, &image, &facts, raster, error);
+        image_release(&image);
+    }
+    return result;
+}
+
+/* --- line by line --- */
+
+/* A picture is read once to see whether halves hold its samples, as far as that is open, and once to hand them on. */
+struct reading {
+    const struct raster_source *source;
+    struct raster raster; /* what is known of it */
+    struct planes planes; /* of a band */
+    bool begun;
+    bool ended;    /* before its last band: nothing more is wanted */
+    int64_t lines; /* that were read */
+    uint32_t rows; /* of the raster that were handed on */
+    void *row;     /* owned; NULL: lines are not handed on */
+};
+
+static ps_result begin(struct reading *reading, const struct image *band,
+                       const struct exr_facts *facts, struct error *error)
+{
+    if (reading->begun)
+        return PS_OK;
+    reading->begun = true;
+    return describe(reading->source, band, facts, &reading->planes, &reading->raster, error);
+}
+
+static ps_result end_early(struct reading *reading)
+{
+    reading->ended = true;
+    return PS_CANCELLED;
+}
+
+/* exr_bands.take */
+static ps_result look_at_band(void *user, const struct image *band, const struct exr_facts *facts,
+                              size_t lines, struct error *error)
+{
+    struct reading *reading = user;
+    ps_result result = begin(reading, band, facts, error);
+    if (result != PS_OK)
+        return result;
+    size_t pixels = band->width * lines;
+    reading->raster.sample = RASTER_HALF;
+    if (facts->halves && !is_converted(&reading->planes, facts))
+        return end_early(reading);
+    make_usual(&reading->planes, facts, pixels, &reading->raster);
+    if (fits_halves(&reading->planes, pixels))
+        return PS_OK;
+    reading->raster.sample = RASTER_FLOAT;
+    return end_early(reading);
+}
+
+static ps_result hand_on(struct reading *reading, struct error *error)
+{
+    const struct raster_lines *lines = reading->source->lines;
+    reading->rows++;
+    return lines->take(lines->user, reading->row, error);
+}
+
+/* Hands on rows without data, until so many rows are. */
+static ps_result hand_on_empty(struct reading *reading, int64_t rows, struct error *error)
+{
+    size_t bytes = (size_t)reading->raster.width * raster_texel_bytes(&reading->raster);
+    ps_result result = PS_OK;
+    while (result == PS_OK && reading->rows < rows && reading->rows < reading->raster.height) {
+        memset(reading->row, 0, bytes);
+        result = hand_on(reading, error);
+    }
+    return result;
+}
+
+/* exr_bands.take */
+static ps_result hand_on_band(void *user, const struct image *band, const struct exr_facts *facts,
+                              size_t lines, struct error *error)
+{
+    struct reading *reading = user;
+    ps_result result = begin(reading, band, facts, error);
+    if (result == PS_OK)
+        make_usual(&reading->planes, facts, band->width * lines, &reading->raster);
+    for (size_t line = 0; line < lines && result == PS_OK; line++) {
+        int64_t row = reading->lines++ + facts->top;
+        result = hand_on_empty(reading, row, error);
+        if (result != PS_OK || row < 0 || row >= (int64_t)reading->raster.height)
+            continue;
+        store_row(&reading->planes, band, line, facts, &reading->raster, reading->row);
+        result = hand_on(reading, error);
+    }
+    return result;
+}
+
+typedef ps_result (*band_taker)(void *user, const struct image *band, const struct exr_facts *facts,
+                                size_t lines, struct error *error);
+
+static ps_result read_bands(struct reading *reading, band_taker take, struct error *error)
+{
+    struct image image = {0};
+    struct exr_facts facts;
+    const struct exr_bands bands = {take, reading};
+    reading->begun = reading->ended = false;
+    ps_result result = exr_read_layer(reading->source, &bands, &image, &facts, error);
+    if (result == PS_OK)
+        image_release(&image);
+    return reading->ended ? PS_OK : result;
+}
+
+static ps_result read_lines(struct reading *reading, struct error *error)
+{
+    ps_result result =
+        raster_allocate_line(reading->source->path, &reading->raster, &reading->row, error);
+    reading->raster.mended = 0;
+    if (result == PS_OK)
+        result = read_bands(reading, hand_on_band, error);
+    if (result == PS_OK)
+        result = hand_on_empty(reading, reading->raster.height, error);
+    free(reading->row);
     return result;
 }
 
 ps_result raster_read_exr(const struct raster_source *source, struct raster *raster,
                           struct error *error)
 {
-    struct image image = {0};
-    struct exr_facts facts;
-    ps_result result = exr_read_layer(source, &image, &facts, error);
-    if (result == PS_OK) {
-        result = interleave(source, &image, &facts, raster, error);
-        image_release(&image);
-    }
+    struct reading reading = {.source = source, .raster = *raster};
+    ps_result result = source->lines ? read_bands(&reading, look_at_band, error) : PS_OK;
+    if (result != PS_OK)
+        return result;
+    if (!reading.begun || !raster_wants_lines(source, &reading.raster))
+        return read_whole(source, raster, error);
+    *raster = reading.raster;
+    result = read_lines(&reading, error);
+    *raster = reading.raster;
     return result;
 }

@@ -86,8 +86,9 @@ void texture_texel(const struct texture *texture, uint32_t column, uint32_t row,
  * once. Not to be called while others sample. */
 bool texture_leaves_range(struct texture *texture, float factor);
 
-/* Makes sure that lowest and highest are known where they count. */
+/* Makes sure that lowest and highest are known where they count; and that they hold for so many more pixels. */
 void texture_find_extremes(struct texture *texture);
+void texture_widen_extremes(struct texture *texture, const void *samples, size_t pixels);
 
 /* A number that stands for the samples as they were decoded. */
 uint64_t texture_digest(const struct texture *texture);

@@ -160,6 +160,7 @@ static struct texture_entry *create_entry(const struct texture *texture, struct 
     if (good) {
         struct texture *own = &entry->texture;
         *own = *texture;
+        own->has_extremes = false;
         own->levels[0] =
             (struct texels){.width = texture->raster.width, .height = texture->raster.height};
         own->level_count =
@@ -193,6 +194,7 @@ ps_result texture_entry_add(struct texture_entry *entry, const void *samples, st
 {
     size_t bytes = (size_t)entry->texture.raster.width * entry->texture.texel_bytes;
     XXH3_64bits_update(entry->digest, samples, bytes);
+    texture_widen_extremes(&entry->texture, samples, entry->texture.raster.width);
     return mip_map_add_line(entry->stream, samples, error);
 }
 
@@ -219,8 +221,9 @@ static struct header header_of(const struct texture_entry *entry)
     return header;
 }
 
-ps_result texture_entry_end(struct texture_entry *entry, struct error *error)
+ps_result texture_entry_end(struct texture_entry *entry, size_t mended, struct error *error)
 {
+    entry->texture.raster.mended = mended;
     struct header header = header_of(entry);
     ps_result result = output_file_write(&entry->file, 0, &header, sizeof header, error);
     if (result == PS_OK)
@@ -239,9 +242,8 @@ void texture_entry_discard(struct texture_entry *entry)
     release_entry(entry);
 }
 
-ps_result texture_cache_store(const char *path, struct texture *texture, struct error *error)
+ps_result texture_cache_store(const char *path, const struct texture *texture, struct error *error)
 {
-    texture_find_extremes(texture);
     struct texture_entry *entry = texture_entry_begin(path, texture, error);
     if (!entry)
         return PS_ERROR_IO;
@@ -251,7 +253,7 @@ ps_result texture_cache_store(const char *path, struct texture *texture, struct 
     for (uint32_t line = 0; line < texture->raster.height && result == PS_OK; line++)
         result = texture_entry_add(entry, samples + line * bytes, error);
     if (result == PS_OK)
-        return texture_entry_end(entry, error);
+        return texture_entry_end(entry, texture->raster.mended, error);
     texture_entry_discard(entry);
     return result;
 }

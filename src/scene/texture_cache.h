@@ -26,7 +26,7 @@ ps_result texture_cache_load(const char *path, struct mapped_budget *budget,
 /* An entry under way. One thread. */
 struct texture_entry;
 
-/* Begins one, for a texture whose raster is known but for samples, and which has tables. NULL with a reason in lower case. The texture
+/* Begins one, for a texture whose raster is known but for samples and what was mended, and which has tables. NULL with a reason in lower case. The texture
  * is borrowed until the end. */
 struct texture_entry *texture_entry_begin(const char *path, const struct texture *texture,
                                           struct error *error);
@@ -34,11 +34,12 @@ struct texture_entry *texture_entry_begin(const char *path, const struct texture
 /* Adds a line. PS_ERROR_IO or _MEMORY, with a reason as above. */
 ps_result texture_entry_add(struct texture_entry *entry, const void *samples, struct error *error);
 
-/* Puts it in its place when all lines are there; releases it, whatever happens. PS_ERROR_IO. */
-ps_result texture_entry_end(struct texture_entry *entry, struct error *error);
+/* Puts it in its place when all lines are there, of which so many samples were mended (raster.h); releases it, whatever happens.
+ * PS_ERROR_IO. */
+ps_result texture_entry_end(struct texture_entry *entry, size_t mended, struct error *error);
 void texture_entry_discard(struct texture_entry *entry); /* or NULL */
 
 /* Makes the entry of a picture that lies in memory. As above. */
-ps_result texture_cache_store(const char *path, struct texture *texture, struct error *error);
+ps_result texture_cache_store(const char *path, const struct texture *texture, struct error *error);
 
 #endif

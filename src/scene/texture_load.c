@@ -126,7 +126,7 @@ static void end_entry(struct keeping *keeping, const struct texture_storage *sto
 {
     if (!keeping->entry)
         return;
-    keeping->result = texture_entry_end(keeping->entry, &keeping->reason);
+    keeping->result = texture_entry_end(keeping->entry, texture->raster.mended, &keeping->reason);
     if (keeping->result == PS_OK)
         keeping->result =
             texture_cache_load(keeping->path, storage->budget, texture, &keeping->reason);
@@ -255,27 +255,34 @@ size_t texture_bytes(const struct texture *texture)
 
 /* --- of all samples -------------------------------------------------------------------------- */
 
-static float sample_value(const struct raster *raster, size_t i)
+static float sample_value(const struct raster *raster, const void *samples, size_t i)
 {
-    return raster->sample == RASTER_HALF ? half_to_float(((const uint16_t *)raster->samples)[i])
-                                         : ((const float *)raster->samples)[i];
+    return raster->sample == RASTER_HALF ? half_to_float(((const uint16_t *)samples)[i])
+                                         : ((const float *)samples)[i];
+}
+
+void texture_widen_extremes(struct texture *texture, const void *samples, size_t pixels)
+{
+    const struct raster *raster = &texture->raster;
+    uint32_t colors = raster->channels - has_alpha(raster);
+    if (raster->sample == RASTER_BYTE || raster->sample == RASTER_SHORT)
+        return;
+    if (!texture->has_extremes)
+        texture->lowest = texture->highest = sample_value(raster, samples, 0);
+    texture->has_extremes = true;
+    for (size_t i = 0; i < pixels; i++)
+        for (uint32_t channel = 0; channel < colors; channel++) {
+            float value = sample_value(raster, samples, i * raster->channels + channel);
+            texture->lowest = fminf(texture->lowest, value);
+            texture->highest = fmaxf(texture->highest, value);
+        }
 }
 
 void texture_find_extremes(struct texture *texture)
 {
     const struct raster *raster = &texture->raster;
-    size_t pixels = (size_t)raster->width * raster->height;
-    uint32_t colors = raster->channels - has_alpha(raster);
-    if (texture->has_extremes || raster->sample == RASTER_BYTE || raster->sample == RASTER_SHORT)
-        return;
-    texture->has_extremes = true;
-    texture->lowest = texture->highest = sample_value(raster, 0);
-    for (size_t i = 0; i < pixels; i++)
-        for (uint32_t channel = 0; channel < colors; channel++) {
-            float value = sample_value(raster, i * raster->channels + channel);
-            texture->lowest = fminf(texture->lowest, value);
-            texture->highest = fmaxf(texture->highest, value);
-        }
+    if (!texture->has_extremes)
+        texture_widen_extremes(texture, raster->samples, (size_t)raster->width * raster->height);
 }
 
 bool texture_leaves_range(struct texture *texture, float factor)

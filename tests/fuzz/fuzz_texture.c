@@ -4,7 +4,7 @@
  *     clang -fsanitize=fuzzer,address,undefined ... && ./fuzz_texture tests/fuzz/corpus_texture
  *
  * Beyond crashes and leaks it checks the readers' promises: a failure says why, after the path; a
- * success has a size within the limits and finite colours everywhere.
+ * success has a size within the limits and finite colours everywhere, and line by line the same samples.
  */
 #include "scene/mip_map.h"
 
@@ -38,6 +38,48 @@ static void check_texture(const struct texture *texture)
     }
 }
 
+/* What is left of a picture, of which lines come. */
+struct lines {
+    const struct raster *whole; /* NULL: it could not be read */
+    size_t taken;
+};
+
+static bool want(void *user, const struct raster *raster)
+{
+    (void)user;
+    return raster->width > 0;
+}
+
+static ps_result take(void *user, const void *samples, struct error *error)
+{
+    struct lines *lines = user;
+    const struct raster *whole = lines->whole;
+    (void)error;
+    if (whole) {
+        size_t bytes = (size_t)whole->width * raster_texel_bytes(whole);
+        const unsigned char *expected = whole->samples;
+        require(lines->taken < whole->height);
+        require(memcmp(samples, expected + lines->taken * bytes, bytes) == 0);
+    }
+    lines->taken++;
+    return PS_OK;
+}
+
+/* `texture`: NULL where the whole picture could not be read. */
+static void check_lines(const struct texture_description *description,
+                        const struct texture *texture)
+{
+    struct lines lines = {.whole = texture ? &texture->raster : NULL};
+    const struct raster_lines by_lines = {want, take, &lines};
+    struct raster raster = {0};
+    struct error error = {{0}};
+    ps_result result = raster_decode(description->path, description->layer, description->bytes,
+                                     description->byte_count, &by_lines, &raster, &error);
+    require((result == PS_OK) == (texture != NULL));
+    require(result != PS_OK || lines.taken == (raster.samples ? 0 : raster.height));
+    raster_release(&raster);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     /* A copy of the size itself, since the description's bytes are not const. */
@@ -60,6 +102,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct texture texture = {0};
     struct error error = {{0}};
     ps_result result = texture_load(&description, NULL, &texture, &error);
+    check_lines(&description, result == PS_OK ? &texture : NULL);
     /* Of pictures for which that does not take seconds. */
     if (result == PS_OK && (uint64_t)texture.width * texture.height < MOST_HALVED &&
         !(texture.srgb && texture.raster.sample >= RASTER_HALF))

@@ -215,12 +215,12 @@ static void test_exr_wanted_channels(void **state)
     unsigned char *bytes = scratch_load(write_exr(state, names, samples), &size);
     struct raster_source source = {"some.exr", bytes, size, "a", NULL};
     struct exr_facts facts;
-    assert_int_equal(exr_read_layer(&source, &image, &facts, &error), PS_OK);
+    assert_int_equal(exr_read_layer(&source, NULL, &image, &facts, &error), PS_OK);
     assert_int_equal(image.channel_count, 1);
     assert_memory_equal(image_channel(&image, "a.Y"), samples[3], sizeof samples[3]);
     image_release(&image);
     source.layer = NULL;
-    assert_int_equal(exr_read_layer(&source, &image, &facts, &error), PS_OK);
+    assert_int_equal(exr_read_layer(&source, NULL, &image, &facts, &error), PS_OK);
     assert_int_equal(image.channel_count, 2);
     image_release(&image);
     free(bytes);
