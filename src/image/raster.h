@@ -66,7 +66,7 @@ ps_result raster_fetch(const char *path, const char *folder, unsigned char **byt
  *
  * `lines`: who wants it line by line, or NULL. PNG that is not interlaced, JPEG and OpenEXR come so, and leave `raster` without
  * samples; others are whole whoever asks. (Progressive JPEG takes libjpeg six bytes a pixel all the same. OpenEXR of floats is
- * decoded twice where halves hold them.)
+ * decoded twice where halves hold them, by lines or not.)
  *
  * Other kinds have no layers: PS_ERROR_INVALID. PS_ERROR_IO: the file is truncated or damaged; PS_ERROR_INVALID: no picture of a
  * known kind or size; PS_ERROR_MEMORY. Messages start with `path`. `raster` is written only on

@@ -2,7 +2,7 @@
  *
  * Most files hold half floats, which the
  * reader widens; they are stored as half floats again where that loses nothing. The picture is the display window, as
- * viewers show it, and its colours are made Rec.709's.
+ * viewers show it, and its colours are made Rec.709's. Only a band of lines has its samples as floats.
  */
 #include "image/exr_layer.h"
 #include "image/half.h"
@@ -119,17 +119,6 @@ static void store_row(const struct planes *planes, const struct image *image, si
     }
 }
 
-static void store(const struct planes *planes, const struct image *image,
-                  const struct exr_facts *facts, struct raster *raster)
-{
-    memset(raster->samples, 0, raster_bytes(raster));
-    for (int64_t line = 0; line < (int64_t)image->height; line++) {
-        int64_t row = line + facts->top;
-        if (row >= 0 && row < (int64_t)raster->height)
-            store_row(planes, image, (size_t)line, facts, raster, raster_row(raster, (size_t)row));
-    }
-}
-
 /* A display window may be of any size: one that is much larger than the data takes memory that no data fill. */
 static ps_result check_display(const char *path, const struct exr_facts *facts, struct error *error)
 {
@@ -178,50 +167,19 @@ static void make_usual(const struct planes *planes, const struct exr_facts *fact
         chromaticities_to_rec709(&facts->chromaticities, planes->samples, pixels);
 }
 
-/* --- as a whole --- */
+/* --- band by band --- */
 
-static ps_result interleave(const struct raster_source *source, const struct image *image,
-                            const struct exr_facts *facts, struct raster *raster,
-                            struct error *error)
-{
-    struct planes planes;
-    size_t pixels = image->width * image->height;
-    ps_result result = describe(source, image, facts, &planes, raster, error);
-    if (result != PS_OK)
-        return result;
-    make_usual(&planes, facts, pixels, raster);
-    raster->sample = fits_halves(&planes, pixels) ? RASTER_HALF : RASTER_FLOAT;
-    result = raster_allocate(source->path, raster, error);
-    if (result == PS_OK)
-        store(&planes, image, facts, raster);
-    return result;
-}
-
-static ps_result read_whole(const struct raster_source *source, struct raster *raster,
-                            struct error *error)
-{
-    struct image image = {0};
-    struct exr_facts facts;
-    ps_result result = exr_read_layer(source, NULL, &image, &facts, error);
-    if (result == PS_OK) {
-        result = interleave(source, &image, &facts, raster, error);
-        image_release(&image);
-    }
-    return result;
-}
-
-/* --- line by line --- */
-
-/* A picture is read once to see whether halves hold its samples, as far as that is open, and once to hand them on. */
+/* A picture is read once to see whether halves hold its samples, as far as that is open, and once for these. */
 struct reading {
     const struct raster_source *source;
     struct raster raster; /* what is known of it */
     struct planes planes; /* of a band */
     bool begun;
     bool ended;    /* before its last band: nothing more is wanted */
-    int64_t lines; /* that were read */
-    uint32_t rows; /* of the raster that were handed on */
-    void *row;     /* owned; NULL: lines are not handed on */
+    bool by_lines; /* they are handed on */
+    int64_t lines; /* of the data window that were read */
+    uint32_t rows; /* of the raster that are done */
+    void *row;     /* owned; of lines that are handed on */
 };
 
 static ps_result begin(struct reading *reading, const struct image *band,
@@ -258,28 +216,34 @@ static ps_result look_at_band(void *user, const struct image *band, const struct
     return end_early(reading);
 }
 
-static ps_result hand_on(struct reading *reading, struct error *error)
+/* Where the next row goes. */
+static void *next_row(const struct reading *reading)
+{
+    return reading->by_lines ? reading->row : raster_row(&reading->raster, reading->rows);
+}
+
+static ps_result end_row(struct reading *reading, struct error *error)
 {
     const struct raster_lines *lines = reading->source->lines;
     reading->rows++;
-    return lines->take(lines->user, reading->row, error);
+    return reading->by_lines ? lines->take(lines->user, reading->row, error) : PS_OK;
 }
 
-/* Hands on rows without data, until so many rows are. */
-static ps_result hand_on_empty(struct reading *reading, int64_t rows, struct error *error)
+/* Rows without data, until so many rows are done. */
+static ps_result add_empty_rows(struct reading *reading, int64_t rows, struct error *error)
 {
     size_t bytes = (size_t)reading->raster.width * raster_texel_bytes(&reading->raster);
     ps_result result = PS_OK;
     while (result == PS_OK && reading->rows < rows && reading->rows < reading->raster.height) {
-        memset(reading->row, 0, bytes);
-        result = hand_on(reading, error);
+        memset(next_row(reading), 0, bytes);
+        result = end_row(reading, error);
     }
     return result;
 }
 
 /* exr_bands.take */
-static ps_result hand_on_band(void *user, const struct image *band, const struct exr_facts *facts,
-                              size_t lines, struct error *error)
+static ps_result store_band(void *user, const struct image *band, const struct exr_facts *facts,
+                            size_t lines, struct error *error)
 {
     struct reading *reading = user;
     ps_result result = begin(reading, band, facts, error);
@@ -287,11 +251,11 @@ static ps_result hand_on_band(void *user, const struct image *band, const struct
         make_usual(&reading->planes, facts, band->width * lines, &reading->raster);
     for (size_t line = 0; line < lines && result == PS_OK; line++) {
         int64_t row = reading->lines++ + facts->top;
-        result = hand_on_empty(reading, row, error);
+        result = add_empty_rows(reading, row, error);
         if (result != PS_OK || row < 0 || row >= (int64_t)reading->raster.height)
             continue;
-        store_row(&reading->planes, band, line, facts, &reading->raster, reading->row);
-        result = hand_on(reading, error);
+        store_row(&reading->planes, band, line, facts, &reading->raster, next_row(reading));
+        result = end_row(reading, error);
     }
     return result;
 }
@@ -306,20 +270,26 @@ static ps_result read_bands(struct reading *reading, band_taker take, struct err
     const struct exr_bands bands = {take, reading};
     reading->begun = reading->ended = false;
     ps_result result = exr_read_layer(reading->source, &bands, &image, &facts, error);
-    if (result == PS_OK)
+    if (result == PS_OK) {
+        result =
+            begin(reading, &image, &facts, error); /* says what is missing where no band came */
         image_release(&image);
+    }
     return reading->ended ? PS_OK : result;
 }
 
-static ps_result read_lines(struct reading *reading, struct error *error)
+static ps_result read_rows(struct reading *reading, struct error *error)
 {
-    ps_result result =
-        raster_allocate_line(reading->source->path, &reading->raster, &reading->row, error);
+    const char *path = reading->source->path;
+    reading->by_lines = raster_wants_lines(reading->source, &reading->raster);
+    ps_result result = reading->by_lines
+                           ? raster_allocate_line(path, &reading->raster, &reading->row, error)
+                           : raster_allocate(path, &reading->raster, error);
     reading->raster.mended = 0;
     if (result == PS_OK)
-        result = read_bands(reading, hand_on_band, error);
+        result = read_bands(reading, store_band, error);
     if (result == PS_OK)
-        result = hand_on_empty(reading, reading->raster.height, error);
+        result = add_empty_rows(reading, reading->raster.height, error);
     free(reading->row);
     return result;
 }
@@ -328,13 +298,9 @@ ps_result raster_read_exr(const struct raster_source *source, struct raster *ras
                           struct error *error)
 {
     struct reading reading = {.source = source, .raster = *raster};
-    ps_result result = source->lines ? read_bands(&reading, look_at_band, error) : PS_OK;
-    if (result != PS_OK)
-        return result;
-    if (!reading.begun || !raster_wants_lines(source, &reading.raster))
-        return read_whole(source, raster, error);
-    *raster = reading.raster;
-    result = read_lines(&reading, error);
+    ps_result result = read_bands(&reading, look_at_band, error);
+    if (result == PS_OK)
+        result = read_rows(&reading, error);
     *raster = reading.raster;
     return result;
 }

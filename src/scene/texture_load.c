@@ -120,7 +120,7 @@ static ps_result add_to_entry(void *user, const void *samples, struct error *err
     return keeping->result == PS_OK ? PS_OK : error_set(error, keeping->result, "not kept");
 }
 
-/* Puts the entry, if one was begun, in its place, and refers to it. */
+/* Puts the entry, if one was begun, in its place, and has the texture refer to it. */
 static void end_entry(struct keeping *keeping, const struct texture_storage *storage,
                       struct texture *texture)
 {
@@ -132,7 +132,7 @@ static void end_entry(struct keeping *keeping, const struct texture_storage *sto
             texture_cache_load(keeping->path, storage->budget, texture, &keeping->reason);
 }
 
-/* Decodes into the cache what comes line by line, and else into memory. */
+/* Decodes into the cache what comes line by line, and else, or where that fails, into memory. */
 static ps_result decode_for_cache(const struct texture_description *description,
                                   const unsigned char *bytes, size_t size,
                                   const struct texture_storage *storage, const char *path,

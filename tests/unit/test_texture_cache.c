@@ -4,6 +4,8 @@
 #include "image/image.h"
 #include "scene/mip_map.h"
 #include "texture_fixture.h"
+#include <signal.h>
+#include <sys/resource.h>
 
 #define WIDTH 131 /* of three tiles, the last ones mostly beyond the picture */
 #define HEIGHT 70
@@ -215,6 +217,31 @@ static void test_truncated_picture(void **state)
     mapped_budget_destroy(storage.budget);
 }
 
+/* An entry that can't be written to its end: the picture lies in memory, as if there were no cache. */
+static void test_full_disk(void **state)
+{
+    struct scratch *scratch = *state;
+    const char *path = write_picture(state);
+    struct texture_storage storage = {.cache = scratch->directory,
+                                      .budget = mapped_budget_create(1e5)};
+    const struct texture_storage in_memory = {.folder = NULL};
+    struct rlimit before, small;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    small = before;
+    small.rlim_cur = 300000;
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    struct texture texture = load(path, &storage), plain = load(path, &in_memory);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+    assert_null(texture.file);
+    assert_non_null(strstr(texture.note, "large"));
+    assert_int_equal(scratch_file_count(state), 1);
+    expect_same_texels(&plain, &texture);
+    texture_release(&plain);
+    texture_release(&texture);
+    mapped_budget_destroy(storage.budget);
+}
+
 static void test_folder_that_is_none(void **state)
 {
     const char *path = write_picture(state);
@@ -232,7 +259,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         SCRATCH_TEST(test_all_kinds_of_samples), cmocka_unit_test(test_names),
         SCRATCH_TEST(test_damaged_entries),      SCRATCH_TEST(test_picture),
-        SCRATCH_TEST(test_truncated_picture),    SCRATCH_TEST(test_folder_that_is_none),
+        SCRATCH_TEST(test_truncated_picture),    SCRATCH_TEST(test_full_disk),
+        SCRATCH_TEST(test_folder_that_is_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
