@@ -69,9 +69,8 @@ static exr_result_t decode_chunk(struct exr_source *source, const exr_chunk_info
     const struct image *image = &source->image;
     exr_decode_pipeline_t *decoder = &source->decoder;
     if (chunk->width <= 0 || chunk->height <= 0 || (size_t)chunk->width > image->width - column ||
-        (size_t)chunk->height > source->height - line) {
+        (size_t)chunk->height > source->height - line || (size_t)chunk->height > image->height)
         return EXR_ERR_CORRUPT_CHUNK;
-    }
     bool first = !source->decoding;
     exr_result_t code = first
                             ? exr_decoding_initialize(source->context, source->part, chunk, decoder)
