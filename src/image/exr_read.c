@@ -62,6 +62,20 @@ static void direct_channels(struct exr_source *source, const exr_chunk_info_t *c
     }
 }
 
+/* The library's own buffers. It takes a chunk of runs that ends too early for a whole one, with what its buffer held before: no
+ * other picture's bytes. */
+static void *allocate_zeros(exr_transcoding_pipeline_buffer_id_t id, size_t size)
+{
+    (void)id;
+    return calloc(1, size);
+}
+
+static void release_zeros(exr_transcoding_pipeline_buffer_id_t id, void *buffer)
+{
+    (void)id;
+    free(buffer);
+}
+
 /* Decodes the chunk whose upper left pixel in the picture is (column, line). */
 static exr_result_t decode_chunk(struct exr_source *source, const exr_chunk_info_t *chunk,
                                  size_t column, size_t line)
@@ -77,6 +91,8 @@ static exr_result_t decode_chunk(struct exr_source *source, const exr_chunk_info
                             : exr_decoding_update(source->context, source->part, chunk, decoder);
     if (code == EXR_ERR_SUCCESS) {
         source->decoding = true;
+        decoder->alloc_fn = allocate_zeros;
+        decoder->free_fn = release_zeros;
         code = provide_spare(source, chunk);
     }
     if (code != EXR_ERR_SUCCESS)
