@@ -113,35 +113,59 @@ ps_result raster_check_expansion(const struct raster_source *source, uint64_t de
                      source->path, source->size);
 }
 
-static ps_result allocate(const char *path, const struct raster *raster, size_t bytes,
-                          void **samples, struct error *error)
+/* NULL with a message. */
+static void *allocate(const char *path, const struct raster *raster, size_t bytes,
+                      struct error *error)
+{
+    void *samples = malloc(bytes);
+    if (!samples)
+        error_set(error, PS_ERROR_MEMORY, "%s: out of memory: wanted %zu bytes for %u x %u pixels",
+                  path, bytes, raster->width, raster->height);
+    return samples;
+}
+
+ps_result raster_allocate(const char *path, struct raster *raster, struct error *error)
 {
     ps_result result =
         raster_check_size(path, raster->width, raster->height, raster_texel_bytes(raster), error);
     if (result != PS_OK)
         return result;
-    *samples = malloc(bytes);
-    if (!*samples)
-        return error_set(error, PS_ERROR_MEMORY,
-                         "%s: out of memory: wanted %zu bytes for %u x %u pixels", path, bytes,
-                         raster->width, raster->height);
-    return PS_OK;
+    raster->samples = allocate(path, raster, raster_bytes(raster), error);
+    return raster->samples ? PS_OK : PS_ERROR_MEMORY;
 }
 
-ps_result raster_allocate(const char *path, struct raster *raster, struct error *error)
+ps_result raster_rows_begin(const struct raster_source *source, struct raster *raster,
+                            struct raster_rows *rows, struct error *error)
 {
-    return allocate(path, raster, raster_bytes(raster), &raster->samples, error);
+    const struct raster_lines *lines = source->lines;
+    uint32_t texel_bytes = raster_texel_bytes(raster);
+    *rows = (struct raster_rows){.raster = raster};
+    ps_result result =
+        raster_check_size(source->path, raster->width, raster->height, texel_bytes, error);
+    if (result != PS_OK)
+        return result;
+    if (!lines || !lines->want(lines->user, raster))
+        return raster_allocate(source->path, raster, error);
+    rows->lines = lines;
+    rows->line = allocate(source->path, raster, (size_t)raster->width * texel_bytes, error);
+    return rows->line ? PS_OK : PS_ERROR_MEMORY;
 }
 
-ps_result raster_allocate_line(const char *path, const struct raster *raster, void **line,
-                               struct error *error)
+void *raster_rows_next(const struct raster_rows *rows)
 {
-    return allocate(path, raster, (size_t)raster->width * raster_texel_bytes(raster), line, error);
+    return rows->lines ? rows->line : raster_row(rows->raster, rows->done);
 }
 
-bool raster_wants_lines(const struct raster_source *source, const struct raster *raster)
+ps_result raster_rows_add(struct raster_rows *rows, struct error *error)
 {
-    return source->lines && source->lines->want(source->lines->user, raster);
+    rows->done++;
+    return rows->lines ? rows->lines->take(rows->lines->user, rows->line, error) : PS_OK;
+}
+
+void raster_rows_release(struct raster_rows *rows)
+{
+    free(rows->line);
+    *rows = (struct raster_rows){0};
 }
 
 /* By the header's compression. */

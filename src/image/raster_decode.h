@@ -89,12 +89,22 @@ ps_result raster_check_expansion(const struct raster_source *source, uint64_t de
 /* Checks the size that `raster` states, and allocates its samples. */
 ps_result raster_allocate(const char *path, struct raster *raster, struct error *error);
 
-/* The same size check, and room for one row. */
-ps_result raster_allocate_line(const char *path, const struct raster *raster, void **line,
-                               struct error *error);
+/* Where the rows of a picture go, one after the other from the top: to whoever wants lines, or into the raster. */
+struct raster_rows {
+    const struct raster_lines *lines; /* NULL: into the raster */
+    const struct raster *raster;
+    void *line; /* owned; room for one that is handed on */
+    uint32_t done;
+};
 
-/* Whether that picture, whose size is checked, shall go to source->lines->take() rather than into memory. */
-bool raster_wants_lines(const struct raster_source *source, const struct raster *raster);
+/* Checks the size that `raster` states, which is borrowed, and makes room: of its samples, unless lines are wanted. */
+ps_result raster_rows_begin(const struct raster_source *source, struct raster *raster,
+                            struct raster_rows *rows, struct error *error);
+
+/* Where the next row goes; and when it is there. */
+void *raster_rows_next(const struct raster_rows *rows);
+ps_result raster_rows_add(struct raster_rows *rows, struct error *error);
+void raster_rows_release(struct raster_rows *rows);
 
 /* Where a row's samples start, 0 is the top one. */
 void *raster_row(const struct raster *raster, size_t row);

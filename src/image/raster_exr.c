@@ -9,7 +9,6 @@
 #include "image/raster_decode.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define CHANNELS_AT_MOST 4
@@ -176,10 +175,8 @@ struct reading {
     struct planes planes; /* of a band */
     bool begun;
     bool ended;    /* before its last band: nothing more is wanted */
-    bool by_lines; /* they are handed on */
     int64_t lines; /* of the data window that were read */
-    uint32_t rows; /* of the raster that are done */
-    void *row;     /* owned; of lines that are handed on */
+    struct raster_rows rows;
 };
 
 static ps_result begin(struct reading *reading, const struct image *band,
@@ -216,27 +213,15 @@ static ps_result look_at_band(void *user, const struct image *band, const struct
     return end_early(reading);
 }
 
-/* Where the next row goes. */
-static void *next_row(const struct reading *reading)
-{
-    return reading->by_lines ? reading->row : raster_row(&reading->raster, reading->rows);
-}
-
-static ps_result end_row(struct reading *reading, struct error *error)
-{
-    const struct raster_lines *lines = reading->source->lines;
-    reading->rows++;
-    return reading->by_lines ? lines->take(lines->user, reading->row, error) : PS_OK;
-}
-
 /* Rows without data, until so many rows are done. */
 static ps_result add_empty_rows(struct reading *reading, int64_t rows, struct error *error)
 {
     size_t bytes = (size_t)reading->raster.width * raster_texel_bytes(&reading->raster);
     ps_result result = PS_OK;
-    while (result == PS_OK && reading->rows < rows && reading->rows < reading->raster.height) {
-        memset(next_row(reading), 0, bytes);
-        result = end_row(reading, error);
+    while (result == PS_OK && reading->rows.done < rows &&
+           reading->rows.done < reading->raster.height) {
+        memset(raster_rows_next(&reading->rows), 0, bytes);
+        result = raster_rows_add(&reading->rows, error);
     }
     return result;
 }
@@ -254,8 +239,9 @@ static ps_result store_band(void *user, const struct image *band, const struct e
         result = add_empty_rows(reading, row, error);
         if (result != PS_OK || row < 0 || row >= (int64_t)reading->raster.height)
             continue;
-        store_row(&reading->planes, band, line, facts, &reading->raster, next_row(reading));
-        result = end_row(reading, error);
+        store_row(&reading->planes, band, line, facts, &reading->raster,
+                  raster_rows_next(&reading->rows));
+        result = raster_rows_add(&reading->rows, error);
     }
     return result;
 }
@@ -280,17 +266,13 @@ static ps_result read_bands(struct reading *reading, band_taker take, struct err
 
 static ps_result read_rows(struct reading *reading, struct error *error)
 {
-    const char *path = reading->source->path;
-    reading->by_lines = raster_wants_lines(reading->source, &reading->raster);
-    ps_result result = reading->by_lines
-                           ? raster_allocate_line(path, &reading->raster, &reading->row, error)
-                           : raster_allocate(path, &reading->raster, error);
+    ps_result result = raster_rows_begin(reading->source, &reading->raster, &reading->rows, error);
     reading->raster.mended = 0;
     if (result == PS_OK)
         result = read_bands(reading, store_band, error);
     if (result == PS_OK)
         result = add_empty_rows(reading, reading->raster.height, error);
-    free(reading->row);
+    raster_rows_release(&reading->rows);
     return result;
 }
 

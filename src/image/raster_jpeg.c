@@ -8,7 +8,6 @@
 
 #include <setjmp.h>
 #include <stdio.h>
-#include <stdlib.h>
 /* after stdio.h, which it needs */
 #include <jerror.h>
 #include <jpeglib.h>
@@ -27,7 +26,7 @@ struct jpeg_job {
     const struct raster_source *source;
     struct raster *raster;
     struct error *error;
-    void *line;       /* owned; where lines go one by one */
+    struct raster_rows rows;
     ps_result result; /* what to return after a jump */
 };
 
@@ -148,29 +147,6 @@ static void read_header(struct jpeg_job *job)
     expect(job, raster_check_expansion(job->source, pixels, HUFFMAN_EXPANSION, job->error));
 }
 
-static void read_line(struct jpeg_job *job, void *samples)
-{
-    JSAMPROW row = samples;
-    jpeg_read_scanlines(&job->decoder, &row, 1);
-}
-
-static void read_lines(struct jpeg_job *job)
-{
-    const struct raster_lines *lines = job->source->lines;
-    size_t height = job->decoder.output_height;
-    if (raster_wants_lines(job->source, job->raster)) {
-        expect(job, raster_allocate_line(job->source->path, job->raster, &job->line, job->error));
-        for (size_t row = 0; row < height; row++) {
-            read_line(job, job->line);
-            expect(job, lines->take(lines->user, job->line, job->error));
-        }
-        return;
-    }
-    expect(job, raster_allocate(job->source->path, job->raster, job->error));
-    for (size_t row = 0; row < height; row++)
-        read_line(job, raster_row(job->raster, row));
-}
-
 static void read_picture(struct jpeg_job *job)
 {
     if (setjmp(job->jump))
@@ -179,8 +155,13 @@ static void read_picture(struct jpeg_job *job)
     job->decoder.progress = &job->progress;
     jpeg_mem_src(&job->decoder, job->source->bytes, job->source->size);
     read_header(job);
+    expect(job, raster_rows_begin(job->source, job->raster, &job->rows, job->error));
     jpeg_start_decompress(&job->decoder);
-    read_lines(job);
+    while (job->decoder.output_scanline < job->decoder.output_height) {
+        JSAMPROW row = raster_rows_next(&job->rows);
+        jpeg_read_scanlines(&job->decoder, &row, 1);
+        expect(job, raster_rows_add(&job->rows, job->error));
+    }
     jpeg_finish_decompress(&job->decoder);
 }
 
@@ -196,6 +177,6 @@ ps_result raster_read_jpeg(const struct raster_source *source, struct raster *ra
     job.progress.progress_monitor = limit_scans;
     read_picture(&job);
     jpeg_destroy_decompress(&job.decoder);
-    free(job.line);
+    raster_rows_release(&job.rows);
     return job.result;
 }

@@ -7,7 +7,6 @@
 #include "image/raster_decode.h"
 
 #include <png.h>
-#include <stdlib.h>
 #include <string.h>
 
 struct png_job {
@@ -17,7 +16,7 @@ struct png_job {
     png_structp png;
     png_infop info;
     struct raster *raster;
-    void *line;       /* owned; where lines go one by one */
+    struct raster_rows rows;
     ps_result result; /* what to return after a jump */
 };
 
@@ -92,27 +91,20 @@ static void choose_form(struct png_job *job)
     job->raster->srgb = true;
 }
 
-static bool is_interlaced(const struct png_job *job)
+static void read_rows(struct png_job *job)
 {
-    return png_get_interlace_type(job->png, job->info) != PNG_INTERLACE_NONE;
-}
-
-static void hand_on_lines(struct png_job *job)
-{
-    const struct raster_lines *lines = job->source->lines;
-    expect(job, raster_allocate_line(job->source->path, job->raster, &job->line, job->error));
-    for (size_t row = 0; row < job->raster->height; row++) {
-        png_read_row(job->png, job->line, NULL);
-        expect(job, lines->take(lines->user, job->line, job->error));
+    expect(job, raster_rows_begin(job->source, job->raster, &job->rows, job->error));
+    while (job->rows.done < job->raster->height) {
+        png_read_row(job->png, raster_rows_next(&job->rows), NULL);
+        expect(job, raster_rows_add(&job->rows, job->error));
     }
 }
 
-/* Interlaced pictures come in seven passes, each of which fills in some pixels of all rows. */
-static void read_rows(struct png_job *job)
+/* Seven passes, each of which fills in some pixels of all rows. */
+static void read_passes(struct png_job *job)
 {
-    int passes = is_interlaced(job) ? PNG_INTERLACE_ADAM7_PASSES : 1;
     expect(job, raster_allocate(job->source->path, job->raster, job->error));
-    for (int pass = 0; pass < passes; pass++) {
+    for (int pass = 0; pass < PNG_INTERLACE_ADAM7_PASSES; pass++) {
         for (size_t row = 0; row < job->raster->height; row++)
             png_read_row(job->png, raster_row(job->raster, row), NULL);
     }
@@ -127,10 +119,10 @@ static void read_picture(struct png_job *job)
     png_set_keep_unknown_chunks(job->png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
     read_header(job);
     choose_form(job);
-    if (!is_interlaced(job) && raster_wants_lines(job->source, job->raster))
-        hand_on_lines(job);
-    else
+    if (png_get_interlace_type(job->png, job->info) == PNG_INTERLACE_NONE)
         read_rows(job);
+    else
+        read_passes(job);
     png_read_end(job->png, NULL);
 }
 
@@ -148,6 +140,6 @@ ps_result raster_read_png(const struct raster_source *source, struct raster *ras
             error_set(error, PS_ERROR_MEMORY, "%s: out of memory for a PNG reader", source->path);
     }
     png_destroy_read_struct(&job.png, &job.info, NULL);
-    free(job.line);
+    raster_rows_release(&job.rows);
     return job.result;
 }

@@ -242,22 +242,6 @@ void texture_entry_discard(struct texture_entry *entry)
     release_entry(entry);
 }
 
-ps_result texture_cache_store(const char *path, const struct texture *texture, struct error *error)
-{
-    struct texture_entry *entry = texture_entry_begin(path, texture, error);
-    if (!entry)
-        return PS_ERROR_IO;
-    ps_result result = PS_OK;
-    const unsigned char *samples = texture->raster.samples;
-    size_t bytes = (size_t)texture->raster.width * texture->texel_bytes;
-    for (uint32_t line = 0; line < texture->raster.height && result == PS_OK; line++)
-        result = texture_entry_add(entry, samples + line * bytes, error);
-    if (result == PS_OK)
-        return texture_entry_end(entry, texture->raster.mended, error);
-    texture_entry_discard(entry);
-    return result;
-}
-
 /* --- loading --------------------------------------------------------------------------------------- */
 
 static bool is_possible(const struct header *header)

@@ -39,7 +39,4 @@ ps_result texture_entry_add(struct texture_entry *entry, const void *samples, st
 ps_result texture_entry_end(struct texture_entry *entry, size_t mended, struct error *error);
 void texture_entry_discard(struct texture_entry *entry); /* or NULL */
 
-/* Makes the entry of a picture that lies in memory. As above. */
-ps_result texture_cache_store(const char *path, const struct texture *texture, struct error *error);
-
 #endif

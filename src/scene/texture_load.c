@@ -102,13 +102,16 @@ static bool begin_entry(void *user, const struct raster *raster)
 {
     struct keeping *keeping = user;
     struct texture *tables = &keeping->tables;
-    struct error ignored;
     if (raster_bytes(raster) < LEAST_IN_CACHE)
         return false;
     tables->raster = *raster;
+    tables->raster.samples = NULL;
     tables->texel_bytes = raster_texel_bytes(raster);
-    if (prepare(keeping->description, tables, &ignored) == PS_OK)
+    keeping->result = prepare(keeping->description, tables, &keeping->reason);
+    if (keeping->result == PS_OK)
         keeping->entry = texture_entry_begin(keeping->path, tables, &keeping->reason);
+    if (keeping->result == PS_OK && !keeping->entry)
+        keeping->result = PS_ERROR_IO;
     return keeping->entry != NULL;
 }
 
@@ -120,19 +123,38 @@ static ps_result add_to_entry(void *user, const void *samples, struct error *err
     return keeping->result == PS_OK ? PS_OK : error_set(error, keeping->result, "not kept");
 }
 
-/* Puts the entry, if one was begun, in its place, and has the texture refer to it. */
-static void end_entry(struct keeping *keeping, const struct texture_storage *storage,
-                      struct texture *texture)
+/* Makes the entry of a picture that did not come line by line. */
+static void add_whole(struct keeping *keeping, const struct raster *raster)
 {
-    if (!keeping->entry)
+    const unsigned char *samples = raster->samples;
+    size_t bytes = (size_t)raster->width * raster_texel_bytes(raster);
+    if (keeping->result != PS_OK || !begin_entry(keeping, raster))
         return;
-    keeping->result = texture_entry_end(keeping->entry, texture->raster.mended, &keeping->reason);
-    if (keeping->result == PS_OK)
+    for (uint32_t line = 0; line < raster->height && keeping->result == PS_OK; line++)
         keeping->result =
-            texture_cache_load(keeping->path, storage->budget, texture, &keeping->reason);
+            texture_entry_add(keeping->entry, samples + line * bytes, &keeping->reason);
 }
 
-/* Decodes into the cache what comes line by line, and else, or where that fails, into memory. */
+/* Puts the entry in its place, if there is a whole one, and has the texture refer to it. */
+static void end_entry(struct keeping *keeping, const struct texture_storage *storage, bool whole,
+                      struct texture *texture)
+{
+    void *samples = texture->raster.samples;
+    if (keeping->entry && !(whole && keeping->result == PS_OK)) {
+        texture_entry_discard(keeping->entry);
+    } else if (keeping->entry) {
+        keeping->result =
+            texture_entry_end(keeping->entry, texture->raster.mended, &keeping->reason);
+        if (keeping->result == PS_OK)
+            keeping->result =
+                texture_cache_load(keeping->path, storage->budget, texture, &keeping->reason);
+        if (keeping->result == PS_OK)
+            free(samples);
+    }
+    texture_release(&keeping->tables);
+}
+
+/* Decodes into the cache; or, where that fails, and small pictures, into memory. */
 static ps_result decode_for_cache(const struct texture_description *description,
                                   const unsigned char *bytes, size_t size,
                                   const struct texture_storage *storage, const char *path,
@@ -142,30 +164,16 @@ static ps_result decode_for_cache(const struct texture_description *description,
     const struct raster_lines lines = {begin_entry, add_to_entry, &keeping};
     ps_result result = raster_decode(description->path, description->layer, bytes, size, &lines,
                                      &texture->raster, error);
-    if (result == PS_OK)
-        end_entry(&keeping, storage, texture);
-    else
-        texture_entry_discard(keeping.entry);
-    texture_release(&keeping.tables);
+    if (result == PS_OK && texture->raster.samples)
+        add_whole(&keeping, &texture->raster);
+    end_entry(&keeping, storage, result == PS_OK, texture);
     if (keeping.result == PS_OK)
         return result;
     texture->note = strdup(keeping.reason.text);
+    if (texture->raster.samples)
+        return PS_OK;
     return raster_decode(description->path, description->layer, bytes, size, NULL, &texture->raster,
                          error);
-}
-
-/* Moves texels from memory into the cache, or notes why they stay. */
-static void keep(struct texture *texture, const char *path, const struct texture_storage *storage)
-{
-    void *samples = texture->raster.samples;
-    struct error reason;
-    ps_result result = texture_cache_store(path, texture, &reason);
-    if (result == PS_OK)
-        result = texture_cache_load(path, storage->budget, texture, &reason);
-    if (result == PS_OK)
-        free(samples);
-    else
-        texture->note = strdup(reason.text);
 }
 
 static ps_result decode(const struct texture_description *description, const unsigned char *bytes,
@@ -183,13 +191,8 @@ static ps_result decode(const struct texture_description *description, const uns
         refer_to_raster(texture);
     if (result == PS_OK)
         result = prepare(description, texture, error);
-    if (result != PS_OK)
-        return result;
-    if (path && !texture->file && !texture->note &&
-        raster_bytes(&texture->raster) >= LEAST_IN_CACHE)
-        keep(texture, path, storage);
-    bool wants_levels = storage->mip_maps && mip_map_has_more(texture);
-    return wants_levels && !texture->file ? mip_map_add(texture, error) : PS_OK;
+    bool wants_levels = result == PS_OK && storage->mip_maps && mip_map_has_more(texture);
+    return wants_levels && !texture->file ? mip_map_add(texture, error) : result;
 }
 
 static ps_result fetch_and_decode(const struct texture_description *description,
