@@ -7,7 +7,7 @@
  *
  *     E' = F_48 + sum over R = 24, 12, 6, 3 of k_R B,   B = F_R - F_2R,   k_R = max(0, 1 - (c <N^2> / <B^2>)^2)
  *
- * N is the band of a picture of the noise alone, and <> a mean over a square around. So few blobs of noise fit into
+ * The windows of the latter fits follow the edges of light (regression/steering.h). N is the band of a picture of the noise alone, and <> a mean over a square around. So few blobs of noise fit into
  * such a square that now and then they seem to be signal. But edges of light show in all bands, and chance in one: the
  * caution c is 2 where the band before was kept, 4 where none of it was, and in proportion between (bivariate
  * shrinkage does the same to wavelets: Sendur and Selesnick 2002). In a single pass, whose noise is guessed with some of

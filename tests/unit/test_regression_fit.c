@@ -1,6 +1,8 @@
-/* test_regression_fit.c: fits of the denoiser `regression`, which pass over pixels by bounds of what those show. */
+/* test_regression_fit.c: fits of the denoiser `regression`, which pass over pixels by bounds of what those show, in windows
+ * that light steers. */
 #include "../../plugins/denoiser/regression/bounds.h"
 #include "../../plugins/denoiser/regression/fit.h"
+#include "../../plugins/denoiser/regression/steering.h"
 #include "support/one_strategy.h"
 #include "support/random.h"
 
@@ -113,9 +115,9 @@ static void expect_no_difference(float degrees, int bandwidth)
     struct fixture fixture;
     create(&fixture, degrees);
     regression_bounds_find(&fixture.surfaces);
-    regression_fit(&fixture.surfaces, bandwidth, REGRESSION_VALUES, fixture.values, a);
+    regression_fit(&fixture.surfaces, bandwidth, REGRESSION_VALUES, fixture.values, NULL, a);
     make_bounds_endless(&fixture.surfaces);
-    regression_fit(&fixture.surfaces, bandwidth, REGRESSION_VALUES, fixture.values, b);
+    regression_fit(&fixture.surfaces, bandwidth, REGRESSION_VALUES, fixture.values, NULL, b);
     assert_memory_equal(with, without, sizeof with);
     destroy(&fixture);
 }
@@ -176,12 +178,125 @@ static void test_planes_lie_apart(void **state)
     destroy(&fixture);
 }
 
+/* --- steered windows --- */
+
+/* All that is inside of a window lies in its rows. */
+static void test_rows_hold_their_window(void **state)
+{
+    (void)state;
+    struct random random = {7};
+    for (int i = 0; i < 2000; i++) {
+        float angle = random_between(&random, 0, PS_PI), gx = cosf(angle), gy = sinf(angle);
+        float across = random_between(&random, 1, 40), along = random_between(&random, 1, 40);
+        float a = 1 / (across * across), b = 1 / (along * along);
+        struct regression_window window = {a * gx * gx + b * gy * gy, (a - b) * gx * gy,
+                                           a * gy * gy + b * gx * gx};
+        int rows = regression_window_rows(&window);
+        for (int y = -41; y <= 41; y++) {
+            int first = 1, last = 0;
+            bool reached = regression_window_row(&window, y, &first, &last);
+            for (int x = -41; x <= 41; x++) {
+                float fx = (float)x, fy = (float)y;
+                float q = fx * (window.xx * fx + 2 * window.xy * fy) + window.yy * fy * fy;
+                if (q < 1)
+                    assert_true(reached && abs(y) <= rows && first <= x && x <= last);
+            }
+        }
+    }
+}
+
+/* An even surface, on which light ends at a slanted line, but for noise. */
+static float light_of(int x, int y)
+{
+    return (float)x + 0.5f * (float)y > 0.6f * WIDTH ? 2.0f : 0.1f;
+}
+
+static void set_edge_of_light(struct fixture *fixture, struct random *random)
+{
+    struct regression *surfaces = &fixture->surfaces;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            size_t at = regression_at(surfaces, x, y);
+            surfaces->normal[0][at] = surfaces->normal[1][at] = 0;
+            surfaces->normal[2][at] = 1;
+            surfaces->position[0][at] = 0.1f * (float)x;
+            surfaces->position[1][at] = 0.1f * (float)y;
+            surfaces->position[2][at] = surfaces->gloss[at] = 0;
+            surfaces->size[at] = 0.1f;
+            for (int c = 0; c < REGRESSION_VALUES; c++)
+                fixture->values[c][at] = light_of(x, y) * random_between(random, 0.5f, 1.5f);
+        }
+    regression_bounds_find(surfaces);
+}
+
+static double error_of(const float fitted[PIXELS])
+{
+    double sum = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        double off = (double)(fitted[i] - light_of(i % WIDTH, i / WIDTH));
+        sum += off * off;
+    }
+    return sqrt(sum / PIXELS);
+}
+
+/* Where round fits blur light, windows that they steer blur less, and leave no more noise. */
+static void test_steered_windows_follow_edges(void **state)
+{
+    (void)state;
+    static float round[REGRESSION_VALUES][PIXELS], steered[REGRESSION_VALUES][PIXELS];
+    float *const a[] = {round[0], round[1], round[2], round[3]};
+    float *const b[] = {steered[0], steered[1], steered[2], steered[3]};
+    struct random random = {5};
+    struct fixture fixture;
+    create(&fixture, 30);
+    set_edge_of_light(&fixture, &random);
+    regression_fit(&fixture.surfaces, 12, REGRESSION_VALUES, fixture.values, NULL, a);
+    struct regression_steering by = {{a[0], a[1], a[2]}, 1e-3f};
+    regression_fit(&fixture.surfaces, 12, REGRESSION_VALUES, fixture.values, &by, b);
+    print_message("edge of light: off by %.3f by round windows, %.3f by steered ones\n",
+                  error_of(a[0]), error_of(b[0]));
+    assert_true(error_of(b[0]) < 0.85 * error_of(a[0]));
+    destroy(&fixture);
+}
+
+/* Without a slope, in gloss, and where no surface is seen. */
+static void test_windows_are_round_without_edges(void **state)
+{
+    (void)state;
+    static float light[PIXELS];
+    struct regression_window round = regression_round_window(12), window;
+    struct random random = {6};
+    struct fixture fixture;
+    create(&fixture, 30);
+    set_edge_of_light(&fixture, &random);
+    struct regression_steering by = {{light, light, light}, 1e-3f};
+    window = regression_steered_window(&fixture.surfaces, &by, 12, WIDTH / 2, HEIGHT / 2);
+    assert_memory_equal(&window, &round, sizeof round);
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            light[y * WIDTH + x] = (float)x + 0.5f * (float)y;
+    int x = 20, y = HEIGHT / 2;
+    size_t at = regression_at(&fixture.surfaces, x, y);
+    window = regression_steered_window(&fixture.surfaces, &by, 12, x, y);
+    assert_true(window.xx > 1.3f * round.xx && window.yy < round.yy && window.xy > 0);
+    fixture.surfaces.gloss[at] = 0.2f;
+    window = regression_steered_window(&fixture.surfaces, &by, 12, x, y);
+    assert_memory_equal(&window, &round, sizeof round);
+    fixture.surfaces.gloss[at] = fixture.surfaces.size[at] = 0;
+    window = regression_steered_window(&fixture.surfaces, &by, 12, x, y);
+    assert_memory_equal(&window, &round, sizeof round);
+    destroy(&fixture);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bounds_change_nothing),
         cmocka_unit_test(test_bounds_hold_their_pixels),
         cmocka_unit_test(test_planes_lie_apart),
+        cmocka_unit_test(test_rows_hold_their_window),
+        cmocka_unit_test(test_steered_windows_follow_edges),
+        cmocka_unit_test(test_windows_are_round_without_edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

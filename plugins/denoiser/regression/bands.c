@@ -11,7 +11,8 @@
 #define ALONE 4.0f
 #define PIXELS_CAUTION 1.5f /* in place of CAUTION for the last band, of the pixels themselves */
 #define PIXELS_WINDOW 4     /* R of the window of that band */
-#define GLOSSY 0.125f       /* share of gloss from which on a pixel is of that class */
+#define AROUND 0.25f  /* of a neighbourhood's light, by which dark pixels are measured at least */
+#define GLOSSY 0.125f /* share of gloss from which on a pixel is of that class */
 
 static const int bandwidths[] = {48, 24, 12, 6, 3}; /* of the bands */
 
@@ -149,12 +150,27 @@ static void swap_fits(struct work *work)
     }
 }
 
+/* Pixels are measured by the light that narrow fits found there: the dark side of an edge by its own, of which an error there may be
+ * a multiple, and only as far as it is dark by that of its neighbourhood. */
+static void rescale_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
+        float bright = ps_max(brightness_at(work->coarse, i), 0.0f), before = work->scale[i];
+        work->scale[i] = 1.0f / (bright * bright + AROUND * AROUND / before);
+        if (work->error)
+            work->error[i] *= work->scale[i] / before;
+    }
+}
+
 /* The pixels themselves, of images whose noise is known. */
 static void add_pixels(struct works *works)
 {
     for (int i = 0; i < works->halved; i++) {
         struct work *work = &works->of[i];
         work->host->parallel_for(work->host, work->height, copy_row, work);
+        work->host->parallel_for(work->host, work->height, rescale_row, work);
         work->caution = PIXELS_CAUTION;
     }
     if (works->halved > 0)
@@ -166,7 +182,7 @@ void regression_add_bands(struct works *works)
     regression_fit_all(works, bandwidths[0], body_of, coarse_of);
     regression_for_each_row(works, begin_row);
     for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {
-        regression_fit_all(works, bandwidths[k], body_of, fine_of);
+        regression_fit_steered(works, bandwidths[k], body_of, fine_of);
         for (int i = 0; i < works->count; i++)
             works->of[i].caution = k > 1 && i >= works->halved ? GUESSED_CAUTION : CAUTION;
         add_band(works, works->count, bandwidths[k]);

@@ -6,9 +6,8 @@
 #define FAR_ABOVE 2.0f     /* of the first fit: what is brighter may be left out of the bands */
 #define OUTLIER_NOISE 1.5f /* times the noise near by, by which outliers may be too bright */
 #define NEAR 3             /* pixels to each side are near by */
-#define FEW 4      /* pixels near by, with itself, that are half as bright as an outlier, at most */
-#define SHARED 4   /* pixels along a block whose noise may be one */
-#define FLAT 0.98f /* cosine of two normals above which pixels may show one surface */
+#define FEW 4    /* pixels near by, with itself, that are half as bright as an outlier, at most */
+#define SHARED 4 /* pixels along a block whose noise may be one */
 
 /* --- irradiance and surfaces --- */
 
@@ -102,24 +101,13 @@ static float sign_by_lot(uint32_t number)
     return (x ^ (x >> 16)) & 1u ? 1.0f : -1.0f;
 }
 
-/* Whether pixel b may show the surface that a does. */
-static bool is_like(const struct regression *guides, size_t a, size_t b)
-{
-    float cosine = 0.0f, height = 0.0f;
-    for (int i = 0; i < 3; i++) {
-        cosine += guides->normal[i][a] * guides->normal[i][b];
-        height += guides->normal[i][a] * (guides->position[i][b] - guides->position[i][a]);
-    }
-    return guides->size[b] > 0.0f && cosine > FLAT && fabsf(height) < guides->size[a];
-}
-
 static bool is_at_edge(const struct regression *guides, int x, int y)
 {
     size_t at = regression_at(guides, x, y);
-    return !is_like(guides, at, regression_at(guides, x - 1, y)) ||
-           !is_like(guides, at, regression_at(guides, x + 1, y)) ||
-           !is_like(guides, at, regression_at(guides, x, y - 1)) ||
-           !is_like(guides, at, regression_at(guides, x, y + 1));
+    return !regression_is_like(guides, at, regression_at(guides, x - 1, y)) ||
+           !regression_is_like(guides, at, regression_at(guides, x + 1, y)) ||
+           !regression_is_like(guides, at, regression_at(guides, x, y - 1)) ||
+           !regression_is_like(guides, at, regression_at(guides, x, y + 1));
 }
 
 static float sign_of_noise(const struct work *work, size_t x, size_t y)

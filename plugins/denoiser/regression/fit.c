@@ -2,6 +2,7 @@
  * as many sums, so that a compiler makes vectors of them without changing the order of any sum. */
 #include "fit.h"
 
+#include "steering.h"
 #include "weights.h"
 
 #include <string.h>
@@ -26,6 +27,7 @@ struct work {
     int bandwidth;
     int first, end; /* values that are fitted */
     float *const *values;
+    const struct regression_steering *steering; /* of each image, or NULL */
     float *const *fitted;
     size_t columns, rows; /* of fits */
 };
@@ -69,41 +71,70 @@ static void set_tangent_plane(const struct work *work, size_t at, float slack,
     fit->gloss = to->gloss[at];
 }
 
+static int larger(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
 /* --- one fit --- */
 
 enum { W, WU, WV, WUU, WUV, WVV, MOMENTS };
 
-struct sums {
-    _Alignas(64) float moments[MOMENTS][LANES];
-    float values[REGRESSION_MOST][3][LANES]; /* w E, w u E, w v E */
+/* Values that are fitted by pixels of the same window. */
+struct part {
+    struct regression_window window;
+    int first, end;
 };
 
-/* Adds a run of pixels, the first of which is dx to the right and sqrt(row) above or below the centre. */
-static INLINED void add_pixels(const struct work *work, const struct regression_fit *fit,
-                               size_t run, int dx, float row, struct sums *sums)
+struct parts {
+    int count;
+    struct part of[REGRESSION_IMAGES];
+};
+
+struct sums {
+    _Alignas(64) float moments[REGRESSION_IMAGES][MOMENTS][LANES]; /* of each part */
+    float values[REGRESSION_MOST][3][LANES];                       /* w E, w u E, w v E */
+};
+
+/* Pixels of a run, the first of which is dx to the right of the centre and dy below it: their weights by geometry, and their
+ * places in the tangent plane. */
+struct pixels {
+    _Alignas(64) float w[LANES], u[LANES], v[LANES];
+    size_t at; /* in a plane */
+    int dx, dy;
+};
+
+static INLINED void add_to_part(const struct work *work, const struct pixels *pixels,
+                                const struct part *part, float moments[MOMENTS][LANES],
+                                struct sums *sums)
 {
-    _Alignas(64) float w[LANES], u[LANES], v[LANES], wu[LANES], wv[LANES];
-    float scale = 1.0f / (((float)work->bandwidth + 0.5f) * ((float)work->bandwidth + 0.5f));
-    if (!take_pixels(work->to, fit, run, w, u, v))
-        return;
+    _Alignas(64) float w[LANES], wu[LANES], wv[LANES];
+    const float *u = pixels->u, *v = pixels->v;
+    float y = (float)pixels->dy, xx = part->window.xx;
+    float xy = 2.0f * part->window.xy * y, yy = part->window.yy * y * y;
 #pragma omp simd
     for (int i = 0; i < LANES; i++) {
-        float x = (float)(dx + i), near = above_zero(1.0f - (x * x + row) * scale);
-        w[i] *= near * near;
+        float x = (float)(pixels->dx + i), near = above_zero(1.0f - (x * (xx * x + xy) + yy));
+        w[i] = pixels->w[i] * near * near;
         wu[i] = w[i] * u[i];
         wv[i] = w[i] * v[i];
     }
 #pragma omp simd
     for (int i = 0; i < LANES; i++) {
-        sums->moments[W][i] += w[i];
-        sums->moments[WU][i] += wu[i];
-        sums->moments[WV][i] += wv[i];
-        sums->moments[WUU][i] += wu[i] * u[i];
-        sums->moments[WUV][i] += wu[i] * v[i];
-        sums->moments[WVV][i] += wv[i] * v[i];
+        moments[W][i] += w[i];
+        moments[WU][i] += wu[i];
+        moments[WV][i] += wv[i];
+        moments[WUU][i] += wu[i] * u[i];
+        moments[WUV][i] += wu[i] * v[i];
+        moments[WVV][i] += wv[i] * v[i];
     }
-    for (int c = work->first; c < work->end; c++) {
-        const float *restrict value = work->values[c] + run * work->to->runs_apart;
+    for (int c = part->first; c < part->end; c++) {
+        const float *restrict value = work->values[c] + pixels->at;
 #pragma omp simd
         for (int i = 0; i < LANES; i++) {
             sums->values[c][0][i] += w[i] * value[i];
@@ -122,18 +153,19 @@ static float total(const float lanes[LANES])
 }
 
 /* The normal equations, by Cholesky's decomposition. The ridge pulls slopes to 0 where all pixels lie on a line. */
-static void solve(const struct work *work, const struct sums *sums, struct regression_fit *fit)
+static void solve(const struct part *part, float moments[MOMENTS][LANES], const struct sums *sums,
+                  struct regression_fit *fit)
 {
     float m[MOMENTS];
     for (int i = 0; i < MOMENTS; i++)
-        m[i] = total(sums->moments[i]);
+        m[i] = total(moments[i]);
     fit->weight = m[W];
     float ridge = RIDGE * m[W] + 0.02f; /* a weight of 0.02 pixels at least */
     float l00 = 1.0f / sqrtf(m[W]), l10 = m[WU] * l00, l20 = m[WV] * l00;
     float l11 = 1.0f / sqrtf(ps_max(m[WUU] + ridge - l10 * l10, 1e-20f));
     float l21 = (m[WUV] - l20 * l10) * l11;
     float l22 = 1.0f / sqrtf(ps_max(m[WVV] + ridge - l20 * l20 - l21 * l21, 1e-20f));
-    for (int c = work->first; c < work->end; c++) {
+    for (int c = part->first; c < part->end; c++) {
         float r0 = total(sums->values[c][0]) * l00;
         float r1 = (total(sums->values[c][1]) - l10 * r0) * l11;
         float r2 = (total(sums->values[c][2]) - l20 * r0 - l21 * r1) * l22;
@@ -144,28 +176,83 @@ static void solve(const struct work *work, const struct sums *sums, struct regre
     }
 }
 
-/* `plane`: room for one of each value. */
-EVERY_ISA static void make_fit(const struct work *work, int x, int y, float slack,
-                               float (*plane)[3], struct regression_fit *fit)
+/* The pixels of a row that any part's window reaches, away from the centre; false: none. */
+static bool row_of_windows(const struct parts *parts, int dy, int *first, int *last)
 {
-    float reach = ((float)work->bandwidth + 0.5f) * ((float)work->bandwidth + 0.5f);
+    *first = MARGIN;
+    *last = -MARGIN;
+    for (int i = 0; i < parts->count; i++) {
+        int from, to;
+        if (!regression_window_row(&parts->of[i].window, dy, &from, &to))
+            continue;
+        *first = smaller(*first, from);
+        *last = larger(*last, to);
+    }
+    return *first <= *last;
+}
+
+static INLINED void add_row(const struct work *work, const struct regression_fit *fit,
+                            const struct parts *parts, int dy, struct sums *sums)
+{
+    struct pixels pixels = {.dy = dy};
+    int first, last;
+    if (fit->y + dy < 0 || fit->y + dy >= (int)work->to->height ||
+        !row_of_windows(parts, dy, &first, &last))
+        return;
+    int left = start_of_run(fit->x + first);
+    size_t run = regression_run(work->to, left, fit->y + dy);
+    for (pixels.dx = left - fit->x; pixels.dx <= last; pixels.dx += LANES, run++) {
+        if (!take_pixels(work->to, fit, run, pixels.w, pixels.u, pixels.v))
+            continue;
+        pixels.at = run * work->to->runs_apart;
+        for (int i = 0; i < parts->count; i++)
+            add_to_part(work, &pixels, &parts->of[i], sums->moments[i], sums);
+    }
+}
+
+/* Of the values of all parts. `plane`: room for one of each value. */
+EVERY_ISA static void make_fit(const struct work *work, const struct parts *parts, int x, int y,
+                               float slack, float (*plane)[3], struct regression_fit *fit)
+{
+    int rows = 0, first = parts->of[0].first, end = parts->of[parts->count - 1].end;
     struct sums sums;
     *fit = (struct regression_fit){
         .plane = plane, .x = x, .y = y, .valid = regression_shows_surface(work->to, x, y)};
     if (!fit->valid)
         return;
-    memset(sums.moments, 0, sizeof sums.moments);
-    memset(sums.values[work->first], 0, (size_t)(work->end - work->first) * sizeof sums.values[0]);
+    memset(sums.moments[0], 0, (size_t)parts->count * sizeof sums.moments[0]);
+    memset(sums.values[first], 0, (size_t)(end - first) * sizeof sums.values[0]);
     set_tangent_plane(work, regression_at(work->to, x, y), slack, fit);
-    for (int dy = -work->bandwidth; dy <= work->bandwidth; dy++) {
-        if (y + dy < 0 || y + dy >= (int)work->to->height)
-            continue;
-        int half = (int)sqrtf(reach - (float)(dy * dy)), left = start_of_run(x - half);
-        size_t run = regression_run(work->to, left, y + dy);
-        for (int dx = left - x; dx <= half; dx += LANES)
-            add_pixels(work, fit, run++, dx, (float)(dy * dy), &sums);
-    }
-    solve(work, &sums, fit);
+    for (int i = 0; i < parts->count; i++)
+        rows = larger(rows, regression_window_rows(&parts->of[i].window));
+    for (int dy = -rows; dy <= rows; dy++)
+        add_row(work, fit, parts, dy, &sums);
+    for (int i = 0; i < parts->count; i++)
+        solve(&parts->of[i], sums.moments[i], &sums, fit);
+}
+
+/* Of the values that are fitted, all together. */
+static void make_round_fit(const struct work *work, int x, int y, float slack, float (*plane)[3],
+                           struct regression_fit *fit)
+{
+    const struct parts all = {1,
+                              {{regression_round_window(work->bandwidth), work->first, work->end}}};
+    make_fit(work, &all, x, y, slack, plane, fit);
+}
+
+/* Of each image by a window of its own. */
+static void make_steered_fit(const struct work *work, int x, int y, float (*plane)[3],
+                             struct regression_fit *fit)
+{
+    struct parts images = {.count = work->end / REGRESSION_VALUES};
+    for (int i = 0; i < images.count; i++)
+        images.of[i] = (struct part){
+            .window =
+                regression_steered_window(work->to, &work->steering[i], work->bandwidth, x, y),
+            .first = i * REGRESSION_VALUES,
+            .end = (i + 1) * REGRESSION_VALUES,
+        };
+    make_fit(work, &images, x, y, 1.0f, plane, fit);
 }
 
 /* --- the grid of fits --- */
@@ -215,8 +302,12 @@ static void make_row_of_fits(void *user, uint64_t row, uint32_t worker)
         return;
     for (size_t i = 0; i < work->columns; i++) {
         size_t index = row * work->columns + i;
-        make_fit(work, centre_at(work, i, to->width), centre_at(work, row, to->height), 1.0f,
-                 to->planes + index * (size_t)work->end, &to->fits[index]);
+        int x = centre_at(work, i, to->width), y = centre_at(work, row, to->height);
+        float(*plane)[3] = to->planes + index * (size_t)work->end;
+        if (work->steering)
+            make_steered_fit(work, x, y, plane, &to->fits[index]);
+        else
+            make_round_fit(work, x, y, 1.0f, plane, &to->fits[index]);
     }
 }
 
@@ -256,16 +347,6 @@ static INLINED void add_prediction(const struct work *work, const struct regress
         for (int i = 0; i < LANES; i++)
             sum[i] += w[i] * (a + b * u[i] + d * v[i]);
     }
-}
-
-static int larger(int a, int b)
-{
-    return a > b ? a : b;
-}
-
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
 }
 
 EVERY_ISA static void blend(const struct work *work, const struct regression_fit *fit,
@@ -311,12 +392,11 @@ static void blend_for(const struct work *narrow, int bandwidth, struct regressio
                       struct block *block)
 {
     struct work rest = *narrow;
-    int x = fit.x, y = fit.y;
     if (fit.weight < FEW && rest.bandwidth == NARROW) {
-        make_fit(&rest, x, y, SLACK, fit.plane, &fit);
+        make_round_fit(&rest, fit.x, fit.y, SLACK, fit.plane, &fit);
     } else if (fit.weight < THIN && bandwidth > NARROW && block->group != NARROW_ONES) {
         rest.bandwidth = smaller(bandwidth, WIDE);
-        make_fit(&rest, x, y, 1.0f, fit.plane, &fit);
+        make_round_fit(&rest, fit.x, fit.y, 1.0f, fit.plane, &fit);
     }
     blend(&rest, &fit, block);
 }
@@ -335,7 +415,7 @@ static void blend_one(const struct work *work, int x, int y, const bool asks[GRO
     rest.bandwidth = smaller(work->bandwidth, NARROW);
     rest.first = asks[NARROW_ONES] ? 0 : ends[NARROW_ONES];
     rest.end = asks[OTHERS] ? ends[OTHERS] : ends[NARROW_ONES];
-    make_fit(&rest, x, y, 1.0f, plane, &fit);
+    make_round_fit(&rest, x, y, 1.0f, plane, &fit);
     for (int group = 0; group < GROUPS; group++) {
         rest.first = group == NARROW_ONES ? 0 : ends[NARROW_ONES];
         rest.end = ends[group];
@@ -408,7 +488,8 @@ static void fill_block(void *user, uint64_t index, uint32_t worker)
 }
 
 void regression_fit(const struct regression *regression, int bandwidth, int count,
-                    float *const values[], float *const fitted[])
+                    float *const values[], const struct regression_steering *steering,
+                    float *const fitted[])
 {
     const ps_host *host = regression->host;
     struct work work = {
@@ -416,6 +497,7 @@ void regression_fit(const struct regression *regression, int bandwidth, int coun
         .bandwidth = bandwidth,
         .end = count,
         .values = values,
+        .steering = steering,
         .fitted = fitted,
         .columns = centres_along(regression->width, bandwidth),
         .rows = centres_along(regression->height, bandwidth),

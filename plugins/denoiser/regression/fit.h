@@ -10,7 +10,8 @@
  *
  * with u, v the place of p in the tangent plane of c, r its distance in pixels, R the bandwidth, h^2 the sum of
  * squares of either point's distance from the other's tangent plane, and g the share of the reflectance that is
- * gloss. A slope of E costs no bias, as it would a mean.
+ * gloss. A slope of E costs no bias, as it would a mean. Where light steers the windows, they are ellipses in place of
+ * discs of radius R (steering.h).
  * Centres lie 2/3 R apart; between them planes are blended. Pixels that no centre is like become centres; if hardly any
  * pixel is like one, D and 1 - cos(normal) are four times as large around it.
  *
@@ -33,6 +34,13 @@ enum { REGRESSION_IMAGES = 3, REGRESSION_MOST = REGRESSION_IMAGES * REGRESSION_V
 
 struct regression_bounds;
 struct regression_fit;
+
+/* What is known of an image's light, by which windows of fits are steered (steering.h). */
+struct regression_steering {
+    float *light
+        [REGRESSION_COLOURS]; /* without a margin; borrowed. light[0] NULL: windows are round */
+    float least;              /* brightness that counts as dark */
+};
 
 /* A picture's surfaces, and how fits stop at them. The planes, `bounds` and `fits` are the caller's. */
 struct regression {
@@ -76,15 +84,29 @@ static inline bool regression_shows_surface(const struct regression *regression,
     return regression->size[regression_at(regression, x, y)] > 0.0f;
 }
 
+/* Whether pixel b, of these places in a plane, may show the surface that a does. */
+static inline bool regression_is_like(const struct regression *regression, size_t a, size_t b)
+{
+    const float flat = 0.98f; /* cosine of the normals above which pixels may show one surface */
+    float cosine = 0.0f, height = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        float n = regression->normal[i][a];
+        cosine += n * regression->normal[i][b];
+        height += n * (regression->position[i][b] - regression->position[i][a]);
+    }
+    return regression->size[b] > 0.0f && cosine > flat && fabsf(height) < regression->size[a];
+}
+
 size_t regression_fits_bytes(size_t width, size_t height);
 size_t regression_planes_bytes(size_t width, size_t height, int count);
 #define REGRESSION_FITS_PIXEL 24   /* bytes of them for each pixel, at most */
 #define REGRESSION_PLANES_PIXEL 12 /* the same for each image */
 
 /* Fits `count` values, at most REGRESSION_MOST planes with a margin, by a bandwidth in pixels. Puts what the planes of all
- * fits say at each pixel into `fitted`, planes without a margin; 0 where no surface is seen. Each value is fitted as if it
- * were alone, to the last bit. Runs on all workers; after the host was cancelled, what `fitted` holds means nothing. */
+ * fits say at each pixel into `fitted`, planes without a margin; 0 where no surface is seen. Each image is fitted as if it
+ * were alone, to the last bit. `steering`: of each image's grid of fits, or NULL. Runs on all workers; after the host was cancelled, what `fitted` holds means nothing. */
 void regression_fit(const struct regression *regression, int bandwidth, int count,
-                    float *const values[], float *const fitted[]);
+                    float *const values[], const struct regression_steering *steering,
+                    float *const fitted[]);
 
 #endif

@@ -7,7 +7,8 @@ void regression_for_each_row(struct works *works, ps_body body)
         host->parallel_for(host, works->of[i].height, body, &works->of[i]);
 }
 
-void regression_fit_all(struct works *works, int bandwidth, work_planes from, work_planes to)
+static void fit_all(struct works *works, int bandwidth, work_planes from, work_planes to,
+                    const struct regression_steering *steering)
 {
     float *values[REGRESSION_MOST], *fitted[REGRESSION_MOST];
     for (int i = 0; i < works->count; i++)
@@ -15,5 +16,23 @@ void regression_fit_all(struct works *works, int bandwidth, work_planes from, wo
             values[i * VALUES + c] = from(&works->of[i])[c];
             fitted[i * VALUES + c] = to(&works->of[i])[c];
         }
-    regression_fit(&works->of[0].guides, bandwidth, works->count * VALUES, values, fitted);
+    regression_fit(&works->of[0].guides, bandwidth, works->count * VALUES, values, steering,
+                   fitted);
+}
+
+void regression_fit_all(struct works *works, int bandwidth, work_planes from, work_planes to)
+{
+    fit_all(works, bandwidth, from, to, NULL);
+}
+
+void regression_fit_steered(struct works *works, int bandwidth, work_planes from, work_planes to)
+{
+    struct regression_steering steering[REGRESSION_IMAGES];
+    for (int i = 0; i < works->count; i++) {
+        const struct work *work = &works->of[i];
+        for (int c = 0; c < REGRESSION_COLOURS; c++)
+            steering[i].light[c] = work->sum[c];
+        steering[i].least = work->least;
+    }
+    fit_all(works, bandwidth, from, to, steering);
 }

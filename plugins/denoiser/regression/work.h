@@ -73,4 +73,7 @@ void regression_for_each_row(struct works *works, ps_body body);
 /* Fits one set, the other says what the fits say; all images together. */
 void regression_fit_all(struct works *works, int bandwidth, work_planes from, work_planes to);
 
+/* The same with windows that the sums so far steer. */
+void regression_fit_steered(struct works *works, int bandwidth, work_planes from, work_planes to);
+
 #endif
