@@ -79,6 +79,12 @@ static inline size_t regression_at(const struct regression *regression, int x, i
            (size_t)(x + REGRESSION_MARGIN) % REGRESSION_LANES;
 }
 
+/* The column where the run begins that holds a pixel. */
+static inline int regression_start_of_run(int x)
+{
+    return (x + REGRESSION_MARGIN) / REGRESSION_LANES * REGRESSION_LANES - REGRESSION_MARGIN;
+}
+
 static inline bool regression_shows_surface(const struct regression *regression, int x, int y)
 {
     return regression->size[regression_at(regression, x, y)] > 0.0f;

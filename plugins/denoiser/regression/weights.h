@@ -13,7 +13,8 @@
 #include <string.h>
 
 /* Such functions are compiled for several instruction sets, of which one is picked as the plugin is loaded. All give the
- * same result to the last bit: no multiplication is joined with an addition. */
+ * same result to the last bit: no multiplication is joined with an addition. They are static, since compilers differ in how they name
+ * those of other files. */
 #ifndef __has_feature
 #define __has_feature(feature) 0
 #endif
@@ -43,6 +44,16 @@ struct regression_fit {
     int x, y;
     bool valid; /* its centre shows a surface */
 };
+
+static inline int larger(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+static inline int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
 
 /* max(s, 0) without a comparison, which keeps compilers from making vectors. */
 static INLINED float above_zero(float s)
