@@ -251,7 +251,7 @@ static void test_steered_windows_follow_edges(void **state)
     create(&fixture, 30);
     set_edge_of_light(&fixture, &random);
     regression_fit(&fixture.surfaces, 12, REGRESSION_VALUES, fixture.values, NULL, a);
-    struct regression_steering by = {{a[0], a[1], a[2]}, 1e-3f};
+    struct regression_steering by = {a, 1e-3f};
     regression_fit(&fixture.surfaces, 12, REGRESSION_VALUES, fixture.values, &by, b);
     print_message("edge of light: off by %.3f by round windows, %.3f by steered ones\n",
                   error_of(a[0]), error_of(b[0]));
@@ -269,7 +269,8 @@ static void test_windows_are_round_without_edges(void **state)
     struct fixture fixture;
     create(&fixture, 30);
     set_edge_of_light(&fixture, &random);
-    struct regression_steering by = {{light, light, light}, 1e-3f};
+    float *const lights[] = {light, light, light};
+    struct regression_steering by = {lights, 1e-3f};
     window = regression_steered_window(&fixture.surfaces, &by, 12, WIDTH / 2, HEIGHT / 2);
     assert_memory_equal(&window, &round, sizeof round);
     for (int y = 0; y < HEIGHT; y++)

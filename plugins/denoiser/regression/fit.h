@@ -37,9 +37,8 @@ struct regression_fit;
 
 /* What is known of an image's light, by which windows of fits are steered (steering.h). */
 struct regression_steering {
-    float *light
-        [REGRESSION_COLOURS]; /* without a margin; borrowed. light[0] NULL: windows are round */
-    float least;              /* brightness that counts as dark */
+    float *const *light; /* REGRESSION_COLOURS planes without a margin; borrowed */
+    float least;         /* brightness that counts as dark */
 };
 
 /* A picture's surfaces, and how fits stop at them. The planes, `bounds` and `fits` are the caller's. */
@@ -58,6 +57,12 @@ struct regression {
     struct regression_fit *fits;      /* room for regression_fits_bytes() */
     float (*planes)[3];               /* room for regression_planes_bytes() */
 };
+
+/* How bright an image is there: the sum of its colours. */
+static inline float brightness_at(float *const planes[], size_t at)
+{
+    return planes[0][at] + planes[1][at] + planes[2][at];
+}
 
 /* Pixels around a picture, whose floats are 0: whole runs. */
 enum { REGRESSION_MARGIN = REGRESSION_LARGEST };

@@ -16,8 +16,7 @@ struct regression_window regression_round_window(int bandwidth)
 static float light_at(const struct regression *regression, const struct regression_steering *by,
                       int x, int y)
 {
-    size_t pixel = (size_t)y * regression->width + (size_t)x;
-    return by->light[0][pixel] + by->light[1][pixel] + by->light[2][pixel];
+    return brightness_at(by->light, (size_t)y * regression->width + (size_t)x);
 }
 
 /* Change of the light a pixel along (dx, dy), by the pixels that far to either side that show the same surface. */

@@ -28,11 +28,7 @@ void regression_fit_all(struct works *works, int bandwidth, work_planes from, wo
 void regression_fit_steered(struct works *works, int bandwidth, work_planes from, work_planes to)
 {
     struct regression_steering steering[REGRESSION_IMAGES];
-    for (int i = 0; i < works->count; i++) {
-        const struct work *work = &works->of[i];
-        for (int c = 0; c < REGRESSION_COLOURS; c++)
-            steering[i].light[c] = work->sum[c];
-        steering[i].least = work->least;
-    }
+    for (int i = 0; i < works->count; i++)
+        steering[i] = (struct regression_steering){works->of[i].sum, works->of[i].least};
     fit_all(works, bandwidth, from, to, steering);
 }

@@ -39,11 +39,6 @@ static inline float brightness(const float colour[REGRESSION_COLOURS])
     return colour[0] + colour[1] + colour[2];
 }
 
-static inline float brightness_at(float *const planes[], size_t at)
-{
-    return planes[0][at] + planes[1][at] + planes[2][at];
-}
-
 /* Sets of values. */
 typedef float **(*work_planes)(struct work *work);
 
