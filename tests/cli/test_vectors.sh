@@ -33,7 +33,7 @@ source_of() {
 expect_vectors() {
     command=$(command_of "$(source_of "$1")")
     if [ -z "$command" ]; then
-        [ "$1" = "$kernel" ] || fail "$1 is not compiled"
+        [ "$1" = "$kernel" ] || fail "$1 is not compiled, or no source beside it includes it"
         return # another kind of processor
     fi
     case $command in *-O3*) ;; *) skip "not an optimized build" ;; esac

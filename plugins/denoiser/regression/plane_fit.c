@@ -2,6 +2,7 @@
  * keep as many sums, so that a compiler makes vectors of them without changing the order of any sum. What pixels count by
  * geometry is found once for all parts. */
 #include "plane_fit.h"
+#include "weights.h"
 
 #include <string.h>
 
