@@ -190,18 +190,16 @@ ps_rgb pigment_vary(const struct pigment *pigment, ps_vec3 point, const float uv
 
 /* Half the way between the points of a difference. Far from the origin floats lie so far apart that
  * a shorter way would measure their rounding. */
-static float difference_step(const struct pigment *pigment, ps_vec3 p)
+static float difference_step(ps_vec3 p)
 {
-    float step = STEP;
-    if (pigment->kind == PIGMENT_NOISE)
-        step = fmaxf(ldexpf(STEP, 1 - pigment->octaves), 0.1f * STEP);
     float size = fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
-    return fmaxf(step, 1e-5f * size);
+    return fmaxf(STEP, 1e-5f * size);
 }
 
-static ps_vec3 pattern_gradient(const struct pigment *pigment, ps_vec3 p)
+/* For patterns with jumps, which have no gradient there: as steep as they are over the step. */
+static ps_vec3 gradient_by_differences(const struct pigment *pigment, ps_vec3 p)
 {
-    float step = difference_step(pigment, p);
+    float step = difference_step(p);
     const ps_vec3 ways[3] = {{step, 0, 0}, {0, step, 0}, {0, 0, step}};
     float slopes[3];
     for (int i = 0; i < 3; i++)
@@ -209,6 +207,36 @@ static ps_vec3 pattern_gradient(const struct pigment *pigment, ps_vec3 p)
                      pattern_share(pigment, ps_subtract(p, ways[i]))) /
                     (2.0f * step);
     return (ps_vec3){slopes[0], slopes[1], slopes[2]};
+}
+
+/* A gradient at p + turbulence * noise_vector(p), as it is at p. */
+static ps_vec3 before_turbulence(ps_vec3 gradient, float turbulence, const ps_vec3 of_vector[3])
+{
+    ps_vec3 sum = ps_scale(of_vector[0], gradient.x);
+    sum = ps_add_scaled(sum, gradient.y, of_vector[1]);
+    sum = ps_add_scaled(sum, gradient.z, of_vector[2]);
+    return ps_add_scaled(gradient, turbulence, sum);
+}
+
+static ps_vec3 noise_gradient(const struct pigment *pigment, ps_vec3 p)
+{
+    ps_vec3 gradient, of_vector[3];
+    float turbulence = pigment->turbulence;
+    if (turbulence != 0.0f)
+        p = ps_add_scaled(
+            p, turbulence,
+            noise_vector_gradients(p, TURBULENCE_OCTAVES, SEED_TURBULENCE, of_vector));
+    float noise = noise_fractal_gradient(p, pigment->octaves, SEED_PATTERN, &gradient);
+    if (fabsf(noise) >= 1.0f)
+        return (ps_vec3){0, 0, 0}; /* shares end there */
+    gradient = ps_scale(gradient, 0.5f);
+    return turbulence != 0.0f ? before_turbulence(gradient, turbulence, of_vector) : gradient;
+}
+
+static ps_vec3 pattern_gradient(const struct pigment *pigment, ps_vec3 p)
+{
+    return pigment->kind == PIGMENT_NOISE ? noise_gradient(pigment, p)
+                                          : gradient_by_differences(pigment, p);
 }
 
 /* The chain rule: a gradient goes back through the transpose of the map to the pattern. */

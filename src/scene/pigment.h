@@ -91,8 +91,8 @@ static inline float pigment_number(const struct pigment *pigment, ps_vec3 point,
 }
 
 /* How pigment_number changes with the point, per unit of length: of procedural kinds; 0 for colours
- * and images. By central differences over about 1/50 of the pattern's unit, and of the finest
- * octave; the steps of a checker so get slopes of that width. */
+ * and images. Of noise by its derivatives; of the others by central differences over about 1/50 of the pattern's unit: the steps
+ * of a checker so get slopes of that width. */
 ps_vec3 pigment_gradient(const struct pigment *pigment, ps_vec3 point);
 
 /* Where an image is looked up: by the surface's (u, v), or the point where the pigment has it so. */

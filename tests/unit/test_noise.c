@@ -112,6 +112,30 @@ static void test_smooth(void **state)
     }
 }
 
+/* Against differences, and the values beside them are those of the noise. */
+static void test_gradients(void **state)
+{
+    const float h = 1.0f / 1024;
+    const ps_vec3 ways[3] = {{h, 0, 0}, {0, h, 0}, {0, 0, h}};
+    (void)state;
+    for (int i = 0; i < 3000; i++) {
+        ps_vec3 p = ps_scale(random_point((uint64_t)i), 0.05f), gradients[4];
+        ps_vec3 v = noise_vector_gradients(p, 2, 8, gradients), same = noise_vector(p, 2, 8);
+        assert_true(v.x == same.x && v.y == same.y && v.z == same.z);
+        assert_true(noise_fractal_gradient(p, 3, 5, &gradients[3]) == noise_fractal(p, 3, 5));
+        for (int k = 0; k < 3; k++) {
+            ps_vec3 a = ps_subtract(p, ways[k]), b = ps_add(p, ways[k]);
+            ps_vec3 rise = ps_subtract(noise_vector(b, 2, 8), noise_vector(a, 2, 8));
+            float of_fractal = noise_fractal(b, 3, 5) - noise_fractal(a, 3, 5);
+            const float rises[4] = {rise.x, rise.y, rise.z, of_fractal};
+            for (int j = 0; j < 4; j++) {
+                const float slopes[3] = {gradients[j].x, gradients[j].y, gradients[j].z};
+                assert_float_equal(slopes[k], rises[j] / (2 * h), 1e-2);
+            }
+        }
+    }
+}
+
 /* Mean square of the difference over a distance along a direction. */
 static double structure(ps_vec3 direction, float distance, int32_t octaves)
 {
@@ -233,10 +257,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_zero_at_lattice), cmocka_unit_test(test_directions),
         cmocka_unit_test(test_spread),          cmocka_unit_test(test_limit),
-        cmocka_unit_test(test_smooth),          cmocka_unit_test(test_isotropic),
-        cmocka_unit_test(test_planes_of_axes),  cmocka_unit_test(test_independent),
-        cmocka_unit_test(test_no_period),       cmocka_unit_test(test_any_point),
-        cmocka_unit_test(test_same_everywhere),
+        cmocka_unit_test(test_smooth),          cmocka_unit_test(test_gradients),
+        cmocka_unit_test(test_isotropic),       cmocka_unit_test(test_planes_of_axes),
+        cmocka_unit_test(test_independent),     cmocka_unit_test(test_no_period),
+        cmocka_unit_test(test_any_point),       cmocka_unit_test(test_same_everywhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -256,6 +256,23 @@ static void test_slope_of_gradient(void **state)
 }
 
 /* Against differences of the noise itself, summed along a way. */
+static void expect_slopes_to_sum_up(const struct pigment *pigment)
+{
+    const ps_vec3 way = {0.6f, -0.48f, 0.64f};
+    const float h = 1e-3f;
+    double sum = 0, largest = 0;
+    for (int i = 0; i < 4000; i++) {
+        ps_vec3 middle = ps_scale(way, ((float)i + 0.5f) * h);
+        double slope = ps_dot(pigment_gradient(pigment, middle), way);
+        sum += slope * h;
+        double difference = pigment_number(pigment, ps_scale(way, (float)(i + 1) * h), no_uv) -
+                            pigment_number(pigment, (ps_vec3){0, 0, 0}, no_uv);
+        assert_float_equal(sum, difference, 2e-4);
+        largest = fmax(largest, fabs(difference));
+    }
+    assert_true(largest > 0.05);
+}
+
 static void test_slope_of_noise(void **state)
 {
     struct pigment_description description = describe(PIGMENT_NOISE);
@@ -264,19 +281,29 @@ static void test_slope_of_noise(void **state)
     description.placement =
         affine_of((ps_vec3){2, 3, 5}, (ps_vec3){30, 20, 70}, (ps_vec3){1, 2, 3});
     struct pigment pigment = pigment_create(&description, NULL);
-    const ps_vec3 way = {0.6f, -0.48f, 0.64f};
-    const float h = 1e-3f;
-    double sum = 0, largest = 0;
-    for (int i = 0; i < 4000; i++) {
-        ps_vec3 middle = ps_scale(way, ((float)i + 0.5f) * h);
-        double slope = ps_dot(pigment_gradient(&pigment, middle), way);
-        sum += slope * h;
-        double difference = pigment_number(&pigment, ps_scale(way, (float)(i + 1) * h), no_uv) -
-                            pigment_number(&pigment, (ps_vec3){0, 0, 0}, no_uv);
-        assert_float_equal(sum, difference, 2e-4);
-        largest = fmax(largest, fabs(difference));
+    expect_slopes_to_sum_up(&pigment);
+    description.turbulence = 0.4;
+    pigment = pigment_create(&description, NULL);
+    expect_slopes_to_sum_up(&pigment);
+}
+
+/* Where shares would be below 0 or above 1 they are flat. */
+static void test_slope_of_clamped_noise(void **state)
+{
+    struct pigment_description description = describe(PIGMENT_NOISE);
+    int clamped = 0;
+    (void)state;
+    description.octaves = 4;
+    struct pigment pigment = pigment_create(&description, NULL);
+    for (int i = 0; i < 200000; i++) {
+        ps_vec3 p = {(float)i * 0.37f, (float)i * 0.11f, (float)i * -0.23f};
+        float share = pigment_number(&pigment, p, no_uv);
+        if (share > 0 && share < 1)
+            continue;
+        assert_vector(pigment_gradient(&pigment, p), 0, 0, 0, 0);
+        clamped++;
     }
-    assert_true(largest > 0.05);
+    assert_true(clamped > 0);
 }
 
 static void test_slope_of_image(void **state)
@@ -356,6 +383,7 @@ int main(void)
         cmocka_unit_test(test_image_scale_and_offset),
         cmocka_unit_test(test_slope_of_gradient),
         cmocka_unit_test(test_slope_of_noise),
+        cmocka_unit_test(test_slope_of_clamped_noise),
         cmocka_unit_test(test_slope_of_image),
         cmocka_unit_test(test_any_number),
     };
