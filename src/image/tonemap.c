@@ -1,7 +1,7 @@
 /* tonemap.c: linear radiance to 8-bit display values.
  *
  * Exposure, then a curve on each channel, then the sRGB transfer function, then rounding to the
- * nearest of 256 steps; in double, so that the rounding is that of the exact value. Channels are
+ * nearest of 256 steps, or of pictures, dithered, to one of the two nearest; in double, so that the rounding is that of the exact value. Channels are
  * treated alike and apart: hues shift towards white where they saturate, which is what film does,
  * and what the thesis's clipped pictures do.
  */
@@ -11,6 +11,8 @@
 
 /* Where the filmic curve leaves the straight line, as by default in plugins/tonemap/filmic.c. */
 #define SHOULDER 0.6
+
+#define LARGEST_DITHER 0.49 /* of a step: what lies on one stays there */
 
 /* IEC 61966-2-1: 12.92 x up to 0.0031308, 1.055 x^(1/2.4) - 0.055 beyond. */
 static double srgb_from_linear(double linear)
@@ -41,6 +43,31 @@ static uint8_t display_byte(float linear, double factor, enum tone_curve curve)
     if (curve == TONE_FILMIC)
         exposed = ps_shoulder(exposed, SHOULDER);
     return (uint8_t)(255.0 * srgb_from_linear(exposed) + 0.5);
+}
+
+/* Less than half a step of the 256 either way: interleaved gradient noise (Jimenez 2014, "Next generation post processing in Call of
+ * Duty: Advanced Warfare"), whose values are spread evenly over any few neighbouring pixels. */
+static double dither_at(uint32_t x, uint32_t y)
+{
+    double inner = 0.06711056 * (double)x + 0.00583715 * (double)y;
+    double outer = 52.9829189 * (inner - floor(inner));
+    return LARGEST_DITHER * (2.0 * (outer - floor(outer)) - 1.0);
+}
+
+static uint8_t dithered_byte(float linear, double dither)
+{
+    return (uint8_t)(255.0 * srgb_from_linear((double)linear) + 0.5 + dither);
+}
+
+void tonemap_row(const float *red, const float *green, const float *blue, size_t n, uint32_t x,
+                 uint32_t y, uint8_t *rgb)
+{
+    for (size_t i = 0; i < n; i++) {
+        double dither = dither_at(x + (uint32_t)i, y);
+        rgb[3 * i] = dithered_byte(red[i], dither);
+        rgb[3 * i + 1] = dithered_byte(green[i], dither);
+        rgb[3 * i + 2] = dithered_byte(blue[i], dither);
+    }
 }
 
 void tonemap_planes(const float *red, const float *green, const float *blue, size_t n, double stops,

@@ -28,6 +28,7 @@ bool output_holds_layers(const char *path)
 struct encoding {
     const float *red, *green, *blue; /* 0..1, from the part's first pixel on */
     size_t width;                    /* of the planes */
+    uint32_t x, y;                   /* of that pixel in the picture */
     size_t count;                    /* pixels of a row */
     uint8_t *rgb;
     size_t stride;
@@ -38,8 +39,8 @@ static void encode_row(void *user, uint64_t y, uint32_t worker)
     (void)worker;
     const struct encoding *work = user;
     size_t first = y * work->width;
-    tonemap_planes(work->red + first, work->green + first, work->blue + first, work->count, 0.0,
-                   TONE_CLIP, work->rgb + y * work->stride);
+    tonemap_row(work->red + first, work->green + first, work->blue + first, work->count, work->x,
+                work->y + (uint32_t)y, work->rgb + y * work->stride);
 }
 
 void output_encode(const struct image *image, struct rectangle part, uint8_t *rgb, size_t stride,
@@ -51,6 +52,8 @@ void output_encode(const struct image *image, struct rectangle part, uint8_t *rg
         .green = image_channel(image, "display.G") + first,
         .blue = image_channel(image, "display.B") + first,
         .width = image->width,
+        .x = (uint32_t)part.x,
+        .y = (uint32_t)part.y,
         .count = part.width,
         .rgb = rgb,
         .stride = stride,

@@ -174,9 +174,10 @@ static ps_result map_light(struct request *request, const struct layer *layer,
     for (size_t c = 0; c < 3; c++)
         blacken_non_finite(layer->planes[c], pixels);
     ps_result result = shows(request, DISPLAY_LAYER) ? PS_OK : show(request, layer, image, error);
-    if (result == PS_OK)
-        tonemap_planes(layer->planes[0], layer->planes[1], layer->planes[2], pixels, 0.0, TONE_CLIP,
-                       rgb);
+    for (size_t y = 0, at = 0; result == PS_OK && y < image->height; y++, at += image->width)
+        tonemap_row(layer->planes[0] + at, layer->planes[1] + at, layer->planes[2] + at,
+                    image->width, (uint32_t)image->window.left, (uint32_t)(image->window.top + y),
+                    rgb + 3 * at);
     return result;
 }
 

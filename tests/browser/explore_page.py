@@ -5,6 +5,7 @@ PSPLAT, the program; PAGE_CHANGES, how many changes the test of memory makes (de
 """
 
 import json
+import math
 import os
 import re
 import signal
@@ -509,12 +510,22 @@ class Explore(unittest.TestCase):
         self.wait("no pixel, no lines", lambda: self.canvas_sum("a") == plain)
 
     def test_colours(self):
-        """An exposure of what is encoded already: 0.5 is 0.214 in linear light, and 0.428 is 0.686."""
+        """An exposure of what is encoded already: 0.5 is 0.214 in linear light, and 0.428 is 0.686. Dithered."""
         found = self.browser.run("""
-            return import("./colour.js").then(({paintLayer}) => [0, 1, -1].map((exposure) => Array.from(paintLayer(
-                {width: 1, height: 1, channels: 3, samples: new Float32Array([0.5, 0, 1])}, "display", exposure).data)));
+            const samples = new Float32Array(3 * 64 * 64).map((_, i) => [0.5, 0, 1][i % 3]);
+            return import("./colour.js").then(({paintLayer}) => [0, 1, -1].map((exposure) => {
+                const {data} = paintLayer({width: 64, height: 64, channels: 3, samples}, "display", exposure);
+                return [0, 1, 2, 3].map((c) => {
+                    const bytes = data.filter((_, i) => i % 4 === c);
+                    return [Math.min(...bytes), bytes.reduce((a, b) => a + b, 0) / bytes.length, Math.max(...bytes)];
+                });
+            }));
             """)
-        self.assertEqual(found, [[128, 0, 255, 255], [175, 0, 255, 255], [92, 0, 188, 255]])
+        expected = [[127.5, 0, 255, 255], [174.9, 0, 255, 255], [92, 0, 187.5, 255]]
+        for channels, means in zip(found, expected):
+            for (least, mean, largest), value in zip(channels, means):
+                self.assertAlmostEqual(mean, value, delta=0.1)
+                self.assertEqual((least, largest), (math.floor(value), math.ceil(value)))
 
     def test_options(self):
         """The page's reading and writing of options, without the program."""

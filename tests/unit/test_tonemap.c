@@ -115,6 +115,62 @@ static void test_channels_keep_their_places(void **state)
     assert_memory_equal(rgb, expected, sizeof expected);
 }
 
+static double display_of(float linear)
+{
+    return 255.0 * (double)tonemap_srgb(linear);
+}
+
+/* Both bytes around a value come, as often as makes their mean the value: over 16x16 pixels, wherever they lie. */
+static void test_dither(void **state)
+{
+    uint8_t rgb[16][16][3];
+    float plane[16];
+    (void)state;
+    for (int step = 0; step <= 200; step++) {
+        float linear = (float)step / 200.0f;
+        double sum = 0, value = display_of(linear);
+        for (int i = 0; i < 16; i++)
+            plane[i] = linear;
+        for (uint32_t y = 0; y < 16; y++) {
+            tonemap_row(plane, plane, plane, 16, 37 * (uint32_t)step, y + 11, rgb[y][0]);
+            for (int x = 0; x < 16; x++) {
+                assert_true(fabs(rgb[y][x][0] - value) < 1);
+                assert_int_equal(rgb[y][x][0], rgb[y][x][2]);
+                sum += rgb[y][x][1];
+            }
+        }
+        assert_float_equal(sum / 256, value, 0.05);
+    }
+}
+
+static void test_steps_are_not_dithered(void **state)
+{
+    (void)state;
+    for (int byte = 0; byte < 256; byte++) {
+        float linear = (float)tonemap_linear(byte / 255.0);
+        for (uint32_t x = 0; x < 100; x++) {
+            uint8_t rgb[3];
+            tonemap_row(&linear, &linear, &linear, 1, x, 5, rgb);
+            assert_int_equal(rgb[0], byte);
+        }
+    }
+}
+
+/* A pixel does not depend on what is encoded beside it. */
+static void test_dither_is_a_pixels_own(void **state)
+{
+    float plane[64];
+    uint8_t whole[64][3], part[3];
+    (void)state;
+    for (int i = 0; i < 64; i++)
+        plane[i] = 0.2f + 0.001f * (float)i;
+    tonemap_row(plane, plane, plane, 64, 100, 9, whole[0]);
+    for (uint32_t i = 0; i < 64; i++) {
+        tonemap_row(plane + i, plane + i, plane + i, 1, 100 + i, 9, part);
+        assert_int_equal(part[1], whole[i][1]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -126,6 +182,9 @@ int main(void)
         cmocka_unit_test(test_exposure),
         cmocka_unit_test(test_filmic_curve),
         cmocka_unit_test(test_channels_keep_their_places),
+        cmocka_unit_test(test_dither),
+        cmocka_unit_test(test_steps_are_not_dithered),
+        cmocka_unit_test(test_dither_is_a_pixels_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,12 +1,13 @@
 // colour.js: from samples of layers to bytes of a canvas.
 //
 // Radiance is linear Rec.709; the page multiplies it by 2^exposure and encodes it as sRGB (IEC 61966-2-1). Layers that
-// hold no light have pictures of their own: normals as (n + 1) / 2, positions and distances over their range.
+// hold no light have pictures of their own: normals as (n + 1) / 2, positions and distances over their range. All are
+// dithered to bytes, as PNG files are (tonemap.h): noiseless walls would show the steps as bands.
 
 const table_size = 8192;
 
 // sRGB by a table over the square root of what is encoded: it is nearly even in what the eye sees.
-const srgb_table = Uint8ClampedArray.from({length: table_size + 1}, (_, i) => {
+const srgb_table = Float32Array.from({length: table_size + 1}, (_, i) => {
     const linear = (i / table_size) ** 2;
     return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055);
 });
@@ -68,20 +69,20 @@ function rangeOf(samples, channels, channel) {
     return largest > least ? [least, largest] : [0, largest > 0 ? largest : 1];
 }
 
-// Samples as bytes of a display. Loops of their own, as a function for each sample takes several times as long.
+// Samples as values of a display, 0..255. Loops of their own, as a function for each sample takes several times as long.
 
-function encodeLight(samples, bytes, exposure) {
+function encodeLight(samples, values, exposure) {
     const factor = 2 ** exposure;
     for (let i = 0; i < samples.length; i++) {
         const linear = factor * samples[i];
-        bytes[i] = linear >= 1 ? 255 : linear > 0 ? srgb_table[(Math.sqrt(linear) * table_size + 0.5) | 0] : 0;
+        values[i] = linear >= 1 ? 255 : linear > 0 ? srgb_table[(Math.sqrt(linear) * table_size + 0.5) | 0] : 0;
     }
 }
 
-function encodeLinearly(samples, bytes, channels, channel, [low, high]) {
+function encodeLinearly(samples, values, channels, channel, [low, high]) {
     const factor = 255 / (high - low);
     for (let i = channel; i < samples.length; i += channels)
-        bytes[i] = factor * (samples[i] - low);
+        values[i] = factor * (samples[i] - low);
 }
 
 function decode(samples) {
@@ -89,35 +90,44 @@ function decode(samples) {
 }
 
 function encode(layer, {samples, channels}, exposure) {
-    const kind = kindOfLayer(layer), bytes = new Uint8ClampedArray(samples.length);
+    const kind = kindOfLayer(layer), values = new Float32Array(samples.length);
     if (kind === "shown" && exposure !== 0) {
-        encodeLight(decode(samples), bytes, exposure);
-        return bytes;
+        encodeLight(decode(samples), values, exposure);
+        return values;
     }
     if (kind === "light") {
-        encodeLight(samples, bytes, exposure);
-        return bytes;
+        encodeLight(samples, values, exposure);
+        return values;
     }
     for (let c = 0; c < channels; c++) {
         const range = kind === "shown" ? [0, 1] : kind === "direction" ? [-1, 1] : rangeOf(samples, channels, c);
-        encodeLinearly(samples, bytes, channels, c, range);
+        encodeLinearly(samples, values, channels, c, range);
     }
-    return bytes;
+    return values;
 }
 
-// A layer as ImageData.
+// Interleaved gradient noise (Jimenez 2014), -0.49..0.49.
+function ditherAt(x, y) {
+    const inner = 0.06711056 * x + 0.00583715 * y, outer = 52.9829189 * (inner - Math.floor(inner));
+    return 0.49 * (2 * (outer - Math.floor(outer)) - 1);
+}
+
+// A layer as ImageData, which rounds.
 export function paintLayer(picture, layer, exposure) {
     const {width, height, channels, samples} = picture;
     const image = new ImageData(width, height), data = image.data;
-    const bytes = encode(layer, picture, exposure);
+    const values = encode(layer, picture, exposure);
     const green = channels === 3 ? 1 : 0, blue = 2 * green;
-    for (let i = 0, o = 0; o < data.length; i += channels, o += 4) {
-        data[o] = bytes[i];
-        data[o + 1] = bytes[i + green];
-        data[o + 2] = bytes[i + blue];
-        data[o + 3] = 255;
-        if (Number.isNaN(samples[i] + samples[i + green] + samples[i + blue]))
-            data.set(not_a_number, o);
+    for (let y = 0, i = 0, o = 0; y < height; y++) {
+        for (let x = 0; x < width; x++, i += channels, o += 4) {
+            const dither = ditherAt(x, y);
+            data[o] = values[i] + dither;
+            data[o + 1] = values[i + green] + dither;
+            data[o + 2] = values[i + blue] + dither;
+            data[o + 3] = 255;
+            if (Number.isNaN(samples[i] + samples[i + green] + samples[i + blue]))
+                data.set(not_a_number, o);
+        }
     }
     return image;
 }
