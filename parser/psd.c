@@ -70,6 +70,7 @@ static void prepare(struct reader *reader, const char *name, const struct psd_op
     reader->description->texture_memory = options->texture_memory;
     reader->description->memory_limit = options->memory_limit;
     reader->allow_plugin_paths = options->allow_plugin_paths;
+    reader->ahead = options->ahead;
 }
 
 static ps_result read_scene(const char *name, const struct main_text *text,

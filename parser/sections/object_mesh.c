@@ -2,7 +2,7 @@
 #include "parser/sections/object.h"
 
 #include "base/suggestion.h"
-#include "import/import.h"
+#include "import/ahead.h"
 #include "parser/sections/fill.h"
 #include "parser/sections/sections.h"
 #include <stdlib.h>
@@ -166,7 +166,9 @@ void object_mesh_read(struct reader *reader, const struct item *item,
         .placement = placed.placement,
         .origin = reader_origin(reader, item->key),
     };
-    ps_result result = mesh_import(&request, &content, &report, &error);
+    ps_result result = mesh_take_ahead(reader->ahead, &request, &content, &report)
+                           ? PS_OK
+                           : mesh_import(&request, &content, &report, &error);
     if (result == PS_OK) {
         reader_add_file(reader, path);
         warn_of(reader, item->key, path, &report);

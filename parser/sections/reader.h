@@ -6,6 +6,8 @@
 #include "parser/yaml/node.h"
 #include "scene/description.h"
 
+struct mesh_ahead;
+
 /* Steps report errors and go on, so that one run finds many; they leave the description releasable.
  * Running out of memory is noted, and reported once at the end. */
 struct reader {
@@ -17,6 +19,7 @@ struct reader {
     struct names textures;             /* indices, by what makes them the same */
     struct group_entry *group_entries; /* of each group, see group.c */
     size_t object_count;               /* in the file and all groups */
+    struct mesh_ahead *ahead;          /* as psd_options has it */
     bool allow_plugin_paths;           /* likewise */
     bool out_of_memory;
 };

@@ -112,21 +112,6 @@ static bool is_whole(int file)
            digest == header.digest && lseek(file, sizeof header, SEEK_SET) == sizeof header;
 }
 
-/* Names in origins were the other process's. */
-static void set_origins(struct scene_description *fragment, struct origin origin)
-{
-    for (size_t i = 0; i < fragment->object_count; i++)
-        fragment->objects[i].origin = origin;
-    for (size_t i = 0; i < fragment->material_count; i++)
-        fragment->materials[i].origin = origin;
-    for (size_t i = 0; i < fragment->texture_count; i++)
-        fragment->textures[i].origin = origin;
-    for (size_t i = 0; i < fragment->camera_count; i++)
-        fragment->cameras[i].origin = origin;
-    for (size_t i = 0; i < fragment->light_count; i++)
-        fragment->lights[i].origin = origin;
-}
-
 bool mesh_cache_load(const struct mesh_cache_entry *entry, const struct mesh_request *request,
                      struct mesh_outcome *outcome)
 {
@@ -141,7 +126,7 @@ bool mesh_cache_load(const struct mesh_cache_entry *entry, const struct mesh_req
     if (came && !holds)
         mesh_outcome_release(outcome);
     if (holds)
-        set_origins(&outcome->fragment, request->origin);
+        mesh_fragment_set_origins(&outcome->fragment, request->origin);
     else
         *outcome = (struct mesh_outcome){.result = PS_OK};
     return holds;

@@ -85,3 +85,17 @@ void mesh_outcome_release(struct mesh_outcome *outcome)
     scene_description_release(&outcome->fragment);
     mesh_looks_release(&outcome->looks);
 }
+
+void mesh_fragment_set_origins(struct scene_description *fragment, struct origin origin)
+{
+    for (size_t i = 0; i < fragment->object_count; i++)
+        fragment->objects[i].origin = origin;
+    for (size_t i = 0; i < fragment->material_count; i++)
+        fragment->materials[i].origin = origin;
+    for (size_t i = 0; i < fragment->texture_count; i++)
+        fragment->textures[i].origin = origin;
+    for (size_t i = 0; i < fragment->camera_count; i++)
+        fragment->cameras[i].origin = origin;
+    for (size_t i = 0; i < fragment->light_count; i++)
+        fragment->lights[i].origin = origin;
+}

@@ -50,7 +50,8 @@ static bool shines(const struct scene_description *fragment)
     return some;
 }
 
-ps_result model_read(const struct model_file *file, struct model *model, struct error *error)
+ps_result model_read(const struct model_file *file, struct model *model, struct mesh_ahead *content,
+                     struct error *error)
 {
     const char *path = file->path;
     const struct mesh_request request = {
@@ -67,24 +68,22 @@ ps_result model_read(const struct model_file *file, struct model *model, struct 
         .up = mesh_file_up(path),
         .placement = AFFINE_IDENTITY,
     };
-    struct scene_description fragment;
-    struct mesh_report report;
-    ps_result result = mesh_import(&request, &fragment, &report, error);
+    ps_result result = mesh_read_ahead(&request, content, error);
+    const struct scene_description *fragment = &content->fragment;
     if (result != PS_OK)
         return result;
     *model = (struct model){
-        .box = box_of(&fragment),
+        .box = box_of(fragment),
         .up = request.up,
-        .has_materials = has_materials(&fragment),
-        .has_camera = fragment.camera_count > 0,
-        .has_lights = fragment.light_count > 0,
+        .has_materials = has_materials(fragment),
+        .has_camera = fragment->camera_count > 0,
+        .has_lights = fragment->light_count > 0,
     };
     if (box_is_empty(&model->box)) {
-        result = error_set(error, PS_ERROR_INVALID, "%s: there is nothing to see in it", path);
-    } else {
-        model->room = room_find(&fragment, &model->box);
-        model->has_lights = model->has_lights || (model->room.is_room && shines(&fragment));
+        mesh_ahead_release(content);
+        return error_set(error, PS_ERROR_INVALID, "%s: there is nothing to see in it", path);
     }
-    scene_description_release(&fragment);
-    return result;
+    model->room = room_find(fragment, &model->box);
+    model->has_lights = model->has_lights || (model->room.is_room && shines(fragment));
+    return PS_OK;
 }

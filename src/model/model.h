@@ -8,6 +8,7 @@
 #define MODEL_MODEL_H
 
 #include "base/error.h"
+#include "import/ahead.h"
 #include "model/room.h"
 #include <stdbool.h>
 #include <stddef.h>
@@ -33,8 +34,10 @@ struct model_file {
     double memory_limit;
 };
 
-/* PS_ERROR_INVALID where nothing is to be seen in it, _IO or _MEMORY, with a message that names it. */
-ps_result model_read(const struct model_file *file, struct model *model, struct error *error);
+/* PS_ERROR_INVALID where nothing is to be seen in it, _IO or _MEMORY, with a message that names it. `content`: what was read,
+ * for the scene that names the file; to be released, and empty after a failure. */
+ps_result model_read(const struct model_file *file, struct model *model, struct mesh_ahead *content,
+                     struct error *error);
 
 /* The scene, to be freed, in which the model is `file`: a path from where the scene's text is, in UTF-8, that does not
  * begin as a formula does. NULL when out of memory. */

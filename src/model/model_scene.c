@@ -63,18 +63,19 @@ static ps_result write_text(const struct model *model, const char *file, char **
 }
 
 ps_result model_scene_make(const struct model_file *model_file, const char *scene_path, char **text,
-                           struct error *error)
+                           struct mesh_ahead *content, struct error *error)
 {
     const char *model_path = model_file->path;
     struct model model;
-    ps_result result = model_read(model_file, &model, error);
+    ps_result result = model_read(model_file, &model, content, error);
     if (result != PS_OK)
         return result;
     char *file = relative_path(model_path, scene_path);
-    if (!file)
-        return error_set(error, PS_ERROR_IO, "no path leads from %s to %s: %s",
-                         scene_path ? scene_path : "", model_path, strerror(errno));
-    result = write_text(&model, file, text, error);
+    result = file ? write_text(&model, file, text, error)
+                  : error_set(error, PS_ERROR_IO, "no path leads from %s to %s: %s",
+                              scene_path ? scene_path : "", model_path, strerror(errno));
     free(file);
+    if (result != PS_OK)
+        mesh_ahead_release(content);
     return result;
 }

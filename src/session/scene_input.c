@@ -19,14 +19,18 @@ static ps_result read_model(struct scene_input *input, const char *path,
 {
     struct error error;
     char *text = NULL;
+    struct mesh_ahead content;
+    struct psd_options with_content = *options;
     const struct model_file file = {path, options->folder, options->cache, options->memory_limit};
-    ps_result result = model_scene_make(&file, NULL, &text, &error);
+    ps_result result = model_scene_make(&file, NULL, &text, &content, &error);
     if (result != PS_OK) {
         diagnostics_report(input->sink, SEVERITY_ERROR, NULL, 0, "%s", error.text);
         return result;
     }
-    result =
-        psd_read_text_with(path, text, strlen(text), options, input->sink, &input->description);
+    with_content.ahead = &content;
+    result = psd_read_text_with(path, text, strlen(text), &with_content, input->sink,
+                                &input->description);
+    mesh_ahead_release(&content);
     free(text);
     return result;
 }

@@ -40,9 +40,11 @@ static int write_scene(const char *path, const char *model)
 {
     struct error error;
     char *text = NULL;
+    struct mesh_ahead content = {.is_there = false};
     ps_result result =
-        model ? model_scene_make(&(struct model_file){.path = model}, path, &text, &error)
+        model ? model_scene_make(&(struct model_file){.path = model}, path, &text, &content, &error)
               : first_scene(&text, &error);
+    mesh_ahead_release(&content);
     if (result == PS_OK)
         result = write_text(path, text, &error);
     free(text);

@@ -83,6 +83,21 @@ END
 run 2 check models/overflow.gltf
 expect_text err "models/overflow.gltf: there is nothing to see in it"
 
+# --- the file is read once, by one child process, unless the scene is to have it in another way ---
+# expect_forks N WORD...
+expect_forks() {
+    wanted=$1
+    shift
+    : >forks
+    FORKS=$PWD/forks LD_PRELOAD=$PWD/counted_forks.so run 0 "$@"
+    [ "$(wc -l <forks)" -eq "$wanted" ] || fail "$(wc -l <forks) child processes, not $wanted: $*"
+}
+compile_preload counted_forks || fail "no library that counts forks: $(head -n 1 compiler)"
+expect_forks 1 $quick models/cube.obj
+expect_forks 1 new --from models/cube.obj once.psd
+expect_forks 2 check --bounds --set objects.0.mesh.up=z models/cube.obj
+expect_text out "mesh cube.obj (models/cube.obj:"
+
 # --- new ---
 
 run 0 new first.psd
