@@ -25,7 +25,7 @@ enum film_plane {
     FILM_POSITION_Y,
     FILM_POSITION_Z,
     FILM_DEPTH,
-    FILM_VISIBLE, /* passes, or shares of them, in which albedo to depth are those of a surface; see film.c, presence() */
+    FILM_VISIBLE, /* passes, or shares of them, in which albedo to depth are those of a surface; see film_add.c, presence() */
     FILM_COVERAGE, /* those in which there is a surface at the end of the pixel's path */
     /* From here on NULL where nobody asks. */
     FILM_ON_REQUEST,

@@ -19,10 +19,8 @@ enum { NARROW = 24, WIDE = 48 };
 #define SLACK 4.0f
 
 struct work {
-    const struct regression *to;
-    int bandwidth;
-    int first, end; /* values that are fitted */
-    float *const *values;
+    struct regression_light light;
+    int first, end;                             /* values that are fitted */
     const struct regression_steering *steering; /* of each image, or NULL */
     float *const *fitted;
     size_t columns, rows; /* of fits */
@@ -42,20 +40,13 @@ size_t regression_runs(size_t width, size_t height)
 
 /* --- fits --- */
 
-static void make_fit(const struct work *work, const struct regression_parts *parts, int x, int y,
-                     float slack, float (*plane)[3], struct regression_fit *fit)
-{
-    const struct regression_light light = {work->to, work->bandwidth, work->values};
-    regression_make_fit(&light, parts, x, y, slack, plane, fit);
-}
-
 /* Of the values that are fitted, all together. */
 static void make_round_fit(const struct work *work, int x, int y, float slack, float (*plane)[3],
                            struct regression_fit *fit)
 {
     const struct regression_parts all = {
-        1, {{regression_round_window(work->bandwidth), work->first, work->end}}};
-    make_fit(work, &all, x, y, slack, plane, fit);
+        1, {{regression_round_window(work->light.bandwidth), work->first, work->end}}};
+    regression_make_fit(&work->light, &all, x, y, slack, plane, fit);
 }
 
 /* Of each image by a window of its own. */
@@ -65,12 +56,12 @@ static void make_steered_fit(const struct work *work, int x, int y, float (*plan
     struct regression_parts images = {.count = work->end / REGRESSION_VALUES};
     for (int i = 0; i < images.count; i++)
         images.of[i] = (struct regression_part){
-            .window =
-                regression_steered_window(work->to, &work->steering[i], work->bandwidth, x, y),
+            .window = regression_steered_window(work->light.on, &work->steering[i],
+                                                work->light.bandwidth, x, y),
             .first = i * REGRESSION_VALUES,
             .end = (i + 1) * REGRESSION_VALUES,
         };
-    make_fit(work, &images, x, y, 1.0f, plane, fit);
+    regression_make_fit(&work->light, &images, x, y, 1.0f, plane, fit);
 }
 
 /* --- the grid of fits --- */
@@ -107,7 +98,7 @@ size_t regression_planes_bytes(size_t width, size_t height, int count)
 
 static int centre_at(const struct work *work, size_t index, size_t size)
 {
-    int apart = spacing(work->bandwidth), place = apart / 2 + (int)index * apart;
+    int apart = spacing(work->light.bandwidth), place = apart / 2 + (int)index * apart;
     return place < (int)size ? place : (int)size - 1;
 }
 
@@ -115,7 +106,7 @@ static void make_row_of_fits(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
-    const struct regression *to = work->to;
+    const struct regression *to = work->light.on;
     if (to->host->cancelled(to->host))
         return;
     for (size_t i = 0; i < work->columns; i++) {
@@ -148,10 +139,10 @@ static INLINED void add_prediction(const struct work *work, const struct regress
 {
     _Alignas(64) float w[LANES], u[LANES], v[LANES];
     int at = (x - block->x) / LANES, row = y - block->y;
-    float scale = 1.0f / (float)spacing(work->bandwidth);
+    float scale = 1.0f / (float)spacing(work->light.bandwidth);
     float down = 1.0f - fabsf((float)(y - fit->y)) * scale;
     float *restrict weight = block->weights[block->group][row][at];
-    if (!take_pixels(work->to, fit, run, w, u, v))
+    if (!take_pixels(work->light.on, fit, run, w, u, v))
         return;
 #pragma omp simd
     for (int i = 0; i < LANES; i++) {
@@ -170,13 +161,13 @@ static INLINED void add_prediction(const struct work *work, const struct regress
 EVERY_ISA static void blend(const struct work *work, const struct regression_fit *fit,
                             struct block *block)
 {
-    int reach = spacing(work->bandwidth) - 1;
+    int reach = spacing(work->light.bandwidth) - 1;
     int left = larger(fit->x - reach, block->x);
     int right = smaller(fit->x + reach, block->x + block->columns - 1);
     int top = larger(fit->y - reach, block->y);
     int bottom = smaller(fit->y + reach, block->y + block->rows - 1);
     for (int y = top; y <= bottom; y++) {
-        size_t run = regression_run(work->to, left, y);
+        size_t run = regression_run(work->light.on, left, y);
         for (int x = regression_start_of_run(left); x <= right; x += LANES)
             add_prediction(work, fit, run++, x, y, block);
     }
@@ -185,18 +176,18 @@ EVERY_ISA static void blend(const struct work *work, const struct regression_fit
 /* A centre at or before the first one that reaches a pixel. */
 static size_t first_centre(const struct work *work, int pixel)
 {
-    int apart = spacing(work->bandwidth), index = (pixel - apart / 2) / apart - 1;
+    int apart = spacing(work->light.bandwidth), index = (pixel - apart / 2) / apart - 1;
     return index > 0 ? (size_t)index : 0;
 }
 
 static void blend_grid(const struct work *work, struct block *block)
 {
-    int apart = spacing(work->bandwidth);
+    int apart = spacing(work->light.bandwidth);
     for (size_t row = first_centre(work, block->y); row < work->rows; row++) {
-        if (centre_at(work, row, work->to->height) - apart >= block->y + block->rows)
+        if (centre_at(work, row, work->light.on->height) - apart >= block->y + block->rows)
             break;
         for (size_t column = first_centre(work, block->x); column < work->columns; column++) {
-            const struct regression_fit *fit = &work->to->fits[row * work->columns + column];
+            const struct regression_fit *fit = &work->light.on->fits[row * work->columns + column];
             if (fit->x - apart >= block->x + block->columns)
                 break;
             if (fit->valid)
@@ -210,10 +201,10 @@ static void blend_for(const struct work *narrow, int bandwidth, struct regressio
                       struct block *block)
 {
     struct work rest = *narrow;
-    if (fit.weight < FEW && rest.bandwidth == NARROW) {
+    if (fit.weight < FEW && rest.light.bandwidth == NARROW) {
         make_round_fit(&rest, fit.x, fit.y, SLACK, fit.plane, &fit);
     } else if (fit.weight < THIN && bandwidth > NARROW && block->group != NARROW_ONES) {
-        rest.bandwidth = smaller(bandwidth, WIDE);
+        rest.light.bandwidth = smaller(bandwidth, WIDE);
         make_round_fit(&rest, fit.x, fit.y, 1.0f, fit.plane, &fit);
     }
     blend(&rest, &fit, block);
@@ -226,11 +217,11 @@ static void blend_for(const struct work *narrow, int bandwidth, struct regressio
 static void blend_one(const struct work *work, int x, int y, const bool asks[GROUPS],
                       struct block *block)
 {
-    const int ends[GROUPS] = {work->to->narrow, work->end};
+    const int ends[GROUPS] = {work->light.on->narrow, work->end};
     struct regression_fit fit;
     float plane[REGRESSION_MOST][3];
     struct work rest = *work;
-    rest.bandwidth = smaller(work->bandwidth, NARROW);
+    rest.light.bandwidth = smaller(work->light.bandwidth, NARROW);
     rest.first = asks[NARROW_ONES] ? 0 : ends[NARROW_ONES];
     rest.end = asks[OTHERS] ? ends[OTHERS] : ends[NARROW_ONES];
     make_round_fit(&rest, x, y, 1.0f, plane, &fit);
@@ -239,14 +230,14 @@ static void blend_one(const struct work *work, int x, int y, const bool asks[GRO
         rest.end = ends[group];
         block->group = group;
         if (asks[group])
-            blend_for(&rest, work->bandwidth, fit, block);
+            blend_for(&rest, work->light.bandwidth, fit, block);
     }
 }
 
 /* A group is blended as if it were alone. */
 static void blend_rest(const struct work *work, struct block *block)
 {
-    int narrow = work->to->narrow;
+    int narrow = work->light.on->narrow;
     memcpy(block->weights[OTHERS], block->weights[NARROW_ONES], sizeof block->weights[OTHERS]);
     for (int row = 0; row < block->rows; row++)
         for (int column = 0; column < block->columns; column++) {
@@ -255,7 +246,8 @@ static void blend_rest(const struct work *work, struct block *block)
                 narrow > 0 && block->weights[NARROW_ONES][row][run][i] < LEAST_FIT,
                 narrow < work->end && block->weights[OTHERS][row][run][i] < LEAST_FIT,
             };
-            if ((asks[NARROW_ONES] || asks[OTHERS]) && regression_shows_surface(work->to, x, y))
+            if ((asks[NARROW_ONES] || asks[OTHERS]) &&
+                regression_shows_surface(work->light.on, x, y))
                 blend_one(work, x, y, asks, block);
         }
 }
@@ -272,8 +264,8 @@ static void store_block(const struct work *work, const struct block *block)
 {
     for (int row = 0; row < block->rows; row++)
         for (int c = work->first; c < work->end; c++) {
-            size_t first = (size_t)(block->y + row) * work->to->width + (size_t)block->x;
-            int group = c < work->to->narrow ? NARROW_ONES : OTHERS;
+            size_t first = (size_t)(block->y + row) * work->light.on->width + (size_t)block->x;
+            int group = c < work->light.on->narrow ? NARROW_ONES : OTHERS;
             for (int run = 0; run * LANES < block->columns; run++)
                 store_run(block, row, run, c, group,
                           work->fitted[c] + first + (size_t)(run * LANES));
@@ -289,7 +281,7 @@ static void fill_block(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
-    const struct regression *to = work->to;
+    const struct regression *to = work->light.on;
     struct block block;
     if (to->host->cancelled(to->host))
         return;
@@ -311,10 +303,8 @@ void regression_fit(const struct regression *regression, int bandwidth, int coun
 {
     const ps_host *host = regression->host;
     struct work work = {
-        .to = regression,
-        .bandwidth = bandwidth,
+        .light = {regression, bandwidth, values},
         .end = count,
-        .values = values,
         .steering = steering,
         .fitted = fitted,
         .columns = centres_along(regression->width, bandwidth),
