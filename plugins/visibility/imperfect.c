@@ -5,223 +5,42 @@
  * not depend on how the geometry is made, and its maps leak a little: it is the approximation that
  * Hoet 2014, section 4.3, proposes for real-time use.
  *
- * A plugin gets rays, not triangles, so points come from random lines (Cauchy-Crofton): a line that
- * is uniform over the lines through the scene's sphere meets a surface of area A
- *
- *     A / (2 pi r^2)
- *
- * times on average, whatever its shape and however it is hidden, so all crossings of such lines are
- * points uniform over all area; and how many lines it took tells the area that each stands for.
- *
- * A point is drawn as a disc in its surface's plane, COVERAGE times its area, with the plane's depth
+ * A point is drawn as a disc in its surface's plane, three times its area, with the plane's depth
  * at each texel's centre; the nearest counts. So a flat surface gets the very depth that a ray would
  * find, and only its border is off, by a disc's radius, which falls with the root of `points`.
  *
  * Points lie in a grid. A bundle walks it slab by slab from its start, along the axis that it is
  * closest to, and stops when no point farther on could change the map.
  */
+#include "imperfect/point_cloud.h"
+#include "imperfect/pull_push.h"
+
 #include <psplat/plugin.h>
 #include <stdio.h>
-#include <string.h>
-
-/* Area of a disc, in areas that a point stands for: leaves exp(-3) of a surface open, 5 %. Larger
- * discs leave less to pull-push, but stand out farther over edges. */
-#define COVERAGE 3.0f
-#define CELL 4.0f           /* side of a cell, in roots of a point's area */
-#define MOST_CELLS 128      /* along an axis */
-#define MOST_CROSSINGS 64   /* of a line that count */
-#define LINES 256           /* at a time */
-#define LINES_PER_POINT 64  /* of a scene that is mostly empty, before giving up */
-#define CROSSING_STEP 1e-5f /* after a crossing, in radii of the scene */
-/* Neighbouring texels whose depths are more than so many texels apart see two surfaces. */
-#define SAME_SURFACE 4.0f
-
-struct point {
-    ps_vec3 position, normal;
-};
-
-struct cloud {
-    struct point *points; /* cell by cell; owned */
-    uint32_t *cells;      /* cells[c]..cells[c + 1]: points of cell c; owned */
-    size_t count;
-    float disc;  /* radius of a point */
-    ps_vec3 low; /* corner of the grid */
-    float cell;  /* side of a cell */
-    int across;  /* cells along each axis */
-};
 
 struct state {
     int64_t points;
     int64_t pull;
-    struct cloud cloud;
+    struct point_cloud cloud;
 };
-
-/* --- points --- */
-
-struct lines {
-    ps_ray rays[LINES];
-    ps_hit hits[LINES];
-};
-
-/* Lines `first` and on: a direction, uniform over the sphere, and a place on the disc across it. */
-static void draw_lines(const ps_host *host, uint64_t first, ps_vec3 center, float radius,
-                       struct lines *lines)
-{
-    uint64_t indices[LINES];
-    float numbers[LINES][4];
-    for (size_t i = 0; i < LINES; i++)
-        indices[i] = first + i;
-    host->samples(host, PS_STREAM_PLUGIN, 0, indices, LINES, numbers);
-    for (size_t i = 0; i < LINES; i++) {
-        ps_vec3 u, v;
-        ps_vec3 w = ps_cone_direction((ps_vec3){0, 0, 1}, -1.0f, numbers[i][0], numbers[i][1]);
-        float off = radius * sqrtf(numbers[i][2]), turn = 2.0f * PS_PI * numbers[i][3];
-        ps_frame(w, &u, &v);
-        ps_vec3 origin = ps_add_scaled(center, off * cosf(turn), u);
-        origin = ps_add_scaled(origin, off * sinf(turn), v);
-        lines->rays[i] =
-            (ps_ray){ps_add_scaled(origin, -1.01f * radius, w), 0.0f, w, 2.02f * radius};
-    }
-}
-
-/* Keeps the lines that met something, to go on behind it. Returns how many. */
-static size_t go_on(struct lines *lines, size_t n, float step)
-{
-    size_t left = 0;
-    for (size_t i = 0; i < n; i++) {
-        float beyond = lines->hits[i].distance + step;
-        if (!(beyond < lines->rays[i].tfar))
-            continue;
-        lines->rays[left] = lines->rays[i];
-        lines->rays[left++].tnear = beyond;
-    }
-    return left;
-}
-
-/* All crossings of LINES lines. Points past `wanted` are counted but not kept. */
-static size_t follow_lines(const ps_host *host, struct lines *lines, float radius, size_t wanted,
-                           struct point *points, size_t count)
-{
-    size_t n = LINES;
-    for (int crossing = 0; crossing < MOST_CROSSINGS && n > 0; crossing++) {
-        host->intersect(host, lines->rays, n, lines->hits);
-        for (size_t i = 0; i < n; i++) {
-            if (!(lines->hits[i].distance < INFINITY))
-                continue;
-            if (count < wanted)
-                points[count] = (struct point){lines->hits[i].position, lines->hits[i].normal};
-            count++;
-        }
-        n = go_on(lines, n, CROSSING_STEP * radius);
-    }
-    return count;
-}
-
-/* Fills `points`; returns how many there are, and the area of each. */
-static size_t scatter(const ps_host *host, size_t wanted, struct point *points, float *area)
-{
-    struct lines lines;
-    ps_vec3 center;
-    float radius;
-    uint64_t drawn = 0, most = LINES_PER_POINT * ((uint64_t)wanted + LINES);
-    size_t count = 0;
-    host->scene_bounds(host, &center, &radius);
-    for (; count < wanted && drawn < most; drawn += LINES) {
-        draw_lines(host, drawn, center, radius, &lines);
-        count = follow_lines(host, &lines, radius, wanted, points, count);
-    }
-    double crossings_per_line = (double)count / (double)drawn;
-    double whole = 2.0 * 3.14159265358979 * (double)radius * radius * crossings_per_line;
-    count = count < wanted ? count : wanted;
-    *area = count ? (float)(whole / (double)count) : 0.0f;
-    return count;
-}
-
-/* --- grid --- */
-
-/* The cell at x, in cells; what lies outside counts to the cells at the border. */
-static int cell_at(const struct cloud *cloud, float x)
-{
-    return (int)fminf(fmaxf(x, 0.0f), (float)(cloud->across - 1));
-}
-
-static size_t cell_index(const struct cloud *cloud, int x, int y, int z)
-{
-    size_t across = (size_t)cloud->across;
-    return ((size_t)z * across + (size_t)y) * across + (size_t)x;
-}
-
-static size_t cell_of(const struct cloud *cloud, ps_vec3 p)
-{
-    ps_vec3 at = ps_scale(ps_subtract(p, cloud->low), 1.0f / cloud->cell);
-    return cell_index(cloud, cell_at(cloud, at.x), cell_at(cloud, at.y), cell_at(cloud, at.z));
-}
-
-static void lay_grid(const ps_host *host, float area, struct cloud *cloud)
-{
-    ps_vec3 center;
-    float radius;
-    host->scene_bounds(host, &center, &radius);
-    float wanted = ceilf(2.0f * radius / (CELL * sqrtf(area)));
-    cloud->across = (int)fminf(fmaxf(wanted, 1.0f), (float)MOST_CELLS);
-    cloud->cell = 2.0f * radius / (float)cloud->across;
-    cloud->low = ps_subtract(center, (ps_vec3){radius, radius, radius});
-    cloud->disc = sqrtf(COVERAGE * area / PS_PI);
-}
-
-/* Counting sort by cell; within a cell points keep their order. */
-static void sort_points(const struct point *points, size_t cells, struct cloud *cloud)
-{
-    memset(cloud->cells, 0, (cells + 1) * sizeof *cloud->cells);
-    for (size_t i = 0; i < cloud->count; i++)
-        cloud->cells[cell_of(cloud, points[i].position)]++;
-    uint32_t sum = 0;
-    for (size_t c = 0; c <= cells; c++) {
-        sum += cloud->cells[c];
-        cloud->cells[c] = sum;
-    }
-    for (size_t i = cloud->count; i-- > 0;)
-        cloud->points[--cloud->cells[cell_of(cloud, points[i].position)]] = points[i];
-}
-
-static int make_cloud(const ps_host *host, const struct point *points, size_t count, float area,
-                      struct cloud *cloud)
-{
-    cloud->count = count;
-    lay_grid(host, area, cloud);
-    size_t cells = (size_t)cloud->across * (size_t)cloud->across * (size_t)cloud->across;
-    cloud->points = host->allocate(host, count * sizeof *points, "visibility points");
-    cloud->cells = host->allocate(host, (cells + 1) * sizeof *cloud->cells, "visibility points");
-    if (!cloud->points || !cloud->cells)
-        return 0;
-    sort_points(points, cells, cloud);
-    return 1;
-}
 
 static void destroy(void *opaque, const ps_host *host)
 {
     struct state *state = opaque;
-    host->release(host, state->cloud.points);
-    host->release(host, state->cloud.cells);
+    imperfect_cloud_release(host, &state->cloud);
 }
 
 static ps_result init(void *opaque, const ps_host *host)
 {
     struct state *state = opaque;
     size_t wanted = (size_t)state->points;
-    struct point *points = host->allocate(host, wanted * sizeof *points, "visibility points");
-    float area = 0;
-    size_t count = points ? scatter(host, wanted, points, &area) : 0;
-    int made = points && (count == 0 || make_cloud(host, points, count, area, &state->cloud));
-    host->release(host, points);
-    if (!made) {
+    if (!imperfect_cloud_create(host, wanted, &state->cloud)) {
         char why[80];
-        destroy(state, host);
         snprintf(why, sizeof why, "out of memory for %lld points", (long long)state->points);
         return host->fail(host, PS_ERROR_MEMORY, why);
     }
-    host->count(host, "visibility points", (double)count);
-    if (count < wanted)
+    host->count(host, "visibility points", (double)state->cloud.count);
+    if (state->cloud.count < wanted)
         host->log(host, PS_LOG_WARNING, "imperfect: the scene has hardly any surface for points");
     return PS_OK;
 }
@@ -230,7 +49,7 @@ static ps_result init(void *opaque, const ps_host *host)
 
 struct map {
     const ps_bundle *bundle;
-    const struct cloud *cloud;
+    const struct point_cloud *cloud;
     float *depths;
     uint32_t side;
     float texel;
@@ -388,7 +207,7 @@ static void draw_slab(struct map *map, const struct walk *walk, int slab, struct
     depths.to = fminf(depths.to, walk->end);
     if (!(depths.from <= depths.to))
         return;
-    const struct cloud *cloud = map->cloud;
+    const struct point_cloud *cloud = map->cloud;
     struct range rows = beam_along(walk, 1, depths), columns = beam_along(walk, 2, depths);
     int last_row = cell_at(cloud, rows.to);
     for (int row = cell_at(cloud, rows.from); row <= last_row; row++) {
@@ -423,107 +242,6 @@ static void draw_map(struct map *map)
     }
 }
 
-/* --- pull-push --- */
-
-/* Whether one of the `reach` texels from (x, y) on in a direction is nearer than `limit`. */
-static int is_closed(const float *depths, int side, int x, int y, int dx, int dy, int reach,
-                     float limit)
-{
-    for (int i = 0; i < reach; i++) {
-        x += dx;
-        y += dy;
-        if (x < 0 || y < 0 || x >= side || y >= side)
-            return 0;
-        if (depths[y * side + x] < limit)
-            return 1;
-    }
-    return 0;
-}
-
-/* Marks texels that look through a hole between a surface's points: in all four directions there is
- * a surface far in front within `reach` texels. Opens them in place: an opened texel counts as far
- * behind. Where nothing lies behind, texels are open from the start; those that are not closed in
- * are no holes but see past everything. */
-static void open_holes(float *depths, int side, int reach, float apart, uint8_t *holes)
-{
-    for (int y = 0; y < side; y++)
-        for (int x = 0; x < side; x++) {
-            float limit = depths[y * side + x] - apart;
-            int hole = is_closed(depths, side, x, y, -1, 0, reach, limit) &&
-                       is_closed(depths, side, x, y, 1, 0, reach, limit) &&
-                       is_closed(depths, side, x, y, 0, -1, reach, limit) &&
-                       is_closed(depths, side, x, y, 0, 1, reach, limit);
-            holes[y * side + x] = (uint8_t)hole;
-            if (hole)
-                depths[y * side + x] = INFINITY;
-        }
-}
-
-/* Mean depth of the texels of a block of four that lie within `apart` of the nearest: a hole belongs
- * to the surface in front. */
-static float pull_block(const float *depths, uint32_t side, uint32_t left, uint32_t top,
-                        float apart)
-{
-    float nearest = INFINITY, sum = 0;
-    int count = 0;
-    for (uint32_t y = top; y < top + 2 && y < side; y++)
-        for (uint32_t x = left; x < left + 2 && x < side; x++)
-            nearest = fminf(nearest, depths[y * side + x]);
-    for (uint32_t y = top; y < top + 2 && y < side; y++)
-        for (uint32_t x = left; x < left + 2 && x < side; x++)
-            if (depths[y * side + x] < INFINITY && depths[y * side + x] <= nearest + apart) {
-                sum += depths[y * side + x];
-                count++;
-            }
-    return count ? sum / (float)count : INFINITY;
-}
-
-/* The depth of a flat surface at an open texel, from two texels on opposite sides that lie on one
- * surface; INFINITY if there are none. */
-static float bridge(const float *depths, uint32_t side, uint32_t x, uint32_t y, float apart)
-{
-    const float *at = &depths[y * side + x];
-    float best = INFINITY;
-    if (x > 0 && x + 1 < side && fabsf(at[-1] - at[1]) <= apart)
-        best = 0.5f * (at[-1] + at[1]);
-    if (y > 0 && y + 1 < side && fabsf(at[-(int)side] - at[side]) <= apart)
-        best = fminf(best, 0.5f * (at[-(int)side] + at[side]));
-    return best;
-}
-
-/* Fills open texels from what is beside them, or from the level above, which is filled first. */
-static void pull_push(float *depths, uint32_t side, int64_t levels, float apart)
-{
-    float above[PS_MOST_TEXELS / 2 * PS_MOST_TEXELS / 2];
-    uint32_t half = (side + 1) / 2;
-    if (levels == 0 || side < 2)
-        return;
-    for (uint32_t i = 0; i < half * half; i++)
-        above[i] = pull_block(depths, side, 2 * (i % half), 2 * (i / half), apart);
-    pull_push(above, half, levels - 1, 2.0f * apart);
-    for (uint32_t i = 0; i < side * side; i++) {
-        uint32_t x = i % side, y = i / side;
-        if (depths[i] < INFINITY)
-            continue;
-        float between = bridge(depths, side, x, y, 2.0f * apart);
-        depths[i] = between < INFINITY ? between : above[y / 2 * half + x / 2];
-    }
-}
-
-/* A level of pull-push doubles the width of the holes that are found and filled. */
-static void fill_holes(float *depths, uint32_t side, int64_t levels, float texel)
-{
-    float filled[PS_MOST_TEXELS * PS_MOST_TEXELS];
-    uint8_t holes[PS_MOST_TEXELS * PS_MOST_TEXELS] = {0};
-    if (levels == 0)
-        return;
-    open_holes(depths, (int)side, 1 << (levels - 1), SAME_SURFACE * texel, holes);
-    memcpy(filled, depths, side * side * sizeof *filled);
-    pull_push(filled, side, levels, SAME_SURFACE * texel);
-    for (uint32_t i = 0; i < side * side; i++)
-        depths[i] = holes[i] ? filled[i] : depths[i];
-}
-
 /* --- callbacks --- */
 
 static void depth_maps(const void *opaque, const ps_host *host, const ps_bundle *bundles, size_t n,
@@ -540,7 +258,7 @@ static void depth_maps(const void *opaque, const ps_host *host, const ps_bundle 
         if (state->cloud.count == 0)
             continue;
         draw_map(&map);
-        fill_holes(map.depths, side, state->pull, texel);
+        imperfect_fill_holes(map.depths, side, state->pull, texel);
     }
 }
 
