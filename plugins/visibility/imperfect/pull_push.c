@@ -78,16 +78,18 @@ static void pull_push(float *depths, uint32_t side, int64_t levels, float apart)
     uint32_t half = (side + 1) / 2;
     if (levels == 0 || side < 2)
         return;
-    for (uint32_t i = 0; i < half * half; i++)
-        above[i] = pull_block(depths, side, 2 * (i % half), 2 * (i / half), apart);
+    for (uint32_t y = 0; y < side; y += 2)
+        for (uint32_t x = 0; x < side; x += 2)
+            above[y / 2 * half + x / 2] = pull_block(depths, side, x, y, apart);
     pull_push(above, half, levels - 1, 2.0f * apart);
-    for (uint32_t i = 0; i < side * side; i++) {
-        uint32_t x = i % side, y = i / side;
-        if (depths[i] < INFINITY)
-            continue;
-        float between = bridge(depths, side, x, y, 2.0f * apart);
-        depths[i] = between < INFINITY ? between : above[y / 2 * half + x / 2];
-    }
+    for (uint32_t y = 0; y < side; y++)
+        for (uint32_t x = 0; x < side; x++) {
+            float *depth = &depths[y * side + x];
+            if (*depth < INFINITY)
+                continue;
+            float between = bridge(depths, side, x, y, 2.0f * apart);
+            *depth = between < INFINITY ? between : above[y / 2 * half + x / 2];
+        }
 }
 
 void imperfect_fill_holes(float *depths, uint32_t side, int64_t levels, float texel)
