@@ -27,8 +27,8 @@ struct psd_options {
     double memory_limit;     /* bytes that all may take; 0: the machine's */
     bool allow_plugin_paths; /* whether the scene may name plugins, which are programs, by path */
     size_t most_values;      /* 0: 4 million */
-    struct mesh_ahead *
-        ahead; /* a mesh file that was read already, and is taken where the scene asks for it; or NULL */
+    /* A mesh file that was read already, and is taken where the scene asks for it; or NULL. */
+    struct mesh_ahead *ahead;
 };
 
 /* Reads the file ("-" is standard input). PS_OK when nothing but warnings was reported; otherwise

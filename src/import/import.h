@@ -14,7 +14,8 @@
 #include "base/error.h"
 #include "scene/description.h"
 
-/* What to take from a mesh file, and how to carry it into the scene. */
+/* What to take from a mesh file, and how to carry it into the scene. What makes two requests differ is stated in cache.c and in
+ * ahead.c. */
 struct mesh_request {
     const char *path;
     const char *folder;  /* the only one to read from (input_file.h), or NULL */

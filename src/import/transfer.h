@@ -30,7 +30,8 @@ bool mesh_outcome_receive(struct mesh_outcome *outcome, int file);
 
 void mesh_outcome_release(struct mesh_outcome *outcome);
 
-/* Of all that has one: what was read for another request, by another process or before, has other names in its origins. */
+/* Sets the origins of objects, materials, textures, cameras and lights, where they are another request's: of another process, or of
+ * an earlier reading. */
 void mesh_fragment_set_origins(struct scene_description *fragment, struct origin origin);
 
 #endif

@@ -30,7 +30,7 @@ float noise_value(ps_vec3 point, uint32_t seed);
  * first against the axes, so that nothing shows the lattice along them. */
 float noise_fractal(ps_vec3 point, int32_t octaves, uint32_t seed);
 
-/* The same, and its gradient, which costs a seventh more: differences would take six values. */
+/* The same, and its gradient: hardly more work than the value, of which differences would take six. */
 float noise_fractal_gradient(ps_vec3 point, int32_t octaves, uint32_t seed, ps_vec3 *gradient);
 
 /* Three independent fractal noises. */
