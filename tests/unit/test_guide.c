@@ -5,6 +5,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -115,6 +116,53 @@ static void test_the_other_half_weighs(void **state)
     assert_true(guide_smooth_ratio(&lucky, 1, up, direction) == 1.0f);
 }
 
+static struct guide_lesson lesson_of(const struct guide *guide)
+{
+    struct guide_lesson lesson = {.normal = guide->normal, .u = guide->u};
+    memcpy(lesson.found, guide->found, sizeof lesson.found);
+    return lesson;
+}
+
+/* Both halves learn half of all that the other guide found, times the share. */
+static void test_learns_from_another(void **state)
+{
+    (void)state;
+    struct guide guide, other;
+    struct random random = {11};
+    double own[2] = {0, 0}, all = 0, sums[2] = {0, 0};
+    guide_begin(&guide, up);
+    guide_begin(&other, ps_normalize((ps_vec3){0.01f, 0.0f, 1.0f}));
+    learn(&guide, &random, 100);
+    learn(&other, &random, 1000);
+    struct guide_lesson lesson = lesson_of(&other);
+    for (int half = 0; half < 2; half++)
+        for (int i = 0; i < GUIDE_BINS; i++) {
+            own[half] += (double)guide.found[half][i / GUIDE_SECTORS][i % GUIDE_SECTORS];
+            all += (double)other.found[half][i / GUIDE_SECTORS][i % GUIDE_SECTORS];
+        }
+    guide_learn_from(&guide, &lesson, 0.5f);
+    for (int half = 0; half < 2; half++) {
+        for (int i = 0; i < GUIDE_BINS; i++)
+            sums[half] += (double)guide.found[half][i / GUIDE_SECTORS][i % GUIDE_SECTORS];
+        assert_float_equal(sums[half], own[half] + 0.25 * all, 1e-3 * all);
+    }
+}
+
+static void test_learns_nothing_from_another_side(void **state)
+{
+    (void)state;
+    struct guide guide, other;
+    struct random random = {13};
+    guide_begin(&guide, up);
+    guide_begin(&other, ps_normalize((ps_vec3){0.3f, 0.0f, 1.0f}));
+    learn(&other, &random, 1000);
+    struct guide_lesson lesson = lesson_of(&other);
+    guide_learn_from(&guide, &lesson, 0.5f);
+    for (int half = 0; half < 2; half++)
+        for (int i = 0; i < GUIDE_BINS; i++)
+            assert_true(guide.found[half][i / GUIDE_SECTORS][i % GUIDE_SECTORS] == 0.0f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -122,6 +170,8 @@ int main(void)
         cmocka_unit_test(test_ratio_is_that_of_the_pdf),
         cmocka_unit_test(test_smooth_ratio_is_a_pdf_s),
         cmocka_unit_test(test_the_other_half_weighs),
+        cmocka_unit_test(test_learns_from_another),
+        cmocka_unit_test(test_learns_nothing_from_another_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,16 +8,19 @@
 
 struct work {
     const struct gather_setting *setting;
-    /* When tiles take samples by their need: what the first round found in each tile that is there, and in those that stand for
-     * the picture. It is kept for the former, `places` being their places. */
+    /* When tiles take samples by their need: what the first round found in each tile that is there, in those around these, and in
+     * those that stand for the picture. It is kept for the former two, `places` being their places. */
     const struct gather_shares *shares; /* NULL: they do not */
     struct gather_first *first_rounds;
     struct tile_pilot
         *pilots; /* of the picture's tiles; of those that were not looked at, without points */
     uint32_t *places;
+    bool shares_are_known; /* so that no tile stands for the picture */
 };
 
 #define NO_PLACE UINT32_MAX
+#define IS_THERE 0u /* before places are numbered */
+#define IS_WANTED 1u
 
 static bool begin_tile(const struct work *work, uint64_t index, const ps_tile *tile,
                        struct gather *gather)
@@ -64,18 +67,47 @@ static void take_first_round(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
-    if (work->places[index] == NO_PLACE && !stands_for_picture(work, index))
+    bool tells = !work->shares_are_known && stands_for_picture(work, index);
+    if (work->places[index] == NO_PLACE && !tells)
         return;
     const ps_host *host = work->setting->paths.host;
     ps_tile tile;
     struct gather gather;
     host->tile_surfaces(host, (uint32_t)index, sizeof tile, &tile);
+    if (work->places[index] != NO_PLACE)
+        work->first_rounds[work->places[index]].guide_count = 0;
     if (!begin_tile(work, index, &tile, &gather))
         return;
     gather_samples(&gather, GATHER_FIRST);
+    gather_teach(&gather);
     work->pilots[index] = pilot_of(&gather, &tile, BOTH_HALVES);
     if (work->places[index] != NO_PLACE)
         work->first_rounds[work->places[index]] = gather.first;
+}
+
+/* The tiles of the picture next to one, up to eight. */
+static size_t tiles_around(const ps_pass *pass, uint64_t tile, uint32_t around[8])
+{
+    int64_t across = (pass->width + PS_TILE_SIZE - 1) / PS_TILE_SIZE;
+    int64_t down = pass->tile_count / across, x = (int64_t)tile % across,
+            y = (int64_t)tile / across;
+    size_t count = 0;
+    for (int64_t row = y - 1; row <= y + 1; row++)
+        for (int64_t column = x - 1; column <= x + 1; column++)
+            if (row >= 0 && row < down && column >= 0 && column < across &&
+                (row != y || column != x))
+                around[count++] = (uint32_t)(row * across + column);
+    return count;
+}
+
+static void resume(const struct work *work, uint64_t index, struct gather *gather)
+{
+    uint32_t tiles[8];
+    const struct gather_first *around[8];
+    size_t count = tiles_around(work->setting->paths.pass, index, tiles);
+    for (size_t i = 0; i < count; i++)
+        around[i] = &work->first_rounds[work->places[tiles[i]]];
+    gather_resume(gather, &work->first_rounds[work->places[index]], around, count);
 }
 
 static void gather_tile(void *user, uint64_t index, uint32_t worker)
@@ -92,7 +124,7 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
         return;
     if (work->shares) {
         const struct allocation *allocation = &work->shares->allocation;
-        gather_resume(&gather, &work->first_rounds[work->places[index]]);
+        resume(work, index, &gather);
         struct tile_pilot first = pilot_of(&gather, tile, FIRST_HALF);
         struct tile_pilot second = pilot_of(&gather, tile, SECOND_HALF);
         gather.expected[0] = allocated_samples(allocation, &second);
@@ -107,15 +139,31 @@ static void mark_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
-    work->places[index] = 0;
+    work->places[index] = IS_THERE;
 }
 
-/* Finds the tiles that are there, and makes room for what the first round finds in them. */
+/* Gives a place to each tile that is there (0) and those around it. Returns how many. */
+static uint32_t number_places(const struct work *work)
+{
+    const ps_pass *pass = work->setting->paths.pass;
+    uint32_t count = 0, tiles[8];
+    for (uint32_t tile = 0; tile < pass->tile_count; tile++) {
+        size_t around = work->places[tile] == IS_THERE ? tiles_around(pass, tile, tiles) : 0;
+        for (size_t i = 0; i < around; i++)
+            if (work->places[tiles[i]] == NO_PLACE)
+                work->places[tiles[i]] = IS_WANTED;
+    }
+    for (uint32_t tile = 0; tile < pass->tile_count; tile++)
+        if (work->places[tile] != NO_PLACE)
+            work->places[tile] = count++;
+    return count;
+}
+
+/* Finds the tiles that are there, and makes room for what the first round finds in them and around. */
 static ps_result make_places(struct work *work)
 {
     const ps_host *host = work->setting->paths.host;
     size_t tiles = work->setting->paths.pass->tile_count;
-    uint32_t count = 0;
     double before = work->setting->share_before;
     host->progress_part(host, before, before);
     work->places = host->allocate(host, tiles * sizeof *work->places, "first round");
@@ -124,10 +172,8 @@ static ps_result make_places(struct work *work)
     for (size_t i = 0; i < tiles; i++)
         work->places[i] = NO_PLACE;
     ps_result result = host->for_each_tile(host, mark_tile, work);
-    for (size_t i = 0; i < tiles; i++)
-        if (work->places[i] != NO_PLACE)
-            work->places[i] = count++;
-    work->first_rounds = host->allocate(host, count * sizeof *work->first_rounds, "first round");
+    size_t bytes = number_places(work) * sizeof *work->first_rounds;
+    work->first_rounds = host->allocate(host, bytes, "first round");
     return work->first_rounds || result != PS_OK ? result : PS_ERROR_MEMORY;
 }
 
@@ -150,7 +196,7 @@ static ps_result find_shares(struct work *work, struct gather_shares *shares)
     const ps_host *host = work->setting->paths.host;
     size_t bytes = work->setting->paths.pass->tile_count * sizeof *work->pilots;
     if (shares->are_known)
-        return host->for_each_tile(host, take_first_round, work);
+        return host->for_each_picture_tile(host, take_first_round, work);
     struct tile_pilot *chosen = host->allocate(host, bytes, "first round");
     if (!chosen)
         return PS_ERROR_MEMORY;
@@ -169,6 +215,7 @@ static ps_result share_out_samples(struct work *work, struct gather_shares *shar
     if (!work->pilots)
         return PS_ERROR_MEMORY;
     memset(work->pilots, 0, bytes);
+    work->shares_are_known = shares->are_known;
     ps_result result = make_places(work);
     double before = work->setting->share_before;
     double first = before + (1.0 - before) * (double)GATHER_FIRST / (double)work->setting->samples;

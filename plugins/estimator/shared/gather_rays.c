@@ -3,6 +3,7 @@
 #include <string.h>
 
 #define SAME_FACING 0.8f /* cosine of two normals that share a guide */
+#define FROM_AROUND 0.5f /* of the light that the gathers around found, for that found here */
 
 /* --- guides --- */
 
@@ -218,13 +219,39 @@ static void update_guides(struct gather *gather)
         guide_update(&gather->guides[i]);
 }
 
-void gather_resume(struct gather *gather, const struct gather_first *first)
+void gather_teach(struct gather *gather)
 {
-    gather->first = *first;
-    gather->done = GATHER_FIRST;
+    struct gather_first *first = &gather->first;
     for (size_t number = 0; number < GATHER_FIRST; number++)
         for (size_t i = 0; i < gather->points.count; i++)
             learn(gather, i, first->directions[number][i], first->found[number][i]);
+    first->guide_count = gather->guide_count;
+    for (uint32_t i = 0; i < gather->guide_count; i++) {
+        const struct guide *guide = &gather->guides[i];
+        first->lessons[i].normal = guide->normal;
+        first->lessons[i].u = guide->u;
+        memcpy(first->lessons[i].found, guide->found, sizeof guide->found);
+    }
+}
+
+/* Neighbours know of light that the few rays here have missed, and where these were lucky, do not point there because of it. */
+static void learn_from_around(struct gather *gather, const struct gather_first *const around[],
+                              size_t count)
+{
+    for (size_t k = 0; k < count; k++)
+        for (uint32_t i = 0; i < gather->guide_count; i++)
+            for (uint32_t j = 0; j < around[k]->guide_count; j++)
+                guide_learn_from(&gather->guides[i], &around[k]->lessons[j], FROM_AROUND);
+}
+
+void gather_resume(struct gather *gather, const struct gather_first *first,
+                   const struct gather_first *const around[], size_t count)
+{
+    gather->first = *first;
+    gather->done = GATHER_FIRST;
+    for (uint32_t i = 0; i < gather->guide_count; i++)
+        memcpy(gather->guides[i].found, first->lessons[i].found, sizeof first->lessons[i].found);
+    learn_from_around(gather, around, count);
     update_guides(gather);
 }
 

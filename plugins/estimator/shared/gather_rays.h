@@ -10,7 +10,7 @@
  * rounds, this is done with each, and the mean over all guided rays is taken.
  *
  * Neither q nor g may come from what the weighed rays found, or bright ones count for less than they should. So the points
- * of a group are two halves, and rays from either are weighed by the guide that the other half taught, and by as many rays
+ * of a group are two halves, and rays from either are weighed by the guide that the other half and the groups around taught, and by as many rays
  * as that would ask for.
  */
 #ifndef PSPLAT_ESTIMATOR_GATHER_RAYS_H
@@ -40,10 +40,13 @@ struct gather_setting {
     double share_before; /* of a pass's time, which what comes before the picture takes */
 };
 
-/* What the rays of the first round found, by the cosine, and where: to be weighed when there are guides. */
+/* What the rays of the first round found, by the cosine, and where: to be weighed when there are guides. And what they taught
+ * those: found when the round has been taken as all there is (gather_teach()). */
 struct gather_first {
     ps_rgb found[GATHER_FIRST][PS_TILE_PIXELS];
     ps_vec3 directions[GATHER_FIRST][PS_TILE_PIXELS];
+    uint32_t guide_count;
+    struct guide_lesson lessons[GATHER_GUIDES];
 };
 
 struct gather {
@@ -76,7 +79,12 @@ void gather_begin(struct gather *gather);
 /* Takes samples until `samples` are done, in rounds. Any thread. */
 void gather_samples(struct gather *gather, uint64_t samples);
 
-/* Goes on after a first round of a gather of the same points; more samples are to follow. */
-void gather_resume(struct gather *gather, const struct gather_first *first);
+/* After a first round that no other is to follow, for now. */
+void gather_teach(struct gather *gather);
+
+/* Goes on after the first round of a gather of the same points, which has taught; more samples are to follow. They are also
+ * guided by what those of `count` gathers around found. */
+void gather_resume(struct gather *gather, const struct gather_first *first,
+                   const struct gather_first *const around[], size_t count);
 
 #endif

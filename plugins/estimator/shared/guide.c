@@ -5,7 +5,8 @@
 
 _Static_assert(GUIDE_SECTORS == 16, "sector_of");
 
-#define BY_COSINE 0.25f /* share of the rays */
+#define BY_COSINE 0.25f  /* share of the rays */
+#define SAME_FRAME 0.99f /* cosine between axes */
 
 void guide_begin(struct guide *guide, ps_vec3 normal)
 {
@@ -41,6 +42,20 @@ void guide_learn(struct guide *guide, int half, ps_vec3 direction, float irradia
         return;
     bin_of(guide, direction, cosine, &ring, &sector);
     guide->found[half][ring][sector] += irradiance;
+}
+
+void guide_learn_from(struct guide *guide, const struct guide_lesson *lesson, float share)
+{
+    if (!(ps_dot(guide->normal, lesson->normal) > SAME_FRAME &&
+          ps_dot(guide->u, lesson->u) > SAME_FRAME))
+        return;
+    for (int ring = 0; ring < GUIDE_RINGS; ring++)
+        for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
+            float found =
+                0.5f * share * (lesson->found[0][ring][sector] + lesson->found[1][ring][sector]);
+            guide->found[0][ring][sector] += found;
+            guide->found[1][ring][sector] += found;
+        }
 }
 
 /* --- smoothing --- */

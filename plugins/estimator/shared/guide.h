@@ -32,11 +32,21 @@ struct guide {
     guide_bins sector_ends;
 };
 
+/* What a guide's rays found, in the frame of its normal. */
+struct guide_lesson {
+    ps_vec3 normal, u;
+    guide_bins found[2];
+};
+
 /* Nothing is known yet. */
 void guide_begin(struct guide *guide, ps_vec3 normal);
 
 /* A ray of that half, 0 or 1, found so much irradiance. */
 void guide_learn(struct guide *guide, int half, ps_vec3 direction, float irradiance);
+
+/* What `share` of the light that another guide's rays found, both halves, tells both halves of this one: as long as none of its own
+ * rays is among them. Nothing where the other has another frame: a surface that is bent. */
+void guide_learn_from(struct guide *guide, const struct guide_lesson *lesson, float share);
 
 /* From now on rays are drawn by what was learnt. */
 void guide_update(struct guide *guide);
