@@ -142,7 +142,7 @@ static void mark_tile(void *user, uint64_t index, uint32_t worker)
     work->places[index] = IS_THERE;
 }
 
-/* Gives a place to each tile that is there (0) and those around it. Returns how many. */
+/* Gives a place to each tile that is there (IS_THERE) and to those around it. Returns how many. */
 static uint32_t number_places(const struct work *work)
 {
     const ps_pass *pass = work->setting->paths.pass;
