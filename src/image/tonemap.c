@@ -1,7 +1,8 @@
 /* tonemap.c: linear radiance to 8-bit display values.
  *
  * Exposure, then a curve on each channel, then the sRGB transfer function, then rounding to the
- * nearest of 256 steps, or of pictures, dithered, to one of the two nearest; in double, so that the rounding is that of the exact value. Channels are
+ * nearest of 256 steps, or for pictures, which are dithered, to one of the two nearest; in double, so that the rounding is that of
+ * the exact value. Channels are
  * treated alike and apart: hues shift towards white where they saturate, which is what film does,
  * and what the thesis's clipped pictures do.
  */
@@ -37,12 +38,12 @@ double tonemap_linear(double display)
     return copysign(linear, display);
 }
 
-static uint8_t display_byte(float linear, double factor, enum tone_curve curve)
+static uint8_t display_byte(float linear, double factor, enum tone_curve curve, double dither)
 {
     double exposed = linear * factor;
     if (curve == TONE_FILMIC)
         exposed = ps_shoulder(exposed, SHOULDER);
-    return (uint8_t)(255.0 * srgb_from_linear(exposed) + 0.5);
+    return (uint8_t)(255.0 * srgb_from_linear(exposed) + 0.5 + dither);
 }
 
 /* Less than half a step of the 256 either way: interleaved gradient noise (Jimenez 2014, "Next generation post processing in Call of
@@ -54,19 +55,14 @@ static double dither_at(uint32_t x, uint32_t y)
     return LARGEST_DITHER * (2.0 * (outer - floor(outer)) - 1.0);
 }
 
-static uint8_t dithered_byte(float linear, double dither)
-{
-    return (uint8_t)(255.0 * srgb_from_linear((double)linear) + 0.5 + dither);
-}
-
 void tonemap_row(const float *red, const float *green, const float *blue, size_t n, uint32_t x,
                  uint32_t y, uint8_t *rgb)
 {
     for (size_t i = 0; i < n; i++) {
         double dither = dither_at(x + (uint32_t)i, y);
-        rgb[3 * i] = dithered_byte(red[i], dither);
-        rgb[3 * i + 1] = dithered_byte(green[i], dither);
-        rgb[3 * i + 2] = dithered_byte(blue[i], dither);
+        rgb[3 * i] = display_byte(red[i], 1.0, TONE_CLIP, dither);
+        rgb[3 * i + 1] = display_byte(green[i], 1.0, TONE_CLIP, dither);
+        rgb[3 * i + 2] = display_byte(blue[i], 1.0, TONE_CLIP, dither);
     }
 }
 
@@ -75,8 +71,8 @@ void tonemap_planes(const float *red, const float *green, const float *blue, siz
 {
     double factor = exp2(stops);
     for (size_t i = 0; i < n; i++) {
-        rgb[3 * i] = display_byte(red[i], factor, curve);
-        rgb[3 * i + 1] = display_byte(green[i], factor, curve);
-        rgb[3 * i + 2] = display_byte(blue[i], factor, curve);
+        rgb[3 * i] = display_byte(red[i], factor, curve, 0.0);
+        rgb[3 * i + 1] = display_byte(green[i], factor, curve, 0.0);
+        rgb[3 * i + 2] = display_byte(blue[i], factor, curve, 0.0);
     }
 }

@@ -133,17 +133,29 @@ static ps_vec3 turn_back(ps_vec3 g)
     };
 }
 
-float noise_fractal(ps_vec3 point, int32_t octaves, uint32_t seed)
+/* Their sum, to be divided by the deviation. `gradients`: of each octave, before it is turned back, or NULL. */
+static inline float add_octaves(ps_vec3 point, int32_t octaves, uint32_t seed, ps_vec3 *gradients,
+                                float *deviation)
 {
     float sum = 0.0f, amplitude = 1.0f, variance = 0.0f;
     point = turn(point);
-    for (uint32_t octave = 0; octave < (uint32_t)octaves; octave++) {
-        sum += amplitude * noise_value(point, seed + octave);
+    for (int32_t octave = 0; octave < octaves; octave++) {
+        struct sloped of = noise(point, seed + (uint32_t)octave);
+        if (gradients)
+            gradients[octave] = of.gradient;
+        sum += amplitude * of.value;
         variance += amplitude * amplitude;
         amplitude *= 0.5f;
         point = turn(ps_scale(point, 2.0f));
     }
-    return sum / sqrtf(variance);
+    *deviation = sqrtf(variance);
+    return sum;
+}
+
+float noise_fractal(ps_vec3 point, int32_t octaves, uint32_t seed)
+{
+    float deviation, sum = add_octaves(point, octaves, seed, NULL, &deviation);
+    return sum / deviation;
 }
 
 /* Octaves are half as high as the one before and twice as fine: all are as steep, each turned back as often as its lattice was
@@ -151,21 +163,13 @@ float noise_fractal(ps_vec3 point, int32_t octaves, uint32_t seed)
 float noise_fractal_gradient(ps_vec3 point, int32_t octaves, uint32_t seed, ps_vec3 *gradient)
 {
     ps_vec3 gradients[NOISE_OCTAVES_LIMIT], total = {0, 0, 0};
-    float sum = 0.0f, amplitude = 1.0f, variance = 0.0f;
+    float deviation;
     assert(octaves >= 1 && octaves <= NOISE_OCTAVES_LIMIT);
-    point = turn(point);
-    for (int32_t octave = 0; octave < octaves; octave++) {
-        struct sloped of = noise(point, seed + (uint32_t)octave);
-        gradients[octave] = of.gradient;
-        sum += amplitude * of.value;
-        variance += amplitude * amplitude;
-        amplitude *= 0.5f;
-        point = turn(ps_scale(point, 2.0f));
-    }
+    float sum = add_octaves(point, octaves, seed, gradients, &deviation);
     for (int32_t octave = octaves; octave-- > 0;)
         total = turn_back(ps_add(gradients[octave], total));
-    *gradient = ps_scale(total, 1.0f / sqrtf(variance));
-    return sum / sqrtf(variance);
+    *gradient = ps_scale(total, 1.0f / deviation);
+    return sum / deviation;
 }
 
 /* Seeds far enough apart that their octaves never meet. */

@@ -15,7 +15,6 @@ struct work {
     struct tile_pilot
         *pilots; /* of the picture's tiles; of those that were not looked at, without points */
     uint32_t *places;
-    bool shares_are_known; /* so that no tile stands for the picture */
 };
 
 #define NO_PLACE UINT32_MAX
@@ -67,22 +66,23 @@ static void take_first_round(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
-    bool tells = !work->shares_are_known && stands_for_picture(work, index);
-    if (work->places[index] == NO_PLACE && !tells)
+    uint32_t place = work->places[index];
+    if (place == NO_PLACE && (work->shares->are_known || !stands_for_picture(work, index)))
         return;
     const ps_host *host = work->setting->paths.host;
     ps_tile tile;
     struct gather gather;
     host->tile_surfaces(host, (uint32_t)index, sizeof tile, &tile);
-    if (work->places[index] != NO_PLACE)
-        work->first_rounds[work->places[index]].guide_count = 0;
+    if (place != NO_PLACE)
+        work->first_rounds[place].guide_count = 0; /* also of a tile that sees nothing */
     if (!begin_tile(work, index, &tile, &gather))
         return;
     gather_samples(&gather, GATHER_FIRST);
-    gather_teach(&gather);
     work->pilots[index] = pilot_of(&gather, &tile, BOTH_HALVES);
-    if (work->places[index] != NO_PLACE)
-        work->first_rounds[work->places[index]] = gather.first;
+    if (place == NO_PLACE)
+        return;
+    gather_teach(&gather);
+    work->first_rounds[place] = gather.first;
 }
 
 /* The tiles of the picture next to one, up to eight. */
@@ -195,16 +195,15 @@ static ps_result find_shares(struct work *work, struct gather_shares *shares)
 {
     const ps_host *host = work->setting->paths.host;
     size_t bytes = work->setting->paths.pass->tile_count * sizeof *work->pilots;
-    if (shares->are_known)
-        return host->for_each_picture_tile(host, take_first_round, work);
+    ps_result result = host->for_each_picture_tile(host, take_first_round, work);
+    if (result != PS_OK || shares->are_known)
+        return result;
     struct tile_pilot *chosen = host->allocate(host, bytes, "first round");
     if (!chosen)
         return PS_ERROR_MEMORY;
-    ps_result result = host->for_each_picture_tile(host, take_first_round, work);
-    if (result == PS_OK)
-        *shares = (struct gather_shares){true, allocation_of(work, chosen)};
+    *shares = (struct gather_shares){true, allocation_of(work, chosen)};
     host->release(host, chosen);
-    return result;
+    return PS_OK;
 }
 
 static ps_result share_out_samples(struct work *work, struct gather_shares *shares)
@@ -215,7 +214,7 @@ static ps_result share_out_samples(struct work *work, struct gather_shares *shar
     if (!work->pilots)
         return PS_ERROR_MEMORY;
     memset(work->pilots, 0, bytes);
-    work->shares_are_known = shares->are_known;
+    work->shares = shares;
     ps_result result = make_places(work);
     double before = work->setting->share_before;
     double first = before + (1.0 - before) * (double)GATHER_FIRST / (double)work->setting->samples;
@@ -223,7 +222,6 @@ static ps_result share_out_samples(struct work *work, struct gather_shares *shar
     if (result == PS_OK)
         result = find_shares(work, shares);
     host->progress_part(host, first, 1.0);
-    work->shares = shares;
     return result;
 }
 
