@@ -320,6 +320,14 @@ struct ps_host {
      * how much a direction drawn by a density stands for. [any thread] */
     void (*intersect_cones)(const ps_host *host, const ps_ray *rays, const float *spreads, size_t n,
                             ps_hit *hits);
+
+    /* --- light of some lights --- */
+
+    /* Since 1.14: as direct_radiance, of the lights of some groups alone: `groups`, bits of ps_light_group, for each ray;
+     * NULL: of all. Those of one hit draw the same numbers, whatever groups are asked for. [any thread] */
+    void (*direct_radiance_of)(const ps_host *host, const ps_ray *rays, const ps_hit *hits,
+                               const uint8_t *groups, uint32_t stream, uint32_t set,
+                               const uint64_t *indices, size_t n, ps_rgb *radiance);
 };
 
 #define PS_SPHERE_TRIANGLES 512u

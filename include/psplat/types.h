@@ -135,6 +135,14 @@ typedef enum ps_light_kind {
     PS_LIGHT_SKY = 3      /* they come from infinity, out of all directions */
 } ps_light_kind;
 
+/* Groups of lights, bits for ps_host.direct_radiance_of: those with shadows so soft that their irradiance changes slowly from
+ * place to place, which are skies without a sun in their picture; and all others. */
+typedef enum ps_light_group {
+    PS_LIGHTS_SOFT = 1,
+    PS_LIGHTS_OTHERS = 2,
+    PS_LIGHTS_ALL = PS_LIGHTS_SOFT | PS_LIGHTS_OTHERS
+} ps_light_group;
+
 typedef struct ps_light {
     uint32_t size;    /* set by the caller: sizeof(ps_light) as it knows it */
     uint32_t kind;    /* ps_light_kind */

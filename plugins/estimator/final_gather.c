@@ -141,7 +141,7 @@ static ps_result fill_cache(struct work *work)
 
 /* A gather_lookup. */
 static bool look_up(const void *opaque, ps_vec3 position, ps_vec3 normal, float length,
-                    const float numbers[2], ps_rgb *irradiance)
+                    const float numbers[2], struct gather_known *known)
 {
     const struct cache *cache = opaque;
     int nearest[CANDIDATES], n = cache->places.neighbours;
@@ -151,7 +151,7 @@ static bool look_up(const void *opaque, ps_vec3 position, ps_vec3 normal, float 
     for (int i = 0; i < n; i++) {
         if (ps_dot(photon_map_normal(&cache->places, (size_t)nearest[i]), normal) < FACING)
             continue;
-        *irradiance = cache->irradiance[nearest[i]];
+        *known = (struct gather_known){.indirect = cache->irradiance[nearest[i]]};
         return length > cache->radii[nearest[i]];
     }
     return false;
@@ -168,6 +168,7 @@ static ps_result gather(const struct state *state, struct work *work)
         .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
         .lookup = work->cache.irradiance ? look_up : NULL,
         .cache = &work->cache,
+        .knows_indirect = true,
     };
     struct gather_shares shares = {.are_known = false};
     ps_result result = gather_picture(&setting, state->adaptive, &shares);

@@ -9,7 +9,8 @@
  *
  * with L_direct by next-event estimation and E(y), light that met other surfaces before, from a cache. Here the cache is
  * photon splatting: surfels where such rays land take the place of pixels (surfels.h), so that injection,
- * stratification, visibility and filter are the plugins chosen. Where the cache knows nothing, and where a ray is too
+ * stratification, visibility and filter are the plugins chosen. The cache also has what skies give to y, which next-event
+ * estimation seldom finds in a room (skylight.h). Where the cache knows nothing, and where a ray is too
  * short for it, the path goes on by another segment. Mirrors, glass and gloss on the way are as path tracing has them
  * (paths.h).
  *
@@ -20,6 +21,7 @@
  * asks for it (allocation.h). A tile's rays of a round share a run of the Sobol sequence along a Z curve, as in
  * pathtrace.c.
  */
+#include "gather/skylight.h"
 #include "gather/surfels.h"
 #include "shared/gather_picture.h"
 #include "shared/photons.h"
@@ -226,17 +228,15 @@ static ps_result add_kept(const struct splatting *splatting, struct surfels *sur
     return result;
 }
 
-/* Makes the cache of what photons have brought. */
-static ps_result finish_surfels(struct work *work, const struct splatting *splatting)
+/* Finds the surfels' indirect light by what photons have brought. */
+static ps_result light_surfels(struct work *work, const struct splatting *splatting)
 {
     const ps_host *host = work->setting.paths.host;
     struct surfels *surfels = work->surfels;
     ps_result result = host->end_points(host, surfels->irradiance);
     if (result == PS_OK && paths_of_surfel(work->state) > 0)
         result = correct_cache(work);
-    if (result == PS_OK)
-        result = add_kept(splatting, surfels);
-    return result == PS_OK ? surfels_build(surfels) : result;
+    return result == PS_OK ? add_kept(splatting, surfels) : result;
 }
 
 /* Splats the pass's photons onto pixels, and onto surfels that lack their light. */
@@ -259,7 +259,7 @@ static ps_result splat(struct work *work, bool onto_surfels)
     if (result == PS_OK && (splatting.onto_pixels || splatting.onto_surfels))
         result = photons_for_each_batch(host, splat_batch, &splatting);
     if (result == PS_OK && splatting.onto_surfels)
-        result = finish_surfels(work, &splatting);
+        result = light_surfels(work, &splatting);
     host->release(host, splatting.kept);
     return result;
 }
@@ -299,16 +299,25 @@ static ps_result splat_pass(struct work *work, struct whole *whole)
     const ps_pass *pass = work->setting.paths.pass;
     const ps_host *host = work->setting.paths.host;
     const struct state *state = work->state;
-    bool finds = pass->bounces > 1 && state->surfels > 0 && !whole->has_cache;
+    struct surfels *surfels = &whole->surfels;
+    uint64_t paths = paths_of_surfel(state);
+    bool for_indirect = pass->bounces > 1, for_sky = paths > 0 && skylight_is_there(host);
+    bool finds = !whole->has_cache && state->surfels > 0 && (for_indirect || for_sky);
     ps_result result = PS_OK;
     if (finds)
-        result = surfels_find(host, pass, surfels_of_tile(state, pass), &whole->surfels);
+        result = surfels_find(host, pass, surfels_of_tile(state, pass), surfels);
+    if (result == PS_OK && finds && for_sky)
+        result = skylight_find(pass, paths, surfels);
     if (result == PS_OK)
-        result = splat(work, finds);
+        result = splat(work, finds && for_indirect);
+    if (result == PS_OK && finds)
+        result = surfels_build(surfels);
     whole->has_cache |= finds;
-    if (whole->surfels.count > 0) {
+    if (surfels->count > 0) {
         work->setting.lookup = surfels_lookup;
-        work->setting.cache = &whole->surfels;
+        work->setting.cache = surfels;
+        work->setting.knows_indirect = for_indirect;
+        work->setting.knows_sky = surfels->sky != NULL;
     }
     return result;
 }
@@ -359,8 +368,8 @@ static const ps_param params[] = {
            "of so many light paths one is splatted onto the surfels, with the power of all"),
     PS_NUMBER_OR(struct state, paths, "auto", 0, 1 << 16, PS_PARAM_EXPERT | PS_PARAM_WHOLE,
                  automatic_choice, "paths",
-                 "paths from each surfel, by which its light is corrected; auto: twice the "
-                 "samples, at most 32; 0: none"),
+                 "paths from each surfel, by which its light is corrected, and rays to a soft sky; "
+                 "auto: twice the samples, at most 32; 0: none"),
     PS_ROW(struct state, roulette, PS_PARAM_INT, "3", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),
     PS_ROW(struct state, adaptive, PS_PARAM_BOOL, "yes", 0, 1, PS_PARAM_EXPERT, NULL, "",

@@ -43,7 +43,8 @@ static void draw(const struct lighting *lighting, const struct light_numbers *fr
 }
 
 void direct_radiance(const struct lighting *lighting, const ps_ray *rays, const ps_hit *hits,
-                     size_t n, const struct light_numbers *numbers, ps_rgb *radiance)
+                     const uint8_t *groups, size_t n, const struct light_numbers *numbers,
+                     ps_rgb *radiance)
 {
     ps_vec3 positions[RECEIVERS_MOST], normals[RECEIVERS_MOST];
     struct draws draws;
@@ -61,6 +62,7 @@ void direct_radiance(const struct lighting *lighting, const ps_ray *rays, const 
             .normals = normals,
             .rays = rays + first,
             .hits = hits + first,
+            .groups = groups ? groups + first : NULL,
         };
         draw(lighting, numbers, first, count, &draws, &to);
         receivers_add_lights(&to, radiance + first);

@@ -27,9 +27,11 @@ struct light_numbers {
     const uint64_t *indices; /* one for each point */
 };
 
-/* Radiance that the surfaces hit reflect back along the rays, of light straight from the lights. */
+/* Radiance that the surfaces hit reflect back along the rays, of light straight from the lights: of those of some groups,
+ * as in ps_host.direct_radiance_of. */
 void direct_radiance(const struct lighting *lighting, const ps_ray *rays, const ps_hit *hits,
-                     size_t n, const struct light_numbers *numbers, ps_rgb *radiance);
+                     const uint8_t *groups, size_t n, const struct light_numbers *numbers,
+                     ps_rgb *radiance);
 
 /* Radiance that what the rays met (or the sky) emits along them. `pdfs` (NULL: all 0) as in
  * ps_host.emitted_radiance. */

@@ -272,6 +272,11 @@ static void trace_drawn(const struct receivers *to, size_t first, size_t end,
     trace_connections(to, &connections, sums);
 }
 
+static bool asks_for(const struct receivers *to, size_t i, ps_light_group group)
+{
+    return !to->groups || to->groups[i] & group;
+}
+
 /* All receivers sample lights that they draw; lists those that ask all lights instead. */
 static void sample_some(const struct receivers *to, struct chosen *ask, ps_rgb *sums)
 {
@@ -283,6 +288,9 @@ static void sample_some(const struct receivers *to, struct chosen *ask, ps_rgb *
         end = first + together < to->n ? first + together : to->n;
         for (size_t i = first; i < end; i++) {
             size_t *count = &drawn.counts[i - first];
+            *count = 0;
+            if (!asks_for(to, i, PS_LIGHTS_OTHERS))
+                continue;
             *count = light_bvh_choose(bvh, to->positions[i], to->normals[i], &draws, to->choices[i],
                                       drawn.choices + (i - first) * draws.most);
             if (*count == LIGHT_BVH_ALL) {
@@ -294,11 +302,12 @@ static void sample_some(const struct receivers *to, struct chosen *ask, ps_rgb *
     }
 }
 
-static struct chosen all_of(const struct receivers *to)
+static struct chosen all_that_ask_for(const struct receivers *to, ps_light_group group)
 {
-    struct chosen all = {.count = to->n};
+    struct chosen all = {.count = 0};
     for (uint32_t i = 0; i < to->n; i++)
-        all.receivers[i] = i;
+        if (asks_for(to, i, group))
+            all.receivers[all.count++] = i;
     return all;
 }
 
@@ -311,8 +320,9 @@ static bool draws_some(const struct lighting *lighting)
 void receivers_add_lights(const struct receivers *to, ps_rgb *sums)
 {
     const struct scene *scene = to->lighting->scene;
-    struct chosen all = all_of(to), some = {.count = 0};
-    const struct chosen *ask = &all;
+    struct chosen of_soft = all_that_ask_for(to, PS_LIGHTS_SOFT);
+    struct chosen of_others = all_that_ask_for(to, PS_LIGHTS_OTHERS), some = {.count = 0};
+    const struct chosen *ask = &of_others;
     if (draws_some(to->lighting)) {
         sample_some(to, &some, sums);
         ask = &some;
@@ -321,7 +331,9 @@ void receivers_add_lights(const struct receivers *to, ps_rgb *sums)
     size_t count = all_lights ? scene->light_count : scene->afar_count;
     for (size_t i = 0; i < count; i++) {
         size_t light = all_lights ? i : scene->afar[i];
-        const struct chosen *by = light_is_afar(&scene->lights[light]) ? &all : ask;
+        const struct chosen *by = light_is_soft(&scene->lights[light])   ? &of_soft
+                                  : light_is_afar(&scene->lights[light]) ? &of_others
+                                                                         : ask;
         if (light_bvh_is_split(scene->light_bvh, light))
             sample_triangles(to, by, light, sums);
         else

@@ -18,6 +18,7 @@ struct receivers {
     const ps_vec3 *positions, *normals;
     const ps_ray *rays; /* NULL: irradiance is asked for */
     const ps_hit *hits;
+    const uint8_t *groups; /* bits of ps_light_group: the lights that each asks for; NULL: all */
     float (*numbers)[4];   /* choose points on lights; NULL: no light has a size */
     const double *choices; /* choose lights; NULL: none is chosen */
     /* Sums of what lights give that cast hard shadows (scene_light_casts_hard_shadows); NULL: nobody asks. */

@@ -179,14 +179,21 @@ static struct lighting lighting_of_paths(const struct render *render)
     };
 }
 
-static void host_direct_radiance(const ps_host *host, const ps_ray *rays, const ps_hit *hits,
-                                 uint32_t stream, uint32_t set, const uint64_t *indices, size_t n,
-                                 ps_rgb *radiance)
+static void host_direct_radiance_of(const ps_host *host, const ps_ray *rays, const ps_hit *hits,
+                                    const uint8_t *groups, uint32_t stream, uint32_t set,
+                                    const uint64_t *indices, size_t n, ps_rgb *radiance)
 {
     const struct render *render = render_of(host);
     struct light_numbers numbers = {render->settings->seed, stream, set, indices};
     struct lighting lighting = lighting_of_paths(render);
-    direct_radiance(&lighting, rays, hits, n, &numbers, radiance);
+    direct_radiance(&lighting, rays, hits, groups, n, &numbers, radiance);
+}
+
+static void host_direct_radiance(const ps_host *host, const ps_ray *rays, const ps_hit *hits,
+                                 uint32_t stream, uint32_t set, const uint64_t *indices, size_t n,
+                                 ps_rgb *radiance)
+{
+    host_direct_radiance_of(host, rays, hits, NULL, stream, set, indices, n, radiance);
 }
 
 static void host_emitted_radiance(const ps_host *host, const ps_ray *rays, const ps_hit *hits,
@@ -248,6 +255,7 @@ void host_add_scene(ps_host *host)
     host->sample_bsdf = host_sample_bsdf;
     host->evaluate_bsdf = host_evaluate_bsdf;
     host->direct_radiance = host_direct_radiance;
+    host->direct_radiance_of = host_direct_radiance_of;
     host->emitted_radiance = host_emitted_radiance;
     host->light_of_object = host_light_of_object;
     host->is_shown = host_is_shown;

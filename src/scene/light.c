@@ -4,6 +4,8 @@
 #include "scene/light_kinds.h"
 #include <assert.h>
 
+#define SOFT_SKY 1.0f /* sr, from which most of its light comes */
+
 static const ps_rgb black = {0, 0, 0};
 
 /* False for NaN too. */
@@ -123,6 +125,11 @@ ps_rgb light_power(const struct light *light)
 bool light_is_afar(const struct light *light)
 {
     return light->emitter == EMITTER_SUN || light->emitter == EMITTER_SKY;
+}
+
+bool light_is_soft(const struct light *light)
+{
+    return light->emitter == EMITTER_SKY && light->sky.solid_angle > SOFT_SKY;
 }
 
 struct light_cluster light_bounds_of(const struct light *light, size_t triangle)

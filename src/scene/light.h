@@ -91,6 +91,9 @@ struct light_sky {
     struct distribution_2d by_radiance;
     float turn;     /* of the picture about y, in rotations */
     ps_rgb fluence; /* radiance integrated over all directions, W/m^2 */
+    /* That from which most of the light comes: (integral of L)^2 / integral of L^2, of luminance. 4 pi for one colour, less
+     * than 0.01 sr where a sun is in the picture. */
+    float solid_angle;
     struct light_bounds bounds;
 };
 
@@ -153,6 +156,10 @@ ps_rgb light_power(const struct light *light);
 
 /* Whether it shines from infinity: sun and sky. */
 bool light_is_afar(const struct light *light);
+
+/* Whether its shadows are so soft that its irradiance changes slowly from place to place: a sky, but one with a sun in its
+ * picture. */
+bool light_is_soft(const struct light *light);
 
 /* The bounds of a light that is not afar, of triangle `triangle` of one that is a mesh. */
 struct light_cluster light_bounds_of(const struct light *light, size_t triangle);

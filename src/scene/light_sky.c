@@ -131,22 +131,26 @@ static ps_rgb mean_of_cell(const struct light_sky *sky, struct row_shares shares
     return ps_rgb_add(mean, ps_rgb_scale(below, shares.below));
 }
 
-/* Fills the weights of the cells and returns the radiance integrated over all directions. */
-static ps_rgb weigh_cells(const struct light_sky *sky, float *weights)
+/* Fills the weights of the cells; sets the radiance integrated over all directions, and the solid angle. */
+static void weigh_cells(struct light_sky *sky, float *weights)
 {
-    double red = 0.0, green = 0.0, blue = 0.0;
+    double red = 0.0, green = 0.0, blue = 0.0, all = 0.0, squares = 0.0;
     for (size_t row = 0; row < sky->picture.height; row++) {
         struct row_shares shares = shares_of_row(sky, row);
         double solid_angle = cell_solid_angle(sky, row);
         for (size_t column = 0; column < sky->picture.width; column++) {
             ps_rgb mean = mean_of_cell(sky, shares, column, row);
-            *weights++ = ps_luminance(mean) * (float)solid_angle;
+            float luminance = ps_luminance(mean);
+            *weights++ = luminance * (float)solid_angle;
+            all += (double)luminance * solid_angle;
+            squares += (double)luminance * (double)luminance * solid_angle;
             red += (double)mean.r * solid_angle;
             green += (double)mean.g * solid_angle;
             blue += (double)mean.b * solid_angle;
         }
     }
-    return (ps_rgb){(float)red, (float)green, (float)blue};
+    sky->fluence = (ps_rgb){(float)red, (float)green, (float)blue};
+    sky->solid_angle = squares > 0.0 ? (float)(all * all / squares) : 0.0f;
 }
 
 static ps_result check_picture(const struct sky_picture *picture, struct error *error)
@@ -173,7 +177,7 @@ static ps_result distribute(struct light_sky *sky, struct error *error)
     float *weights = calloc(height, width * sizeof *weights);
     if (!weights)
         return error_memory(error, width * height * sizeof *weights, "the sky");
-    sky->fluence = weigh_cells(sky, weights);
+    weigh_cells(sky, weights);
     if (!isfinite(sky->fluence.r + sky->fluence.g + sky->fluence.b))
         result = error_set(error, PS_ERROR_INVALID, "the sky's picture is too bright to add up");
     else
@@ -190,6 +194,7 @@ ps_result light_sky_create(const struct light_description *description,
         .radiance = description->amount,
         .turn = (float)(fmod(description->rotate, 360.0) / 360.0),
         .fluence = ps_rgb_scale(description->amount, 4.0f * PS_PI),
+        .solid_angle = 4.0f * PS_PI,
         .bounds = *bounds,
     };
     if (description->unit != UNIT_RADIANCE)

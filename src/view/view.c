@@ -129,7 +129,7 @@ static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t 
         indices[i] = paths->indices[paths->lanes[i]];
     }
     struct light_numbers numbers = {pass->seed, PS_STREAM_LIGHT, depth + 1, indices};
-    direct_radiance(&pass->lighting, paths->rays, glossy, paths->count, &numbers, radiance);
+    direct_radiance(&pass->lighting, paths->rays, glossy, NULL, paths->count, &numbers, radiance);
     for (size_t i = 0; i < paths->count; i++)
         add_to_lane(pass, tile, paths->lanes[i],
                     ps_rgb_multiply(paths->throughput[i], radiance[i]));

@@ -47,7 +47,7 @@ static double gather(const struct scene *scene, const struct trace *trace, size_
         ps_rgb radiance;
         if (!(hits[i].distance < INFINITY))
             continue;
-        direct_radiance(&lighting, &rays[i], &hits[i], 1, &no_numbers, &radiance);
+        direct_radiance(&lighting, &rays[i], &hits[i], NULL, 1, &no_numbers, &radiance);
         sum += first.albedo.g * radiance.g;
     }
     return sum / RAYS;

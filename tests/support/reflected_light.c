@@ -20,7 +20,7 @@ static double reflected(const struct lighting *lighting, uint64_t seed)
         float numbers[4];
         const struct light_numbers from = {seed, PS_STREAM_LIGHT, 0, &i};
         trace_intersect(lighting->trace, RAYS_INCOHERENT, &eye, NULL, 1, &hit);
-        direct_radiance(lighting, &eye, &hit, 1, &from, &asked);
+        direct_radiance(lighting, &eye, &hit, NULL, 1, &from, &asked);
         sum += (double)asked.g;
         sample_point(sample_key(seed, PS_STREAM_PATH, 0), i, numbers);
         ps_bsdf_sample scattered =

@@ -39,6 +39,25 @@ static struct sky_picture spotted(float night)
     return (struct sky_picture){WIDTH, HEIGHT, (const float(*)[3])rgb};
 }
 
+/* Shadows of an even sky are soft, and of one with a patch as wide as a hand's span, but not of one with a sun. */
+static void test_softness(void **state)
+{
+    (void)state;
+    struct sky_picture picture = spotted(0.5f);
+    struct light even = sky_of(NULL, 0), with_patch = sky_of(&picture, 0);
+    assert_true(light_is_soft(&even));
+    assert_true(light_is_soft(&with_patch));
+    static float rgb[64 * 32][3];
+    for (int i = 0; i < 64 * 32; i++)
+        rgb[i][0] = rgb[i][1] = rgb[i][2] = i == 10 * 64 + 7 ? 1000.0f : 1.0f;
+    struct sky_picture sunny = {64, 32, (const float(*)[3])rgb};
+    struct light with_sun = sky_of(&sunny, 0);
+    assert_false(light_is_soft(&with_sun));
+    light_release(&even);
+    light_release(&with_patch);
+    light_release(&with_sun);
+}
+
 /* --- densities --- */
 
 static struct light_view view_of(const struct light *light, ps_vec3 axis)
@@ -297,6 +316,7 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_softness),
         cmocka_unit_test(test_directions_have_their_density),
         cmocka_unit_test(test_samples),
         cmocka_unit_test(test_density_of_samples_is_that_of_their_direction),

@@ -202,6 +202,65 @@ static void test_light_samples_add_up(void **state)
     }
 }
 
+#define GROUP_RAYS 300
+
+/* Light of both groups adds up to that of all lights, ray by ray, whatever the other rays ask for. */
+static void add_groups(const ps_host *host, double sums[4])
+{
+    ps_ray rays[GROUP_RAYS];
+    ps_hit hits[GROUP_RAYS];
+    uint8_t groups[GROUP_RAYS];
+    uint64_t indices[GROUP_RAYS];
+    ps_rgb some[3][GROUP_RAYS], all[GROUP_RAYS];
+    for (uint32_t i = 0; i < GROUP_RAYS; i++) {
+        hits[i] = look_down(host, -3.0f + 0.02f * (float)i, &rays[i]);
+        indices[i] = i;
+    }
+    host->direct_radiance(host, rays, hits, PS_STREAM_PLUGIN, 0, indices, GROUP_RAYS, all);
+    for (uint32_t turn = 0; turn < 3; turn++) { /* none, soft lights and others, by turns */
+        for (uint32_t i = 0; i < GROUP_RAYS; i++)
+            groups[i] = (uint8_t)((i + turn) % 3);
+        host->direct_radiance_of(host, rays, hits, groups, PS_STREAM_PLUGIN, 0, indices, GROUP_RAYS,
+                                 some[turn]);
+    }
+    for (uint32_t i = 0; i < GROUP_RAYS; i++) {
+        float by_group[3];
+        for (uint32_t turn = 0; turn < 3; turn++)
+            by_group[(i + turn) % 3] = some[turn][i].g;
+        assert_true(by_group[0] == 0.0f);
+        sums[PS_LIGHTS_SOFT] += (double)by_group[PS_LIGHTS_SOFT];
+        sums[PS_LIGHTS_OTHERS] += (double)by_group[PS_LIGHTS_OTHERS];
+        float sum = by_group[PS_LIGHTS_SOFT] + by_group[PS_LIGHTS_OTHERS];
+        assert_true(fabsf(sum - all[i].g) <= 1e-5f * all[i].g);
+    }
+}
+
+static void add_both_groups(const ps_host *host)
+{
+    double sums[4] = {0, 0, 0, 0};
+    add_groups(host, sums);
+    assert_true(sums[PS_LIGHTS_SOFT] > 0 && sums[PS_LIGHTS_OTHERS] > 0);
+}
+
+static void add_others(const ps_host *host)
+{
+    double sums[4] = {0, 0, 0, 0};
+    add_groups(host, sums);
+    assert_true(sums[PS_LIGHTS_SOFT] == 0 && sums[PS_LIGHTS_OTHERS] > 0);
+}
+
+#define MANY_POINTS POINT POINT POINT POINT POINT POINT POINT POINT POINT
+
+/* By lights that are all asked, and by many of which each point chooses some. */
+static void test_groups_of_lights_add_up(void **state)
+{
+    (void)state;
+    with_host_of(SCENE_HEAD LIGHTS SPOT RECTANGLE WIDE_SUN POINT SKY WHITE_FLOOR, add_both_groups);
+    with_host_of(SCENE_HEAD LIGHTS MANY_POINTS MANY_POINTS MANY_POINTS WIDE_SUN SKY WHITE_FLOOR,
+                 add_both_groups);
+    with_host_of(SCENE_HEAD LIGHTS SPOT RECTANGLE WIDE_SUN WHITE_FLOOR, add_others);
+}
+
 #define RAYS 400000
 #define PLACE_RADIUS 0.25f
 
@@ -636,6 +695,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bsdf_is_what_is_sampled),
         cmocka_unit_test(test_light_samples_add_up),
+        cmocka_unit_test(test_groups_of_lights_add_up),
         cmocka_unit_test(test_densities_are_those_of_light_paths),
         cmocka_unit_test(test_densities_from_afar_add_up),
         cmocka_unit_test(test_objects_that_shine_or_are_hidden),

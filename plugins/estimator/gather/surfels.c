@@ -12,8 +12,8 @@
 #define ENOUGH 2        /* surfels of a cube that is not the last one asked */
 
 struct surfel_cell {
-    uint64_t key; /* 0: none */
-    ps_rgb sum;
+    uint64_t key;         /* 0: none */
+    ps_rgb indirect, sky; /* sums over the surfels */
     uint32_t count;
 };
 
@@ -136,6 +136,7 @@ static ps_result find(struct finding *work)
     surfels->irradiance = host->allocate(host, n * sizeof(ps_rgb), "surfels");
     if (!surfels->positions || !surfels->normals || !surfels->lengths || !surfels->irradiance)
         return PS_ERROR_MEMORY;
+    memset(surfels->irradiance, 0, n * sizeof *surfels->irradiance);
     ps_result result = host->for_each_picture_tile(host, find_in_tile, work);
     return result == PS_OK ? sort(surfels, n) : result;
 }
@@ -166,6 +167,7 @@ void surfels_release(struct surfels *surfels)
     host->release(host, surfels->normals);
     host->release(host, surfels->lengths);
     host->release(host, surfels->irradiance);
+    host->release(host, surfels->sky);
     host->release(host, surfels->cells);
     *surfels = (struct surfels){.host = host};
 }
@@ -337,7 +339,9 @@ static void add_surfel(struct surfels *surfels, size_t i)
         uint64_t key = cell_key(surfels, surfels->positions[i], normal, level);
         struct surfel_cell *cell = cell_at(surfels, key);
         cell->key = key;
-        cell->sum = ps_rgb_add(cell->sum, surfels->irradiance[i]);
+        cell->indirect = ps_rgb_add(cell->indirect, surfels->irradiance[i]);
+        if (surfels->sky)
+            cell->sky = ps_rgb_add(cell->sky, surfels->sky[i]);
         cell->count++;
     }
 }
@@ -374,7 +378,7 @@ static ps_vec3 move(ps_vec3 p, ps_vec3 normal, float side, const float numbers[2
 }
 
 bool surfels_lookup(const void *opaque, ps_vec3 position, ps_vec3 normal, float length,
-                    const float numbers[2], ps_rgb *irradiance)
+                    const float numbers[2], struct gather_known *known)
 {
     const struct surfels *surfels = opaque;
     uint64_t direction = normal_key(normal);
@@ -387,7 +391,9 @@ bool surfels_lookup(const void *opaque, ps_vec3 position, ps_vec3 normal, float 
         const struct surfel_cell *cell =
             cell_at(surfels, cell_key(surfels, moved, direction, level));
         if (cell->count >= ENOUGH || (cell->count > 0 && level == 0)) {
-            *irradiance = ps_rgb_scale(cell->sum, 1.0f / (float)cell->count);
+            float share = 1.0f / (float)cell->count;
+            *known = (struct gather_known){ps_rgb_scale(cell->indirect, share),
+                                           ps_rgb_scale(cell->sky, share)};
             return true;
         }
         if (level == 0)

@@ -10,6 +10,7 @@
 #ifndef PSPLAT_ESTIMATOR_GATHER_SURFELS_H
 #define PSPLAT_ESTIMATOR_GATHER_SURFELS_H
 
+#include "../shared/gather_rays.h"
 #include <psplat/plugin.h>
 #include <stdbool.h>
 
@@ -22,9 +23,10 @@ struct surfels {
     size_t count;
     ps_vec3 *positions, *normals;
     float *lengths;     /* of the rays that found them */
-    ps_rgb *irradiance; /* W/m^2, set by the caller */
-    ps_vec3 origin;     /* of the cubes */
-    float largest;      /* side of the largest cubes */
+    ps_rgb *irradiance; /* W/m^2, of light that met other surfaces before; set by the caller */
+    ps_rgb *sky;    /* of light straight from soft skies (skylight.h); NULL: lookups know none */
+    ps_vec3 origin; /* of the cubes */
+    float largest;  /* side of the largest cubes */
     struct surfel_cell *cells;
     size_t capacity; /* of the table, a power of two */
 };
@@ -49,6 +51,6 @@ void surfels_release(struct surfels *surfels);
 
 /* As a gather_lookup (shared/gather_rays.h); `surfels` is a struct surfels. */
 bool surfels_lookup(const void *surfels, ps_vec3 position, ps_vec3 normal, float length,
-                    const float numbers[2], ps_rgb *irradiance);
+                    const float numbers[2], struct gather_known *known);
 
 #endif

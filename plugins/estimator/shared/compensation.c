@@ -24,7 +24,7 @@ static void trace_sample(const void *user, const ps_points *points, const uint64
     paths_drop_lost(&paths, &segment);
     weigh_hits(compensation->clamp, &paths, &segment);
     paths_draw_numbers(setting, 2, samples, &paths, &segment);
-    paths_add_direct_without_caustics(setting, 1, &paths, &segment, sums);
+    paths_add_direct_without_caustics(setting, 1, &paths, NULL, &segment, sums);
     paths_scatter_all(setting, 1u << PS_DIFFUSE, &paths, &segment);
     paths_follow(setting, points, samples, 2, &paths, &segment, sums);
 }

@@ -145,35 +145,51 @@ static void start_paths(struct gather *gather, struct paths *paths, struct paths
     }
 }
 
-/* What the cache knows of the light that a diffuse surface sends back along a path's ray: it takes the place of the rest
- * of the path, whose throughput has the surface's reflectance in it. */
-static bool add_cached(struct gather *gather, const struct paths *paths, ps_rgb weight,
-                       const struct paths_segment *segment, size_t i)
+/* What the cache knows of the light where a path's ray landed. */
+static bool look_up(const struct gather *gather, const struct paths *paths,
+                    const struct paths_segment *segment, size_t i, struct gather_known *known)
 {
     const struct gather_setting *setting = gather->setting;
     const ps_hit *hit = &segment->hits[i];
-    ps_rgb irradiance;
     /* Where bounces are counted, the cache knows those that are left after one surface. */
     bool counted = setting->paths.pass->bounces != PS_ALL_BOUNCES;
-    if (!setting->lookup || (counted && paths->bounces[i] > 0) ||
-        !setting->lookup(setting->cache, hit->position, hit->normal, hit->distance,
-                         gather->places[paths->pixels[i]], &irradiance))
-        return false;
-    ps_rgb *found = &gather->found[paths->pixels[i]];
-    ps_rgb light = ps_rgb_scale(ps_rgb_multiply(weight, irradiance), 1.0f / PS_PI);
-    *found = ps_rgb_add(*found, ps_rgb_multiply(paths->throughput[i], light));
-    return true;
+    return setting->lookup && !(counted && paths->bounces[i] > 0) &&
+           setting->lookup(setting->cache, hit->position, hit->normal, hit->distance,
+                           gather->places[paths->pixels[i]], known);
 }
 
-/* Ends paths on surfaces that are only diffuse by the cache. */
-static void end_diffuse(struct gather *gather, struct paths *paths, struct paths_segment *segment)
+/* Adds what a diffuse surface of that reflectance sends back along a path's ray of irradiance. */
+static void add_known(struct gather *gather, const struct paths *paths, size_t i,
+                      ps_rgb reflectance, ps_rgb irradiance)
 {
+    ps_rgb *found = &gather->found[paths->pixels[i]];
+    ps_rgb light = ps_rgb_scale(ps_rgb_multiply(reflectance, irradiance), 1.0f / PS_PI);
+    *found = ps_rgb_add(*found, ps_rgb_multiply(paths->throughput[i], light));
+}
+
+/* Adds the light of the lights, and what the cache knows of surfaces that are only diffuse; paths end where that is all. */
+static void light_paths(struct gather *gather, uint32_t number, struct paths *paths,
+                        struct paths_segment *segment)
+{
+    const struct gather_setting *setting = gather->setting;
+    struct gather_known known[PS_TILE_PIXELS];
+    bool is_known[PS_TILE_PIXELS];
+    uint8_t groups[PS_TILE_PIXELS];
     size_t left = 0;
     for (size_t i = 0; i < paths->count; i++) {
-        const ps_hit *hit = &segment->hits[i];
-        if (!(hit->flags & PS_HIT_SPECULAR) && add_cached(gather, paths, hit->albedo, segment, i))
+        is_known[i] = !(segment->hits[i].flags & PS_HIT_SPECULAR) &&
+                      look_up(gather, paths, segment, i, &known[i]);
+        groups[i] = is_known[i] && setting->knows_sky ? PS_LIGHTS_OTHERS : PS_LIGHTS_ALL;
+    }
+    paths_add_reflected(&setting->paths, number, gather->samples, paths, groups, segment,
+                        gather->found);
+    for (size_t i = 0; i < paths->count; i++) {
+        if (is_known[i])
+            add_known(gather, paths, i, segment->hits[i].albedo,
+                      ps_rgb_add(known[i].indirect, known[i].sky));
+        if (is_known[i] && setting->knows_indirect)
             continue;
-        segment->hits[left] = *hit;
+        segment->hits[left] = segment->hits[i];
         paths_move(paths, i, left++);
     }
     paths->count = left;
@@ -188,9 +204,12 @@ static void scatter_paths(struct gather *gather, struct paths *paths, struct pat
                                (const float(*)[4])segment->numbers, paths->count, scattered);
     size_t alive = 0;
     for (size_t i = 0; i < paths->count; i++) {
-        if (segment->hits[i].flags & PS_HIT_SPECULAR && scattered[i].lobe == PS_DIFFUSE &&
-            add_cached(gather, paths, scattered[i].weight, segment, i))
+        struct gather_known known;
+        if (gather->setting->knows_indirect && segment->hits[i].flags & PS_HIT_SPECULAR &&
+            scattered[i].lobe == PS_DIFFUSE && look_up(gather, paths, segment, i, &known)) {
+            add_known(gather, paths, i, scattered[i].weight, known.indirect);
             continue;
+        }
         if (paths_scatter(setting, &scattered[i], segment, paths, i))
             paths_move(paths, i, alive++);
     }
@@ -205,8 +224,8 @@ static void take_sample(struct gather *gather, const struct round *round, uint64
     start_paths(gather, &paths, &segment);
     for (uint32_t number = 1; paths.count > 0; number++) {
         paths_intersect(setting, &gather->points, number, &paths, &segment);
-        paths_add_light(setting, number, gather->samples, &paths, &segment, gather->found);
-        end_diffuse(gather, &paths, &segment);
+        paths_add_emitted(setting, &paths, &segment, gather->found);
+        light_paths(gather, number, &paths, &segment);
         paths_draw_numbers(setting, number + 1, gather->samples, &paths, &segment);
         scatter_paths(gather, &paths, &segment);
     }

@@ -26,10 +26,16 @@ enum { GATHER_GUIDES = 4 };
 /* Samples of the first round, after which rays are guided. */
 enum { GATHER_FIRST = 4 };
 
-/* The irradiance (W/m^2), of light that met other surfaces before, where a ray of that length landed, with two random
- * numbers of [0, 1); false where the cache knows none, or the ray is too short for it: the path goes on. Any thread. */
+/* What a cache knows of the light where a ray landed: irradiance, W/m^2. */
+struct gather_known {
+    ps_rgb indirect; /* light that met other surfaces before; 0 but with setting->knows_indirect */
+    ps_rgb sky;      /* that of PS_LIGHTS_SOFT which met none; 0 but with setting->knows_sky */
+};
+
+/* Looks that up for a ray of that length, with two random numbers of [0, 1); false where the cache knows nothing, or the
+ * ray is too short for it: the path goes on. Any thread. */
 typedef bool (*gather_lookup)(const void *cache, ps_vec3 position, ps_vec3 normal, float length,
-                              const float numbers[2], ps_rgb *irradiance);
+                              const float numbers[2], struct gather_known *known);
 
 struct gather_setting {
     struct paths_setting paths;
@@ -37,6 +43,8 @@ struct gather_setting {
     uint64_t most;        /* from each point, of any group: random numbers are counted by it */
     gather_lookup lookup; /* NULL: there is no cache, and paths go on to their ends */
     const void *cache;
+    bool knows_indirect; /* by the cache: paths end there */
+    bool knows_sky;      /* light of PS_LIGHTS_SOFT: they ask other lights alone there */
     double share_before; /* of a pass's time, which what comes before the picture takes */
 };
 

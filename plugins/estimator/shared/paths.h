@@ -166,18 +166,18 @@ static inline int paths_is_last(const struct paths_setting *setting, const struc
     return paths->bounces[i] >= setting->pass->bounces;
 }
 
-/* Adds what the surfaces that were met reflect of the lights. */
+/* Adds what the surfaces that were met reflect of the lights: of those of some groups, for each path (NULL: of all). */
 static inline void paths_add_direct(const struct paths_setting *setting, uint32_t number,
-                                    const struct paths *paths, struct paths_segment *segment,
-                                    ps_rgb *sums)
+                                    const struct paths *paths, const uint8_t *groups,
+                                    struct paths_segment *segment, ps_rgb *sums)
 {
     ps_rgb radiance[PS_TILE_PIXELS];
     for (size_t i = 0; i < paths->count; i++)
         if (paths_is_last(setting, paths, i))
             segment->hits[i].albedo = (ps_rgb){0, 0, 0};
-    setting->host->direct_radiance(setting->host, paths->rays, segment->hits, PS_STREAM_PATH,
-                                   PATHS_LIGHT_SETS + number, segment->indices, paths->count,
-                                   radiance);
+    setting->host->direct_radiance_of(setting->host, paths->rays, segment->hits, groups,
+                                      PS_STREAM_PATH, PATHS_LIGHT_SETS + number, segment->indices,
+                                      paths->count, radiance);
     paths_add_radiance(paths, radiance, sums);
 }
 
@@ -190,6 +190,7 @@ static inline int paths_is_caustic(const struct paths *paths, size_t i)
 /* Adds what surfaces that were met reflect of the lights; diffusely alone on the way of caustics, or on all. */
 static inline void paths_add_direct_without_caustics(const struct paths_setting *setting,
                                                      uint32_t number, const struct paths *paths,
+                                                     const uint8_t *groups,
                                                      struct paths_segment *segment, ps_rgb *sums)
 {
     uint32_t flags[PS_TILE_PIXELS] = {0};
@@ -198,26 +199,32 @@ static inline void paths_add_direct_without_caustics(const struct paths_setting 
         if (setting->diffuse_only || paths_is_caustic(paths, i))
             segment->hits[i].flags &= ~PS_HIT_SPECULAR;
     }
-    paths_add_direct(setting, number, paths, segment, sums);
+    paths_add_direct(setting, number, paths, groups, segment, sums);
     for (size_t i = 0; i < paths->count; i++)
         segment->hits[i].flags = flags[i];
 }
 
-/* Adds what is emitted and reflected where paths land, but for caustics where they are left out; drops paths that met
- * nothing. */
-static inline void paths_add_light(const struct paths_setting *setting, uint32_t number,
-                                   const uint64_t *samples, struct paths *paths,
-                                   struct paths_segment *segment, ps_rgb *sums)
+/* Adds what is emitted where paths land, but for caustics where they are left out; drops paths that met nothing. */
+static inline void paths_add_emitted(const struct paths_setting *setting, struct paths *paths,
+                                     struct paths_segment *segment, ps_rgb *sums)
 {
     for (size_t i = 0; i < paths->count && setting->no_caustics; i++)
         paths->shines[i] &= !paths_is_caustic(paths, i);
     paths_add_emission(setting, paths, segment, sums);
     paths_drop_lost(paths, segment);
+}
+
+/* Adds what is reflected there, but for caustics; `groups` as in paths_add_direct(). */
+static inline void paths_add_reflected(const struct paths_setting *setting, uint32_t number,
+                                       const uint64_t *samples, const struct paths *paths,
+                                       const uint8_t *groups, struct paths_segment *segment,
+                                       ps_rgb *sums)
+{
     paths_find_indices(samples, paths, segment);
     if (setting->no_caustics || setting->diffuse_only)
-        paths_add_direct_without_caustics(setting, number, paths, segment, sums);
+        paths_add_direct_without_caustics(setting, number, paths, groups, segment, sums);
     else
-        paths_add_direct(setting, number, paths, segment, sums);
+        paths_add_direct(setting, number, paths, groups, segment, sums);
 }
 
 /* Whether a path goes on after a surface that scatters like this. */
@@ -280,7 +287,8 @@ static inline void paths_go_on(const struct paths_setting *setting, const ps_poi
                                struct paths_segment *segment, ps_rgb *sums)
 {
     while (paths->count > 0) {
-        paths_add_light(setting, number, samples, paths, segment, sums);
+        paths_add_emitted(setting, paths, segment, sums);
+        paths_add_reflected(setting, number, samples, paths, NULL, segment, sums);
         paths_draw_numbers(setting, ++number, samples, paths, segment);
         paths_scatter_all(setting, PATHS_ANY_LOBE, paths, segment);
         paths_intersect(setting, points, number, paths, segment);
