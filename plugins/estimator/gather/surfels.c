@@ -4,9 +4,9 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define LEVELS 8        /* of cubes */
-#define LARGEST 0.25f   /* side of the largest cubes, in radii of the scene */
-#define BY_LENGTH 0.15f /* side of a cube, in lengths of the ray */
+#define LEVELS 8         /* of cubes */
+#define LARGEST 0.25f    /* side of the largest cubes, in radii of the scene */
+#define BY_LENGTH 0.075f /* side of a cube, in lengths of the ray */
 #define MOST_BY_LENGTH 0.6f
 #define GROUPS_AROUND 4 /* to each side, in the order of surfels */
 #define ENOUGH 2        /* surfels of a cube that is not the last one asked */
