@@ -22,7 +22,7 @@
  * pathtrace.c.
  */
 #include "gather/skylight.h"
-#include "gather/surfels.h"
+#include "gather/surfel_table.h"
 #include "shared/gather_picture.h"
 #include "shared/photons.h"
 #include <string.h>
@@ -310,11 +310,11 @@ static ps_result splat_pass(struct work *work, struct whole *whole)
         result = skylight_find(pass, paths, surfels);
     if (result == PS_OK)
         result = splat(work, finds && for_indirect);
-    if (result == PS_OK && finds)
-        result = surfels_build(surfels);
+    if (result == PS_OK && finds && surfels->count > 0)
+        result = surfel_table_build(surfels);
     whole->has_cache |= finds;
     if (surfels->count > 0) {
-        work->setting.lookup = surfels_lookup;
+        work->setting.lookup = surfel_table_lookup;
         work->setting.cache = surfels;
         work->setting.knows_indirect = for_indirect;
         work->setting.knows_sky = surfels->sky != NULL;

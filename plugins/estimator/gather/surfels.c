@@ -4,18 +4,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define LEVELS 8         /* of cubes */
-#define LARGEST 0.25f    /* side of the largest cubes, in radii of the scene */
-#define BY_LENGTH 0.075f /* side of a cube, in lengths of the ray */
-#define MOST_BY_LENGTH 0.6f
+#define LARGEST 0.25f   /* side of the table's largest cubes, in radii of the scene */
 #define GROUPS_AROUND 4 /* to each side, in the order of surfels */
-#define ENOUGH 2        /* surfels of a cube that is not the last one asked */
-
-struct surfel_cell {
-    uint64_t key;         /* 0: none */
-    ps_rgb indirect, sky; /* sums over the surfels */
-    uint32_t count;
-};
 
 /* --- finding --- */
 
@@ -70,16 +60,6 @@ static void find_in_tile(void *user, uint64_t index, uint32_t worker)
     }
 }
 
-static uint32_t facing(ps_vec3 n)
-{
-    float x = fabsf(n.x), y = fabsf(n.y), z = fabsf(n.z);
-    if (x >= y && x >= z)
-        return n.x < 0.0f ? 0 : 1;
-    if (y >= z)
-        return n.y < 0.0f ? 2 : 3;
-    return n.z < 0.0f ? 4 : 5;
-}
-
 /* By place, so that splats cull well, and without the rays that met nothing. */
 static ps_result sort(struct surfels *surfels, size_t n)
 {
@@ -95,7 +75,8 @@ static ps_result sort(struct surfels *surfels, size_t n)
         for (size_t i = 0; i < n; i++) {
             if (!(surfels->lengths[i] > 0.0f))
                 continue;
-            uint64_t key = cells->key(&lattice, facing(surfels->normals[i]), surfels->positions[i]);
+            uint64_t key =
+                cells->key(&lattice, surfel_facing(surfels->normals[i]), surfels->positions[i]);
             entries[surfels->count++] = (ps_key_entry){key, i};
         }
         memcpy(copies, surfels->positions, n * sizeof *copies);
@@ -274,129 +255,4 @@ ps_result surfels_correct(struct surfels *surfels, const ps_rgb *traced, const p
     }
     host->release(host, groups);
     return PS_OK;
-}
-
-/* --- the table --- */
-
-/* One of 54 directions: a face of a cube, and a ninth of it. */
-static uint64_t normal_key(ps_vec3 n)
-{
-    uint32_t face = facing(n);
-    float most = ps_max(fabsf(n.x), ps_max(fabsf(n.y), fabsf(n.z)));
-    float a = face < 2 ? n.y : n.x, b = face < 4 ? n.z : n.y, third = most * (1.0f / 3.0f);
-    uint32_t column = a < -third ? 0 : a > third ? 2 : 1, row = b < -third ? 0 : b > third ? 2 : 1;
-    return face * 9 + row * 3 + column;
-}
-
-/* Index of a cube along an axis; what lies out of the scene's bounds counts as at its border. */
-static uint64_t cube_at(float place, float scale)
-{
-    return (uint64_t)ps_min(ps_max(place * scale, 0.0f), 65535.0f);
-}
-
-static uint64_t cell_key(const struct surfels *surfels, ps_vec3 p, uint64_t normal, uint32_t level)
-{
-    float scale = (float)(1u << level) / surfels->largest;
-    uint64_t x = cube_at(p.x - surfels->origin.x, scale);
-    uint64_t y = cube_at(p.y - surfels->origin.y, scale);
-    uint64_t z = cube_at(p.z - surfels->origin.z, scale);
-    return UINT64_C(1) << 63 | x << 44 | y << 28 | z << 12 | normal << 4 | level;
-}
-
-static size_t hash(uint64_t key)
-{
-    key = (key ^ (key >> 31)) * UINT64_C(0x9e3779b97f4a7c15);
-    return (size_t)(key ^ (key >> 32));
-}
-
-/* The cell of that key, or the free place where it would be. */
-static struct surfel_cell *cell_at(const struct surfels *surfels, uint64_t key)
-{
-    size_t place = hash(key) & (surfels->capacity - 1);
-    while (surfels->cells[place].key && surfels->cells[place].key != key)
-        place = (place + 1) & (surfels->capacity - 1);
-    return &surfels->cells[place];
-}
-
-static uint32_t level_of(const struct surfels *surfels, float side)
-{
-    uint32_t level = 0;
-    while (level + 1 < LEVELS && surfels->largest > side * (float)(1u << level) * 1.4142f)
-        level++;
-    return level;
-}
-
-/* The smallest cubes that a surfel is put in: rays that are shorter than the one that found it are few there. */
-static uint32_t finest_level(const struct surfels *surfels, size_t i)
-{
-    return level_of(surfels, 0.5f * BY_LENGTH * surfels->lengths[i]);
-}
-
-static void add_surfel(struct surfels *surfels, size_t i)
-{
-    uint64_t normal = normal_key(surfels->normals[i]);
-    for (uint32_t level = 0; level <= finest_level(surfels, i); level++) {
-        uint64_t key = cell_key(surfels, surfels->positions[i], normal, level);
-        struct surfel_cell *cell = cell_at(surfels, key);
-        cell->key = key;
-        cell->indirect = ps_rgb_add(cell->indirect, surfels->irradiance[i]);
-        if (surfels->sky)
-            cell->sky = ps_rgb_add(cell->sky, surfels->sky[i]);
-        cell->count++;
-    }
-}
-
-ps_result surfels_build(struct surfels *surfels)
-{
-    const ps_host *host = surfels->host;
-    size_t most = 0; /* cells */
-    for (size_t i = 0; i < surfels->count; i++)
-        most += finest_level(surfels, i) + 1;
-    surfels->capacity = 16;
-    while (surfels->capacity < most + most / 3)
-        surfels->capacity *= 2;
-    size_t bytes = surfels->capacity * sizeof *surfels->cells;
-    surfels->cells = host->allocate(host, bytes, "surfels");
-    if (!surfels->cells)
-        return PS_ERROR_MEMORY;
-    memset(surfels->cells, 0, bytes);
-    for (size_t i = 0; i < surfels->count; i++)
-        add_surfel(surfels, i);
-    return PS_OK;
-}
-
-/* Somewhere within a cube's side of a point, along the two axes that its surface faces least. */
-static ps_vec3 move(ps_vec3 p, ps_vec3 normal, float side, const float numbers[2])
-{
-    uint32_t axis = facing(normal) / 2;
-    float a = (numbers[0] - 0.5f) * side, b = (numbers[1] - 0.5f) * side;
-    return (ps_vec3){p.x + (axis == 0 ? 0.0f : a),
-                     p.y + (axis == 1   ? 0.0f
-                            : axis == 0 ? a
-                                        : b),
-                     p.z + (axis == 2 ? 0.0f : b)};
-}
-
-bool surfels_lookup(const void *opaque, ps_vec3 position, ps_vec3 normal, float length,
-                    const float numbers[2], struct gather_known *known)
-{
-    const struct surfels *surfels = opaque;
-    uint64_t direction = normal_key(normal);
-    uint32_t level = level_of(surfels, BY_LENGTH * length);
-    for (;; level--) {
-        float side = surfels->largest / (float)(1u << level);
-        if (side > MOST_BY_LENGTH * length)
-            return false;
-        ps_vec3 moved = move(position, normal, side, numbers);
-        const struct surfel_cell *cell =
-            cell_at(surfels, cell_key(surfels, moved, direction, level));
-        if (cell->count >= ENOUGH || (cell->count > 0 && level == 0)) {
-            float share = 1.0f / (float)cell->count;
-            *known = (struct gather_known){ps_rgb_scale(cell->indirect, share),
-                                           ps_rgb_scale(cell->sky, share)};
-            return true;
-        }
-        if (level == 0)
-            return false;
-    }
 }

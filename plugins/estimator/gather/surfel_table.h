@@ -1,0 +1,21 @@
+/* surfel_table.h: the mean light of the surfels around a point.
+ *
+ * A hash table holds the mean of the surfels in each cube of space, with surfaces of like normal (after Binder et al. 2019,
+ * "Massively parallel path space filtering"). Cubes have a side in proportion to the length of the ray, as wide as
+ * neighbouring rays are apart there, in powers of two; where one has too few surfels, the next larger ones are asked. The
+ * point is moved by lot within a cube, which turns steps between cubes into noise.
+ */
+#ifndef PSPLAT_ESTIMATOR_GATHER_SURFEL_TABLE_H
+#define PSPLAT_ESTIMATOR_GATHER_SURFEL_TABLE_H
+
+#include "../shared/gather_rays.h"
+#include "surfels.h"
+
+/* Makes the table, when the surfels' light is set. PS_ERROR_MEMORY: release the surfels all the same. */
+ps_result surfel_table_build(struct surfels *surfels);
+
+/* As a gather_lookup; `surfels` is a struct surfels. */
+bool surfel_table_lookup(const void *surfels, ps_vec3 position, ps_vec3 normal, float length,
+                         const float numbers[2], struct gather_known *known);
+
+#endif
