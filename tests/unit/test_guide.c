@@ -23,7 +23,7 @@ static void learn(struct guide *guide, struct random *random, size_t rays)
 {
     for (size_t i = 0; i < rays; i++) {
         ps_vec3 direction = ps_cosine_direction(up, random_unit(random), random_unit(random));
-        guide_learn(guide, (int)(i % 2), direction, light_of(direction));
+        guide_learn(guide, (int)(i % 2), guide_bin_of(guide, up, direction), light_of(direction));
     }
     guide_update(guide);
 }
@@ -39,8 +39,8 @@ static void test_knows_nothing_at_first(void **state)
     for (int i = 0; i < 100; i++) {
         ps_vec3 direction = guide_sample(&guide, up, random_unit(&random), random_unit(&random));
         assert_true(direction.z >= 0);
-        assert_true(guide_ratio(&guide, up, direction) == 1.0f);
-        assert_true(guide_smooth_ratio(&guide, 0, up, direction) == 1.0f);
+        assert_true(guide_ratio(&guide, guide_bin_of(&guide, up, direction)) == 1.0f);
+        assert_true(guide_smooth_ratio(&guide, 0, guide_bin_of(&guide, up, direction)) == 1.0f);
     }
 }
 
@@ -63,7 +63,7 @@ static void test_ratio_is_that_of_the_pdf(void **state)
             by_cosine += (double)light_of(even) / RAYS;
             if (!(ps_dot(guided, normals[n]) > 0))
                 continue;
-            float ratio = guide_ratio(&guide, normals[n], guided);
+            float ratio = guide_ratio(&guide, guide_bin_of(&guide, normals[n], guided));
             whole += 1.0 / (double)ratio / RAYS;
             by_guide += (double)(light_of(guided) / ratio) / RAYS;
             hits += light_of(guided) > 0 ? 1.0 / RAYS : 0;
@@ -85,8 +85,8 @@ static void test_smooth_ratio_is_a_pdf_s(void **state)
     learn(&guide, &random, 4000);
     for (int i = 0; i < RAYS; i++) {
         ps_vec3 direction = ps_cosine_direction(up, random_unit(&random), random_unit(&random));
-        sharp += (double)guide_ratio(&guide, up, direction) / RAYS;
-        smooth += (double)guide_smooth_ratio(&guide, 0, up, direction) / RAYS;
+        sharp += (double)guide_ratio(&guide, guide_bin_of(&guide, up, direction)) / RAYS;
+        smooth += (double)guide_smooth_ratio(&guide, 0, guide_bin_of(&guide, up, direction)) / RAYS;
     }
     assert_true(fabs(sharp - 1) < 0.03);
     assert_true(fabs(smooth - 1) < 0.03);
@@ -102,18 +102,19 @@ static void test_the_other_half_weighs(void **state)
     guide_begin(&even, up);
     guide_begin(&lucky, up);
     for (int half = 0; half < 2; half++) {
-        guide_learn(&even, half, direction, 2.0f);
-        guide_learn(&even, half, elsewhere, 1.0f);
+        guide_learn(&even, half, guide_bin_of(&even, up, direction), 2.0f);
+        guide_learn(&even, half, guide_bin_of(&even, up, elsewhere), 1.0f);
     }
-    guide_learn(&lucky, 1, direction, 20.0f);
-    guide_learn(&lucky, 1, elsewhere, 1.0f);
+    guide_learn(&lucky, 1, guide_bin_of(&lucky, up, direction), 20.0f);
+    guide_learn(&lucky, 1, guide_bin_of(&lucky, up, elsewhere), 1.0f);
     guide_update(&even);
     guide_update(&lucky);
-    float of_even = guide_smooth_ratio(&even, 0, up, direction);
-    assert_true(of_even == guide_smooth_ratio(&even, 1, up, direction));
-    assert_true(of_even > guide_smooth_ratio(&even, 0, up, elsewhere));
-    assert_true(guide_smooth_ratio(&lucky, 0, up, direction) > 1.05f * of_even);
-    assert_true(guide_smooth_ratio(&lucky, 1, up, direction) == 1.0f);
+    float of_even = guide_smooth_ratio(&even, 0, guide_bin_of(&even, up, direction));
+    assert_true(of_even == guide_smooth_ratio(&even, 1, guide_bin_of(&even, up, direction)));
+    assert_true(of_even > guide_smooth_ratio(&even, 0, guide_bin_of(&even, up, elsewhere)));
+    assert_true(guide_smooth_ratio(&lucky, 0, guide_bin_of(&lucky, up, direction)) >
+                1.05f * of_even);
+    assert_true(guide_smooth_ratio(&lucky, 1, guide_bin_of(&lucky, up, direction)) == 1.0f);
 }
 
 static struct guide_lesson lesson_of(const struct guide *guide)

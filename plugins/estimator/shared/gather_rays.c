@@ -71,16 +71,15 @@ static float balanced(const struct gather *gather, size_t i, float ratio)
     return 1.0f / ((float)GATHER_FIRST + expected_of(gather, i) * ratio);
 }
 
-static void learn(struct gather *gather, size_t i, ps_vec3 direction, ps_rgb found)
+static void learn(struct gather *gather, size_t i, struct guide_bin bin, ps_rgb found)
 {
-    guide_learn(&gather->guides[gather->guide_of[i]], gather_half_of(gather, i), direction,
+    guide_learn(&gather->guides[gather->guide_of[i]], gather_half_of(gather, i), bin,
                 found.r + found.g + found.b);
 }
 
-static float smooth_ratio(const struct gather *gather, size_t i, ps_vec3 direction)
+static float smooth_ratio(const struct gather *gather, size_t i, struct guide_bin bin)
 {
-    return guide_smooth_ratio(&gather->guides[gather->guide_of[i]], gather_half_of(gather, i),
-                              gather->points.normals[i], direction);
+    return guide_smooth_ratio(&gather->guides[gather->guide_of[i]], gather_half_of(gather, i), bin);
 }
 
 static void end_sample(struct gather *gather, const struct round *round, uint64_t number)
@@ -90,17 +89,17 @@ static void end_sample(struct gather *gather, const struct round *round, uint64_
         ps_rgb found = gather->found[i];
         if (round->is_first) {
             gather->first.found[number][i] = found;
-            gather->first.directions[number][i] = gather->directions[i];
+            gather->first.bins[number][i] = gather->bins[i];
             add(gather, i, found, 1.0f / (float)round->samples, half);
         } else {
-            float ratio = smooth_ratio(gather, i, gather->directions[i]);
+            float ratio = smooth_ratio(gather, i, gather->bins[i]);
             float each = round->share / (float)round->samples;
             add(gather, i, found,
                 each * expected_of(gather, i) * ratio * balanced(gather, i, ratio), half);
         }
         gather->samples[i]++;
         if (round->learns)
-            learn(gather, i, gather->directions[i], found);
+            learn(gather, i, gather->bins[i], found);
     }
 }
 
@@ -112,7 +111,7 @@ static void add_first(struct gather *gather, const struct round *round)
             ps_rgb found = gather->first.found[number][i];
             if (!(ps_luminance(found) > 0.0f))
                 continue;
-            float ratio = smooth_ratio(gather, i, gather->first.directions[number][i]);
+            float ratio = smooth_ratio(gather, i, gather->first.bins[number][i]);
             add(gather, i, found, round->share * balanced(gather, i, ratio),
                 number < GATHER_FIRST / 2);
         }
@@ -132,7 +131,7 @@ static void start_paths(struct gather *gather, struct paths *paths, struct paths
         const struct guide *guide = &gather->guides[gather->guide_of[i]];
         ps_vec3 direction =
             guide_sample(guide, normal, segment->numbers[i][0], segment->numbers[i][1]);
-        gather->directions[i] = direction;
+        gather->bins[i] = guide_bin_of(guide, normal, direction);
         gather->places[i][0] = segment->numbers[i][2];
         gather->places[i][1] = segment->numbers[i][3];
         gather->found[i] = (ps_rgb){0, 0, 0};
@@ -141,7 +140,7 @@ static void start_paths(struct gather *gather, struct paths *paths, struct paths
         paths_add(paths, i,
                   ps_leave_surface(points->positions[i], normal, direction,
                                    setting->pass->surface_offset),
-                  PS_PI / guide_ratio(guide, normal, direction));
+                  PS_PI / guide_ratio(guide, gather->bins[i]));
     }
 }
 
@@ -243,7 +242,7 @@ void gather_teach(struct gather *gather)
     struct gather_first *first = &gather->first;
     for (size_t number = 0; number < GATHER_FIRST; number++)
         for (size_t i = 0; i < gather->points.count; i++)
-            learn(gather, i, first->directions[number][i], first->found[number][i]);
+            learn(gather, i, first->bins[number][i], first->found[number][i]);
     first->guide_count = gather->guide_count;
     for (uint32_t i = 0; i < gather->guide_count; i++) {
         const struct guide *guide = &gather->guides[i];

@@ -52,7 +52,7 @@ struct gather_setting {
  * those: found when the round has been taken as all there is (gather_teach()). */
 struct gather_first {
     ps_rgb found[GATHER_FIRST][PS_TILE_PIXELS];
-    ps_vec3 directions[GATHER_FIRST][PS_TILE_PIXELS];
+    struct guide_bin bins[GATHER_FIRST][PS_TILE_PIXELS];
     uint32_t guide_count;
     struct guide_lesson lessons[GATHER_GUIDES];
 };
@@ -68,10 +68,10 @@ struct gather {
      * round has of it. */
     ps_rgb irradiance[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
     struct gather_first first;
-    /* Of the sample under way: its index, what it found, its first direction, and random numbers for lookups. */
+    /* Of the sample under way: its index, what it found, where its first direction lies, and random numbers for lookups. */
     uint64_t samples[PS_TILE_PIXELS];
     ps_rgb found[PS_TILE_PIXELS];
-    ps_vec3 directions[PS_TILE_PIXELS];
+    struct guide_bin bins[PS_TILE_PIXELS];
     float places[PS_TILE_PIXELS][2];
     uint8_t guide_of[PS_TILE_PIXELS];
     uint32_t guide_count;

@@ -26,22 +26,21 @@ static int sector_of(float x, float y)
     return y < 0.0f ? GUIDE_SECTORS - 1 - sector : sector;
 }
 
-static void bin_of(const struct guide *guide, ps_vec3 direction, float cosine, int *ring,
-                   int *sector)
+struct guide_bin guide_bin_of(const struct guide *guide, ps_vec3 normal, ps_vec3 direction)
 {
-    int r = (int)((1.0f - cosine * cosine) * GUIDE_RINGS);
-    *ring = r < 0 ? 0 : r < GUIDE_RINGS ? r : GUIDE_RINGS - 1;
-    *sector = sector_of(ps_dot(direction, guide->u), ps_dot(direction, guide->v));
+    float cosine = ps_dot(direction, normal), guided = ps_dot(direction, guide->normal);
+    int ring = (int)((1.0f - guided * guided) * GUIDE_RINGS);
+    if (!(guided > 0.0f))
+        return (struct guide_bin){NO_GUIDE_BIN, 0.0f};
+    ring = ring < 0 ? 0 : ring < GUIDE_RINGS ? ring : GUIDE_RINGS - 1;
+    int sector = sector_of(ps_dot(direction, guide->u), ps_dot(direction, guide->v));
+    return (struct guide_bin){ring * GUIDE_SECTORS + sector, guided / ps_max(cosine, 1e-6f)};
 }
 
-void guide_learn(struct guide *guide, int half, ps_vec3 direction, float irradiance)
+void guide_learn(struct guide *guide, int half, struct guide_bin bin, float irradiance)
 {
-    float cosine = ps_dot(direction, guide->normal);
-    int ring, sector;
-    if (!(cosine > 0.0f))
-        return;
-    bin_of(guide, direction, cosine, &ring, &sector);
-    guide->found[half][ring][sector] += irradiance;
+    if (bin.index != NO_GUIDE_BIN)
+        guide->found[half][bin.index / GUIDE_SECTORS][bin.index % GUIDE_SECTORS] += irradiance;
 }
 
 void guide_learn_from(struct guide *guide, const struct guide_lesson *lesson, float share)
@@ -120,10 +119,11 @@ void guide_update(struct guide *guide)
 /* Which of n cumulative ends a number of [0, 1) falls before, and where in its part. */
 static int choose(const float *ends, int n, float number, float *within)
 {
-    float at = number * ends[n - 1], before = 0.0f;
+    float at = number * ends[n - 1];
     int i = 0;
-    while (i < n - 1 && at >= ends[i])
-        before = ends[i++];
+    for (int k = 0; k < n - 1; k++) /* without a branch that depends on the number */
+        i += at >= ends[k];
+    float before = i > 0 ? ends[i - 1] : 0.0f;
     float part = ends[i] - before;
     *within = part > 0.0f ? ps_min((at - before) / part, 0.999999f) : 0.5f;
     return i;
@@ -148,30 +148,23 @@ ps_vec3 guide_sample(const struct guide *guide, ps_vec3 normal, float a, float b
 }
 
 /* By the light that is known; `total`: of all bins. */
-static float ratio_of(const struct guide *guide, const float (*light)[GUIDE_SECTORS], float total,
-                      ps_vec3 normal, ps_vec3 direction)
+static float ratio_of(const float (*light)[GUIDE_SECTORS], float total, struct guide_bin bin)
 {
-    float cosine = ps_dot(direction, normal), guided = ps_dot(direction, guide->normal);
-    int ring, sector;
     if (!(total > 0.0f))
         return 1.0f;
-    if (!(guided > 0.0f)) /* rays go there by the cosine alone */
+    if (bin.index == NO_GUIDE_BIN) /* rays go there by the cosine alone */
         return BY_COSINE;
-    bin_of(guide, direction, guided, &ring, &sector);
-    float share = light[ring][sector] / total;
-    return BY_COSINE +
-           (1.0f - BY_COSINE) * share * (float)GUIDE_BINS * (guided / ps_max(cosine, 1e-6f));
+    float share = light[bin.index / GUIDE_SECTORS][bin.index % GUIDE_SECTORS] / total;
+    return BY_COSINE + (1.0f - BY_COSINE) * share * (float)GUIDE_BINS * bin.tilt;
 }
 
-float guide_ratio(const struct guide *guide, ps_vec3 normal, ps_vec3 direction)
+float guide_ratio(const struct guide *guide, struct guide_bin bin)
 {
-    return guide->ready ? ratio_of(guide, guide->known, guide->total, normal, direction) : 1.0f;
+    return guide->ready ? ratio_of(guide->known, guide->total, bin) : 1.0f;
 }
 
-float guide_smooth_ratio(const struct guide *guide, int half, ps_vec3 normal, ps_vec3 direction)
+float guide_smooth_ratio(const struct guide *guide, int half, struct guide_bin bin)
 {
     int other = 1 - half;
-    return guide->ready ? ratio_of(guide, guide->smooth[other], guide->smooth_total[other], normal,
-                                   direction)
-                        : 1.0f;
+    return guide->ready ? ratio_of(guide->smooth[other], guide->smooth_total[other], bin) : 1.0f;
 }

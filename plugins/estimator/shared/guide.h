@@ -41,8 +41,18 @@ struct guide_lesson {
 /* Nothing is known yet. */
 void guide_begin(struct guide *guide, ps_vec3 normal);
 
+/* Where a direction from a surface lies in a guide's histogram. */
+struct guide_bin {
+    int32_t index; /* NO_GUIDE_BIN: below the guide's horizon */
+    float tilt;    /* its cosine to the guide's normal, over that to the surface's */
+};
+
+#define NO_GUIDE_BIN (-1)
+
+struct guide_bin guide_bin_of(const struct guide *guide, ps_vec3 normal, ps_vec3 direction);
+
 /* A ray of that half, 0 or 1, found so much irradiance. */
-void guide_learn(struct guide *guide, int half, ps_vec3 direction, float irradiance);
+void guide_learn(struct guide *guide, int half, struct guide_bin bin, float irradiance);
 
 /* What `share` of the light that another guide's rays found, both halves, tells both halves of this one: as long as none of its own
  * rays is among them. Nothing where the other has another frame: a surface that is bent. */
@@ -54,10 +64,10 @@ void guide_update(struct guide *guide);
 /* A direction from a surface of that normal by two numbers of [0, 1). It may lie below the surface. */
 ps_vec3 guide_sample(const struct guide *guide, ps_vec3 normal, float a, float b);
 
-/* The pdf of a direction above that surface, over that of the cosine. */
-float guide_ratio(const struct guide *guide, ps_vec3 normal, ps_vec3 direction);
+/* The pdf of a direction above its surface, over that of the cosine. */
+float guide_ratio(const struct guide *guide, struct guide_bin bin);
 
 /* The same for weights: smoother, and by what the rays of the other half found. */
-float guide_smooth_ratio(const struct guide *guide, int half, ps_vec3 normal, ps_vec3 direction);
+float guide_smooth_ratio(const struct guide *guide, int half, struct guide_bin bin);
 
 #endif
