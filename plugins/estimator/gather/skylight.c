@@ -47,10 +47,12 @@ static void light_group(void *user, uint64_t index, uint32_t worker)
     ps_rgb radiance[SURFELS_GROUP];
     uint8_t groups[SURFELS_GROUP];
     uint64_t indices[SURFELS_GROUP];
+    if (host->cancelled(host))
+        return;
     for (size_t i = 0; i < n; i++) {
         look_at(surfels, first + i, &rays[i], &hits[i]);
         groups[i] = PS_LIGHTS_SOFT;
-        indices[i] = ((uint64_t)work->pass->number * surfels->count + first + i) * work->rays;
+        indices[i] = (work->pass->number * UINT64_C(2) * MOST_SURFELS + first + i) * work->rays;
         surfels->sky[first + i] = (ps_rgb){0, 0, 0};
     }
     for (uint64_t ray = 0; ray < work->rays; ray++) {
