@@ -17,20 +17,10 @@ static bool same_text(const char *a, const char *b)
     return a && b ? strcmp(a, b) == 0 : a == b;
 }
 
-static bool same_placement(const struct affine *a, const struct affine *b)
-{
-    return ps_same(a->x, b->x) && ps_same(a->y, b->y) && ps_same(a->z, b->z) &&
-           ps_same(a->translation, b->translation);
-}
-
 /* Whether they read the same files in the same way. */
 static bool same_reading(const struct mesh_request *a, const struct mesh_request *b)
 {
-    return same_text(a->path, b->path) && same_text(a->folder, b->folder) &&
-           same_text(a->cache, b->cache) && a->unit == b->unit && a->up == b->up &&
-           a->diffuse_only == b->diffuse_only && a->srgb_colors == b->srgb_colors &&
-           a->bump_scale == b->bump_scale && a->smooth_angle == b->smooth_angle &&
-           same_placement(&a->placement, &b->placement);
+    return mesh_request_digest(a) == mesh_request_digest(b) && same_text(a->cache, b->cache);
 }
 
 /* What the file does not have makes no difference where it was asked for and now is not. */

@@ -28,14 +28,6 @@ static void add(XXH3_state_t *key, const void *bytes, size_t size)
     (void)XXH3_64bits_update(key, bytes, size);
 }
 
-static void add_text(XXH3_state_t *key, const char *text)
-{
-    unsigned char is_there = text != NULL;
-    add(key, &is_there, 1);
-    if (text)
-        add(key, text, strlen(text) + 1);
-}
-
 /* PSPLAT_IMPORTER is a digest of the sources that fill descriptions. Structs are stored as they are in memory. */
 static void add_program(XXH3_state_t *key)
 {
@@ -53,23 +45,18 @@ static void add_program(XXH3_state_t *key)
         aiGetVersionPatch(),
         aiGetVersionRevision(),
     };
-    add_text(key, PSPLAT_VERSION " " PSPLAT_IMPORTER);
+    static const char program[] = PSPLAT_VERSION " " PSPLAT_IMPORTER;
+    add(key, program, sizeof program);
     add(key, numbers, sizeof numbers);
 }
 
 static void add_request(XXH3_state_t *key, const struct mesh_request *request)
 {
-    const struct affine *to = &request->placement;
-    const unsigned char flags[] = {request->geometry, request->materials,    request->camera,
-                                   request->lights,   request->diffuse_only, request->srgb_colors};
-    const double numbers[] = {request->unit, request->up, request->bump_scale,
-                              request->smooth_angle};
-    const ps_vec3 columns[] = {to->x, to->y, to->z, to->translation};
-    add_text(key, request->path);
-    add_text(key, request->folder);
-    add(key, flags, sizeof flags);
-    add(key, numbers, sizeof numbers);
-    add(key, columns, sizeof columns);
+    const uint64_t digest = mesh_request_digest(request);
+    const unsigned char used[] = {request->geometry, request->materials, request->camera,
+                                  request->lights};
+    add(key, &digest, sizeof digest);
+    add(key, used, sizeof used);
 }
 
 static char *entry_path(const char *folder, uint64_t key)

@@ -14,8 +14,7 @@
 #include "base/error.h"
 #include "scene/description.h"
 
-/* What to take from a mesh file, and how to carry it into the scene. What makes two requests differ is stated in cache.c and in
- * ahead.c. */
+/* What to take from a mesh file, and how to carry it into the scene. */
 struct mesh_request {
     const char *path;
     const char *folder;  /* the only one to read from (input_file.h), or NULL */
@@ -34,6 +33,10 @@ struct mesh_request {
         seconds; /* of processor time beyond what the files' size allows; 0: as many as usual */
     struct origin origin;
 };
+
+/* A number for what is read, and how: requests that differ in it read other files, or the same ones another way, but for a
+ * chance of one in 2^64. What to use of them, the folder of a cache, limits and origin are left out. */
+uint64_t mesh_request_digest(const struct mesh_request *request);
 
 /* What parts are made of for which neither the file nor the scene has a material: diffuse grey. Without a name; it owns
  * nothing. */

@@ -194,10 +194,41 @@ static void a_cache_that_is_not_there(void **state)
     release_imported(&imported);
 }
 
+/* Each member that says what is read, and how, makes another digest; those that do not make none. */
+static void digests_of_requests(void **state)
+{
+    (void)state;
+    const struct mesh_request plain = {.path = "m.obj", .placement = AFFINE_IDENTITY, .unit = 1};
+    struct mesh_request others[9], same = plain;
+    const size_t count = sizeof others / sizeof others[0];
+    for (size_t i = 0; i < count; i++)
+        others[i] = plain;
+    others[0].path = "n.obj";
+    others[1].folder = "m.obj";
+    others[2].unit = 2;
+    others[3].up = 2;
+    others[4].diffuse_only = true;
+    others[5].srgb_colors = true;
+    others[6].bump_scale = 1;
+    others[7].smooth_angle = 1;
+    others[8].placement.translation.y = 1;
+    for (size_t i = 0; i < count; i++) {
+        assert_true(mesh_request_digest(&others[i]) != mesh_request_digest(&plain));
+        for (size_t k = 0; k < i; k++)
+            assert_true(mesh_request_digest(&others[i]) != mesh_request_digest(&others[k]));
+    }
+    same.geometry = same.lights = true;
+    same.cache = "cache";
+    same.memory_limit = 1e9;
+    same.origin.line = 7;
+    assert_true(mesh_request_digest(&same) == mesh_request_digest(&plain));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         SCRATCH_TEST(comes_from_the_cache),
+        cmocka_unit_test(digests_of_requests),
         SCRATCH_TEST(a_library_that_changed),
         SCRATCH_TEST(a_texture_that_came),
         SCRATCH_TEST(a_library_that_came),
