@@ -157,21 +157,21 @@ static void trace_group(void *user, uint64_t index, uint32_t worker)
     const struct work *work = user;
     const struct surfels *surfels = work->surfels;
     const struct paths_setting *paths = &work->setting.paths;
-    size_t first = index * SURFELS_GROUP;
+    struct surfel_group group = surfels_group(surfels, index);
     struct gather gather = {.setting = &work->setting, .index = paths->pass->tile_count + index};
     if (paths->host->cancelled(paths->host))
         return;
-    for (uint32_t i = 0; i < SURFELS_GROUP && first + i < surfels->count; i++) {
-        gather.points.positions[i] = surfels->positions[first + i];
-        gather.points.normals[i] = surfels->normals[first + i];
+    for (uint32_t i = 0; i < group.n; i++) {
+        gather.points.positions[i] = surfels->positions[group.first + i];
+        gather.points.normals[i] = surfels->normals[group.first + i];
         gather.points.lanes[i] = i;
         gather.points.count++;
     }
     gather_begin(&gather);
     gather_samples(&gather, work->setting.most);
     for (size_t i = 0; i < gather.points.count; i++) {
-        work->traced[first + i] = gather.irradiance[i];
-        work->half[first + i] = ps_rgb_scale(gather.half[i], 2.0f);
+        work->traced[group.first + i] = gather.irradiance[i];
+        work->half[group.first + i] = ps_rgb_scale(gather.half[i], 2.0f);
     }
 }
 
@@ -199,8 +199,7 @@ static ps_result correct_cache(struct work *work)
     if (!correcting.traced)
         return PS_ERROR_MEMORY;
     correcting.half = correcting.traced + count;
-    uint64_t groups = (count + SURFELS_GROUP - 1) / SURFELS_GROUP;
-    host->parallel_for(host, groups, trace_group, &correcting);
+    host->parallel_for(host, surfels_group_count(work->surfels), trace_group, &correcting);
     ps_result result = host->cancelled(host) ? PS_CANCELLED : PS_OK;
     if (result == PS_OK)
         result = surfels_correct(work->surfels, correcting.traced, correcting.half);
@@ -301,12 +300,13 @@ static ps_result splat_pass(struct work *work, struct whole *whole)
     const struct state *state = work->state;
     struct surfels *surfels = &whole->surfels;
     uint64_t paths = paths_of_surfel(state);
-    bool for_indirect = pass->bounces > 1, for_sky = paths > 0 && skylight_is_there(host);
-    bool finds = !whole->has_cache && state->surfels > 0 && (for_indirect || for_sky);
+    bool for_indirect = pass->bounces > 1, is_missing = state->surfels > 0 && !whole->has_cache;
+    bool for_sky = is_missing && paths > 0 && skylight_is_there(host);
+    bool finds = is_missing && (for_indirect || for_sky);
     ps_result result = PS_OK;
     if (finds)
         result = surfels_find(host, pass, surfels_of_tile(state, pass), surfels);
-    if (result == PS_OK && finds && for_sky)
+    if (result == PS_OK && for_sky)
         result = skylight_find(pass, paths, surfels);
     if (result == PS_OK)
         result = splat(work, finds && for_indirect);

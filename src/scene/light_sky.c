@@ -134,7 +134,7 @@ static ps_rgb mean_of_cell(const struct light_sky *sky, struct row_shares shares
 /* Fills the weights of the cells; sets the radiance integrated over all directions, and the solid angle. */
 static void weigh_cells(struct light_sky *sky, float *weights)
 {
-    double red = 0.0, green = 0.0, blue = 0.0, all = 0.0, squares = 0.0;
+    double red = 0.0, green = 0.0, blue = 0.0, squares = 0.0;
     for (size_t row = 0; row < sky->picture.height; row++) {
         struct row_shares shares = shares_of_row(sky, row);
         double solid_angle = cell_solid_angle(sky, row);
@@ -142,7 +142,6 @@ static void weigh_cells(struct light_sky *sky, float *weights)
             ps_rgb mean = mean_of_cell(sky, shares, column, row);
             float luminance = ps_luminance(mean);
             *weights++ = luminance * (float)solid_angle;
-            all += (double)luminance * solid_angle;
             squares += (double)luminance * (double)luminance * solid_angle;
             red += (double)mean.r * solid_angle;
             green += (double)mean.g * solid_angle;
@@ -150,6 +149,7 @@ static void weigh_cells(struct light_sky *sky, float *weights)
         }
     }
     sky->fluence = (ps_rgb){(float)red, (float)green, (float)blue};
+    double all = (double)ps_luminance(sky->fluence);
     sky->solid_angle = squares > 0.0 ? (float)(all * all / squares) : 0.0f;
 }
 

@@ -40,8 +40,7 @@ static void light_group(void *user, uint64_t index, uint32_t worker)
     const struct work *work = user;
     struct surfels *surfels = work->surfels;
     const ps_host *host = surfels->host;
-    size_t first = index * SURFELS_GROUP, left = surfels->count - first;
-    size_t n = left < SURFELS_GROUP ? left : SURFELS_GROUP;
+    struct surfel_group group = surfels_group(surfels, index);
     ps_ray rays[SURFELS_GROUP];
     ps_hit hits[SURFELS_GROUP];
     ps_rgb radiance[SURFELS_GROUP];
@@ -49,17 +48,18 @@ static void light_group(void *user, uint64_t index, uint32_t worker)
     uint64_t indices[SURFELS_GROUP];
     if (host->cancelled(host))
         return;
-    for (size_t i = 0; i < n; i++) {
-        look_at(surfels, first + i, &rays[i], &hits[i]);
+    for (size_t i = 0; i < group.n; i++) {
+        look_at(surfels, group.first + i, &rays[i], &hits[i]);
         groups[i] = PS_LIGHTS_SOFT;
-        indices[i] = (work->pass->number * UINT64_C(2) * MOST_SURFELS + first + i) * work->rays;
-        surfels->sky[first + i] = (ps_rgb){0, 0, 0};
+        indices[i] =
+            (work->pass->number * UINT64_C(2) * MOST_SURFELS + group.first + i) * work->rays;
+        surfels->sky[group.first + i] = (ps_rgb){0, 0, 0};
     }
     for (uint64_t ray = 0; ray < work->rays; ray++) {
-        host->direct_radiance_of(host, rays, hits, groups, PS_STREAM_PLUGIN, LIGHT_SET, indices, n,
-                                 radiance);
-        for (size_t i = 0; i < n; i++) {
-            ps_rgb *sky = &surfels->sky[first + i];
+        host->direct_radiance_of(host, rays, hits, groups, PS_STREAM_PLUGIN, LIGHT_SET, indices,
+                                 group.n, radiance);
+        for (size_t i = 0; i < group.n; i++) {
+            ps_rgb *sky = &surfels->sky[group.first + i];
             *sky = ps_rgb_add(*sky, ps_rgb_scale(radiance[i], 1.0f / (float)work->rays));
             indices[i]++;
         }
@@ -75,7 +75,6 @@ ps_result skylight_find(const ps_pass *pass, uint64_t rays, struct surfels *surf
     surfels->sky = host->allocate(host, surfels->count * sizeof *surfels->sky, "surfels");
     if (!surfels->sky)
         return PS_ERROR_MEMORY;
-    host->parallel_for(host, (surfels->count + SURFELS_GROUP - 1) / SURFELS_GROUP, light_group,
-                       &work);
+    host->parallel_for(host, surfels_group_count(surfels), light_group, &work);
     return host->cancelled(host) ? PS_CANCELLED : PS_OK;
 }

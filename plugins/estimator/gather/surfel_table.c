@@ -1,6 +1,5 @@
 #include "surfel_table.h"
 
-#include <psplat/cells.h>
 #include <string.h>
 
 #define LEVELS 8         /* of cubes */
@@ -145,17 +144,15 @@ static ps_result fill(struct surfels *surfels, const ps_key_entry *sorted, size_
 ps_result surfel_table_build(struct surfels *surfels)
 {
     const ps_host *host = surfels->host;
-    const ps_cells *cells = host->extension(host, PS_CELLS_EXTENSION);
     size_t n = 0;
     for (size_t i = 0; i < surfels->count; i++)
         n += finest_level(surfels, i) + 1;
-    if (!cells)
-        return host->fail(host, PS_ERROR_INVALID, "this psplat has no cells");
     ps_key_entry *entries = host->allocate(host, 2 * n * sizeof *entries, "surfels sorted");
     if (!entries)
         return PS_ERROR_MEMORY;
     list_cubes(surfels, entries);
-    ps_result result = fill(surfels, cells->sort(entries, entries + n, n), n);
+    const ps_key_entry *sorted = surfels->extension->sort(entries, entries + n, n);
+    ps_result result = fill(surfels, sorted, n);
     host->release(host, entries);
     return result;
 }

@@ -64,9 +64,7 @@ static void find_in_tile(void *user, uint64_t index, uint32_t worker)
 static ps_result sort(struct surfels *surfels, size_t n)
 {
     const ps_host *host = surfels->host;
-    const ps_cells *cells = host->extension(host, PS_CELLS_EXTENSION);
-    if (!cells)
-        return host->fail(host, PS_ERROR_INVALID, "this psplat has no cells");
+    const ps_cells *cells = surfels->extension;
     ps_key_entry *entries = host->allocate(host, 2 * n * sizeof *entries, "surfels sorted");
     ps_vec3 *copies = host->allocate(host, 2 * n * sizeof *copies, "surfels sorted");
     float *lengths = host->allocate(host, n * sizeof *lengths, "surfels sorted");
@@ -130,10 +128,13 @@ ps_result surfels_find(const ps_host *host, const ps_pass *pass, uint32_t rays,
     host->scene_bounds(host, &center, &radius);
     *surfels = (struct surfels){
         .host = host,
+        .extension = host->extension(host, PS_CELLS_EXTENSION),
         .origin = {center.x - 1.0371f * radius, center.y - 1.0719f * radius,
                    center.z - 1.0533f * radius},
         .largest = LARGEST * radius,
     };
+    if (!surfels->extension)
+        return host->fail(host, PS_ERROR_INVALID, "this psplat has no cells");
     struct finding work = {surfels, pass, rays, NULL};
     work.places = host->allocate(host, pass->tile_count * sizeof *work.places, "surfels");
     ps_result result = work.places ? find(&work) : PS_ERROR_MEMORY;
@@ -177,12 +178,12 @@ struct group {
 static struct group group_at(const struct surfels *surfels, const ps_rgb *traced,
                              const ps_rgb *half, size_t index)
 {
-    size_t first = index * SURFELS_GROUP, left = surfels->count - first;
+    struct surfel_group group = surfels_group(surfels, index);
     return (struct group){
-        .splatted = surfels->irradiance + first,
-        .traced = traced + first,
-        .half = half + first,
-        .n = left < SURFELS_GROUP ? left : SURFELS_GROUP,
+        .splatted = surfels->irradiance + group.first,
+        .traced = traced + group.first,
+        .half = half + group.first,
+        .n = group.n,
     };
 }
 
@@ -240,7 +241,7 @@ static void mix(const struct group *group, float weight, int c)
 ps_result surfels_correct(struct surfels *surfels, const ps_rgb *traced, const ps_rgb *half)
 {
     const ps_host *host = surfels->host;
-    size_t count = (surfels->count + SURFELS_GROUP - 1) / SURFELS_GROUP;
+    size_t count = surfels_group_count(surfels);
     struct group *groups = host->allocate(host, count * sizeof *groups, "surfels");
     if (!groups)
         return PS_ERROR_MEMORY;

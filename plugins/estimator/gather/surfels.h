@@ -7,6 +7,7 @@
 #ifndef PSPLAT_ESTIMATOR_GATHER_SURFELS_H
 #define PSPLAT_ESTIMATOR_GATHER_SURFELS_H
 
+#include <psplat/cells.h>
 #include <psplat/plugin.h>
 #include <stdbool.h>
 
@@ -16,6 +17,7 @@ struct surfel_cell;
 
 struct surfels {
     const ps_host *host;
+    const ps_cells *extension; /* by which they are sorted */
     size_t count;
     ps_vec3 *positions, *normals;
     float *lengths;     /* of the rays that found them */
@@ -34,8 +36,24 @@ struct surfels {
 ps_result surfels_find(const ps_host *host, const ps_pass *pass, uint32_t rays,
                        struct surfels *surfels);
 
-/* Surfels that are corrected together. */
+/* Surfels that are corrected together, and lit together: so many, but for the last group. */
 enum { SURFELS_GROUP = 64 };
+
+/* Those of a group: n from `first` on. */
+struct surfel_group {
+    size_t first, n;
+};
+
+static inline uint64_t surfels_group_count(const struct surfels *surfels)
+{
+    return (surfels->count + SURFELS_GROUP - 1) / SURFELS_GROUP;
+}
+
+static inline struct surfel_group surfels_group(const struct surfels *surfels, uint64_t index)
+{
+    size_t first = index * SURFELS_GROUP, left = surfels->count - first;
+    return (struct surfel_group){first, left < SURFELS_GROUP ? left : SURFELS_GROUP};
+}
 
 /* Corrects the surfels' irradiance, which is that of splats: smooth, but blotched, and a few percent too dark or too
  * bright where kernels are wide. `traced` is right on average, with noise: the irradiance by paths; `half` is that by the

@@ -29,9 +29,9 @@ static int sector_of(float x, float y)
 struct guide_bin guide_bin_of(const struct guide *guide, ps_vec3 normal, ps_vec3 direction)
 {
     float cosine = ps_dot(direction, normal), guided = ps_dot(direction, guide->normal);
-    int ring = (int)((1.0f - guided * guided) * GUIDE_RINGS);
     if (!(guided > 0.0f))
         return (struct guide_bin){NO_GUIDE_BIN, 0.0f};
+    int ring = (int)((1.0f - guided * guided) * GUIDE_RINGS);
     ring = ring < 0 ? 0 : ring < GUIDE_RINGS ? ring : GUIDE_RINGS - 1;
     int sector = sector_of(ps_dot(direction, guide->u), ps_dot(direction, guide->v));
     return (struct guide_bin){ring * GUIDE_SECTORS + sector, guided / ps_max(cosine, 1e-6f)};
