@@ -373,7 +373,7 @@ static const ps_param params[] = {
     PS_ROW(struct state, roulette, PS_PARAM_INT, "3", 1, 1000, PS_PARAM_EXPERT, NULL, "bounces",
            "bounce from which on Russian roulette may end a path"),
     PS_ROW(struct state, adaptive, PS_PARAM_BOOL, "yes", 0, 1, PS_PARAM_EXPERT, NULL, "",
-           "give more samples to tiles that seem to need them"),
+           "give more samples to tiles and pixels that seem to need them"),
 };
 
 static const ps_estimator_vtable vtable = {

@@ -71,16 +71,27 @@ static float error_of(const struct tile_pilot *pilot, float brightness)
 
 static uint64_t samples_by(const struct allocation *allocation, float error)
 {
-    double wanted = allocation->scale * (double)error, most = (double)allocation->most;
+    const struct allocation_limits *limits = &allocation->limits;
+    double wanted = allocation->scale * (double)error, most = (double)limits->most;
     uint64_t samples = (uint64_t)(wanted < most ? wanted : most);
-    return samples > allocation->least ? samples : allocation->least;
+    return samples > limits->least ? samples : limits->least;
 }
 
-struct allocation allocation_for(struct tile_pilot *pilots, size_t n, uint64_t least,
-                                 uint64_t samples, uint64_t most)
+/* Samples after the first round, of n tiles in all. */
+static double cost_of(const struct allocation *allocation, const struct tile_pilot *pilots,
+                      size_t n)
 {
-    struct allocation allocation = {
-        .brightness = mean_brightness(pilots, n), .least = least, .most = most};
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++)
+        sum += (double)pilots[i].shares *
+               (double)(samples_by(allocation, pilots[i].error) - allocation->limits.first);
+    return sum;
+}
+
+struct allocation allocation_for(const struct allocation_limits *limits, struct tile_pilot *pilots,
+                                 size_t n)
+{
+    struct allocation allocation = {.limits = *limits, .brightness = mean_brightness(pilots, n)};
     float largest = 0.0f;
     double points = 0.0;
     for (size_t i = 0; i < n; i++) {
@@ -89,14 +100,12 @@ struct allocation allocation_for(struct tile_pilot *pilots, size_t n, uint64_t l
         points += (double)pilots[i].points;
     }
     if (!(largest > 0.0f))
-        allocation.least = samples;
-    double low = 0.0, high = largest > 0.0f ? 1e6 * (double)most / (double)largest : 0.0;
+        allocation.limits.least = limits->samples;
+    double low = 0.0, high = largest > 0.0f ? 1e6 * (double)limits->most / (double)largest : 0.0;
+    double budget = points * (double)(limits->samples - limits->first);
     for (int step = 0; step < STEPS; step++) {
-        double sum = 0.0;
         allocation.scale = 0.5 * (low + high);
-        for (size_t i = 0; i < n; i++)
-            sum += (double)pilots[i].points * (double)samples_by(&allocation, pilots[i].error);
-        if (sum > points * (double)samples)
+        if (cost_of(&allocation, pilots, n) > budget)
             high = allocation.scale;
         else
             low = allocation.scale;

@@ -15,6 +15,7 @@
 /* What the first round told of a tile, in radiance of no special unit. */
 struct tile_pilot {
     uint32_t points;
+    float shares;     /* sum over them (point_shares.h) */
     float brightness; /* mean */
     float noise;      /* variance of a point's noise */
     float variation;  /* variance of the means of its blocks of 4x4 pixels, without their noise */
@@ -26,19 +27,25 @@ struct tile_pilot {
 struct tile_pilot tile_pilot(const uint32_t *lanes, const float *found, const float *half,
                              size_t count);
 
-/* By what tiles of a picture are given samples. */
-struct allocation {
-    float brightness; /* mean of the picture */
-    double scale;     /* samples for each unit of error */
-    uint64_t least, most;
+/* How many samples are shared out. */
+struct allocation_limits {
+    uint64_t first;       /* of each point, which are taken */
+    uint64_t samples;     /* of a point in the mean, those among them */
+    uint64_t least, most; /* of a point whose share is 1 */
 };
 
-/* The one by which n tiles have `samples` of each point in the mean over all points, as nearly as whole numbers allow, and
- * `least` to `most` each. */
-struct allocation allocation_for(struct tile_pilot *pilots, size_t n, uint64_t least,
-                                 uint64_t samples, uint64_t most);
+/* By what tiles of a picture are given samples. */
+struct allocation {
+    struct allocation_limits limits;
+    float brightness; /* mean of the picture */
+    double scale;     /* samples for each unit of error */
+};
 
-/* Samples of each point of a tile. */
+/* The one by which n tiles keep the limits, as nearly as whole numbers allow. */
+struct allocation allocation_for(const struct allocation_limits *limits, struct tile_pilot *pilots,
+                                 size_t n);
+
+/* Samples of a point of a tile whose share is 1. */
 uint32_t allocated_samples(const struct allocation *allocation, const struct tile_pilot *pilot);
 
 #endif

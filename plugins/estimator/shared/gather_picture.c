@@ -57,6 +57,14 @@ static struct tile_pilot pilot_of(const struct gather *gather, const ps_tile *ti
     return tile_pilot(lanes, found, half, count);
 }
 
+static float sum_of_shares(const struct gather *gather)
+{
+    float sum = 0.0f;
+    for (size_t i = 0; i < gather->points.count; i++)
+        sum += gather->shares[i];
+    return sum;
+}
+
 static bool stands_for_picture(const struct work *work, uint64_t tile)
 {
     return tile_is_sampled((uint32_t)tile, work->setting->paths.pass->tile_count, MOST_PILOTS);
@@ -78,7 +86,9 @@ static void take_first_round(void *user, uint64_t index, uint32_t worker)
     if (!begin_tile(work, index, &tile, &gather))
         return;
     gather_samples(&gather, GATHER_FIRST);
+    point_shares(&gather.points, gather.shares);
     work->pilots[index] = pilot_of(&gather, &tile, BOTH_HALVES);
+    work->pilots[index].shares = sum_of_shares(&gather);
     if (place == NO_PLACE)
         return;
     gather_teach(&gather);
@@ -125,6 +135,7 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     if (work->shares) {
         const struct allocation *allocation = &work->shares->allocation;
         resume(work, index, &gather);
+        point_shares(&gather.points, gather.shares);
         struct tile_pilot first = pilot_of(&gather, tile, FIRST_HALF);
         struct tile_pilot second = pilot_of(&gather, tile, SECOND_HALF);
         gather.expected[0] = allocated_samples(allocation, &second);
@@ -181,13 +192,19 @@ static ps_result make_places(struct work *work)
 static struct allocation allocation_of(const struct work *work, struct tile_pilot *pilots)
 {
     size_t tiles = work->setting->paths.pass->tile_count, count = 0;
+    const struct gather_setting *setting = work->setting;
     /* The first round may have missed all that there is to be found in a tile, and has much more noise than guided rays:
      * half of those are taken everywhere. */
-    uint64_t least = GATHER_FIRST + (work->setting->samples - GATHER_FIRST + 1) / 2;
+    const struct allocation_limits limits = {
+        .first = GATHER_FIRST,
+        .samples = setting->samples,
+        .least = GATHER_FIRST + (setting->samples - GATHER_FIRST + 1) / 2,
+        .most = setting->most,
+    };
     for (size_t i = 0; i < tiles; i++)
         if (stands_for_picture(work, i))
             pilots[count++] = work->pilots[i];
-    return allocation_for(pilots, count, least, work->setting->samples, work->setting->most);
+    return allocation_for(&limits, pilots, count);
 }
 
 /* Takes the first round of tiles, and finds the shares, where they are not known, by those that stand for the picture. */

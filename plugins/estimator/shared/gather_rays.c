@@ -28,23 +28,41 @@ void gather_begin(struct gather *gather)
 {
     gather->guide_count = 0;
     gather->expected[0] = gather->expected[1] = gather->setting->samples;
-    for (size_t i = 0; i < gather->points.count; i++)
+    for (size_t i = 0; i < gather->points.count; i++) {
+        gather->shares[i] = 1.0f;
         gather->guide_of[i] = choose_guide(gather, gather->points.normals[i]);
+    }
 }
 
 /* --- samples --- */
 
-/* Of the samples of a call. */
+/* Samples that points take one after the other, before guides learn from them. */
 struct round {
-    uint64_t samples;
-    float share;           /* of the guided samples of all rounds */
+    uint64_t samples;      /* of the group in all */
+    uint64_t longest;      /* of the point that takes most in this round */
     bool is_first, learns; /* more rays will be drawn by what these find */
 };
 
-/* Guided ones of so many samples. */
-static uint64_t guided_of(uint64_t samples)
+/* Some of a round's, whose paths advance together. */
+struct batch {
+    const struct round *round;
+    ps_points points;                 /* that they leave */
+    uint32_t of[PS_TILE_PIXELS];      /* which of the group's that is */
+    uint64_t numbers[PS_TILE_PIXELS]; /* of the samples, among their points' of the round */
+    uint64_t indices[PS_TILE_PIXELS]; /* of their random numbers */
+    /* What they found, where their first directions lie, and random numbers for lookups. */
+    ps_rgb found[PS_TILE_PIXELS];
+    struct guide_bin bins[PS_TILE_PIXELS];
+    float places[PS_TILE_PIXELS][2];
+};
+
+/* Guided ones of a point, where its group has so many samples. */
+static uint64_t guided_of(const struct gather *gather, size_t point, uint64_t samples)
 {
-    return samples > GATHER_FIRST ? samples - GATHER_FIRST : 0;
+    if (samples <= GATHER_FIRST)
+        return 0;
+    float wanted = (float)(samples - GATHER_FIRST) * gather->shares[point];
+    return wanted > 1.0f ? (uint64_t)(wanted + 0.5f) : 1;
 }
 
 static void add(struct gather *gather, size_t i, ps_rgb found, float weight, bool half)
@@ -62,7 +80,7 @@ int gather_half_of(const struct gather *gather, size_t point)
 
 static float expected_of(const struct gather *gather, size_t i)
 {
-    return (float)guided_of(gather->expected[gather_half_of(gather, i)]);
+    return (float)guided_of(gather, i, gather->expected[gather_half_of(gather, i)]);
 }
 
 /* p_c / (c p_c + g q), where q is `ratio` of p_c and g the guided rays that are expected. */
@@ -82,25 +100,25 @@ static float smooth_ratio(const struct gather *gather, size_t i, struct guide_bi
     return guide_smooth_ratio(&gather->guides[gather->guide_of[i]], gather_half_of(gather, i), bin);
 }
 
-static void end_sample(struct gather *gather, const struct round *round, uint64_t number)
+static void end_sample(struct gather *gather, const struct batch *batch, size_t k)
 {
-    bool half = number < round->samples / 2;
-    for (size_t i = 0; i < gather->points.count; i++) {
-        ps_rgb found = gather->found[i];
-        if (round->is_first) {
-            gather->first.found[number][i] = found;
-            gather->first.bins[number][i] = gather->bins[i];
-            add(gather, i, found, 1.0f / (float)round->samples, half);
-        } else {
-            float ratio = smooth_ratio(gather, i, gather->bins[i]);
-            float each = round->share / (float)round->samples;
-            add(gather, i, found,
-                each * expected_of(gather, i) * ratio * balanced(gather, i, ratio), half);
-        }
-        gather->samples[i]++;
-        if (round->learns)
-            learn(gather, i, gather->bins[i], found);
+    const struct round *round = batch->round;
+    size_t i = batch->of[k];
+    uint64_t number = batch->numbers[k];
+    bool half = number < gather->taken[i] / 2;
+    ps_rgb found = batch->found[k];
+    if (round->is_first) {
+        gather->first.found[number][i] = found;
+        gather->first.bins[number][i] = batch->bins[k];
+        add(gather, i, found, 1.0f / (float)gather->taken[i], half);
+    } else {
+        float ratio = smooth_ratio(gather, i, batch->bins[k]);
+        float each = 1.0f / (float)guided_of(gather, i, round->samples);
+        add(gather, i, found, each * expected_of(gather, i) * ratio * balanced(gather, i, ratio),
+            half);
     }
+    if (round->learns)
+        learn(gather, i, batch->bins[k], found);
 }
 
 /* Weighs the rays of the first round by the guides of the round that begins, for its share of the guided rays. */
@@ -109,82 +127,82 @@ static void add_first(struct gather *gather, const struct round *round)
     for (size_t number = 0; number < GATHER_FIRST; number++)
         for (size_t i = 0; i < gather->points.count; i++) {
             ps_rgb found = gather->first.found[number][i];
-            if (!(ps_luminance(found) > 0.0f))
+            if (gather->taken[i] == 0 || !(ps_luminance(found) > 0.0f))
                 continue;
+            float share = (float)gather->taken[i] / (float)guided_of(gather, i, round->samples);
             float ratio = smooth_ratio(gather, i, gather->first.bins[number][i]);
-            add(gather, i, found, round->share * balanced(gather, i, ratio),
-                number < GATHER_FIRST / 2);
+            add(gather, i, found, share * balanced(gather, i, ratio), number < GATHER_FIRST / 2);
         }
 }
 
 /* --- rays --- */
 
-static void start_paths(struct gather *gather, struct paths *paths, struct paths_segment *segment)
+static void start_paths(const struct gather *gather, struct batch *batch, struct paths *paths,
+                        struct paths_segment *segment)
 {
     const struct paths_setting *setting = &gather->setting->paths;
-    const ps_points *points = &gather->points;
-    setting->host->samples(setting->host, PS_STREAM_PATH, 1, gather->samples, points->count,
+    const ps_points *points = &batch->points;
+    setting->host->samples(setting->host, PS_STREAM_PATH, 1, batch->indices, points->count,
                            segment->numbers);
     paths->count = 0;
-    for (uint32_t i = 0; i < points->count; i++) {
-        ps_vec3 normal = points->normals[i];
-        const struct guide *guide = &gather->guides[gather->guide_of[i]];
+    for (uint32_t k = 0; k < points->count; k++) {
+        ps_vec3 normal = points->normals[k];
+        const struct guide *guide = &gather->guides[gather->guide_of[batch->of[k]]];
         ps_vec3 direction =
-            guide_sample(guide, normal, segment->numbers[i][0], segment->numbers[i][1]);
-        gather->bins[i] = guide_bin_of(guide, normal, direction);
-        gather->places[i][0] = segment->numbers[i][2];
-        gather->places[i][1] = segment->numbers[i][3];
-        gather->found[i] = (ps_rgb){0, 0, 0};
+            guide_sample(guide, normal, segment->numbers[k][0], segment->numbers[k][1]);
+        batch->bins[k] = guide_bin_of(guide, normal, direction);
+        batch->places[k][0] = segment->numbers[k][2];
+        batch->places[k][1] = segment->numbers[k][3];
+        batch->found[k] = (ps_rgb){0, 0, 0};
         if (!(ps_dot(direction, normal) > 0.0f))
             continue;
-        paths_add(paths, i,
-                  ps_leave_surface(points->positions[i], normal, direction,
+        paths_add(paths, k,
+                  ps_leave_surface(points->positions[k], normal, direction,
                                    setting->pass->surface_offset),
-                  PS_PI / guide_ratio(guide, gather->bins[i]));
+                  PS_PI / guide_ratio(guide, batch->bins[k]));
     }
 }
 
 /* What the cache knows of the light where a path's ray landed. */
-static bool look_up(const struct gather *gather, const struct paths *paths,
-                    const struct paths_segment *segment, size_t i, struct gather_known *known)
+static bool look_up(const struct gather_setting *setting, const struct batch *batch,
+                    const struct paths *paths, const struct paths_segment *segment, size_t i,
+                    struct gather_known *known)
 {
-    const struct gather_setting *setting = gather->setting;
     const ps_hit *hit = &segment->hits[i];
     /* Where bounces are counted, the cache knows those that are left after one surface. */
     bool counted = setting->paths.pass->bounces != PS_ALL_BOUNCES;
     return setting->lookup && !(counted && paths->bounces[i] > 0) &&
            setting->lookup(setting->cache, hit->position, hit->normal, hit->distance,
-                           gather->places[paths->pixels[i]], known);
+                           batch->places[paths->pixels[i]], known);
 }
 
 /* Adds what a diffuse surface of that reflectance sends back along a path's ray of irradiance. */
-static void add_known(struct gather *gather, const struct paths *paths, size_t i,
-                      ps_rgb reflectance, ps_rgb irradiance)
+static void add_known(struct batch *batch, const struct paths *paths, size_t i, ps_rgb reflectance,
+                      ps_rgb irradiance)
 {
-    ps_rgb *found = &gather->found[paths->pixels[i]];
+    ps_rgb *found = &batch->found[paths->pixels[i]];
     ps_rgb light = ps_rgb_scale(ps_rgb_multiply(reflectance, irradiance), 1.0f / PS_PI);
     *found = ps_rgb_add(*found, ps_rgb_multiply(paths->throughput[i], light));
 }
 
 /* Adds the light of the lights, and what the cache knows of surfaces that are only diffuse; paths end where that is all. */
-static void light_paths(struct gather *gather, uint32_t number, struct paths *paths,
-                        struct paths_segment *segment)
+static void light_paths(const struct gather_setting *setting, struct batch *batch, uint32_t number,
+                        struct paths *paths, struct paths_segment *segment)
 {
-    const struct gather_setting *setting = gather->setting;
     struct gather_known known[PS_TILE_PIXELS];
     bool is_known[PS_TILE_PIXELS];
     uint8_t groups[PS_TILE_PIXELS];
     size_t left = 0;
     for (size_t i = 0; i < paths->count; i++) {
         is_known[i] = !(segment->hits[i].flags & PS_HIT_SPECULAR) &&
-                      look_up(gather, paths, segment, i, &known[i]);
+                      look_up(setting, batch, paths, segment, i, &known[i]);
         groups[i] = is_known[i] && setting->knows_sky ? PS_LIGHTS_OTHERS : PS_LIGHTS_ALL;
     }
-    paths_add_reflected(&setting->paths, number, gather->samples, paths, groups, segment,
-                        gather->found);
+    paths_add_reflected(&setting->paths, number, batch->indices, paths, groups, segment,
+                        batch->found);
     for (size_t i = 0; i < paths->count; i++) {
         if (is_known[i])
-            add_known(gather, paths, i, segment->hits[i].albedo,
+            add_known(batch, paths, i, segment->hits[i].albedo,
                       ps_rgb_add(known[i].indirect, known[i].sky));
         if (is_known[i] && setting->knows_indirect)
             continue;
@@ -195,40 +213,72 @@ static void light_paths(struct gather *gather, uint32_t number, struct paths *pa
 }
 
 /* Sends the others on, or ends them where their lobe is diffuse. */
-static void scatter_paths(struct gather *gather, struct paths *paths, struct paths_segment *segment)
+static void scatter_paths(const struct gather_setting *setting, struct batch *batch,
+                          struct paths *paths, struct paths_segment *segment)
 {
-    const struct paths_setting *setting = &gather->setting->paths;
+    const ps_host *host = setting->paths.host;
     ps_bsdf_sample scattered[PS_TILE_PIXELS];
-    setting->host->sample_bsdf(setting->host, PS_FROM_CAMERA, paths->rays, segment->hits,
-                               (const float(*)[4])segment->numbers, paths->count, scattered);
+    host->sample_bsdf(host, PS_FROM_CAMERA, paths->rays, segment->hits,
+                      (const float(*)[4])segment->numbers, paths->count, scattered);
     size_t alive = 0;
     for (size_t i = 0; i < paths->count; i++) {
         struct gather_known known;
-        if (gather->setting->knows_indirect && segment->hits[i].flags & PS_HIT_SPECULAR &&
-            scattered[i].lobe == PS_DIFFUSE && look_up(gather, paths, segment, i, &known)) {
-            add_known(gather, paths, i, scattered[i].weight, known.indirect);
+        if (setting->knows_indirect && segment->hits[i].flags & PS_HIT_SPECULAR &&
+            scattered[i].lobe == PS_DIFFUSE && look_up(setting, batch, paths, segment, i, &known)) {
+            add_known(batch, paths, i, scattered[i].weight, known.indirect);
             continue;
         }
-        if (paths_scatter(setting, &scattered[i], segment, paths, i))
+        if (paths_scatter(&setting->paths, &scattered[i], segment, paths, i))
             paths_move(paths, i, alive++);
     }
     paths->count = alive;
 }
 
-static void take_sample(struct gather *gather, const struct round *round, uint64_t number_of_sample)
+static void take_batch(struct gather *gather, struct batch *batch)
 {
-    const struct paths_setting *setting = &gather->setting->paths;
+    const struct gather_setting *setting = gather->setting;
     struct paths paths;
     struct paths_segment segment;
-    start_paths(gather, &paths, &segment);
+    start_paths(gather, batch, &paths, &segment);
     for (uint32_t number = 1; paths.count > 0; number++) {
-        paths_intersect(setting, &gather->points, number, &paths, &segment);
-        paths_add_emitted(setting, &paths, &segment, gather->found);
-        light_paths(gather, number, &paths, &segment);
-        paths_draw_numbers(setting, number + 1, gather->samples, &paths, &segment);
-        scatter_paths(gather, &paths, &segment);
+        paths_intersect(&setting->paths, &batch->points, number, &paths, &segment);
+        paths_add_emitted(&setting->paths, &paths, &segment, batch->found);
+        light_paths(setting, batch, number, &paths, &segment);
+        paths_draw_numbers(&setting->paths, number + 1, batch->indices, &paths, &segment);
+        scatter_paths(setting, batch, &paths, &segment);
     }
-    end_sample(gather, round, number_of_sample);
+    for (size_t k = 0; k < batch->points.count; k++)
+        end_sample(gather, batch, k);
+    batch->points.count = 0;
+}
+
+static void put(const struct gather *gather, uint32_t point, uint64_t number, struct batch *batch)
+{
+    size_t k = batch->points.count++;
+    batch->points.positions[k] = gather->points.positions[point];
+    batch->points.normals[k] = gather->points.normals[point];
+    batch->of[k] = point;
+    batch->numbers[k] = number;
+    batch->indices[k] = gather->starts[point] + number;
+}
+
+/* The first samples of all points, the second ones, and so on. */
+static void take_samples(struct gather *gather, const struct round *round)
+{
+    const ps_host *host = gather->setting->paths.host;
+    struct batch batch;
+    batch.round = round;
+    batch.points.count = 0;
+    for (uint64_t number = 0; number < round->longest && !host->cancelled(host); number++)
+        for (uint32_t i = 0; i < gather->points.count; i++) {
+            if (number >= gather->taken[i])
+                continue;
+            put(gather, i, number, &batch);
+            if (batch.points.count == PS_TILE_PIXELS)
+                take_batch(gather, &batch);
+        }
+    if (batch.points.count > 0)
+        take_batch(gather, &batch);
 }
 
 static void update_guides(struct gather *gather)
@@ -273,42 +323,63 @@ void gather_resume(struct gather *gather, const struct gather_first *first,
     update_guides(gather);
 }
 
+/* Numbers the samples of a round from `first` on, point after point along the curve. */
+static void number_samples(struct gather *gather, uint64_t first)
+{
+    uint32_t order[PS_TILE_PIXELS];
+    memset(order, 0xff, sizeof order);
+    for (uint32_t i = 0; i < gather->points.count; i++)
+        order[ps_lane_along_curve(gather->points.lanes[i])] = i;
+    for (size_t place = 0; place < PS_TILE_PIXELS; place++) {
+        if (order[place] == UINT32_MAX)
+            continue;
+        gather->starts[order[place]] = first;
+        first += gather->taken[order[place]];
+    }
+}
+
 static void take_round(struct gather *gather, const struct round *round)
 {
     const struct gather_setting *setting = gather->setting;
-    uint64_t first =
-        (gather->index << 32) +
-        ((uint64_t)setting->paths.pass->number * setting->most + gather->done) * PS_TILE_PIXELS;
+    uint64_t most = POINT_SHARES_MOST * setting->most;
+    uint64_t before = (uint64_t)setting->paths.pass->number * most + gather->done;
     if (gather->done == GATHER_FIRST) { /* what was added without guides is weighed anew */
         memset(gather->irradiance, 0, sizeof gather->irradiance);
         memset(gather->half, 0, sizeof gather->half);
     }
     if (!round->is_first)
         add_first(gather, round);
-    for (size_t i = 0; i < gather->points.count; i++)
-        gather->samples[i] = first + ps_lane_along_curve(gather->points.lanes[i]) * round->samples;
-    const ps_host *host = setting->paths.host;
-    for (uint64_t number = 0; number < round->samples && !host->cancelled(host); number++)
-        take_sample(gather, round, number);
-    gather->done += round->samples;
+    number_samples(gather, (gather->index << 32) + before * PS_TILE_PIXELS);
+    take_samples(gather, round);
+    gather->done += round->longest;
+}
+
+/* Shares out a round of at most `most` samples to the points. Returns whether all have theirs with it. */
+static bool begin_round(struct gather *gather, uint64_t most, struct round *round)
+{
+    bool last = true;
+    for (size_t i = 0; i < gather->points.count; i++) {
+        uint64_t guided = guided_of(gather, i, round->samples);
+        uint64_t total = guided > 0 ? GATHER_FIRST + guided : round->samples;
+        uint64_t left = total > gather->done ? total - gather->done : 0;
+        last &= left <= most;
+        gather->taken[i] = left < most ? left : most;
+        if (gather->taken[i] > round->longest)
+            round->longest = gather->taken[i];
+    }
+    return last;
 }
 
 /* Rounds of 4, 12, 48, ... samples, each drawn by what those before it found. Shorter ones would learn sooner, but the
  * samples of a round are stratified together, which is worth more. */
 void gather_samples(struct gather *gather, uint64_t samples)
 {
-    while (gather->done < samples) {
-        uint64_t most = gather->done == 0 ? GATHER_FIRST : 3 * gather->done;
-        uint64_t left = samples - gather->done;
-        bool last = most >= left;
-        uint64_t taken = last ? left : most;
-        struct round round = {
-            .samples = taken,
-            .share = gather->done > 0 ? (float)taken / (float)guided_of(samples) : 0.0f,
-            .is_first = gather->done == 0,
-            .learns = !last,
-        };
-        take_round(gather, &round);
+    for (bool last = false; !last;) {
+        struct round round = {.samples = samples, .is_first = gather->done == 0};
+        last = begin_round(gather, gather->done == 0 ? GATHER_FIRST : 3 * gather->done, &round);
+        round.learns = !last;
+        if (round.longest > 0)
+            take_round(gather, &round);
         if (!last)
             update_guides(gather);
     }

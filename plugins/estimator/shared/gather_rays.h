@@ -19,6 +19,7 @@
 #include "guide.h"
 
 #include "paths.h"
+#include "point_shares.h"
 
 /* Guides of a group, one for each way that its surfaces face. */
 enum { GATHER_GUIDES = 4 };
@@ -39,8 +40,9 @@ typedef bool (*gather_lookup)(const void *cache, ps_vec3 position, ps_vec3 norma
 
 struct gather_setting {
     struct paths_setting paths;
-    uint64_t samples;     /* from each point, in the mean over groups */
-    uint64_t most;        /* from each point, of any group: random numbers are counted by it */
+    uint64_t samples; /* from each point, in the mean over groups */
+    uint64_t
+        most; /* from a point whose share is 1, of any group: random numbers are counted by it */
     gather_lookup lookup; /* NULL: there is no cache, and paths go on to their ends */
     const void *cache;
     bool knows_indirect; /* by the cache: paths end there */
@@ -61,18 +63,17 @@ struct gather {
     const struct gather_setting *setting;
     uint64_t index; /* of the group, among all that draw random numbers: a tile's own */
     ps_points points;
-    uint64_t done; /* samples */
+    /* Times the samples of the group after the first round, that each point takes: set by gather_begin() to 1. */
+    float shares[PS_TILE_PIXELS];
+    uint64_t done; /* samples, of a point that has most */
     uint64_t expected
         [2]; /* samples in all by which rays of either half are weighed: set by gather_begin() to the mean */
     /* Estimates of the irradiance, W/m^2, at each point, when all samples are done; `half` is what the first half of each
      * round has of it. */
     ps_rgb irradiance[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
     struct gather_first first;
-    /* Of the sample under way: its index, what it found, where its first direction lies, and random numbers for lookups. */
-    uint64_t samples[PS_TILE_PIXELS];
-    ps_rgb found[PS_TILE_PIXELS];
-    struct guide_bin bins[PS_TILE_PIXELS];
-    float places[PS_TILE_PIXELS][2];
+    /* Of the round under way, for each point: its samples, and the index of the first. */
+    uint64_t taken[PS_TILE_PIXELS], starts[PS_TILE_PIXELS];
     uint8_t guide_of[PS_TILE_PIXELS];
     uint32_t guide_count;
     struct guide guides[GATHER_GUIDES];
@@ -84,14 +85,14 @@ int gather_half_of(const struct gather *gather, size_t point);
 /* Chooses guides, when setting, index and points are given and the rest is 0. */
 void gather_begin(struct gather *gather);
 
-/* Takes samples until `samples` are done, in rounds. Any thread. */
+/* Takes samples in rounds, until `samples` are done of a point whose share is 1. Any thread. */
 void gather_samples(struct gather *gather, uint64_t samples);
 
 /* After a first round that no other is to follow, for now. */
 void gather_teach(struct gather *gather);
 
-/* Goes on after the first round of a gather of the same points, which has taught; more samples are to follow. They are also
- * guided by what those of `count` gathers around found. */
+/* Goes on after the first round of a gather of the same points, which has taught; more samples are to follow, by gather->shares.
+ * They are also guided by what those of `count` gathers around found. */
 void gather_resume(struct gather *gather, const struct gather_first *first,
                    const struct gather_first *const around[], size_t count);
 
