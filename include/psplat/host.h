@@ -120,14 +120,15 @@ struct ps_host {
     /* --- surfaces --- */
 
     /* How each surface that was met sends light on, or takes it from: by the surface's own
-     * distribution, with four numbers each. Only for hits at finite distance. [any thread] */
+     * distribution, with four numbers each. Only for hits at finite distance, as intersect() set them: what
+     * they reflect diffusely towards the ray is their albedo. [any thread] */
     void (*sample_bsdf)(const ps_host *host, ps_direction direction, const ps_ray *rays,
                         const ps_hit *hits, const float (*samples)[4], size_t n,
                         ps_bsdf_sample *sampled);
 
     /* What each surface that was met scatters from a direction away from it into the one that its ray came
      * out of: the light runs backwards along the ray (PS_FROM_CAMERA), or along the ray and on in that
-     * direction (PS_FROM_LIGHT). Only for hits at finite distance. [any thread] */
+     * direction (PS_FROM_LIGHT). Hits as for sample_bsdf. [any thread] */
     void (*evaluate_bsdf)(const ps_host *host, ps_direction direction, const ps_ray *rays,
                           const ps_hit *hits, const ps_vec3 *directions, size_t n,
                           ps_bsdf_value *values);

@@ -65,6 +65,7 @@ static void start_gathering(const struct work *work, const ps_points *points,
 static void add_lights(const struct work *work, uint32_t chain, struct gathering *g, ps_rgb *sums)
 {
     ps_rgb emitted[PS_TILE_PIXELS], gloss[PS_TILE_PIXELS];
+    ps_hit glossy[PS_TILE_PIXELS];
     const ps_host *host = work->host;
     size_t met = 0;
     host->emitted_radiance(host, g->rays, g->hits, g->pdfs, g->count, emitted);
@@ -84,9 +85,11 @@ static void add_lights(const struct work *work, uint32_t chain, struct gathering
     g->count = met;
     if (!work->pass->specular)
         return;
-    for (size_t i = 0; i < met; i++)
-        g->hits[i].albedo = (ps_rgb){0, 0, 0};
-    host->direct_radiance(host, g->rays, g->hits, PS_STREAM_PATH, LIGHT_SETS + chain, g->samples,
+    for (size_t i = 0; i < met; i++) {
+        glossy[i] = g->hits[i];
+        glossy[i].albedo = (ps_rgb){0, 0, 0};
+    }
+    host->direct_radiance(host, g->rays, glossy, PS_STREAM_PATH, LIGHT_SETS + chain, g->samples,
                           met, gloss);
     for (size_t i = 0; i < met; i++)
         sums[g->targets[i]] = ps_rgb_add(

@@ -99,6 +99,11 @@ static ps_bsdf_sample reflect_roughly(const struct bsdf_lobe *lobe, const struct
     };
 }
 
+static ps_rgb diffuse_towards(const struct bsdf_view *view, float cosine)
+{
+    return cosine == view->cosine ? view->diffuse : bsdf_diffuse_albedo(view, cosine);
+}
+
 static ps_bsdf_sample scatter_diffusely(const struct bsdf_view *view, ps_direction direction,
                                         const float sample[4])
 {
@@ -107,7 +112,7 @@ static ps_bsdf_sample scatter_diffusely(const struct bsdf_view *view, ps_directi
     float cosine = ps_dot(w, n);
     return (ps_bsdf_sample){
         .direction = w,
-        .weight = bsdf_diffuse_albedo(view, direction == PS_FROM_CAMERA ? view->cosine : cosine),
+        .weight = diffuse_towards(view, direction == PS_FROM_CAMERA ? view->cosine : cosine),
         .pdf = cosine / PS_PI,
         .lobe = PS_DIFFUSE,
     };
@@ -222,7 +227,7 @@ static ps_bsdf_sample scatter_light_diffusely(const struct bsdf_view *view, cons
     return (ps_bsdf_sample){
         .direction = w,
         .normal = n,
-        .weight = ps_rgb_scale(bsdf_diffuse_albedo(view, view->cosine), arrival_correction(view)),
+        .weight = ps_rgb_scale(view->diffuse, arrival_correction(view)),
         .probability = 1.0f,
         .pdf = ps_dot(w, n) / PS_PI,
         .lobe = PS_DIFFUSE,
@@ -233,7 +238,6 @@ static ps_bsdf_value evaluate_diffuse(const struct bsdf_view *view, ps_direction
                                       ps_vec3 away)
 {
     const ps_hit *hit = view->hit;
-    ps_rgb albedo = bsdf_diffuse_albedo(view, view->cosine);
     float shading = ps_max(ps_dot(away, hit->normal), 0.0f) / PS_PI;
     float geometric = ps_dot(away, hit->geometric_normal) / PS_PI;
     float back_shading = ps_max(ps_dot(view->out, hit->normal), 0.0f) / PS_PI;
@@ -241,9 +245,9 @@ static ps_bsdf_value evaluate_diffuse(const struct bsdf_view *view, ps_direction
     if (!(geometric > 0.0f))
         return (ps_bsdf_value){.pdf = 0.0f};
     if (direction == PS_FROM_CAMERA)
-        return (ps_bsdf_value){ps_rgb_scale(albedo, shading), shading, back_geometric};
-    return (ps_bsdf_value){ps_rgb_scale(albedo, geometric * arrival_correction(view)), geometric,
-                           back_shading};
+        return (ps_bsdf_value){ps_rgb_scale(view->diffuse, shading), shading, back_geometric};
+    return (ps_bsdf_value){ps_rgb_scale(view->diffuse, geometric * arrival_correction(view)),
+                           geometric, back_shading};
 }
 
 /* --- any surface ------------------------------------------------------------------------------- */
@@ -289,7 +293,7 @@ static ps_rgb evaluate_lobe(const struct bsdf_lobe *lobe, const struct bsdf_view
     *pdf = 0.0f;
     if (!component) {
         *pdf = lobe->probability * in.z / PS_PI;
-        return ps_rgb_scale(bsdf_diffuse_albedo(view, eye), in.z / PS_PI);
+        return ps_rgb_scale(diffuse_towards(view, eye), in.z / PS_PI);
     }
     float roughness =
         component->kind == COMPONENT_DIELECTRIC ? 0.0f : bsdf_roughness(component, view->hit);
@@ -327,6 +331,7 @@ ps_bsdf_value material_evaluate(const struct material *material,
     if (!material->specular)
         return evaluate_diffuse(&view, direction, away);
     struct bsdf_view reverse = bsdf_view_of(material, table, hit, ps_scale(away, -1.0f));
+    reverse.diffuse = bsdf_diffuse_albedo(&reverse, reverse.cosine);
     ps_bsdf_value value = {.pdf = 0.0f};
     ps_vec3 frame[3];
     shading_frame(hit, frame);
@@ -346,6 +351,8 @@ ps_rgb material_gloss(const struct material *material, const struct microfacet_t
 {
     struct bsdf_lobe lobes[BSDF_MOST_LOBES];
     struct bsdf_view view = bsdf_view_of(material, table, hit, ray->direction);
+    view.diffuse =
+        bsdf_diffuse_albedo(&view, view.cosine); /* hit->albedo may be what is to count */
     size_t count = bsdf_list_lobes(&view, lobes);
     ps_vec3 frame[3];
     shading_frame(hit, frame);

@@ -65,7 +65,7 @@ ps_rgb material_reflectance(const struct material *material, const struct microf
                             const ps_hit *hit, ps_vec3 ray_direction)
 {
     struct bsdf_view view = bsdf_view_of(material, table, hit, ray_direction);
-    ps_rgb sum = bsdf_diffuse_albedo(&view, view.cosine);
+    ps_rgb sum = view.diffuse;
     for (uint32_t i = 0; i < material->component_count; i++)
         sum = ps_rgb_add(sum, specular_albedo(&material->components[i], &view, view.cosine));
     return sum;
@@ -90,8 +90,7 @@ static size_t add_lobe(struct bsdf_lobe *lobes, size_t count, const struct compo
 size_t bsdf_list_lobes(const struct bsdf_view *view, struct bsdf_lobe lobes[BSDF_MOST_LOBES])
 {
     float sum = 0.0f;
-    size_t count =
-        add_lobe(lobes, 0, NULL, ps_rgb_maximum(bsdf_diffuse_albedo(view, view->cosine)));
+    size_t count = add_lobe(lobes, 0, NULL, ps_rgb_maximum(view->diffuse));
     for (uint32_t i = 0; i < view->material->component_count; i++) {
         const struct component *component = &view->material->components[i];
         ps_rgb albedo = specular_albedo(component, view, view->cosine);

@@ -19,17 +19,19 @@ struct bsdf_view {
     const struct material *material;
     const struct microfacet_table *table;
     const ps_hit *hit;
-    ps_vec3 out;  /* unit, back along the ray */
-    float cosine; /* of `out` to the shading normal, > 0 */
+    ps_vec3 out;    /* unit, back along the ray */
+    float cosine;   /* of `out` to the shading normal, > 0 */
+    ps_rgb diffuse; /* bsdf_diffuse_albedo() towards that */
 };
 
+/* Of a hit whose albedo is still that of the surface. */
 static inline struct bsdf_view bsdf_view_of(const struct material *material,
                                             const struct microfacet_table *table, const ps_hit *hit,
                                             ps_vec3 ray_direction)
 {
     ps_vec3 out = ps_scale(ray_direction, -1.0f);
     float cosine = fmaxf(ps_dot(out, hit->normal), BSDF_LEAST_COSINE);
-    return (struct bsdf_view){material, table, hit, out, cosine};
+    return (struct bsdf_view){material, table, hit, out, cosine, hit->albedo};
 }
 
 static inline ps_rgb bsdf_color(const struct pigment *pigment, const ps_hit *hit)
@@ -65,7 +67,8 @@ static inline bool bsdf_is_smooth(float roughness)
 ps_rgb bsdf_reflector_albedo(const struct component *component, const struct bsdf_view *view,
                              float cosine);
 
-/* The diffuse albedo of all components towards `cosine`. */
+/* The diffuse albedo of all components towards `cosine`. It looks up colours and patterns: where view->diffuse is the same, it costs
+ * nothing. */
 ps_rgb bsdf_diffuse_albedo(const struct bsdf_view *view, float cosine);
 
 /* A way in which light may go on: the other lobe of a component, or the diffuse one of all, which is

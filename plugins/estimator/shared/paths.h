@@ -171,14 +171,18 @@ static inline void paths_add_direct(const struct paths_setting *setting, uint32_
                                     const struct paths *paths, const uint8_t *groups,
                                     struct paths_segment *segment, ps_rgb *sums)
 {
-    ps_rgb radiance[PS_TILE_PIXELS];
-    for (size_t i = 0; i < paths->count; i++)
+    ps_rgb radiance[PS_TILE_PIXELS], albedos[PS_TILE_PIXELS];
+    for (size_t i = 0; i < paths->count; i++) {
+        albedos[i] = segment->hits[i].albedo;
         if (paths_is_last(setting, paths, i))
             segment->hits[i].albedo = (ps_rgb){0, 0, 0};
+    }
     setting->host->direct_radiance_of(setting->host, paths->rays, segment->hits, groups,
                                       PS_STREAM_PATH, PATHS_LIGHT_SETS + number, segment->indices,
                                       paths->count, radiance);
     paths_add_radiance(paths, radiance, sums);
+    for (size_t i = 0; i < paths->count; i++)
+        segment->hits[i].albedo = albedos[i];
 }
 
 /* Whether all surfaces on a path's way, from its point on, have mirrored or refracted. */
