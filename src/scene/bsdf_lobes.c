@@ -103,6 +103,22 @@ size_t bsdf_list_lobes(const struct bsdf_view *view, struct bsdf_lobe lobes[BSDF
     return count;
 }
 
+void material_tabulate(const struct material *material, struct microfacet_table *table)
+{
+    for (uint32_t i = 0; i < material->component_count; i++) {
+        const struct component *component = &material->components[i];
+        bool reflects =
+            component->kind == COMPONENT_REFLECTOR || component->kind == COMPONENT_GLOSSY;
+        if (!reflects || component->constant)
+            continue;
+        float roughness = pigment_mean(component->roughness.colors[0]);
+        if (!pigment_is_constant(&component->roughness))
+            microfacet_tabulate(table, 0.0f, 1.0f);
+        else if (!bsdf_is_smooth(roughness))
+            microfacet_tabulate(table, roughness, roughness);
+    }
+}
+
 bool material_refracts(const struct material *material)
 {
     bool found = false;

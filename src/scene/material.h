@@ -87,6 +87,9 @@ ps_result material_create(const struct scene_description *description, size_t in
                           const struct texture *textures, struct material *material,
                           struct error *error);
 
+/* Fills what its rough reflectors look up. */
+void material_tabulate(const struct material *material, struct microfacet_table *table);
+
 /* The black surface of a light. */
 void material_create_lamp(ps_rgb radiance, bool both_sides, struct material *material);
 

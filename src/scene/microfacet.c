@@ -2,6 +2,8 @@
 
 #include "scene/fresnel.h"
 
+#include <assert.h>
+
 #define QUADRATURE 24 /* points in each of two dimensions */
 
 static float square(float x)
@@ -101,12 +103,21 @@ static float grid_value(int i)
     return (float)i / (MICROFACET_TABLE_SIZE - 1);
 }
 
-void microfacet_tabulate(struct microfacet_table *table)
+/* The first of the two rows that a roughness lies between. */
+static int row_of(float roughness)
 {
-    for (int row = 0; row < MICROFACET_TABLE_SIZE; row++)
-        for (int column = 0; column < MICROFACET_TABLE_SIZE; column++)
+    const float last = MICROFACET_TABLE_SIZE - 1;
+    return (int)ps_min(ps_min(ps_max(roughness, 0.0f), 1.0f) * last, last - 1.0f);
+}
+
+void microfacet_tabulate(struct microfacet_table *table, float least, float most)
+{
+    for (int row = row_of(least); row <= row_of(most) + 1; row++) {
+        for (int column = 0; column < MICROFACET_TABLE_SIZE && !table->is_known[row]; column++)
             integrate(grid_value(row), ps_max(grid_value(column), 1e-3f),
                       &table->scale[row][column], &table->bias[row][column]);
+        table->is_known[row] = true;
+    }
 }
 
 /* A place in the table: a cell, and where in it. */
@@ -115,12 +126,14 @@ struct place {
     float y, x;
 };
 
-static struct place place_of(float roughness, float cosine)
+static struct place place_of(const struct microfacet_table *table, float roughness, float cosine)
 {
     const float last = MICROFACET_TABLE_SIZE - 1;
     float y = ps_min(ps_max(roughness, 0.0f), 1.0f) * last;
     float x = ps_min(ps_max(cosine, 0.0f), 1.0f) * last;
-    int row = (int)ps_min(y, last - 1.0f), column = (int)ps_min(x, last - 1.0f);
+    int row = row_of(roughness), column = (int)ps_min(x, last - 1.0f);
+    assert(table->is_known[row] && table->is_known[row + 1]);
+    (void)table;
     return (struct place){row, column, y - (float)row, x - (float)column};
 }
 
@@ -142,14 +155,14 @@ static ps_rgb compensate(ps_rgb f0, float single)
 ps_rgb microfacet_compensation(const struct microfacet_table *table, ps_rgb f0, float roughness,
                                float eye)
 {
-    struct place at = place_of(roughness, eye);
+    struct place at = place_of(table, roughness, eye);
     return compensate(f0, interpolate(table->scale, &at) + interpolate(table->bias, &at));
 }
 
 ps_rgb microfacet_albedo(const struct microfacet_table *table, ps_rgb f0, float roughness,
                          float out)
 {
-    struct place at = place_of(roughness, out);
+    struct place at = place_of(table, roughness, out);
     float scale = interpolate(table->scale, &at), bias = interpolate(table->bias, &at);
     ps_rgb single = {f0.r * scale + bias, f0.g * scale + bias, f0.b * scale + bias};
     return ps_rgb_multiply(single, compensate(f0, scale + bias));

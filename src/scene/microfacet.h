@@ -18,6 +18,7 @@
 #define SCENE_MICROFACET_H
 
 #include <psplat/math.h>
+#include <stdbool.h>
 
 /* Smoother surfaces count as mirrors. */
 #define MICROFACET_SMOOTHEST 0.02f
@@ -27,12 +28,14 @@
 /* Albedo of the single-bounce model over cosine and roughness, where reflectance at normal incidence
  * is F0: F0 * scale + bias (Karis 2013). */
 struct microfacet_table {
+    bool is_known[MICROFACET_TABLE_SIZE];                      /* whether that row is filled */
     float scale[MICROFACET_TABLE_SIZE][MICROFACET_TABLE_SIZE]; /* [roughness][cosine] */
     float bias[MICROFACET_TABLE_SIZE][MICROFACET_TABLE_SIZE];
 };
 
-/* Fills the table by quadrature; takes some milliseconds. */
-void microfacet_tabulate(struct microfacet_table *table);
+/* Fills the rows that roughnesses from `least` to `most` are looked up in, but for those that are known, by quadrature: two
+ * milliseconds each. Other roughnesses may not be looked up. The table begins with all 0. */
+void microfacet_tabulate(struct microfacet_table *table, float least, float most);
 
 /* The share of light from all around that is reflected to the cosine `out`. */
 ps_rgb microfacet_albedo(const struct microfacet_table *table, ps_rgb f0, float roughness,

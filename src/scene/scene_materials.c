@@ -153,7 +153,7 @@ ps_result assembly_add_materials(struct assembly *assembly)
         scene->microfacets = assembly_allocate(assembly, 1, sizeof *scene->microfacets);
     if (specular && !scene->microfacets)
         return PS_ERROR_MEMORY;
-    if (specular)
-        microfacet_tabulate(scene->microfacets);
+    for (size_t i = 0; specular && i < description->material_count; i++)
+        material_tabulate(&scene->materials[i], scene->microfacets);
     return PS_OK;
 }

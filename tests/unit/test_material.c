@@ -16,8 +16,8 @@ static struct microfacet_table *table;
 static int make_table(void **state)
 {
     (void)state;
-    table = malloc(sizeof *table);
-    microfacet_tabulate(table);
+    table = calloc(1, sizeof *table);
+    microfacet_tabulate(table, 0.0f, 1.0f);
     return 0;
 }
 
@@ -81,14 +81,36 @@ static struct meeting meet(float cosine, uint32_t flags)
     };
 }
 
+/* With the albedo that a ray finds. */
+static ps_hit hit_on(const struct material *material, const struct meeting *meeting)
+{
+    ps_hit hit = meeting->hit;
+    hit.albedo = material_albedo(material, table, &hit, meeting->ray.direction);
+    return hit;
+}
+
+static ps_bsdf_value evaluate(const struct material *material, const struct meeting *meeting,
+                              ps_direction direction, ps_vec3 away)
+{
+    ps_hit hit = hit_on(material, meeting);
+    return material_evaluate(material, table, direction, &meeting->ray, &hit, away);
+}
+
+static ps_bsdf_sample scatter_by(const struct material *material, const struct meeting *meeting,
+                                 ps_direction direction, const float numbers[4],
+                                 struct stratum *stratum)
+{
+    ps_hit hit = hit_on(material, meeting);
+    return material_scatter(material, table, direction, &meeting->ray, &hit, numbers, stratum);
+}
+
 static ps_bsdf_sample scatter(const struct material *material, const struct meeting *meeting,
                               ps_direction direction, struct random *random)
 {
     float numbers[4];
     for (int k = 0; k < 4; k++)
         numbers[k] = random_unit(random);
-    return material_scatter(material, table, direction, &meeting->ray, &meeting->hit, numbers,
-                            NULL);
+    return scatter_by(material, meeting, direction, numbers, NULL);
 }
 
 static double mean_weight(const struct material *material, float cosine, ps_direction direction)
@@ -106,8 +128,8 @@ static void expect_albedo(const struct material *material, float cosine, double 
 {
     struct meeting meeting = meet(cosine, 0);
     double albedo = mean_weight(material, cosine, PS_FROM_CAMERA);
-    double stated =
-        (double)material_reflectance(material, table, &meeting.hit, meeting.ray.direction).g;
+    ps_hit hit = hit_on(material, &meeting);
+    double stated = (double)material_reflectance(material, table, &hit, meeting.ray.direction).g;
     if (!(fabs(albedo - expected) < 0.01 && fabs(stated - expected) < 0.01))
         fail_msg("cosine %g: %g, stated %g, expected %g", (double)cosine, albedo, stated, expected);
 }
@@ -201,10 +223,8 @@ static void test_varying_mix_is_a_mix(void **state)
         ps_bsdf_sample b = scatter(&varying, &meeting, PS_FROM_CAMERA, &same);
         assert_int_equal(a.lobe, b.lobe);
         assert_true(fabsf(a.weight.g - b.weight.g) < 1e-5f && fabsf(a.pdf - b.pdf) < 1e-4f * a.pdf);
-        ps_bsdf_value c = material_evaluate(&constant, table, PS_FROM_CAMERA, &meeting.ray,
-                                            &meeting.hit, a.direction);
-        ps_bsdf_value d = material_evaluate(&varying, table, PS_FROM_CAMERA, &meeting.ray,
-                                            &meeting.hit, a.direction);
+        ps_bsdf_value c = evaluate(&constant, &meeting, PS_FROM_CAMERA, a.direction);
+        ps_bsdf_value d = evaluate(&varying, &meeting, PS_FROM_CAMERA, a.direction);
         assert_true(fabsf(c.value.g - d.value.g) <= 1e-4f * c.value.g);
         assert_true(fabsf(c.pdf - d.pdf) <= 1e-4f * c.pdf);
     }
@@ -320,8 +340,7 @@ static double carried_by_paths(const struct material *material, const struct mee
     double sum = 0;
     for (uint32_t i = 0; i < paths; i++) {
         strata[i] = (struct stratum){((float)i + offset) / (float)paths, paths};
-        ps_bsdf_sample on = material_scatter(material, table, PS_FROM_CAMERA, &meeting->ray,
-                                             &meeting->hit, numbers, &strata[i]);
+        ps_bsdf_sample on = scatter_by(material, meeting, PS_FROM_CAMERA, numbers, &strata[i]);
         directions[i] = on.direction;
         sum += (double)on.weight.g;
     }
@@ -384,8 +403,7 @@ static void test_choices_of_a_mix_are_independent(void **state)
         float number = ((float)i + 0.5f) / (OFFSETS * MOST_PATHS);
         const float numbers[4] = {0.3f, 0.6f, 0, number};
         struct stratum stratum = {number, MOST_PATHS};
-        ps_bsdf_sample on = material_scatter(&mix, table, PS_FROM_CAMERA, &meeting.ray,
-                                             &meeting.hit, numbers, &stratum);
+        ps_bsdf_sample on = scatter_by(&mix, &meeting, PS_FROM_CAMERA, numbers, &stratum);
         sum += (double)on.weight.g;
         mirrored += on.lobe == PS_SPECULAR && on.direction.y > 0;
     }
@@ -401,8 +419,7 @@ static void test_a_path_alone_has_no_stratum(void **state)
     struct material glass = made_one(plain(MATERIAL_DIELECTRIC, 1));
     struct meeting meeting = meet(1, 0);
     struct stratum alone = {0.9f, 1};
-    ps_bsdf_sample on = material_scatter(&glass, table, PS_FROM_CAMERA, &meeting.ray, &meeting.hit,
-                                         numbers, &alone);
+    ps_bsdf_sample on = scatter_by(&glass, &meeting, PS_FROM_CAMERA, numbers, &alone);
     assert_true(on.direction.y > 0); /* by sample[3], it mirrors */
 }
 
@@ -516,10 +533,8 @@ static void test_tilted_diffuse_normals_are_reciprocal(void **state)
         lit.hit.normal = ps_cosine_direction(up, random_unit(&random), random_unit(&random));
         struct meeting seen = lit;
         seen.ray.direction = ps_scale(out, -1);
-        ps_bsdf_value light =
-            material_evaluate(&diffuse, table, PS_FROM_LIGHT, &lit.ray, &lit.hit, out);
-        ps_bsdf_value camera =
-            material_evaluate(&diffuse, table, PS_FROM_CAMERA, &seen.ray, &seen.hit, in);
+        ps_bsdf_value light = evaluate(&diffuse, &lit, PS_FROM_LIGHT, out);
+        ps_bsdf_value camera = evaluate(&diffuse, &seen, PS_FROM_CAMERA, in);
         assert_true(fabsf(light.value.g * in.y - camera.value.g * out.y) < 1e-5f);
         assert_true(fabsf(light.pdf - camera.reverse_pdf) < 1e-5f);
         assert_true(fabsf(camera.pdf - light.reverse_pdf) < 1e-5f);
@@ -613,6 +628,34 @@ static void test_too_many_components(void **state)
     assert_int_equal(material_create(&description, 1, NULL, &material, &error), PS_ERROR_INVALID);
 }
 
+/* --- the table of rough reflectors -------------------------------------------------------------- */
+
+static int rows_for(struct material_description description)
+{
+    struct microfacet_table *own = calloc(1, sizeof *own);
+    struct material material = made_one(description);
+    material_tabulate(&material, own);
+    int rows = 0;
+    for (int i = 0; i < MICROFACET_TABLE_SIZE; i++)
+        rows += own->is_known[i];
+    free(own);
+    return rows;
+}
+
+static void test_only_what_is_looked_up_is_tabulated(void **state)
+{
+    (void)state;
+    struct material_description metal = plain(MATERIAL_METAL, 0.5f);
+    assert_int_equal(rows_for(plain(MATERIAL_DIFFUSE, 0.5f)), 0);
+    assert_int_equal(rows_for(plain(MATERIAL_MIRROR, 0.5f)), 0);
+    metal.roughness = grey(0);
+    assert_int_equal(rows_for(metal), 0);
+    metal.roughness = grey(0.35f);
+    assert_int_equal(rows_for(metal), 2);
+    metal.roughness.vertex_colors = true;
+    assert_int_equal(rows_for(metal), MICROFACET_TABLE_SIZE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -640,6 +683,7 @@ int main(void)
         cmocka_unit_test(test_emission_has_a_front),
         cmocka_unit_test(test_black_absorbs),
         cmocka_unit_test(test_too_many_components),
+        cmocka_unit_test(test_only_what_is_looked_up_is_tabulated),
     };
     return cmocka_run_group_tests(tests, make_table, free_table);
 }

@@ -118,8 +118,8 @@ static double mean_weight(const struct microfacet_table *table, float roughness,
 static void test_white_metal_reflects_all(void **state)
 {
     (void)state;
-    struct microfacet_table *table = malloc(sizeof *table);
-    microfacet_tabulate(table);
+    struct microfacet_table *table = calloc(1, sizeof *table);
+    microfacet_tabulate(table, 0.0f, 1.0f);
     for (size_t i = 0; i < 4; i++)
         for (size_t k = 0; k < 4; k++) {
             double albedo = mean_weight(table, roughnesses[i], 1.0f, cosines[k]);
@@ -133,8 +133,8 @@ static void test_white_metal_reflects_all(void **state)
 static void test_albedo_is_that_of_the_samples(void **state)
 {
     (void)state;
-    struct microfacet_table *table = malloc(sizeof *table);
-    microfacet_tabulate(table);
+    struct microfacet_table *table = calloc(1, sizeof *table);
+    microfacet_tabulate(table, 0.0f, 1.0f);
     for (size_t i = 0; i < 4; i++)
         for (size_t k = 0; k < 4; k++) {
             double sampled = mean_weight(table, roughnesses[i], 0.2f, cosines[k]);
@@ -165,12 +165,38 @@ static void test_single_bounces_are_symmetric(void **state)
     }
 }
 
+/* Rows are filled where they are looked up, and are those of the whole table. */
+static void test_rows_are_filled_where_they_are_needed(void **state)
+{
+    (void)state;
+    struct microfacet_table *whole = calloc(1, sizeof *whole), *some = calloc(1, sizeof *some);
+    microfacet_tabulate(whole, 0.0f, 1.0f);
+    microfacet_tabulate(some, 0.4f, 0.4f);
+    microfacet_tabulate(some, 1.0f, 1.0f);
+    int known = 0;
+    for (int row = 0; row < MICROFACET_TABLE_SIZE; row++) {
+        assert_true(whole->is_known[row]);
+        known += some->is_known[row];
+        if (some->is_known[row])
+            assert_memory_equal(some->scale[row], whole->scale[row], sizeof whole->scale[row]);
+    }
+    assert_int_equal(known, 4);
+    const ps_rgb white = {1, 1, 1};
+    assert_true(microfacet_albedo(some, white, 0.4f, 0.5f).g ==
+                microfacet_albedo(whole, white, 0.4f, 0.5f).g);
+    assert_true(microfacet_albedo(some, white, 1.0f, 0.5f).g ==
+                microfacet_albedo(whole, white, 1.0f, 0.5f).g);
+    free(whole);
+    free(some);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sampling_follows_the_density),
         cmocka_unit_test(test_white_metal_reflects_all),
         cmocka_unit_test(test_albedo_is_that_of_the_samples),
+        cmocka_unit_test(test_rows_are_filled_where_they_are_needed),
         cmocka_unit_test(test_single_bounces_are_symmetric),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
