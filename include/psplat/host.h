@@ -316,8 +316,8 @@ struct ps_host {
 
     /* --- cones --- */
 
-    /* Since 1.12: as intersect, where each ray stands for a cone around it: what it meets has the mean colours of the
-     * pictures over the width of the cone, `spreads` times the distance. 0 is the ray alone; ps_cone_spread says
+    /* Since 1.12: as intersect, where each ray stands for a cone around it: what it meets has the mean colours of
+     * pictures and of noise over the width of the cone, `spreads` times the distance. 0 is the ray alone; ps_cone_spread says
      * how much a direction drawn by a density stands for. [any thread] */
     void (*intersect_cones)(const ps_host *host, const ps_ray *rays, const float *spreads, size_t n,
                             ps_hit *hits);

@@ -42,6 +42,12 @@ static inline double affine_determinant(const struct affine *map)
            x->z * ((double)y->x * z->y - (double)y->y * z->x);
 }
 
+/* The binary logarithm of the mean factor on lengths; -INFINITY where the map is flat. */
+static inline float affine_log_scale(const struct affine *map)
+{
+    return (float)(log2(fabs(affine_determinant(map))) / 3.0);
+}
+
 /* A normal's image, times the determinant: the cofactor matrix, which needs no inverse. It lies on
  * the side that the image of a triangle's winding gives; where the map mirrors, that is the image
  * of the other side. Not of length 1. */

@@ -119,18 +119,42 @@ static enum material_lookup lookup_of(const struct scene_description *descriptio
     return lookup;
 }
 
-/* Whether some pigment of the material, or of those that it is mixed of, is an image. */
-static bool has_image(const struct scene_description *description, size_t index)
+/* Of a material, and of those that it is mixed of. Where there are both, patterns are looked up at points; so are those of bumps, which
+ * shade a surface that would be smooth in the mean. */
+static enum material_filter filter_of(const struct scene_description *description, size_t index)
 {
     struct material_description *from = &description->materials[index];
     struct pigment_description *pigments[MATERIAL_PIGMENTS];
-    bool found = false;
+    enum material_filter filter = FILTER_NOTHING;
     material_pigments(from, pigments);
-    for (size_t i = 0; i < MATERIAL_PIGMENTS; i++)
-        found = found || pigments[i]->kind == PIGMENT_IMAGE;
-    for (size_t i = 0; i < from->component_count && !found; i++)
-        found = has_image(description, from->components[i]);
-    return found;
+    for (size_t i = 0; i < MATERIAL_PIGMENTS; i++) {
+        if (pigments[i]->kind == PIGMENT_IMAGE)
+            return FILTER_IMAGES;
+        if (pigments[i]->kind != PIGMENT_COLOR && pigments[i] != &from->bump)
+            filter = FILTER_PATTERNS;
+    }
+    for (size_t i = 0; i < from->component_count && filter != FILTER_IMAGES; i++) {
+        enum material_filter of_part = filter_of(description, from->components[i]);
+        filter = of_part != FILTER_NOTHING ? of_part : filter;
+    }
+    return filter;
+}
+
+/* For patterns of materials whose cones have their widths in other coordinates: as points. */
+static void forget_cone(struct pigment *pigment)
+{
+    if (pigment->kind != PIGMENT_IMAGE)
+        pigment->log_scale = -INFINITY;
+}
+
+static void forget_cones_of_patterns(struct material *material)
+{
+    forget_cone(&material->mixing);
+    for (uint32_t i = 0; i < material->component_count; i++) {
+        forget_cone(&material->components[i].diffuse);
+        forget_cone(&material->components[i].specular);
+        forget_cone(&material->components[i].roughness);
+    }
 }
 
 ps_result material_create(const struct scene_description *description, size_t index,
@@ -146,15 +170,18 @@ ps_result material_create(const struct scene_description *description, size_t in
         .has_bump = from->bump.kind != PIGMENT_COLOR,
         .has_normal_map = from->normal_map.kind == PIGMENT_IMAGE,
         .lookup = lookup_of(description, index),
-        .filters = has_image(description, index) && !has_opacity(from),
+        .filter = has_opacity(from) ? FILTER_NOTHING : filter_of(description, index),
         .emission = pigment_create(&from->emission, textures),
         .opacity = pigment_create(&from->opacity, textures),
         .bump = pigment_create(&from->bump, textures),
         .normal_map = pigment_create(&from->normal_map, textures),
         .mixing = reflectance_create(&from->share, textures),
     };
-    return add_components(description, index, (struct portion){1.0f, SHARE_CONSTANT}, textures,
-                          material, error);
+    ps_result result = add_components(description, index, (struct portion){1.0f, SHARE_CONSTANT},
+                                      textures, material, error);
+    if (material->filter == FILTER_IMAGES)
+        forget_cones_of_patterns(material);
+    return result;
 }
 
 void material_create_lamp(ps_rgb radiance, bool both_sides, struct material *material)

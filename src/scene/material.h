@@ -39,6 +39,10 @@ enum component_kind {
 /* What hits' texture_point holds: the point in the shape's space, or what the mesh has for each vertex. */
 enum material_lookup { LOOKUP_POINT, LOOKUP_COLORS, LOOKUP_SECOND_UV };
 
+/* What is looked up as its mean over ray cones (ray_cone.h), whose widths are kept in the coordinates of that. Nothing of a material
+ * with holes, whose colour must not mix in. */
+enum material_filter { FILTER_NOTHING, FILTER_IMAGES, FILTER_PATTERNS };
+
 enum component_sharing {
     SHARE_CONSTANT,
     SHARE_FIRST, /* times the material's mixing */
@@ -72,8 +76,7 @@ struct material {
     bool has_bump;
     bool has_normal_map;
     enum material_lookup lookup;
-    /* By ray cones (ray_cone.h): it has images, and no holes, whose colour must not mix in. */
-    bool filters;
+    enum material_filter filter;
     struct pigment emission; /* radiance */
     struct pigment opacity;
     struct pigment bump;       /* height, scene units */

@@ -133,28 +133,39 @@ static ps_vec3 turn_back(ps_vec3 g)
     };
 }
 
+/* What is left of noise with features 1 wide in its mean over a square of that width, by regression on the value in the middle. */
+static float left_over(float width)
+{
+    float rest = 1.0f - 0.25f * width * width;
+    return rest > 0.0f ? rest * rest : 0.0f;
+}
+
 /* Their sum, to be divided by the deviation. `gradients`: of each octave, before it is turned back, or NULL. */
-static inline float add_octaves(ps_vec3 point, int32_t octaves, uint32_t seed, ps_vec3 *gradients,
-                                float *deviation)
+static inline float add_octaves(ps_vec3 point, int32_t octaves, float width, uint32_t seed,
+                                ps_vec3 *gradients, float *deviation)
 {
     float sum = 0.0f, amplitude = 1.0f, variance = 0.0f;
     point = turn(point);
     for (int32_t octave = 0; octave < octaves; octave++) {
-        struct sloped of = noise(point, seed + (uint32_t)octave);
+        float left = left_over(width);
+        struct sloped of = {0.0f, {0, 0, 0}};
+        if (left > 0.0f)
+            of = noise(point, seed + (uint32_t)octave);
         if (gradients)
             gradients[octave] = of.gradient;
-        sum += amplitude * of.value;
+        sum += amplitude * left * of.value;
         variance += amplitude * amplitude;
         amplitude *= 0.5f;
+        width *= 2.0f;
         point = turn(ps_scale(point, 2.0f));
     }
     *deviation = sqrtf(variance);
     return sum;
 }
 
-float noise_fractal(ps_vec3 point, int32_t octaves, uint32_t seed)
+float noise_fractal(ps_vec3 point, int32_t octaves, float width, uint32_t seed)
 {
-    float deviation, sum = add_octaves(point, octaves, seed, NULL, &deviation);
+    float deviation, sum = add_octaves(point, octaves, width, seed, NULL, &deviation);
     return sum / deviation;
 }
 
@@ -165,7 +176,7 @@ float noise_fractal_gradient(ps_vec3 point, int32_t octaves, uint32_t seed, ps_v
     ps_vec3 gradients[NOISE_OCTAVES_LIMIT], total = {0, 0, 0};
     float deviation;
     assert(octaves >= 1 && octaves <= NOISE_OCTAVES_LIMIT);
-    float sum = add_octaves(point, octaves, seed, gradients, &deviation);
+    float sum = add_octaves(point, octaves, 0.0f, seed, gradients, &deviation);
     for (int32_t octave = octaves; octave-- > 0;)
         total = turn_back(ps_add(gradients[octave], total));
     *gradient = ps_scale(total, 1.0f / deviation);
@@ -175,11 +186,11 @@ float noise_fractal_gradient(ps_vec3 point, int32_t octaves, uint32_t seed, ps_v
 /* Seeds far enough apart that their octaves never meet. */
 static const uint32_t vector_seeds[3] = {0x100, 0x200, 0x300};
 
-ps_vec3 noise_vector(ps_vec3 point, int32_t octaves, uint32_t seed)
+ps_vec3 noise_vector(ps_vec3 point, int32_t octaves, float width, uint32_t seed)
 {
-    return (ps_vec3){noise_fractal(point, octaves, seed + vector_seeds[0]),
-                     noise_fractal(point, octaves, seed + vector_seeds[1]),
-                     noise_fractal(point, octaves, seed + vector_seeds[2])};
+    return (ps_vec3){noise_fractal(point, octaves, width, seed + vector_seeds[0]),
+                     noise_fractal(point, octaves, width, seed + vector_seeds[1]),
+                     noise_fractal(point, octaves, width, seed + vector_seeds[2])};
 }
 
 ps_vec3 noise_vector_gradients(ps_vec3 point, int32_t octaves, uint32_t seed, ps_vec3 gradients[3])

@@ -27,16 +27,19 @@ float noise_value(ps_vec3 point, uint32_t seed);
 /* The sum of `octaves` (1 to NOISE_OCTAVES_LIMIT) noises, each with features half as wide and half
  * as high as the one before, scaled so that its deviation is that of noise_value for any number of
  * them. Within +-2 * NOISE_LIMIT. Each octave's lattice is turned against the one before, and the
- * first against the axes, so that nothing shows the lattice along them. */
-float noise_fractal(ps_vec3 point, int32_t octaves, uint32_t seed);
+ * first against the axes, so that nothing shows the lattice along them.
+ *
+ * `width` >= 0: the mean over about so wide a part of a surface is wanted, and octaves with finer features fade (Norton,
+ * Rockwood and Skolmoski 1982, "Clamping"); 0: the value at the point. */
+float noise_fractal(ps_vec3 point, int32_t octaves, float width, uint32_t seed);
 
-/* The same, and its gradient: hardly more work than the value, of which differences would take six. */
+/* That of a point, and its gradient: hardly more work than the value, of which differences would take six. */
 float noise_fractal_gradient(ps_vec3 point, int32_t octaves, uint32_t seed, ps_vec3 *gradient);
 
 /* Three independent fractal noises. */
-ps_vec3 noise_vector(ps_vec3 point, int32_t octaves, uint32_t seed);
+ps_vec3 noise_vector(ps_vec3 point, int32_t octaves, float width, uint32_t seed);
 
-/* The same, and the gradients of x, y and z. */
+/* Those of a point, and the gradients of x, y and z. */
 ps_vec3 noise_vector_gradients(ps_vec3 point, int32_t octaves, uint32_t seed, ps_vec3 gradients[3]);
 
 #endif

@@ -50,9 +50,12 @@ struct pigment pigment_create(const struct pigment_description *description,
         .turbulence = (float)description->turbulence,
     };
     const float *scale = pigment.scale, *cross = pigment.cross;
-    pigment.log_scale = 0.5f * log2f(fabsf(scale[0] * scale[1] - cross[0] * cross[1]));
-    if (pigment.kind == PIGMENT_IMAGE)
+    if (pigment.kind == PIGMENT_IMAGE) {
+        pigment.log_scale = 0.5f * log2f(fabsf(scale[0] * scale[1] - cross[0] * cross[1]));
         pigment.texture = &textures[description->texture];
+    } else {
+        pigment.log_scale = affine_log_scale(&pigment.to_pattern);
+    }
     return pigment;
 }
 
@@ -125,29 +128,36 @@ static float gradient_share(ps_vec3 p, ps_vec3 axis)
     return share > 0.0f ? share : 0.0f;
 }
 
-static float noise_share(ps_vec3 p, int32_t octaves)
+static float noise_share(ps_vec3 p, int32_t octaves, float width)
 {
-    float share = 0.5f + 0.5f * noise_fractal(p, octaves, SEED_PATTERN);
+    float share = 0.5f + 0.5f * noise_fractal(p, octaves, width, SEED_PATTERN);
     return fminf(fmaxf(share, 0.0f), 1.0f);
 }
 
-static ps_vec3 displace(ps_vec3 p, float turbulence)
+static ps_vec3 displace(ps_vec3 p, float turbulence, float width)
 {
     if (turbulence == 0.0f)
         return p;
-    return ps_add_scaled(p, turbulence, noise_vector(p, TURBULENCE_OCTAVES, SEED_TURBULENCE));
+    return ps_add_scaled(p, turbulence,
+                         noise_vector(p, TURBULENCE_OCTAVES, width, SEED_TURBULENCE));
 }
 
-/* How much of colors[1] there is at a point of the pattern's space. */
-static float pattern_share(const struct pigment *pigment, ps_vec3 p)
+/* 0: the point. */
+static float width_in_pattern(const struct pigment *pigment, float log_width)
+{
+    return exp2f(log_width + pigment->log_scale);
+}
+
+/* How much of colors[1] there is at a point of the pattern's space, where `width` is the cone's there. */
+static float pattern_share(const struct pigment *pigment, ps_vec3 p, float width)
 {
     switch (pigment->kind) {
     case PIGMENT_CHECKER:
         return checker_share(p);
     case PIGMENT_GRADIENT:
-        return gradient_share(displace(p, pigment->turbulence), pigment->axis);
+        return gradient_share(displace(p, pigment->turbulence, width), pigment->axis);
     case PIGMENT_NOISE:
-        return noise_share(displace(p, pigment->turbulence), pigment->octaves);
+        return noise_share(displace(p, pigment->turbulence, width), pigment->octaves, width);
     case PIGMENT_COLOR:
     case PIGMENT_IMAGE:
         break;
@@ -179,7 +189,8 @@ ps_rgb pigment_vary(const struct pigment *pigment, ps_vec3 point, const float uv
 {
     if (pigment->kind == PIGMENT_IMAGE || pigment->kind == PIGMENT_COLOR)
         return vary_by_mesh(pigment, point, uv, log_width);
-    float share = pattern_share(pigment, affine_point(&pigment->to_pattern, point));
+    float share = pattern_share(pigment, affine_point(&pigment->to_pattern, point),
+                                width_in_pattern(pigment, log_width));
     return ps_rgb_add(ps_rgb_scale(pigment->colors[0], 1.0f - share),
                       ps_rgb_scale(pigment->colors[1], share));
 }
@@ -203,8 +214,8 @@ static ps_vec3 gradient_by_differences(const struct pigment *pigment, ps_vec3 p)
     const ps_vec3 ways[3] = {{step, 0, 0}, {0, step, 0}, {0, 0, step}};
     float slopes[3];
     for (int i = 0; i < 3; i++)
-        slopes[i] = (pattern_share(pigment, ps_add(p, ways[i])) -
-                     pattern_share(pigment, ps_subtract(p, ways[i]))) /
+        slopes[i] = (pattern_share(pigment, ps_add(p, ways[i]), 0.0f) -
+                     pattern_share(pigment, ps_subtract(p, ways[i]), 0.0f)) /
                     (2.0f * step);
     return (ps_vec3){slopes[0], slopes[1], slopes[2]};
 }

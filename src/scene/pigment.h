@@ -37,9 +37,9 @@ struct pigment {
     const struct texture *texture;       /* borrowed; image */
     int32_t channel;                     /* enum texture_channel; image */
     float scale[2], cross[2], offset[2]; /* u goes to scale * u + cross * v + offset; image */
-    float log_scale;          /* binary logarithm of their mean factor on lengths; image */
-    bool second_uv;           /* image: by the point's x and y rather than by u and v */
-    bool complement;          /* image */
+    float log_scale; /* binary logarithm of the mean factor on lengths, of these or of to_pattern */
+    bool second_uv;  /* image: by the point's x and y rather than by u and v */
+    bool complement; /* image */
     bool vertex_colors;       /* times the point as a colour */
     bool bounded;             /* kept within 0..1, as reflectances are; image, vertex_colors */
     struct affine to_pattern; /* from the space of the points */
@@ -63,8 +63,8 @@ static inline bool pigment_is_constant(const struct pigment *pigment)
 ps_rgb pigment_vary(const struct pigment *pigment, ps_vec3 point, const float uv[2],
                     float log_width);
 
-/* pigment_color, images as their mean over what a ray cone covers (ray_cone.h); log_width: the binary logarithm of its width
- * by the surface's (u, v), -INFINITY for a point. */
+/* pigment_color, images and noise as their mean over what a ray cone covers (ray_cone.h); log_width: the binary logarithm of
+ * its width, for images by the surface's (u, v), for patterns by points; -INFINITY for a point. */
 static inline ps_rgb pigment_filter(const struct pigment *pigment, ps_vec3 point, const float uv[2],
                                     float log_width)
 {

@@ -206,10 +206,14 @@ static float uv_density(const struct placed *placed, uint32_t triangle)
 }
 
 /* As wide as the cone across its axis: on slanted surfaces the mean over its longer side would blur along the shorter one. */
-static uint32_t cone_flags(const struct placed *placed, const struct intersection *at, float spread)
+static uint32_t cone_flags(const struct placed *placed, const struct intersection *at,
+                           enum material_filter filter, float spread)
 {
     float width = spread * at->distance;
-    return ray_cone_flags(0.5f * log2f(width * width * uv_density(placed, at->triangle)));
+    if (filter == FILTER_IMAGES)
+        return ray_cone_flags(0.5f * log2f(width * width * uv_density(placed, at->triangle)));
+    float scale = placed->instance ? affine_log_scale(&placed->instance->placement) : 0.0f;
+    return ray_cone_flags(log2f(width) - scale);
 }
 
 /* Turns both normals to the side that the ray came from. */
@@ -239,8 +243,8 @@ ps_hit surface_resolve(const struct scene *scene, const ps_ray *ray, float sprea
         .flags = (material->specular ? PS_HIT_SPECULAR : 0u) |
                  (material->emissive ? PS_HIT_EMISSIVE : 0u),
     };
-    if (spread > 0.0f && material->filters)
-        hit.flags |= cone_flags(&placed, at, spread);
+    if (spread > 0.0f && material->filter != FILTER_NOTHING)
+        hit.flags |= cone_flags(&placed, at, material->filter, spread);
     locate(&placed, ray, at, &hit);
     ps_vec3 place = hit.texture_point;
     if (material->lookup != LOOKUP_POINT)

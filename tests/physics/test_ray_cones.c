@@ -1,5 +1,5 @@
-/* test_ray_cones.c: a hit by a cone has the mean colour of the picture over the cone's width, whatever the surface: a
- * picture of noise, looked up at many places, varies as little as its means over squares of that width.
+/* test_ray_cones.c: a hit by a cone has the mean colour of the picture, or of the procedural noise, over the cone's width, whatever
+ * the surface: a picture of noise, looked up at many places, varies as little as its means over squares of that width.
  */
 #include "base/sample.h"
 #include "image/image.h"
@@ -13,7 +13,8 @@
 #define PLACES 400
 #define MEMBERS 64 /* rays of a mean */
 
-/* The picture's texels are about 0.0156 wide on the first one; they all lie around (0, 0, 0) and face +z. */
+/* The picture's texels are about 0.0156 wide on the first one; they all lie around (0, 0, 0) and face +z. The features of `marble` are
+ * 0.1 wide, and less. */
 static const char scene_text[] =
     "psd: 1\n"
     "camera: {location: [0, 0, 9], look_at: [0, 0, 0], angle: 40}\n"
@@ -24,9 +25,13 @@ static const char scene_text[] =
     "  holes: {diffuse: {image: {file: %s, encoding: linear}}, opacity: {image: {file: %s}}}\n"
     "  gloss: {glossy: {diffuse: {image: {file: %s, encoding: linear}}, specular: 0.04, roughness: "
     "0.5}}\n"
+    "  marble: {diffuse: {noise: {colors: [0.1, 0.9], octaves: 3, scale: 0.1}}}\n"
+    "  both: {diffuse: {noise: {colors: [0.1, 0.9], scale: 0.01}}, bump: {image: {file: %s}}}\n"
     "groups:\n"
     "  panel: [{quad: {corners: [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]], material: "
     "once}}]\n"
+    "  slab: [{quad: {corners: [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]], material: "
+    "marble}}]\n"
     "objects:\n"
     "  - %s\n";
 
@@ -116,7 +121,7 @@ static void with_object(void **state, const char *object, const char *name, floa
     struct trace *trace;
     struct error error;
     write_noise(path);
-    snprintf(text, sizeof text, scene_text, path, path, path, path, path, object);
+    snprintf(text, sizeof text, scene_text, path, path, path, path, path, path, object);
     struct scene scene = scene_of_text(text);
     assert_int_equal(trace_create(&scene, NULL, &trace, &error), PS_OK);
     body(trace, name, texel);
@@ -140,7 +145,8 @@ static void test_surfaces(void **state)
     } quads[] = {{"quad", "once", "", 0.0156f},
                  {"repeated", "often", "", 0.0039f},
                  {"gloss", "gloss", "", 0.0156f},
-                 {"placed", "once", ", scale: [3, 0.5, 1]", 0.0191f}};
+                 {"placed", "once", ", scale: [3, 0.5, 1]", 0.0191f},
+                 {"noise", "marble", "", 0.01f}};
     for (size_t i = 0; i < sizeof quads / sizeof quads[0]; i++) {
         char object[512];
         snprintf(object, sizeof object, quad, quads[i].material, quads[i].more);
@@ -152,6 +158,8 @@ static void test_instance(void **state)
 {
     with_object(state, "instance: {of: panel, rotate: [0, 0, 30], scale: [1.5, 3, 1]}", "instance",
                 0.0331f, expect_all_spreads);
+    with_object(state, "instance: {of: slab, rotate: [0, 0, 30], scale: 2}", "instance of noise",
+                0.02f, expect_all_spreads);
 }
 
 static void test_sphere(void **state)
@@ -200,6 +208,23 @@ static void expect_point(const struct trace *trace, const char *name, float texe
     }
 }
 
+/* Widths by a picture's coordinates say nothing about the noise beside it. */
+static void expect_same_colour(const struct trace *trace, const char *name, float texel)
+{
+    for (int i = 0; i < 20; i++) {
+        ps_ray ray = ray_onto(0.07f * (float)i - 0.6f, 0.31f, 0.0f);
+        if (hit_of(trace, ray, 2.5f * texel).albedo.g != hit_of(trace, ray, 0.0f).albedo.g)
+            fail_msg("%s: it is filtered", name);
+    }
+}
+
+static void test_noise_beside_picture(void **state)
+{
+    char object[512];
+    snprintf(object, sizeof object, quad, "both", "");
+    with_object(state, object, "noise beside a picture", 0.0156f, expect_same_colour);
+}
+
 static void test_holes(void **state)
 {
     char object[512];
@@ -210,8 +235,9 @@ static void test_holes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        SCRATCH_TEST(test_surfaces), SCRATCH_TEST(test_instance), SCRATCH_TEST(test_sphere),
-        SCRATCH_TEST(test_slanted),  SCRATCH_TEST(test_holes),
+        SCRATCH_TEST(test_surfaces), SCRATCH_TEST(test_instance),
+        SCRATCH_TEST(test_sphere),   SCRATCH_TEST(test_slanted),
+        SCRATCH_TEST(test_holes),    SCRATCH_TEST(test_noise_beside_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

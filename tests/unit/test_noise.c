@@ -57,7 +57,7 @@ static void test_spread(void **state)
         int count = 100000;
         for (int i = 0; i < count; i++) {
             ps_vec3 p = random_point((uint64_t)i);
-            float value = octaves == 0 ? noise_value(p, 3) : noise_fractal(p, octaves, 3);
+            float value = octaves == 0 ? noise_value(p, 3) : noise_fractal(p, octaves, 0, 3);
             assert_true(fabs(value) <= limit);
             sum += value;
             squares += value * value;
@@ -120,13 +120,13 @@ static void test_gradients(void **state)
     (void)state;
     for (int i = 0; i < 3000; i++) {
         ps_vec3 p = ps_scale(random_point((uint64_t)i), 0.05f), gradients[4];
-        ps_vec3 v = noise_vector_gradients(p, 2, 8, gradients), same = noise_vector(p, 2, 8);
+        ps_vec3 v = noise_vector_gradients(p, 2, 8, gradients), same = noise_vector(p, 2, 0, 8);
         assert_true(v.x == same.x && v.y == same.y && v.z == same.z);
-        assert_true(noise_fractal_gradient(p, 3, 5, &gradients[3]) == noise_fractal(p, 3, 5));
+        assert_true(noise_fractal_gradient(p, 3, 5, &gradients[3]) == noise_fractal(p, 3, 0, 5));
         for (int k = 0; k < 3; k++) {
             ps_vec3 a = ps_subtract(p, ways[k]), b = ps_add(p, ways[k]);
-            ps_vec3 rise = ps_subtract(noise_vector(b, 2, 8), noise_vector(a, 2, 8));
-            float of_fractal = noise_fractal(b, 3, 5) - noise_fractal(a, 3, 5);
+            ps_vec3 rise = ps_subtract(noise_vector(b, 2, 0, 8), noise_vector(a, 2, 0, 8));
+            float of_fractal = noise_fractal(b, 3, 0, 5) - noise_fractal(a, 3, 0, 5);
             const float rises[4] = {rise.x, rise.y, rise.z, of_fractal};
             for (int j = 0; j < 4; j++) {
                 const float slopes[3] = {gradients[j].x, gradients[j].y, gradients[j].z};
@@ -136,6 +136,43 @@ static void test_gradients(void **state)
     }
 }
 
+/* Of the noise over a square of that width around a point, across an axis that is none of the lattice's. */
+static double mean_of_square(ps_vec3 middle, float width)
+{
+    enum { SIDE = 12 };
+    ps_vec3 u, v;
+    double sum = 0;
+    ps_frame(ps_normalize((ps_vec3){1, 2, 3}), &u, &v);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        float x = ((float)(i % SIDE) + 0.5f) / SIDE - 0.5f;
+        float y = ((float)(i / SIDE) + 0.5f) / SIDE - 0.5f;
+        ps_vec3 p = ps_add_scaled(ps_add_scaled(middle, width * x, u), width * y, v);
+        sum += (double)noise_fractal(p, 4, 0, 3);
+    }
+    return sum / (SIDE * SIDE);
+}
+
+/* Octaves that are as fine as the square fade, and what is left is nearer to the mean than the value in the middle is. */
+static void test_octaves_fade(void **state)
+{
+    static const float widths[] = {0.2f, 0.5f, 1.0f};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        double faded = 0, unfaded = 0;
+        for (int i = 0; i < 500; i++) {
+            ps_vec3 p = random_point((uint64_t)i);
+            double mean = mean_of_square(p, widths[k]);
+            faded += pow((double)noise_fractal(p, 4, widths[k], 3) - mean, 2);
+            unfaded += pow((double)noise_fractal(p, 4, 0, 3) - mean, 2);
+        }
+        print_message("width %g: error %.4f, %.4f in the middle\n", (double)widths[k],
+                      sqrt(faded / 500), sqrt(unfaded / 500));
+        assert_true(sqrt(faded) < 0.65 * sqrt(unfaded));
+    }
+    for (int i = 0; i < 100; i++)
+        assert_true(noise_fractal(random_point((uint64_t)i), 4, 2.0f, 3) == 0.0f);
+}
+
 /* Mean square of the difference over a distance along a direction. */
 static double structure(ps_vec3 direction, float distance, int32_t octaves)
 {
@@ -143,8 +180,8 @@ static double structure(ps_vec3 direction, float distance, int32_t octaves)
     int count = 60000;
     for (int i = 0; i < count; i++) {
         ps_vec3 p = random_point((uint64_t)i);
-        float d = noise_fractal(ps_add_scaled(p, distance, direction), octaves, 3) -
-                  noise_fractal(p, octaves, 3);
+        float d = noise_fractal(ps_add_scaled(p, distance, direction), octaves, 0, 3) -
+                  noise_fractal(p, octaves, 0, 3);
         sum += (double)d * d;
     }
     return sum / count;
@@ -179,9 +216,9 @@ static void test_planes_of_axes(void **state)
     (void)state;
     for (int i = 0; i < count; i++) {
         ps_vec3 p = random_point((uint64_t)i);
-        float values[3] = {noise_fractal((ps_vec3){0, p.y, p.z}, 1, 3),
-                           noise_fractal((ps_vec3){p.x, 0, p.z}, 1, 3),
-                           noise_fractal((ps_vec3){p.x, p.y, 0}, 1, 3)};
+        float values[3] = {noise_fractal((ps_vec3){0, p.y, p.z}, 1, 0, 3),
+                           noise_fractal((ps_vec3){p.x, 0, p.z}, 1, 0, 3),
+                           noise_fractal((ps_vec3){p.x, p.y, 0}, 1, 0, 3)};
         for (int k = 0; k < 3; k++) {
             squares[k] += (double)values[k] * values[k];
         }
@@ -203,8 +240,8 @@ static void test_independent(void **state)
     int count = 100000;
     (void)state;
     for (int i = 0; i < count; i++) {
-        ps_vec3 p = random_point((uint64_t)i), v = noise_vector(p, 2, 8);
-        const float values[4] = {v.x, v.y, v.z, noise_fractal(p, 2, 8)};
+        ps_vec3 p = random_point((uint64_t)i), v = noise_vector(p, 2, 0, 8);
+        const float values[4] = {v.x, v.y, v.z, noise_fractal(p, 2, 0, 8)};
         for (int k = 0; k < 4; k++) {
             products[k] += (double)values[k] * values[(k + 1) % 4];
             squares[k] += (double)values[k] * values[k];
@@ -237,7 +274,7 @@ static void test_any_point(void **state)
     (void)state;
     for (int i = 0; i < 512; i++) {
         ps_vec3 p = {wild[i % 8], wild[i / 8 % 8], wild[i / 64]};
-        ps_vec3 v = noise_vector(p, NOISE_OCTAVES_LIMIT, 1);
+        ps_vec3 v = noise_vector(p, NOISE_OCTAVES_LIMIT, 0, 1);
         assert_true(fabsf(noise_value(p, 1)) <= NOISE_LIMIT);
         assert_true(fabsf(v.x) + fabsf(v.y) + fabsf(v.z) <= 6 * NOISE_LIMIT);
     }
@@ -249,7 +286,7 @@ static void test_same_everywhere(void **state)
     (void)state;
     assert_float_equal(noise_value((ps_vec3){0.5f, 0.25f, 0.125f}, 0), 0.53419912, 1e-6);
     assert_float_equal(noise_value((ps_vec3){-7.3f, 2.9f, 100.6f}, 42), 0.5535183, 1e-6);
-    assert_float_equal(noise_fractal((ps_vec3){1.5f, -2.25f, 3.125f}, 5, 7), 0.35668027, 1e-5);
+    assert_float_equal(noise_fractal((ps_vec3){1.5f, -2.25f, 3.125f}, 5, 0, 7), 0.35668027, 1e-5);
 }
 
 int main(void)
@@ -258,9 +295,10 @@ int main(void)
         cmocka_unit_test(test_zero_at_lattice), cmocka_unit_test(test_directions),
         cmocka_unit_test(test_spread),          cmocka_unit_test(test_limit),
         cmocka_unit_test(test_smooth),          cmocka_unit_test(test_gradients),
-        cmocka_unit_test(test_isotropic),       cmocka_unit_test(test_planes_of_axes),
-        cmocka_unit_test(test_independent),     cmocka_unit_test(test_no_period),
-        cmocka_unit_test(test_any_point),       cmocka_unit_test(test_same_everywhere),
+        cmocka_unit_test(test_octaves_fade),    cmocka_unit_test(test_isotropic),
+        cmocka_unit_test(test_planes_of_axes),  cmocka_unit_test(test_independent),
+        cmocka_unit_test(test_no_period),       cmocka_unit_test(test_any_point),
+        cmocka_unit_test(test_same_everywhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
