@@ -55,12 +55,17 @@ static struct seen look(const char *wall, const char *estimator)
 
 static void test_back_is_looked_through(void **state)
 {
-    static const char *const walls[] = {
-        INWARDS ", sides: front}",
-        "instance: {of: wall, rotate: [0, 180, 0], translate: [0, 0, 1], sides: front}",
-        "instance: {of: wall, scale: [-1, 1, 1], rotate: [0, 180, 0], translate: [0, 0, 1],\n"
-        "               sides: front}",
-        "group: {sides: front, objects: [" INWARDS "}]}",
+    /* Hits of instances are rounded otherwise, so that some paths part. */
+    static const struct {
+        const char *text;
+        double tolerance;
+    } walls[] = {
+        {INWARDS ", sides: front}", 1e-6},
+        {"instance: {of: wall, rotate: [0, 180, 0], translate: [0, 0, 1], sides: front}", 4e-3},
+        {"instance: {of: wall, scale: [-1, 1, 1], rotate: [0, 180, 0], translate: [0, 0, 1],\n"
+         "               sides: front}",
+         4e-3},
+        {"group: {sides: front, objects: [" INWARDS "}]}", 1e-6},
     };
     static const char *const estimators[] = {
         "estimator=pathtrace:samples=16", "estimator=gather:samples=4", "estimator=bdpt:samples=4"};
@@ -69,10 +74,10 @@ static void test_back_is_looked_through(void **state)
         struct seen hidden = look(INWARDS ", camera: no}", estimators[e]);
         assert_true(hidden.indirect > 0.01 && hidden.albedo > 0.6);
         for (size_t i = 0; i < COUNT(walls); i++) {
-            struct seen front = look(walls[i], estimators[e]);
+            struct seen front = look(walls[i].text, estimators[e]);
             print_message("%s, wall %zu: %.6f of the light\n", estimators[e], i,
                           front.light / hidden.light);
-            assert_true(fabs(front.light / hidden.light - 1) < 1e-3);
+            assert_true(fabs(front.light / hidden.light - 1) < walls[i].tolerance);
             assert_true(fabs(front.albedo - hidden.albedo) < 1e-4);
         }
     }
