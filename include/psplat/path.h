@@ -4,6 +4,7 @@
 
 #include <psplat/host.h>
 #include <psplat/math.h>
+#include <stdbool.h>
 
 /* Mirrors and glass that a path may meet between two diffuse surfaces; between facing mirrors it would
  * run for ever. */
@@ -33,6 +34,13 @@ static inline int ps_russian_roulette(float probability, float number, ps_rgb *c
 static inline float ps_cone_spread(float pdf)
 {
     return pdf > 0.0f ? ps_min(sqrtf(1.0f / (PS_CONES * pdf)), PS_WIDEST_CONE) : 0.0f;
+}
+
+/* A ps_gloss after one more surface, of that ps_hit.roughness, that has not scattered a path diffusely. */
+static inline uint8_t ps_gloss_after(uint8_t before, float roughness)
+{
+    bool is_rough = before != PS_SHARP_GLOSS && roughness >= PS_ROUGH_GLOSS;
+    return is_rough ? PS_ONLY_ROUGH_GLOSS : PS_SHARP_GLOSS;
 }
 
 /* Of directions by the cosine, in the mean: sqrt(pi / PS_CONES). */

@@ -86,6 +86,17 @@ typedef struct ps_ray_packet {
     float direction_x[16], direction_y[16], direction_z[16], tfar[16];
 } ps_ray_packet;
 
+/* What a light path has met, so far, that did not scatter it diffusely. */
+typedef enum ps_gloss {
+    PS_NO_GLOSS = 0,
+    PS_SHARP_GLOSS =
+        1, /* mirrors, glass, or gloss smoother than PS_ROUGH_GLOSS; perhaps rougher gloss as well */
+    PS_ONLY_ROUGH_GLOSS = 2 /* since 1.15 */
+} ps_gloss;
+
+/* Roughness (ps_hit.roughness) from which on paths from the camera find what gloss reflects of lamps. */
+#define PS_ROUGH_GLOSS 0.2f
+
 /* Light that leaves a surface: an indirect light source. It stands for a bundled light ray (Hoet 2014,
  * section 3.2) that carries `power` from `position` along `direction`. All strategies exchange
  * these. */
@@ -97,8 +108,7 @@ typedef struct ps_photon {
     uint16_t
         bounce;   /* diffuse surfaces met so far, this one included: 1 = lit by a light directly */
     uint8_t lobe; /* ps_lobe by which the surface sent it out; not PS_DIFFUSE: a caustic */
-    uint8_t specular; /* 1: some surface on the light's way, this one included, did not scatter it
-                         diffusely */
+    uint8_t specular; /* ps_gloss of the light's way, this surface included */
     float merged;     /* how many emitted photons this one stands for (1 when none were merged) */
     uint64_t path;    /* number of the light path, counted over all passes; keys random streams */
 } ps_photon;

@@ -14,8 +14,9 @@
  * short for it, the path goes on by another segment. Mirrors, glass and gloss on the way are as path tracing has them
  * (paths.h).
  *
- * Light that only mirrors, glass and gloss stand between a lamp and x sharpen, caustics, rays would find by chance
- * alone: it stays with photons, which are splatted onto the pixels.
+ * Light that only mirrors, glass and smooth gloss have sent from a lamp to x, a caustic, rays would find by chance alone: it
+ * stays with photons, which are splatted onto the pixels. What rough gloss reflects (PS_ROUGH_GLOSS) is wide and faint: next-event
+ * estimation finds it where rays end, without the blotches of few photons.
  *
  * Rays are drawn where those before them found light (guide.h), in rounds, and more of them in tiles whose first round
  * asks for it (allocation.h). A tile's rays of a round share a run of the Sobol sequence along a Z curve, as in
@@ -80,7 +81,7 @@ typedef ps_result (*splatter)(const ps_host *host, const ps_photon *photons, siz
 static bool belongs_on_pixels(const void *opaque, const ps_photon *photon)
 {
     const struct splatting *splatting = opaque;
-    return splatting->onto_pixels && photon->bounce == 0;
+    return splatting->onto_pixels && photon->bounce == 0 && photon->specular == PS_SHARP_GLOSS;
 }
 
 /* Paths that share places (ps_pass.shares_places) follow one another, and are better taken together. */
@@ -191,7 +192,7 @@ static ps_result correct_cache(struct work *work)
     struct work correcting = *work;
     pass.bounces -= pass.bounces != PS_ALL_BOUNCES; /* surfels are one surface on */
     correcting.setting = (struct gather_setting){
-        .paths = {host, &pass, work->setting.paths.roulette, false, true},
+        .paths = {host, &pass, work->setting.paths.roulette, 0.0f, true},
         .samples = paths_of_surfel(work->state),
         .most = paths_of_surfel(work->state),
     };
@@ -245,7 +246,7 @@ static ps_result splat(struct work *work, bool onto_surfels)
     struct surfels *surfels = work->surfels;
     struct splatting splatting = {
         .host = host,
-        .onto_pixels = work->setting.paths.no_caustics,
+        .onto_pixels = work->setting.paths.pass->specular,
         .onto_surfels = onto_surfels && surfels->count > 0,
         .most_bounces = work->setting.paths.pass->bounces - 1,
         .thinning = (uint64_t)work->state->thinning,
@@ -329,7 +330,8 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     whole->surfels.host = host;
     struct work work = {
         .state = state,
-        .setting = {.paths = {host, pass, (uint32_t)state->roulette, pass->specular != 0, false},
+        .setting = {.paths = {host, pass, (uint32_t)state->roulette,
+                              pass->specular ? PS_ROUGH_GLOSS : 0.0f, false},
                     .samples = (uint64_t)state->samples,
                     .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
                     .share_before = SURFEL_SHARE},

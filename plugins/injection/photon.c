@@ -46,7 +46,7 @@ struct walk {
     float numbers[4]; /* for the next surface: two for the direction, roulette, choice of lobe */
     uint32_t bounces; /* diffuse surfaces met */
     uint32_t chain;   /* others since the last one */
-    uint8_t specular; /* 1: it met others at all */
+    uint8_t specular; /* ps_gloss */
     uint8_t caustic;  /* 1: it ends at the first diffuse surface */
 };
 
@@ -164,7 +164,7 @@ static float largest_weight(const struct fan *fan, size_t walk, size_t walks)
 
 /* Whether a walk leaves photons at a surface that scatters like this in the direction in which the walk goes
  * on, and has such a weight at most in any. `arriving` is then the power with which it came, but for roulette. */
-static int leaves_photons(const struct state *state, const ps_pass *pass,
+static int leaves_photons(const struct state *state, const ps_pass *pass, const ps_hit *hit,
                           const ps_bsdf_sample *scattered, float weight, struct walk *walk,
                           ps_rgb *arriving)
 {
@@ -172,7 +172,7 @@ static int leaves_photons(const struct state *state, const ps_pass *pass,
     if (!(weight > 0.0f && ps_rgb_maximum(walk->power) > 0.0f))
         return 0;
     if (scattered->lobe != PS_DIFFUSE) {
-        walk->specular = 1;
+        walk->specular = ps_gloss_after(walk->specular, hit->roughness);
         return ++walk->chain <= PS_LONGEST_CHAIN;
     }
     if (walk->caustic)
@@ -301,7 +301,7 @@ static size_t extend_walks(const struct state *state, const ps_host *host, const
         const ps_bsdf_sample *scattered = &fan.scattered[fan.first[i]];
         ps_rgb arriving;
         float weight = largest_weight(&fan, i, n);
-        if (!leaves_photons(state, pass, scattered, weight, &walk, &arriving))
+        if (!leaves_photons(state, pass, &hits[i], scattered, weight, &walk, &arriving))
             continue;
         *count += leave_photons(&walk, &hits[i], scattered, arriving, photons + *count);
         walk.power = ps_rgb_multiply(arriving, scattered->weight);

@@ -60,7 +60,7 @@ struct path {
     uint64_t index;   /* over all passes */
     float numbers[4]; /* for the next surface */
     uint16_t bounces; /* diffuse surfaces met */
-    uint8_t specular; /* 1: it met others, too */
+    uint8_t specular; /* ps_gloss */
 };
 
 /* --- the maps of the lights ------------------------------------------------------------------------ */
@@ -314,7 +314,8 @@ static size_t extend_paths(const ps_host *host, const ps_pass *pass, uint32_t se
         struct path path = paths[i];
         path.power = ps_rgb_multiply(path.power, scattered[i].weight);
         path.bounces += scattered[i].lobe == PS_DIFFUSE;
-        path.specular |= scattered[i].lobe != PS_DIFFUSE;
+        if (scattered[i].lobe != PS_DIFFUSE)
+            path.specular = ps_gloss_after(path.specular, hits[i].roughness);
         if (!(ps_rgb_maximum(path.power) > 0.0f) || path.bounces > 1)
             continue;
         photons[(*count)++] = (ps_photon){

@@ -19,11 +19,15 @@
 
 #define PATHS_ANY_LOBE UINT32_MAX
 
+#define PATHS_ALL_CAUSTICS 2.0f /* any roughness is below it */
+
 struct paths_setting {
     const ps_host *host;
     const ps_pass *pass;
     uint32_t roulette; /* bounce from which on paths may be ended */
-    bool no_caustics;  /* on the points that paths start from: somebody else adds them */
+    /* Somebody else adds the caustics on the points that paths start from: light that a surface smoother than this roughness
+     * sends on, and perhaps others, none of them diffusely. 0: nobody does. */
+    float caustics_below;
     bool diffuse_only; /* only light that all surfaces on its way have scattered diffusely */
 };
 
@@ -39,6 +43,9 @@ struct paths {
     float pdfs[PS_TILE_PIXELS];       /* of the last scattering, where its lobe was glossy */
     float spreads[PS_TILE_PIXELS];    /* of the cone around the ray (ps_cone_spread) */
     uint8_t shines[PS_TILE_PIXELS];   /* whether emission that is met counts */
+    /* Whether all surfaces on the way have mirrored, refracted or shone by gloss, and one of them is smoother than
+     * setting->caustics_below: what is found is a caustic, which somebody else adds. */
+    uint8_t caustic[PS_TILE_PIXELS];
 };
 
 /* What a segment needs for each path. */
@@ -58,6 +65,7 @@ static inline void paths_move(struct paths *paths, size_t from, size_t to)
     paths->pdfs[to] = paths->pdfs[from];
     paths->spreads[to] = paths->spreads[from];
     paths->shines[to] = paths->shines[from];
+    paths->caustic[to] = paths->caustic[from];
 }
 
 /* `samples`: the index of each pixel's sample. */
@@ -100,7 +108,7 @@ static inline void paths_add(struct paths *paths, uint32_t pixel, ps_ray ray, fl
     paths->bounces[i] = paths->chain[i] = 0;
     paths->pdfs[i] = 0.0f;
     paths->spreads[i] = PS_DIFFUSE_SPREAD;
-    paths->shines[i] = 0;
+    paths->shines[i] = paths->caustic[i] = 0;
 }
 
 /* One path from each point, by cos(theta) / pi: pi times the radiance along it is an estimate of irradiance. It meets
@@ -185,13 +193,15 @@ static inline void paths_add_direct(const struct paths_setting *setting, uint32_
         segment->hits[i].albedo = albedos[i];
 }
 
-/* Whether all surfaces on a path's way, from its point on, have mirrored or refracted. */
-static inline int paths_is_caustic(const struct paths *paths, size_t i)
+/* Whether a path is on the way of such a caustic where this surface sends it on, but not diffusely. */
+static inline int paths_is_caustic_after(const struct paths_setting *setting,
+                                         const struct paths *paths, size_t i, float roughness)
 {
-    return paths->bounces[i] == 0;
+    return paths->bounces[i] == 0 && (paths->caustic[i] || roughness < setting->caustics_below);
 }
 
-/* Adds what surfaces that were met reflect of the lights; diffusely alone on the way of caustics, or on all. */
+/* Adds what surfaces that were met reflect of the lights; diffusely alone on the way of caustics that somebody else adds, or on
+ * all. */
 static inline void paths_add_direct_without_caustics(const struct paths_setting *setting,
                                                      uint32_t number, const struct paths *paths,
                                                      const uint8_t *groups,
@@ -200,7 +210,8 @@ static inline void paths_add_direct_without_caustics(const struct paths_setting 
     uint32_t flags[PS_TILE_PIXELS] = {0};
     for (size_t i = 0; i < paths->count; i++) {
         flags[i] = segment->hits[i].flags;
-        if (setting->diffuse_only || paths_is_caustic(paths, i))
+        if (setting->diffuse_only ||
+            paths_is_caustic_after(setting, paths, i, segment->hits[i].roughness))
             segment->hits[i].flags &= ~PS_HIT_SPECULAR;
     }
     paths_add_direct(setting, number, paths, groups, segment, sums);
@@ -208,12 +219,12 @@ static inline void paths_add_direct_without_caustics(const struct paths_setting 
         segment->hits[i].flags = flags[i];
 }
 
-/* Adds what is emitted where paths land, but for caustics where they are left out; drops paths that met nothing. */
+/* Adds what is emitted where paths land, but for caustics that somebody else adds; drops paths that met nothing. */
 static inline void paths_add_emitted(const struct paths_setting *setting, struct paths *paths,
                                      struct paths_segment *segment, ps_rgb *sums)
 {
-    for (size_t i = 0; i < paths->count && setting->no_caustics; i++)
-        paths->shines[i] &= !paths_is_caustic(paths, i);
+    for (size_t i = 0; i < paths->count; i++)
+        paths->shines[i] &= !paths->caustic[i];
     paths_add_emission(setting, paths, segment, sums);
     paths_drop_lost(paths, segment);
 }
@@ -225,7 +236,7 @@ static inline void paths_add_reflected(const struct paths_setting *setting, uint
                                        ps_rgb *sums)
 {
     paths_find_indices(samples, paths, segment);
-    if (setting->no_caustics || setting->diffuse_only)
+    if (setting->caustics_below > 0.0f || setting->diffuse_only)
         paths_add_direct_without_caustics(setting, number, paths, groups, segment, sums);
     else
         paths_add_direct(setting, number, paths, groups, segment, sums);
@@ -258,8 +269,10 @@ static inline int paths_scatter(const struct paths_setting *setting,
                                 const ps_bsdf_sample *scattered,
                                 const struct paths_segment *segment, struct paths *paths, size_t i)
 {
+    int is_caustic = paths_is_caustic_after(setting, paths, i, segment->hits[i].roughness);
     if (!paths_goes_on(setting, scattered, segment->numbers[i][2], paths, i))
         return 0;
+    paths->caustic[i] = (uint8_t)(scattered->lobe != PS_DIFFUSE && is_caustic);
     paths->rays[i] = ps_leave_surface(segment->hits[i].position, scattered->normal,
                                       scattered->direction, setting->pass->surface_offset);
     paths->shines[i] = scattered->lobe != PS_DIFFUSE;

@@ -1,0 +1,105 @@
+/* test_rough_gloss.c: what gloss sends from a lamp to a diffuse surface, in a final gather.
+ *
+ * Smooth gloss makes caustics, which are splatted; what rough gloss reflects is found by rays, and needs no photons. Where both
+ * are in a scene, or light meets both in a row, each light path counts once: bidirectional path tracing is the truth.
+ */
+#include "support/render_scene.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define SEEDS 3
+
+/* The camera sees the floor alone; a tilted plate of metal and a mirror that stands across it are above. */
+static const char scene[] =
+    "psd: 1\n"
+    "camera: {location: [0, 1.4, 0.01], look_at: [0, 0, 0], angle: 40}\n"
+    "image: {width: 48, height: 32}\n"
+    "materials: {white: {diffuse: 0.7}, metal: {metal: {color: 0.8, roughness: %g}},\n"
+    "            mirror: {mirror: 0.8}}\n"
+    "lights:\n"
+    "  - spotlight: {location: [2, 2.2, 0], point_at: [-1.2, 0.8, 0], radius: 14, falloff: 18, "
+    "intensity: 60}\n"
+    "objects:\n"
+    "  - quad: {corners: [[-3, 0, 3], [3, 0, 3], [3, 0, -3], [-3, 0, -3]], material: white}\n"
+    "  - quad: {corners: [[-1.6, 0.2, 1], [-1.6, 0.2, -1], [-0.9, 1.4, -1], [-0.9, 1.4, 1]], "
+    "material: metal, sides: both}\n"
+    "  - quad: {corners: [[-3, 0.1, -1.2], [3, 0.1, -1.2], [3, 2, -1.2], [-3, 2, -1.2]], "
+    "material: %s}\n"
+    "render: {bounces: %d, passes: 1, seed: %d}\n";
+
+static struct rendering render(double roughness, const char *wall, int bounces, int seed,
+                               const char *estimator, const char *injection)
+{
+    const char *const strategies[] = {estimator, injection, "denoiser=none", NULL};
+    char text[2048];
+    snprintf(text, sizeof text, scene, roughness, wall, bounces, seed);
+    return render_text(text, 2, strategies);
+}
+
+/* Whether the picture of one bounce is the same for few photons and for many. */
+static bool needs_no_photons(double roughness)
+{
+    struct rendering few =
+        render(roughness, "white", 1, 1, "estimator=gather:samples=8", "injection=photon:count=50");
+    struct rendering many = render(roughness, "white", 1, 1, "estimator=gather:samples=8",
+                                   "injection=photon:count=5000");
+    const float *a = image_channel(&few.image, "indirect.G");
+    const float *b = image_channel(&many.image, "indirect.G");
+    bool same = memcmp(a, b, few.image.width * few.image.height * sizeof *a) == 0;
+    assert_true(mean_of_all(&few.image, "indirect.G") > 0.01);
+    rendering_release(&few);
+    rendering_release(&many);
+    return same;
+}
+
+static void test_rough_gloss_needs_no_photons(void **state)
+{
+    (void)state;
+    assert_true(needs_no_photons(0.3));
+    assert_true(needs_no_photons(0.2));
+    assert_false(needs_no_photons(0.1));
+}
+
+static double mean_by(double roughness, const char *wall, const char *estimator)
+{
+    double mean = 0;
+    for (int seed = 1; seed <= SEEDS; seed++) {
+        struct rendering rendering =
+            render(roughness, wall, 2, seed, estimator, "injection=photon:count=20000");
+        mean += mean_of_all(&rendering.image, "indirect.G") / SEEDS;
+        rendering_release(&rendering);
+    }
+    return mean;
+}
+
+static void test_light_counts_once(void **state)
+{
+    static const struct {
+        double roughness;
+        const char *wall;
+        double tolerance; /* three standard errors */
+    } cases[] = {
+        {0.12, "white", 0.07}, {0.2, "white", 0.05}, {0.35, "white", 0.02}, {0.35, "mirror", 0.02}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        double truth = mean_by(cases[i].roughness, cases[i].wall, "estimator=bdpt:samples=128");
+        double mean = mean_by(cases[i].roughness, cases[i].wall, "estimator=gather:samples=64");
+        print_message("roughness %g, %s: %.4f of the light\n", cases[i].roughness, cases[i].wall,
+                      mean / truth);
+        assert_true(fabs(mean / truth - 1) < cases[i].tolerance);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rough_gloss_needs_no_photons),
+        cmocka_unit_test(test_light_counts_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
