@@ -89,8 +89,7 @@ typedef struct ps_ray_packet {
 /* What a light path has met, so far, that did not scatter it diffusely. */
 typedef enum ps_gloss {
     PS_NO_GLOSS = 0,
-    PS_SHARP_GLOSS =
-        1, /* mirrors, glass, or gloss smoother than PS_ROUGH_GLOSS; perhaps rougher gloss as well */
+    PS_SHARP_GLOSS = 1, /* mirrors, glass, or gloss smoother than PS_ROUGH_GLOSS, among others */
     PS_ONLY_ROUGH_GLOSS = 2 /* since 1.15 */
 } ps_gloss;
 

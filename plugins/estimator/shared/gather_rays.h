@@ -40,9 +40,8 @@ typedef bool (*gather_lookup)(const void *cache, ps_vec3 position, ps_vec3 norma
 
 struct gather_setting {
     struct paths_setting paths;
-    uint64_t samples; /* from each point, in the mean over groups */
-    uint64_t
-        most; /* from a point whose share is 1, of any group: random numbers are counted by it */
+    uint64_t samples;     /* from each point, in the mean over groups */
+    uint64_t most;        /* from a point whose share is 1: random numbers are counted by it */
     gather_lookup lookup; /* NULL: there is no cache, and paths go on to their ends */
     const void *cache;
     bool knows_indirect; /* by the cache: paths end there */
@@ -66,8 +65,8 @@ struct gather {
     /* Times the samples of the group after the first round, that each point takes: set by gather_begin() to 1. */
     float shares[PS_TILE_PIXELS];
     uint64_t done; /* samples, of a point that has most */
-    uint64_t expected
-        [2]; /* samples in all by which rays of either half are weighed: set by gather_begin() to the mean */
+    /* Samples in all by which rays of either half are weighed: set by gather_begin() to the mean. */
+    uint64_t expected[2];
     /* Estimates of the irradiance, W/m^2, at each point, when all samples are done; `half` is what the first half of each
      * round has of it. */
     ps_rgb irradiance[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
