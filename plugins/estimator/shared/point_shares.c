@@ -8,6 +8,7 @@
 
 #define SAME_FACING 0.87f /* cosine of two normals of one surface */
 #define SAME_PLANE 0.22f  /* sine between such a surface and the way from one point to the other */
+#define FLAT 1e-3f        /* such a sine, within which a surface is flat */
 
 struct comparison {
     const ps_points *points;
@@ -24,6 +25,19 @@ static bool are_alike(const ps_points *points, int32_t a, int32_t b)
     float height = 0.5f * ps_dot(ps_add(n, m), way);
     return ps_dot(n, m) > SAME_FACING &&
            height * height <= SAME_PLANE * SAME_PLANE * ps_dot(way, way);
+}
+
+/* Whether all lie in one plane, and so are alike: as in most tiles of a room. */
+static bool are_flat(const ps_points *points)
+{
+    ps_vec3 n = points->normals[0];
+    for (size_t i = 1; i < points->count; i++) {
+        ps_vec3 way = ps_subtract(points->positions[i], points->positions[0]);
+        float height = ps_dot(n, way);
+        if (!ps_same(points->normals[i], n) || height * height > FLAT * FLAT * ps_dot(way, way))
+            return false;
+    }
+    return points->count == PS_TILE_PIXELS;
 }
 
 static void count(struct comparison *comparison, int32_t point, bool is_alike)
@@ -47,7 +61,7 @@ static void compare(struct comparison *comparison, int dx, int dy)
         }
 }
 
-void point_shares(const ps_points *points, float *shares)
+static void compare_all(const ps_points *points, float *shares)
 {
     struct comparison comparison = {.points = points};
     for (int y = 0; y < PS_TILE_SIZE; y++)
@@ -65,4 +79,14 @@ void point_shares(const ps_points *points, float *shares)
         float share = (float)comparison.alike[i] / (float)comparison.all[i];
         shares[i] = ps_min(sqrtf(1.0f / share), POINT_SHARES_MOST);
     }
+}
+
+void point_shares(const ps_points *points, float *shares)
+{
+    if (!are_flat(points)) {
+        compare_all(points, shares);
+        return;
+    }
+    for (size_t i = 0; i < points->count; i++)
+        shares[i] = 1.0f;
 }
