@@ -113,7 +113,9 @@ static int row_of(float roughness)
 void microfacet_tabulate(struct microfacet_table *table, float least, float most)
 {
     for (int row = row_of(least); row <= row_of(most) + 1; row++) {
-        for (int column = 0; column < MICROFACET_TABLE_SIZE && !table->is_known[row]; column++)
+        if (table->is_known[row])
+            continue;
+        for (int column = 0; column < MICROFACET_TABLE_SIZE; column++)
             integrate(grid_value(row), ps_max(grid_value(column), 1e-3f),
                       &table->scale[row][column], &table->bias[row][column]);
         table->is_known[row] = true;

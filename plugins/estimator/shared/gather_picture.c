@@ -61,7 +61,7 @@ static float sum_of_shares(const struct gather *gather)
 {
     float sum = 0.0f;
     for (size_t i = 0; i < gather->points.count; i++)
-        sum += gather->shares[i];
+        sum += gather->first.shares[i];
     return sum;
 }
 
@@ -86,7 +86,7 @@ static void take_first_round(void *user, uint64_t index, uint32_t worker)
     if (!begin_tile(work, index, &tile, &gather))
         return;
     gather_samples(&gather, GATHER_FIRST);
-    point_shares(&gather.points, gather.shares);
+    point_shares(&gather.points, gather.first.shares);
     work->pilots[index] = pilot_of(&gather, &tile, BOTH_HALVES);
     work->pilots[index].shares = sum_of_shares(&gather);
     if (place == NO_PLACE)
@@ -135,7 +135,6 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     if (work->shares) {
         const struct allocation *allocation = &work->shares->allocation;
         resume(work, index, &gather);
-        point_shares(&gather.points, gather.shares);
         struct tile_pilot first = pilot_of(&gather, tile, FIRST_HALF);
         struct tile_pilot second = pilot_of(&gather, tile, SECOND_HALF);
         gather.expected[0] = allocated_samples(allocation, &second);

@@ -29,7 +29,7 @@ void gather_begin(struct gather *gather)
     gather->guide_count = 0;
     gather->expected[0] = gather->expected[1] = gather->setting->samples;
     for (size_t i = 0; i < gather->points.count; i++) {
-        gather->shares[i] = 1.0f;
+        gather->first.shares[i] = 1.0f;
         gather->guide_of[i] = choose_guide(gather, gather->points.normals[i]);
     }
 }
@@ -61,7 +61,7 @@ static uint64_t guided_of(const struct gather *gather, size_t point, uint64_t sa
 {
     if (samples <= GATHER_FIRST)
         return 0;
-    float wanted = (float)(samples - GATHER_FIRST) * gather->shares[point];
+    float wanted = (float)(samples - GATHER_FIRST) * gather->first.shares[point];
     return wanted > 1.0f ? (uint64_t)(wanted + 0.5f) : 1;
 }
 

@@ -52,6 +52,8 @@ struct gather_setting {
 /* What the rays of the first round found, by the cosine, and where: to be weighed when there are guides. And what they taught
  * those: found when the round has been taken as all there is (gather_teach()). */
 struct gather_first {
+    /* Times the samples of the group after this round, that each point takes: set by gather_begin() to 1. */
+    float shares[PS_TILE_PIXELS];
     ps_rgb found[GATHER_FIRST][PS_TILE_PIXELS];
     struct guide_bin bins[GATHER_FIRST][PS_TILE_PIXELS];
     uint32_t guide_count;
@@ -62,8 +64,6 @@ struct gather {
     const struct gather_setting *setting;
     uint64_t index; /* of the group, among all that draw random numbers: a tile's own */
     ps_points points;
-    /* Times the samples of the group after the first round, that each point takes: set by gather_begin() to 1. */
-    float shares[PS_TILE_PIXELS];
     uint64_t done; /* samples, of a point that has most */
     /* Samples in all by which rays of either half are weighed: set by gather_begin() to the mean. */
     uint64_t expected[2];
@@ -90,7 +90,7 @@ void gather_samples(struct gather *gather, uint64_t samples);
 /* After a first round that no other is to follow, for now. */
 void gather_teach(struct gather *gather);
 
-/* Goes on after the first round of a gather of the same points, which has taught; more samples are to follow, by gather->shares.
+/* Goes on after the first round of a gather of the same points, which has taught; more samples are to follow, by first->shares.
  * They are also guided by what those of `count` gathers around found. */
 void gather_resume(struct gather *gather, const struct gather_first *first,
                    const struct gather_first *const around[], size_t count);

@@ -140,7 +140,7 @@ static inline void paths_add_radiance(const struct paths *paths, const ps_rgb *r
     }
 }
 
-/* Adds the emission that paths met after mirrors, glass and gloss. */
+/* Adds the emission that paths met after mirrors, glass and gloss, but for caustics that somebody else adds. */
 static inline void paths_add_emission(const struct paths_setting *setting,
                                       const struct paths *paths,
                                       const struct paths_segment *segment, ps_rgb *sums)
@@ -219,12 +219,10 @@ static inline void paths_add_direct_without_caustics(const struct paths_setting 
         segment->hits[i].flags = flags[i];
 }
 
-/* Adds what is emitted where paths land, but for caustics that somebody else adds; drops paths that met nothing. */
+/* Adds what is emitted where paths land; drops paths that met nothing. */
 static inline void paths_add_emitted(const struct paths_setting *setting, struct paths *paths,
                                      struct paths_segment *segment, ps_rgb *sums)
 {
-    for (size_t i = 0; i < paths->count; i++)
-        paths->shines[i] &= !paths->caustic[i];
     paths_add_emission(setting, paths, segment, sums);
     paths_drop_lost(paths, segment);
 }
@@ -275,7 +273,7 @@ static inline int paths_scatter(const struct paths_setting *setting,
     paths->caustic[i] = (uint8_t)(scattered->lobe != PS_DIFFUSE && is_caustic);
     paths->rays[i] = ps_leave_surface(segment->hits[i].position, scattered->normal,
                                       scattered->direction, setting->pass->surface_offset);
-    paths->shines[i] = scattered->lobe != PS_DIFFUSE;
+    paths->shines[i] = scattered->lobe != PS_DIFFUSE && !paths->caustic[i];
     paths->pdfs[i] = scattered->lobe == PS_GLOSSY ? scattered->pdf : 0.0f;
     if (scattered->lobe != PS_SPECULAR) /* a mirror keeps the cone */
         paths->spreads[i] = ps_cone_spread(scattered->pdf);
