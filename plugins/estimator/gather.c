@@ -29,6 +29,8 @@
 #include <string.h>
 
 #define MOST_PATHS 32       /* of a surfel, by default */
+#define FEWEST_ASKING 4     /* paths of a surfel that ask the cache, or none do */
+#define ASKING_FOR_WHOLE 4  /* of them, for each that goes on to its end */
 #define FEWEST_SURFELS 2000 /* of a picture */
 #define THINNED_TOGETHER 4  /* paths */
 
@@ -61,6 +63,7 @@ struct work {
     struct surfels *surfels;
     /* When they are corrected: the surfels' irradiance by paths, and by the first half of each one's paths. */
     ps_rgb *traced, *half;
+    uint64_t groups_before; /* of surfels that have drawn random numbers */
 };
 
 /* --- photons --- */
@@ -159,7 +162,10 @@ static void trace_group(void *user, uint64_t index, uint32_t worker)
     const struct surfels *surfels = work->surfels;
     const struct paths_setting *paths = &work->setting.paths;
     struct surfel_group group = surfels_group(surfels, index);
-    struct gather gather = {.setting = &work->setting, .index = paths->pass->tile_count + index};
+    struct gather gather = {
+        .setting = &work->setting,
+        .index = paths->pass->tile_count + work->groups_before + index,
+    };
     if (paths->host->cancelled(paths->host))
         return;
     for (uint32_t i = 0; i < group.n; i++) {
@@ -184,28 +190,49 @@ static uint64_t paths_of_surfel(const struct state *state)
     return state->samples < MOST_PATHS / 2 ? 2 * (uint64_t)state->samples : MOST_PATHS;
 }
 
-static ps_result correct_cache(struct work *work)
+/* Corrects it by so many paths from each surfel: to their ends, or as far as `lookup` knows the rest. */
+static ps_result correct_by_paths(struct work *work, uint64_t count, gather_lookup lookup)
 {
     const ps_host *host = work->setting.paths.host;
-    size_t count = work->surfels->count;
+    struct surfels *surfels = work->surfels;
     ps_pass pass = *work->setting.paths.pass;
     struct work correcting = *work;
     pass.bounces -= pass.bounces != PS_ALL_BOUNCES; /* surfels are one surface on */
     correcting.setting = (struct gather_setting){
         .paths = {host, &pass, work->setting.paths.roulette, 0.0f, true},
-        .samples = paths_of_surfel(work->state),
-        .most = paths_of_surfel(work->state),
+        .samples = count,
+        .most = count,
+        .lookup = lookup,
+        .cache = surfels,
+        .knows_indirect = lookup != NULL,
+        .knows_sky = lookup && surfels->sky,
     };
-    correcting.traced = host->allocate(host, 2 * count * sizeof(ps_rgb), "surfels");
+    correcting.traced = host->allocate(host, 2 * surfels->count * sizeof(ps_rgb), "surfels");
     if (!correcting.traced)
         return PS_ERROR_MEMORY;
-    correcting.half = correcting.traced + count;
-    host->parallel_for(host, surfels_group_count(work->surfels), trace_group, &correcting);
+    correcting.half = correcting.traced + surfels->count;
+    host->parallel_for(host, surfels_group_count(surfels), trace_group, &correcting);
     ps_result result = host->cancelled(host) ? PS_CANCELLED : PS_OK;
     if (result == PS_OK)
-        result = surfels_correct(work->surfels, correcting.traced, correcting.half);
+        result = surfels_correct(surfels, correcting.traced, correcting.half);
     host->release(host, correcting.traced);
     return result;
+}
+
+/* Splats know where the light is, but not how much, and paths to their ends are long. A few of them set the splats
+ * right; then most paths are of one segment, and ask the cache itself what comes after it. Where bounces are counted it would tell
+ * them of one too many. */
+static ps_result correct_cache(struct work *work)
+{
+    uint64_t paths = paths_of_surfel(work->state);
+    if (paths < FEWEST_ASKING || work->setting.paths.pass->bounces != PS_ALL_BOUNCES)
+        return correct_by_paths(work, paths, NULL);
+    uint64_t whole = paths / ASKING_FOR_WHOLE;
+    ps_result result = correct_by_paths(work, whole > 2 ? whole : 2, NULL);
+    if (result == PS_OK)
+        result = surfel_table_build(work->surfels);
+    work->groups_before = surfels_group_count(work->surfels);
+    return result == PS_OK ? correct_by_paths(work, paths, surfel_table_lookup) : result;
 }
 
 /* Adds the light of the photons that were kept to the surfels. */

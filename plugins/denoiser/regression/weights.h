@@ -20,7 +20,7 @@
 #endif
 #if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__) &&                              \
     !defined(__SANITIZE_ADDRESS__) && !__has_feature(address_sanitizer)
-#define EVERY_ISA __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
+#define EVERY_ISA __attribute__((target_clones("avx512f", "avx2", "default")))
 #define INLINED inline __attribute__((always_inline))
 #else
 #define EVERY_ISA

@@ -129,6 +129,7 @@ static ps_result fill(struct surfels *surfels, const ps_key_entry *sorted, size_
     while (surfels->capacity < 2 * kept)
         surfels->capacity *= 2;
     size_t bytes = surfels->capacity * sizeof *surfels->cells;
+    host->release(host, surfels->cells);
     surfels->cells = host->allocate(host, bytes, "surfels");
     if (!surfels->cells)
         return PS_ERROR_MEMORY;

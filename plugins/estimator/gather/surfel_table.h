@@ -11,7 +11,7 @@
 #include "../shared/gather_rays.h"
 #include "surfels.h"
 
-/* Makes the table, when the surfels' light is set. PS_ERROR_MEMORY: release the surfels all the same. */
+/* Makes the table, when the surfels' light is set, in place of one that is there. PS_ERROR_MEMORY: release the surfels all the same. */
 ps_result surfel_table_build(struct surfels *surfels);
 
 /* As a gather_lookup; `surfels` is a struct surfels. */
