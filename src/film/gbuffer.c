@@ -380,3 +380,22 @@ void gbuffer_clear_indirect(struct gbuffer *gbuffer)
         clear_radiance(gbuffer, i);
     }
 }
+
+float gbuffer_alike(const ps_tile *tile, ps_vec3 position, ps_vec3 normal, uint32_t object,
+                    float alike[PS_TILE_PIXELS])
+{
+    float count = 0.0f;
+#pragma omp simd reduction(+ : count)
+    for (int i = 0; i < PS_TILE_PIXELS; i++) {
+        float x = tile->position_x[i] - position.x, y = tile->position_y[i] - position.y,
+              z = tile->position_z[i] - position.z;
+        float off_plane = normal.x * x + normal.y * y + normal.z * z;
+        float cosine = normal.x * tile->normal_x[i] + normal.y * tile->normal_y[i] +
+                       normal.z * tile->normal_z[i];
+        int same = (tile->object[i] == object) &
+                   gbuffer_same_surface(cosine, off_plane, x * x + y * y + z * z);
+        alike[i] = (float)same;
+        count += alike[i];
+    }
+    return count;
+}

@@ -167,6 +167,10 @@ static inline int gbuffer_same_surface(float cosine, float off_plane, float dist
     return (cosine > 0.9f) & (off_plane * off_plane <= 0.01f * distance2);
 }
 
+/* Which lanes of a tile may show the surface of an object at that place: 1 or 0. Returns how many. */
+float gbuffer_alike(const ps_tile *tile, ps_vec3 position, ps_vec3 normal, uint32_t object,
+                    float alike[PS_TILE_PIXELS]);
+
 /* What a ray to light `light` met, of which the share `lit` came through: light i of 32 has bits 2 i, some
  * light came through, and 2 i + 1, some was stopped. Further lights share them. */
 static inline uint64_t gbuffer_occlusion(size_t light, float lit)

@@ -9,6 +9,7 @@
 #include "pipeline/render.h"
 #include "pipeline/stages.h"
 #include "view/edges.h"
+#include "view/fireflies.h"
 #include "view/pixel_filter.h"
 #include "view/view.h"
 #include <math.h>
@@ -109,6 +110,13 @@ static void add_tile(void *user, uint64_t index, uint32_t worker)
     (void)worker;
     const struct tile_work *work = user;
     film_add_tile(&work->render->film, &work->render->gbuffer, (uint32_t)index, NULL);
+}
+
+static void spread_fireflies(void *user, uint64_t index, uint32_t worker)
+{
+    (void)worker;
+    const struct tile_work *work = user;
+    fireflies_spread(&work->render->gbuffer, (uint32_t)index);
 }
 
 static void smooth_tile(void *user, uint64_t index, uint32_t worker)
@@ -279,6 +287,7 @@ static ps_result end_pass(struct tile_work *work, struct error *error)
         add_tiles(work);
         return PS_OK;
     }
+    over_tiles(work, "edges", spread_fireflies);
     over_tiles(work, "edges", smooth_tile);
     film_end_pass(&render->film);
     if (!work->skipped)

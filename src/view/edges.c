@@ -12,6 +12,9 @@
 #define NEIGHBOURHOOD 2
 #define NEIGHBOURS 32 /* (2 * NEIGHBOURHOOD + 1)^2, and up to whole vectors */
 
+/* Where chance decides what is looked at, so many must know of it, or all of the tile are asked. */
+#define FEW 6.0f
+
 /* Seeds of scenes end before: random numbers of samples at edges are no pixel's. */
 #define EDGE_SEED ((uint64_t)1 << 63)
 
@@ -62,6 +65,8 @@ static void add_look(const struct edge_pass *pass, uint32_t tile, uint32_t lane,
     looks->light_runs.of_lane[to] = (uint8_t)to;
 }
 
+#define SAME_SURFACE 3
+
 /* The pixels around one, which all of its samples look at. */
 struct neighbours {
     uint32_t object[NEIGHBOURS]; /* PS_NO_OBJECT: sees no surface, or there is no pixel */
@@ -104,7 +109,7 @@ static void find_neighbours(const struct gbuffer *gbuffer, uint32_t x, uint32_t 
         }
 }
 
-/* How near each neighbour comes to what a sample sees: 3 its surface, 2 its object, 1 another one, 0 none.
+/* How near each neighbour comes to what a sample sees: SAME_SURFACE, 2 its object, 1 another one, 0 none.
  * Returns the most of that. */
 static int compare(const struct neighbours *neighbours, const ps_tile *tile, uint32_t lane,
                    int likeness[NEIGHBOURS])
@@ -143,8 +148,9 @@ static void borrow_radiance(const struct neighbours *neighbours, const int liken
     tile->radiance_b[lane] = scale * sum.b;
 }
 
-/* Gives a sample the mean of the indirect light that the pixels around found on its surface. */
-static void borrow_indirect(const struct neighbours *neighbours, ps_tile *tile, uint32_t lane)
+/* Gives a sample the mean of the indirect light that the pixels around found on its surface. Returns how many of them look at
+ * that; of those that see none of it, all do. */
+static float borrow_indirect(const struct neighbours *neighbours, ps_tile *tile, uint32_t lane)
 {
     int likeness[NEIGHBOURS];
     int most = compare(neighbours, tile, lane, likeness);
@@ -164,6 +170,38 @@ static void borrow_indirect(const struct neighbours *neighbours, ps_tile *tile, 
     tile->irradiance_b[lane] = scale * b;
     tile->weight[lane] = scale * weight;
     borrow_radiance(neighbours, likeness, most, scale, tile, lane);
+    return most == SAME_SURFACE ? count : NEIGHBOURS;
+}
+
+/* The same of those in a tile, if they are more than `count`. */
+static void borrow_from_tile(const ps_tile *from, float count, ps_tile *tile, uint32_t lane)
+{
+    float alike[PS_TILE_PIXELS], r = 0.0f, g = 0.0f, b = 0.0f;
+    float found = gbuffer_alike(from, ps_tile_position(tile, lane), ps_tile_normal(tile, lane),
+                                tile->object[lane], alike);
+    if (!(found > count))
+        return;
+#pragma omp simd reduction(+ : r, g, b)
+    for (int i = 0; i < PS_TILE_PIXELS; i++) {
+        r += alike[i] * from->irradiance_r[i];
+        g += alike[i] * from->irradiance_g[i];
+        b += alike[i] * from->irradiance_b[i];
+    }
+    tile->irradiance_r[lane] = r / found;
+    tile->irradiance_g[lane] = g / found;
+    tile->irradiance_b[lane] = b / found;
+}
+
+/* What gloss mirrors is seen by few of the pixels around, each by chance, and the noise of one would be that of all. */
+static void light_look(const struct edge_pass *pass, const struct neighbours *neighbours,
+                       struct looks *looks, uint32_t look)
+{
+    uint32_t lane;
+    float count = borrow_indirect(neighbours, &looks->tile, look);
+    if (!looks->by_chance[look] || count >= FEW)
+        return;
+    uint32_t tile = gbuffer_tile_of(pass->gbuffer, looks->x[look], looks->y[look], &lane);
+    borrow_from_tile(&pass->gbuffer->tiles[tile], count, &looks->tile, look);
 }
 
 static bool same_pixel(const struct looks *looks, uint32_t i, uint32_t j)
@@ -180,7 +218,7 @@ static void add_looks(const struct edge_pass *pass, const struct gbuffer *sample
         struct neighbours neighbours;
         find_neighbours(pass->gbuffer, looks->x[first], looks->y[first], &neighbours);
         for (end = first; end < count && same_pixel(looks, first, end); end++)
-            borrow_indirect(&neighbours, &looks->tile, end);
+            light_look(pass, &neighbours, looks, end);
         if (film_has_pixel(film, looks->x[first], looks->y[first]))
             film_add_samples(film, samples, first, end - first, 1.0f / (float)pass->samples,
                              looks->x[first], looks->y[first]);

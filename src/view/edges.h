@@ -6,7 +6,7 @@
  * differs from a neighbour: in its surface, in its albedo, or in the light that comes from it straight
  * from the lights, if by more than the noise of its shadow rays. Each further sample has surface, emission and
  * direct light of its own. Its indirect light, which is smooth and dear, is the mean of what the pixels around found on the same surface, so that
- * estimators are not asked again. All pixels look at the same places in them. Tracing at a higher resolution would
+ * estimators are not asked again (before that, fireflies.h). All pixels look at the same places in them. Tracing at a higher resolution would
  * cost everywhere.
  *
  * Pass 0 decides for all, whether it is rendered here or not. If each decided for itself, looks that are rare (at things thinner than a

@@ -1,0 +1,16 @@
+/* fireflies.h: single pixels that rays by chance found too much light for.
+ *
+ * Where pixels show what they do by chance (gbuffer.h), their samples share the mean of what the pixels around found (edges.h): a firefly
+ * among these becomes a square as large as that mean, which no denoiser tells from light. So before that, what a pixel
+ * has beyond a multiple of the mean of the others that are alike is shared out evenly to those. All within a tile: no light
+ * is lost, as clamping loses it, and nothing is seen of it, since they are many.
+ */
+#ifndef VIEW_FIREFLIES_H
+#define VIEW_FIREFLIES_H
+
+#include "film/gbuffer.h"
+
+/* Shares out the indirect light of a tile's fireflies, when all of it is there. Any thread, a tile each. */
+void fireflies_spread(struct gbuffer *gbuffer, uint32_t tile);
+
+#endif
