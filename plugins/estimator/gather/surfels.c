@@ -187,7 +187,8 @@ static struct group group_at(const struct surfels *surfels, const ps_rgb *traced
     };
 }
 
-/* Multiplies a group's splats by the ratio of what its paths and splats find. */
+/* Multiplies a group's splats by the ratio of what its paths and splats find. What no splat has reached takes the mean of its
+ * paths. */
 static void scale_splats(const struct group *group, int c)
 {
     double by_splats = 0.0, by_paths = 0.0;
@@ -195,9 +196,12 @@ static void scale_splats(const struct group *group, int c)
         by_splats += value(group->splatted[i], c);
         by_paths += value(group->traced[i], c);
     }
-    float ratio = by_splats > 0.0 ? (float)(by_paths / by_splats) : 1.0f;
-    for (size_t i = 0; i < group->n; i++)
-        *channel(&group->splatted[i], c) *= ratio;
+    bool reached = by_splats > 0.0;
+    float scale = (float)(by_paths / (reached ? by_splats : (double)group->n));
+    for (size_t i = 0; i < group->n; i++) {
+        float *splatted = channel(&group->splatted[i], c);
+        *splatted = reached ? scale * *splatted : scale;
+    }
 }
 
 static void compare(struct group *group, int c)
