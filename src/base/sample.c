@@ -1,5 +1,8 @@
 #include "base/sample.h"
 
+#include <psplat/isa.h>
+#include <string.h>
+
 /* The four dimensions of a point: a vector register of nearly all processors. */
 typedef uint32_t lanes __attribute__((vector_size(16)));
 
@@ -69,7 +72,7 @@ uint32_t sample_key(uint64_t seed, uint32_t stream, uint32_t set)
     return sample_hash(seed ^ (uint64_t)purpose << 17 ^ purpose);
 }
 
-static lanes reverse_lanes(lanes x)
+static PS_INLINED uint32_t reverse_bits(uint32_t x)
 {
     x = (x >> 16) | (x << 16);
     x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
@@ -78,25 +81,20 @@ static lanes reverse_lanes(lanes x)
     return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
 }
 
-static uint32_t reverse_bits(uint32_t x)
-{
-    return reverse_lanes((lanes){x})[0];
-}
-
 /* An approximate Owen scramble of bits in reversed order (Vegdahl 2021, "Building a better LK
- * hash"), of a number or of four. */
-#define SCRAMBLE_REVERSED(x, seed)                                                                 \
-    do {                                                                                           \
-        (x) ^= (x)*0x3d20adea;                                                                     \
-        (x) += (seed);                                                                             \
-        (x) *= ((seed) >> 16) | 1;                                                                 \
-        (x) ^= (x)*0x05526c56;                                                                     \
-        (x) ^= (x)*0x53a22864;                                                                     \
-    } while (0)
+ * hash"). */
+static PS_INLINED uint32_t scramble_reversed(uint32_t x, uint32_t seed)
+{
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1;
+    x ^= x * 0x05526c56u;
+    return x ^ x * 0x53a22864u;
+}
 
 /* The point of the four Sobol sequences, as 32-bit fractions. Their bits run in reversed order, and so do
  * those of the index. */
-static lanes sobol(uint32_t index)
+static PS_INLINED lanes sobol(uint32_t index)
 {
     lanes fractions = sobol_sums[0][index >> 28];
     for (int i = 1; i < 8; i++)
@@ -107,8 +105,7 @@ static lanes sobol(uint32_t index)
 /* What scrambles the points of 2^32 indices: past these a fresh one begins. */
 struct scramble {
     uint32_t high; /* half of the indices */
-    uint32_t seed;
-    lanes seeds;
+    uint32_t seed, seeds[4];
 };
 
 static struct scramble scramble_of(uint32_t key, uint32_t high)
@@ -121,31 +118,60 @@ static struct scramble scramble_of(uint32_t key, uint32_t high)
     return scramble;
 }
 
-static void scrambled_point(const struct scramble *scramble, uint32_t low, float point[4])
+/* 24 of the bits: the float lies in [0, 1) and never rounds up to 1. */
+static PS_INLINED float unit_of(uint32_t reversed)
 {
-    uint32_t index = reverse_bits(low);
-    SCRAMBLE_REVERSED(index, scramble->seed);
-    lanes fractions = sobol(index);
-    SCRAMBLE_REVERSED(fractions, scramble->seeds);
-    fractions = reverse_lanes(fractions) >> 8;
-    /* 24 bits: the float lies in [0, 1) and never rounds up to 1. */
-    for (int d = 0; d < 4; d++)
-        point[d] = (float)(int32_t)fractions[d] * 0x1p-24f;
+    return (float)(int32_t)(reverse_bits(reversed) >> 8) * 0x1p-24f;
 }
 
 void sample_point(uint32_t key, uint64_t index, float point[4])
 {
     struct scramble scramble = scramble_of(key, (uint32_t)(index >> 32));
-    scrambled_point(&scramble, (uint32_t)index, point);
+    lanes fractions = sobol(scramble_reversed(reverse_bits((uint32_t)index), scramble.seed));
+    for (int d = 0; d < 4; d++)
+        point[d] = unit_of(scramble_reversed(fractions[d], scramble.seeds[d]));
+}
+
+enum { BLOCK = 16 }; /* points that are made together */
+
+PS_EVERY_ISA static void make_block(const struct scramble *scramble, const uint32_t low[BLOCK],
+                                    float points[4 * BLOCK])
+{
+    _Alignas(64) uint32_t indices[BLOCK], fractions[4 * BLOCK], seeds[4 * BLOCK];
+#pragma omp simd
+    for (int i = 0; i < BLOCK; i++)
+        indices[i] = scramble_reversed(reverse_bits(low[i]), scramble->seed);
+    for (int i = 0; i < BLOCK; i++) {
+        lanes all = sobol(indices[i]);
+        memcpy(&fractions[4 * i], &all, sizeof all);
+        memcpy(&seeds[4 * i], scramble->seeds, sizeof scramble->seeds);
+    }
+#pragma omp simd
+    for (int i = 0; i < 4 * BLOCK; i++)
+        points[i] = unit_of(scramble_reversed(fractions[i], seeds[i]));
+}
+
+/* How many of n indices, at most a block, have the upper half of the first one. */
+static size_t same_half(const uint64_t *indices, size_t n)
+{
+    size_t count = 1;
+    while (count < n && count < BLOCK && indices[count] >> 32 == indices[0] >> 32)
+        count++;
+    return count;
 }
 
 void sample_points(uint32_t key, const uint64_t *indices, size_t n, float (*points)[4])
 {
     struct scramble scramble = scramble_of(key, n > 0 ? (uint32_t)(indices[0] >> 32) : 0);
-    for (size_t i = 0; i < n; i++) {
-        uint32_t high = (uint32_t)(indices[i] >> 32);
+    for (size_t first = 0, count; first < n; first += count) {
+        uint32_t high = (uint32_t)(indices[first] >> 32), low[BLOCK] = {0};
+        float made[4 * BLOCK];
+        count = same_half(indices + first, n - first);
         if (high != scramble.high)
             scramble = scramble_of(key, high);
-        scrambled_point(&scramble, (uint32_t)indices[i], points[i]);
+        for (size_t i = 0; i < count; i++)
+            low[i] = (uint32_t)indices[first + i];
+        make_block(&scramble, low, made);
+        memcpy(points[first], made, count * sizeof *points);
     }
 }

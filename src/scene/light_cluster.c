@@ -1,5 +1,6 @@
 #include "scene/light_cluster.h"
 
+#include <psplat/isa.h>
 #include <psplat/math.h>
 
 static float safe_acos(float cosine)
@@ -85,15 +86,15 @@ void light_lanes_set(struct light_lanes *lanes, int lane, const struct light_clu
 }
 
 /* The cosine of an angle that is smaller by another one; 1 where nothing is left of it. */
-static inline float reduce_angle(float cosine, float by_cosine, float by_sine)
+static PS_INLINED float reduce_angle(float cosine, float by_cosine, float by_sine)
 {
     float sine = sqrtf(ps_max(1.0f - cosine * cosine, 0.0f));
     float reduced = cosine * by_cosine + sine * by_sine;
     return cosine >= by_cosine ? 1.0f : reduced;
 }
 
-void light_lanes_importance(const struct light_lanes *lanes, ps_vec3 position, ps_vec3 normal,
-                            float importance[LIGHT_LANES])
+PS_EVERY_ISA static void importance_of(const struct light_lanes *lanes, ps_vec3 position,
+                                       ps_vec3 normal, float importance[LIGHT_LANES])
 {
     float anywhere = ps_dot(normal, normal) > 0.0f ? 0.0f : 1.0f; /* without a normal */
 #pragma omp simd
@@ -115,6 +116,12 @@ void light_lanes_importance(const struct light_lanes *lanes, ps_vec3 position, p
         float nearest2 = ps_max(ps_max(distance2, 0.25f * radius * radius), NEAREST2);
         importance[i] = ps_min(cosines * lanes->intensity[i] / nearest2, MOST_IMPORTANT);
     }
+}
+
+void light_lanes_importance(const struct light_lanes *lanes, ps_vec3 position, ps_vec3 normal,
+                            float importance[LIGHT_LANES])
+{
+    importance_of(lanes, position, normal, importance);
 }
 
 /* --- cost --- */

@@ -134,8 +134,8 @@ struct block {
 
 /* What a fit says of a run of pixels, in proportion to its weight there: one by geometry, times a tent that ends at
  * the centres next to it. */
-static INLINED void add_prediction(const struct work *work, const struct regression_fit *fit,
-                                   size_t run, int x, int y, struct block *block)
+static PS_INLINED void add_prediction(const struct work *work, const struct regression_fit *fit,
+                                      size_t run, int x, int y, struct block *block)
 {
     _Alignas(64) float w[LANES], u[LANES], v[LANES];
     int at = (x - block->x) / LANES, row = y - block->y;
@@ -158,8 +158,8 @@ static INLINED void add_prediction(const struct work *work, const struct regress
     }
 }
 
-EVERY_ISA static void blend(const struct work *work, const struct regression_fit *fit,
-                            struct block *block)
+PS_EVERY_ISA static void blend(const struct work *work, const struct regression_fit *fit,
+                               struct block *block)
 {
     int reach = spacing(work->light.bandwidth) - 1;
     int left = larger(fit->x - reach, block->x);

@@ -46,9 +46,9 @@ struct pixels {
     int dx, dy;
 };
 
-static INLINED void add_to_part(const struct regression_light *light, const struct pixels *pixels,
-                                const struct regression_part *part, float moments[MOMENTS][LANES],
-                                struct sums *sums)
+static PS_INLINED void add_to_part(const struct regression_light *light,
+                                   const struct pixels *pixels, const struct regression_part *part,
+                                   float moments[MOMENTS][LANES], struct sums *sums)
 {
     _Alignas(64) float w[LANES], wu[LANES], wv[LANES];
     const float *u = pixels->u, *v = pixels->v;
@@ -128,8 +128,9 @@ static bool row_of_windows(const struct regression_parts *parts, int dy, int *fi
     return *first <= *last;
 }
 
-static INLINED void add_row(const struct regression_light *light, const struct regression_fit *fit,
-                            const struct regression_parts *parts, int dy, struct sums *sums)
+static PS_INLINED void add_row(const struct regression_light *light,
+                               const struct regression_fit *fit,
+                               const struct regression_parts *parts, int dy, struct sums *sums)
 {
     struct pixels pixels = {.dy = dy};
     int first, last;
@@ -147,9 +148,9 @@ static INLINED void add_row(const struct regression_light *light, const struct r
     }
 }
 
-EVERY_ISA static void add_rows(const struct regression_light *light,
-                               const struct regression_fit *fit,
-                               const struct regression_parts *parts, struct sums *sums)
+PS_EVERY_ISA static void add_rows(const struct regression_light *light,
+                                  const struct regression_fit *fit,
+                                  const struct regression_parts *parts, struct sums *sums)
 {
     int rows = 0;
     for (int i = 0; i < parts->count; i++)

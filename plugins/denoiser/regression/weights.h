@@ -1,6 +1,6 @@
 /* weights.h: what pixels count for a fit (fit.h), a run of LANES at a time.
  *
- * These loops are to be inlined into functions that are EVERY_ISA.
+ * These loops are to be inlined into functions that are PS_EVERY_ISA.
  */
 #ifndef PSPLAT_DENOISER_REGRESSION_WEIGHTS_H
 #define PSPLAT_DENOISER_REGRESSION_WEIGHTS_H
@@ -8,27 +8,10 @@
 #include "bounds.h"
 #include "fit.h"
 
+#include <psplat/isa.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
-
-/* Such functions are compiled for several instruction sets, of which one is picked as the plugin is loaded. All give the
- * same result to the last bit: no multiplication is joined with an addition. They are static, since compilers differ in how they name
- * those of other files. */
-#ifndef __has_feature
-#define __has_feature(feature) 0
-#endif
-#if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__) &&                              \
-    !defined(__SANITIZE_ADDRESS__) && !__has_feature(address_sanitizer)
-#define EVERY_ISA __attribute__((target_clones("avx512f", "avx2", "default")))
-#define INLINED inline __attribute__((always_inline))
-#else
-#define EVERY_ISA
-#define INLINED inline
-#endif
-#ifdef __clang__
-#pragma STDC FP_CONTRACT OFF
-#endif
 
 enum { LANES = REGRESSION_LANES };
 
@@ -56,14 +39,14 @@ static inline int smaller(int a, int b)
 }
 
 /* max(s, 0) without a comparison, which keeps compilers from making vectors. */
-static INLINED float above_zero(float s)
+static PS_INLINED float above_zero(float s)
 {
     return 0.5f * (s + fabsf(s));
 }
 
 /* Whether its bounds tell that no pixel of a run has any weight. */
-static INLINED bool are_unlike(const struct regression *to, const struct regression_fit *fit,
-                               size_t run)
+static PS_INLINED bool are_unlike(const struct regression *to, const struct regression_fit *fit,
+                                  size_t run)
 {
     const struct regression_bounds *of = &to->bounds[run];
     float cosine = 0.0f, height = 0.0f, extent = 0.0f;
@@ -81,7 +64,7 @@ static INLINED bool are_unlike(const struct regression *to, const struct regress
 }
 
 /* Of numbers that are not negative: by their bits, which compilers make vectors of. */
-static INLINED bool all_zero(const float weight[LANES])
+static PS_INLINED bool all_zero(const float weight[LANES])
 {
     uint32_t bits[LANES], any = 0;
     memcpy(bits, weight, sizeof bits);
@@ -92,8 +75,8 @@ static INLINED bool all_zero(const float weight[LANES])
 }
 
 /* Their weights by geometry. */
-static INLINED void weigh(const struct regression *to, const struct regression_fit *fit,
-                          size_t from, float *restrict weight)
+static PS_INLINED void weigh(const struct regression *to, const struct regression_fit *fit,
+                             size_t from, float *restrict weight)
 {
     const float *restrict nx = to->normal[0] + from, *restrict px = to->position[0] + from;
     const float *restrict ny = to->normal[1] + from, *restrict py = to->position[1] + from;
@@ -117,8 +100,8 @@ static INLINED void weigh(const struct regression *to, const struct regression_f
 }
 
 /* Their places in the tangent plane. */
-static INLINED void locate(const struct regression *to, const struct regression_fit *fit,
-                           size_t from, float *restrict u, float *restrict v)
+static PS_INLINED void locate(const struct regression *to, const struct regression_fit *fit,
+                              size_t from, float *restrict u, float *restrict v)
 {
     const float *restrict px = to->position[0] + from, *restrict py = to->position[1] + from,
                           *restrict pz = to->position[2] + from;
@@ -133,9 +116,9 @@ static INLINED void locate(const struct regression *to, const struct regression_
 }
 
 /* All of that. False: none of the pixels has any weight, and the rest is not set. */
-static INLINED bool take_pixels(const struct regression *to, const struct regression_fit *fit,
-                                size_t run, float *restrict weight, float *restrict u,
-                                float *restrict v)
+static PS_INLINED bool take_pixels(const struct regression *to, const struct regression_fit *fit,
+                                   size_t run, float *restrict weight, float *restrict u,
+                                   float *restrict v)
 {
     size_t from = run * to->runs_apart;
     if (are_unlike(to, fit, run))
