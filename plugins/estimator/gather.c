@@ -23,14 +23,13 @@
  * pathtrace.c.
  */
 #include "gather/skylight.h"
+#include "gather/surfel_paths.h"
 #include "gather/surfel_table.h"
 #include "shared/gather_picture.h"
 #include "shared/photons.h"
 #include <string.h>
 
 #define MOST_PATHS 32       /* of a surfel, by default */
-#define FEWEST_ASKING 4     /* paths of a surfel that ask the cache, or none do */
-#define ASKING_FOR_WHOLE 4  /* of them, for each that goes on to its end */
 #define FEWEST_SURFELS 2000 /* of a picture */
 #define THINNED_TOGETHER 4  /* paths */
 
@@ -61,9 +60,6 @@ struct work {
     const struct state *state;
     struct gather_setting setting;
     struct surfels *surfels;
-    /* When they are corrected: the surfels' irradiance by paths, and by the first half of each one's paths. */
-    ps_rgb *traced, *half;
-    uint64_t groups_before; /* of surfels that have drawn random numbers */
 };
 
 /* --- photons --- */
@@ -154,85 +150,12 @@ static ps_result splat_batch(void *opaque, const ps_photon *photons, size_t n)
 
 /* --- the cache --- */
 
-/* Paths from a group of surfels, as if they were the pixels of a tile. */
-static void trace_group(void *user, uint64_t index, uint32_t worker)
-{
-    (void)worker;
-    const struct work *work = user;
-    const struct surfels *surfels = work->surfels;
-    const struct paths_setting *paths = &work->setting.paths;
-    struct surfel_group group = surfels_group(surfels, index);
-    struct gather gather = {
-        .setting = &work->setting,
-        .index = paths->pass->tile_count + work->groups_before + index,
-    };
-    if (paths->host->cancelled(paths->host))
-        return;
-    for (uint32_t i = 0; i < group.n; i++) {
-        gather.points.positions[i] = surfels->positions[group.first + i];
-        gather.points.normals[i] = surfels->normals[group.first + i];
-        gather.points.lanes[i] = i;
-        gather.points.count++;
-    }
-    gather_begin(&gather);
-    gather_samples(&gather, work->setting.most);
-    for (size_t i = 0; i < gather.points.count; i++) {
-        work->traced[group.first + i] = gather.irradiance[i];
-        work->half[group.first + i] = ps_rgb_scale(gather.half[i], 2.0f);
-    }
-}
-
 /* By default a part of the work that the gather is. */
 static uint64_t paths_of_surfel(const struct state *state)
 {
     if (state->paths.choice < 0)
         return (uint64_t)state->paths.number;
     return state->samples < MOST_PATHS / 2 ? 2 * (uint64_t)state->samples : MOST_PATHS;
-}
-
-/* Corrects it by so many paths from each surfel: to their ends, or as far as `lookup` knows the rest. */
-static ps_result correct_by_paths(struct work *work, uint64_t count, gather_lookup lookup)
-{
-    const ps_host *host = work->setting.paths.host;
-    struct surfels *surfels = work->surfels;
-    ps_pass pass = *work->setting.paths.pass;
-    struct work correcting = *work;
-    pass.bounces -= pass.bounces != PS_ALL_BOUNCES; /* surfels are one surface on */
-    correcting.setting = (struct gather_setting){
-        .paths = {host, &pass, work->setting.paths.roulette, 0.0f, true},
-        .samples = count,
-        .most = count,
-        .lookup = lookup,
-        .cache = surfels,
-        .knows_indirect = lookup != NULL,
-        .knows_sky = lookup && surfels->sky,
-    };
-    correcting.traced = host->allocate(host, 2 * surfels->count * sizeof(ps_rgb), "surfels");
-    if (!correcting.traced)
-        return PS_ERROR_MEMORY;
-    correcting.half = correcting.traced + surfels->count;
-    host->parallel_for(host, surfels_group_count(surfels), trace_group, &correcting);
-    ps_result result = host->cancelled(host) ? PS_CANCELLED : PS_OK;
-    if (result == PS_OK)
-        result = surfels_correct(surfels, correcting.traced, correcting.half);
-    host->release(host, correcting.traced);
-    return result;
-}
-
-/* Splats know where the light is, but not how much, and paths to their ends are long. A few of them set the splats
- * right; then most paths are of one segment, and ask the cache itself what comes after it. Where bounces are counted it would tell
- * them of one too many. */
-static ps_result correct_cache(struct work *work)
-{
-    uint64_t paths = paths_of_surfel(work->state);
-    if (paths < FEWEST_ASKING || work->setting.paths.pass->bounces != PS_ALL_BOUNCES)
-        return correct_by_paths(work, paths, NULL);
-    uint64_t whole = paths / ASKING_FOR_WHOLE;
-    ps_result result = correct_by_paths(work, whole > 2 ? whole : 2, NULL);
-    if (result == PS_OK)
-        result = surfel_table_build(work->surfels);
-    work->groups_before = surfels_group_count(work->surfels);
-    return result == PS_OK ? correct_by_paths(work, paths, surfel_table_lookup) : result;
 }
 
 /* Adds the light of the photons that were kept to the surfels. */
@@ -258,11 +181,13 @@ static ps_result add_kept(const struct splatting *splatting, struct surfels *sur
 /* Finds the surfels' indirect light by what photons have brought. */
 static ps_result light_surfels(struct work *work, const struct splatting *splatting)
 {
-    const ps_host *host = work->setting.paths.host;
+    const struct paths_setting *setting = &work->setting.paths;
+    const ps_host *host = setting->host;
     struct surfels *surfels = work->surfels;
+    uint64_t paths = paths_of_surfel(work->state);
     ps_result result = host->end_points(host, surfels->irradiance);
-    if (result == PS_OK && paths_of_surfel(work->state) > 0)
-        result = correct_cache(work);
+    if (result == PS_OK && paths > 0)
+        result = surfel_paths_correct(setting->pass, setting->roulette, paths, surfels);
     return result == PS_OK ? add_kept(splatting, surfels) : result;
 }
 
