@@ -344,6 +344,45 @@ static void test_outliers_spread(void **state)
     free(picture);
 }
 
+/* Five pixels within three of each other, for which the halves of the samples found 32 and 8. */
+static float most_of_five(float gloss_share)
+{
+    static float room[2][3][PIXELS], gloss[PIXELS];
+    static const int found[5] = {0, WIDTH + 2, 2 * WIDTH - 1, 1 - 2 * WIDTH, -WIDTH - 2};
+    struct picture *picture = level_floor();
+    float most = 0;
+    picture->halves = room;
+    picture->gloss = gloss;
+    for (int i = 0; i < PIXELS; i++) {
+        gloss[i] = gloss_share;
+        for (int c = 0; c < 3; c++)
+            room[0][c][i] = room[1][c][i] = picture->light[c][i];
+    }
+    for (int k = 0; k < 5; k++)
+        for (int c = 0; c < 3; c++) {
+            int i = 12 * WIDTH + 75 + found[k];
+            room[k % 2][c][i] = 32;
+            room[1 - k % 2][c][i] = 8;
+            picture->light[c][i] = 20;
+        }
+    denoise(picture, CHOICE, 2);
+    for (int i = 0; i < PIXELS; i++)
+        most = fmaxf(most, picture->light[0][i]);
+    free(picture);
+    return most;
+}
+
+/* Chance has more to say in gloss: what may be a small light elsewhere is none there. */
+static void test_outliers_of_gloss_spread(void **state)
+{
+    (void)state;
+    float in_gloss = most_of_five(0.5f), elsewhere = most_of_five(0.0f);
+    print_message("five outliers of 20: %.2f at most in gloss, %.2f elsewhere\n", (double)in_gloss,
+                  (double)elsewhere);
+    assert_true(in_gloss < 2);
+    assert_true(elsewhere > 2);
+}
+
 /* --- thin things --- */
 
 /* Gives the pixels whose place is 3 of every `period` noise of a deviation of 0.29, which the rest of the floor has not,
@@ -504,6 +543,7 @@ int main(void)
         cmocka_unit_test(test_what_is_no_noise_stays),
         cmocka_unit_test(test_sun_beside_noise_stays),
         cmocka_unit_test(test_outliers_spread),
+        cmocka_unit_test(test_outliers_of_gloss_spread),
         cmocka_unit_test(test_noise_of_thin_things_falls),
         cmocka_unit_test(test_what_is_no_surface_stays),
         cmocka_unit_test(test_nothing_seen_at_all),

@@ -11,8 +11,7 @@
 #define ALONE 4.0f
 #define PIXELS_CAUTION 1.5f /* in place of CAUTION for the last band, of the pixels themselves */
 #define PIXELS_WINDOW 4     /* R of the window of that band */
-#define AROUND 0.25f  /* of a neighbourhood's light, by which dark pixels are measured at least */
-#define GLOSSY 0.125f /* share of gloss from which on a pixel is of that class */
+#define AROUND 0.25f /* of a neighbourhood's light, by which dark pixels are measured at least */
 
 static const int bandwidths[] = {48, 24, 12, 6, 3}; /* of the bands */
 
@@ -34,8 +33,7 @@ static void begin_row(void *user, uint64_t row, uint32_t worker)
 
 static bool is_in_class(const struct work *work, size_t pixel)
 {
-    const float *gloss = work->image->gloss;
-    return (gloss && gloss[pixel] > GLOSSY) == work->glossy;
+    return shows_gloss(work, pixel) == work->glossy;
 }
 
 static void measure_row(void *user, uint64_t row, uint32_t worker)

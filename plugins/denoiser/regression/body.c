@@ -6,8 +6,9 @@
 #define FAR_ABOVE 2.0f     /* of the first fit: what is brighter may be left out of the bands */
 #define OUTLIER_NOISE 1.5f /* times the noise near by, by which outliers may be too bright */
 #define NEAR 3             /* pixels to each side are near by */
-#define FEW 4    /* pixels near by, with itself, that are half as bright as an outlier, at most */
-#define SHARED 4 /* pixels along a block whose noise may be one */
+#define FEW 4 /* pixels near by, with itself, that are half as bright as an outlier, at most */
+#define FEW_IN_GLOSS 6 /* the same in gloss, where chance has more to say */
+#define SHARED 4       /* pixels along a block whose noise may be one */
 
 /* --- irradiance and surfaces --- */
 
@@ -156,7 +157,7 @@ static bool is_alone(const struct work *work, size_t x, size_t y, float bright)
             size_t at = regression_at(&work->guides, (int)x + dx, (int)y + dy);
             like += brightness_at(work->light, at) > 0.5f * bright;
         }
-    return like <= FEW;
+    return like <= (shows_gloss(work, y * work->width + x) ? FEW_IN_GLOSS : FEW);
 }
 
 /* From the first fit, in `fine`. What is bright without noise is no outlier, nor, where the noise is known, is what several

@@ -39,6 +39,14 @@ static inline float brightness(const float colour[REGRESSION_COLOURS])
     return colour[0] + colour[1] + colour[2];
 }
 
+/* Whether a pixel is of the class whose light is mostly mirrored. */
+static inline bool shows_gloss(const struct work *work, size_t pixel)
+{
+    const float share = 0.125f;
+    const float *gloss = work->image->gloss;
+    return gloss && gloss[pixel] > share;
+}
+
 /* Sets of values. */
 typedef float **(*work_planes)(struct work *work);
 
