@@ -30,16 +30,15 @@ static inline void apron_find_same(const struct apron_surfaces *at, int row, int
     int here_row = APRON_MARGIN + row, there_row = here_row + dy;
     for (int i = 0; i < PS_TILE_SIZE; i++) {
         int here = APRON_MARGIN + i, there = here + dx;
-        float nx = at->normal_x[here_row][here], ny = at->normal_y[here_row][here],
-              nz = at->normal_z[here_row][here];
-        float x = at->position_x[there_row][there] - at->position_x[here_row][here];
-        float y = at->position_y[there_row][there] - at->position_y[here_row][here];
-        float z = at->position_z[there_row][there] - at->position_z[here_row][here];
-        float cosine = nx * at->normal_x[there_row][there] + ny * at->normal_y[there_row][there] +
-                       nz * at->normal_z[there_row][there];
-        float off = nx * x + ny * y + nz * z;
-        same[i] =
-            (cosine > least_cosine) & gbuffer_same_surface(cosine, off, x * x + y * y + z * z);
+        ps_vec3 normal = {at->normal_x[here_row][here], at->normal_y[here_row][here],
+                          at->normal_z[here_row][here]};
+        ps_vec3 other_normal = {at->normal_x[there_row][there], at->normal_y[there_row][there],
+                                at->normal_z[there_row][there]};
+        ps_vec3 way = {at->position_x[there_row][there] - at->position_x[here_row][here],
+                       at->position_y[there_row][there] - at->position_y[here_row][here],
+                       at->position_z[there_row][there] - at->position_z[here_row][here]};
+        same[i] = (ps_dot(normal, other_normal) > least_cosine) &
+                  gbuffer_same_surface(normal, other_normal, way);
     }
 }
 

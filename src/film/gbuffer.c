@@ -387,13 +387,10 @@ float gbuffer_alike(const ps_tile *tile, ps_vec3 position, ps_vec3 normal, uint3
     float count = 0.0f;
 #pragma omp simd reduction(+ : count)
     for (int i = 0; i < PS_TILE_PIXELS; i++) {
-        float x = tile->position_x[i] - position.x, y = tile->position_y[i] - position.y,
-              z = tile->position_z[i] - position.z;
-        float off_plane = normal.x * x + normal.y * y + normal.z * z;
-        float cosine = normal.x * tile->normal_x[i] + normal.y * tile->normal_y[i] +
-                       normal.z * tile->normal_z[i];
-        int same = (tile->object[i] == object) &
-                   gbuffer_same_surface(cosine, off_plane, x * x + y * y + z * z);
+        ps_vec3 way = {tile->position_x[i] - position.x, tile->position_y[i] - position.y,
+                       tile->position_z[i] - position.z};
+        ps_vec3 other_normal = {tile->normal_x[i], tile->normal_y[i], tile->normal_z[i]};
+        int same = (tile->object[i] == object) & gbuffer_same_surface(normal, other_normal, way);
         alike[i] = (float)same;
         count += alike[i];
     }

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/rectangle.h"
 #include "trace/trace.h"
+#include <psplat/math.h>
 #include <stdbool.h>
 
 /* Where lanes that see no surface lie: outside of any scene, yet its square is finite. */
@@ -160,11 +161,14 @@ bool gbuffer_sees_nothing(const ps_tile *tile);
 /* Lane of number i when a tile is walked in 4x4 blocks. */
 uint32_t gbuffer_block_lane(uint32_t i);
 
-/* Whether two points may be taken for points of one surface: normals no farther apart (`cosine`) than 25
- * degrees, and one no farther off the other's plane than a tenth of their distance (squared: `distance2`). */
-static inline int gbuffer_same_surface(float cosine, float off_plane, float distance2)
+/* Whether two points may be taken for points of one surface: normals no farther apart than 25 degrees, and the second, which lies
+ * `way` from the first, no farther off its plane than a tenth of their distance. For loops of vectors. */
+static inline int gbuffer_same_surface(ps_vec3 normal, ps_vec3 other_normal, ps_vec3 way)
 {
-    return (cosine > 0.9f) & (off_plane * off_plane <= 0.01f * distance2);
+    float off_plane = ps_dot(normal, way);
+    int faces_alike = ps_dot(normal, other_normal) > 0.9f;
+    int in_plane = off_plane * off_plane <= 0.01f * ps_dot(way, way);
+    return faces_alike & in_plane;
 }
 
 /* Which lanes of a tile may show the surface of an object at that place: 1 or 0. Returns how many. */

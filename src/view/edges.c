@@ -65,7 +65,8 @@ static void add_look(const struct edge_pass *pass, uint32_t tile, uint32_t lane,
     looks->light_runs.of_lane[to] = (uint8_t)to;
 }
 
-#define SAME_SURFACE 3
+/* What a neighbour sees of what a sample sees. */
+enum { NO_SURFACE, ANOTHER_OBJECT, SAME_OBJECT, SAME_SURFACE };
 
 /* The pixels around one, which all of its samples look at. */
 struct neighbours {
@@ -109,22 +110,20 @@ static void find_neighbours(const struct gbuffer *gbuffer, uint32_t x, uint32_t 
         }
 }
 
-/* How near each neighbour comes to what a sample sees: SAME_SURFACE, 2 its object, 1 another one, 0 none.
- * Returns the most of that. */
+/* How near each neighbour comes to what a sample sees. Returns the most of that. */
 static int compare(const struct neighbours *neighbours, const ps_tile *tile, uint32_t lane,
                    int likeness[NEIGHBOURS])
 {
     ps_vec3 position = ps_tile_position(tile, lane), normal = ps_tile_normal(tile, lane);
     uint32_t object = tile->object[lane];
-    int most = 1;
+    int most = ANOTHER_OBJECT;
 #pragma omp simd reduction(max : most)
     for (int i = 0; i < NEIGHBOURS; i++) {
-        float x = neighbours->x[i] - position.x, y = neighbours->y[i] - position.y,
-              z = neighbours->z[i] - position.z;
-        float off_plane = normal.x * x + normal.y * y + normal.z * z;
-        float cosine = normal.x * neighbours->normal_x[i] + normal.y * neighbours->normal_y[i] +
-                       normal.z * neighbours->normal_z[i];
-        int same_surface = gbuffer_same_surface(cosine, off_plane, x * x + y * y + z * z);
+        ps_vec3 way = {neighbours->x[i] - position.x, neighbours->y[i] - position.y,
+                       neighbours->z[i] - position.z};
+        ps_vec3 other_normal = {neighbours->normal_x[i], neighbours->normal_y[i],
+                                neighbours->normal_z[i]};
+        int same_surface = gbuffer_same_surface(normal, other_normal, way);
         int any = neighbours->object[i] != PS_NO_OBJECT;
         int same_object = any & (neighbours->object[i] == object);
         likeness[i] = any + same_object + (same_object & same_surface);
