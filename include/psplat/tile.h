@@ -43,16 +43,20 @@ static inline void ps_collect_points(const ps_tile *tile, ps_points *points)
     }
 }
 
+/* Of two normals of one surface, one of them bent, the least cosine: 75 degrees. */
+#define PS_OWN_SURFACE_COSINE 0.25f
+
 /* Forgets the hits of rays that left points by a smoothed or bent normal, but into their own surface:
- * nothing shines on a point of its plane. Ray i left point targets[i]. `offset`: that of the rays
- * (ps_pass.surface_offset). */
+ * nothing shines on a point of its plane. In a crease a point lies on two planes, and the other one does. Ray i left point
+ * targets[i]. `offset`: that of the rays (ps_pass.surface_offset). */
 static inline void ps_forget_own_surface(const ps_points *points, const uint32_t *targets, size_t n,
                                          float offset, ps_hit *hits)
 {
     for (size_t i = 0; i < n; i++) {
+        ps_vec3 normal = points->normals[targets[i]], plane = hits[i].geometric_normal;
         ps_vec3 from_hit = ps_subtract(points->positions[targets[i]], hits[i].position);
-        if (hits[i].distance < INFINITY &&
-            fabsf(ps_dot(from_hit, hits[i].geometric_normal)) < 2.0f * offset)
+        if (hits[i].distance < INFINITY && fabsf(ps_dot(from_hit, plane)) < 2.0f * offset &&
+            fabsf(ps_dot(normal, plane)) > PS_OWN_SURFACE_COSINE)
             hits[i].distance = INFINITY;
     }
 }

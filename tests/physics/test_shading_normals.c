@@ -1,8 +1,8 @@
 /* test_shading_normals.c: smoothed and bent normals, under which light must go the same way for camera
  * paths and light paths (Veach 1997, section 5.3).
  *
- * A convex object, or a floor, does not light itself, whatever its normals say. A sphere of smooth
- * triangles is a sphere. In a room with a bumpy floor, where no closed form helps, path tracing is the
+ * A convex object, or a floor, does not light itself, whatever its normals say; but a floor lights the foot of a wall. A
+ * sphere of smooth triangles is a sphere. In a room with a bumpy floor, where no closed form helps, path tracing is the
  * truth for the others.
  */
 #include "support/render_scene.h"
@@ -90,6 +90,46 @@ static void test_no_light_of_its_own(void **state)
         " material: plain}");
 }
 
+/* --- creases -------------------------------------------------------------------------------- */
+
+/* A wall, seen at one height above the floor that it stands on. */
+static const char crease[] =
+    "psd: 1\n"
+    "camera: {location: [0, %g, 1.5], look_at: [0, %g, 0], projection: orthographic, width: 1e-7}\n"
+    "image: {width: 16, height: 16}\n"
+    "materials: {white: {diffuse: 0.7}}\n"
+    "lights:\n"
+    "  - rectangle: {corners: [[-1, 2, 0.5], [1, 2, 0.5], [1, 2, 1.5]], radiance: 1}\n"
+    "objects:\n"
+    "  - quad: {corners: [[-2, 0, 0], [-2, 0, 2], [2, 0, 2], [2, 0, 0]], material: white}\n"
+    "  - quad: {corners: [[-2, 0, 0], [2, 0, 0], [2, 2, 0], [-2, 2, 0]], material: white}\n";
+
+static double light_of_wall(double height, const struct method *method)
+{
+    char text[1024];
+    snprintf(text, sizeof text, crease, height, height);
+    struct rendering rendering = render_text(text, 2, method->choices);
+    double mean = mean_of_all(&rendering.image, "indirect.G");
+    rendering_release(&rendering);
+    return mean;
+}
+
+/* As near to the floor as rays start from surfaces, the wall lies in the floor's plane too. */
+static void test_crease(void **state)
+{
+    (void)state;
+    static const struct method paths[] = {
+        {"pathtrace", {"estimator=pathtrace:samples=256", NULL}, 0},
+        {"bdpt", {"estimator=bdpt:samples=256", NULL}, 0},
+        {"gather", {"estimator=gather:samples=256", NULL}, 0},
+    };
+    for (size_t i = 0; i < COUNT(paths); i++) {
+        double ratio = light_of_wall(1e-5, &paths[i]) / light_of_wall(1e-3, &paths[i]);
+        print_message("wall in the crease / above it, %s: %.3f\n", paths[i].name, ratio);
+        assert_true(fabs(ratio - 1) < 0.05);
+    }
+}
+
 /* --- rooms ---------------------------------------------------------------------------------- */
 
 /* The floor's material, and what stands on it. */
@@ -175,6 +215,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_no_light_of_its_own),
+        cmocka_unit_test(test_crease),
         cmocka_unit_test(test_bumpy_floor),
         SLOW_TEST(test_smooth_sphere),
     };
