@@ -142,7 +142,7 @@ static void lay_out_without(struct room *room, int count, float *planes[])
 }
 
 /* Planes that all images share, with a margin and without, and those of each. */
-enum { GUIDES = 8, SCRATCH = 4 };
+enum { GUIDES = 8, SCRATCH = 5 };
 enum { IMAGE_WITH_MARGIN = 2 * VALUES, IMAGE = 2 * VALUES + REGRESSION_COLOURS + 4 };
 
 #define IMAGE_BYTES ((IMAGE_WITH_MARGIN + IMAGE) * sizeof(float) + REGRESSION_PLANES_PIXEL)
@@ -157,6 +157,7 @@ static void lay_out_shared(struct work *work, struct room *room)
     lay_out_without(room, 1, &work->room);
     lay_out_without(room, 1, &work->near_by);
     lay_out_without(room, 1, &work->around);
+    lay_out_without(room, 1, &work->kind);
 }
 
 static void lay_out_image(struct work *work, struct room *room)

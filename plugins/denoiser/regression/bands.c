@@ -1,7 +1,9 @@
 #include "bands.h"
 
 #include "box.h"
+#include "kinds.h"
 
+#include <psplat/isa.h>
 #include <psplat/math.h>
 
 /* Times the noise that a band must exceed where the band before was kept; past the first one, where the noise is guessed of a
@@ -11,6 +13,8 @@
 #define ALONE 4.0f
 #define PIXELS_CAUTION 1.5f /* in place of CAUTION for the last band, of the pixels themselves */
 #define PIXELS_WINDOW 4     /* R of the window of that band */
+#define BROAD_AMONG_THIN                                                                           \
+    0.03f            /* that a pixel of the one kind counts for among those of the other */
 #define AROUND 0.25f /* of a neighbourhood's light, by which dark pixels are measured at least */
 
 static const int bandwidths[] = {48, 24, 12, 6, 3}; /* of the bands */
@@ -31,36 +35,72 @@ static void begin_row(void *user, uint64_t row, uint32_t worker)
     }
 }
 
-static bool is_in_class(const struct work *work, size_t pixel)
+/* Pixels of a row of a kind, with their share in its means. */
+struct row {
+    const struct work *work;
+    size_t first;
+    float own;
+    float other, others_share; /* what pixels of that kind count for */
+};
+
+static struct row row_of(const struct work *work, uint64_t row)
 {
-    return shows_gloss(work, pixel) == work->glossy;
+    return (struct row){
+        .work = work,
+        .first = row * work->width,
+        .own = (float)work->under_way,
+        .other = work->under_way == THIN ? (float)BROAD : (float)NO_KIND,
+        .others_share = BROAD_AMONG_THIN,
+    };
+}
+
+/* What a pixel of that kind counts for in the means of the row's. */
+static PS_INLINED float share_of(const struct row *row, float kind)
+{
+    return kind == row->own ? 1.0f : kind == row->other ? row->others_share : 0.0f;
+}
+
+PS_EVERY_ISA static void measure(const struct row row)
+{
+    const struct work *work = row.work;
+    const float *restrict kind = work->kind + row.first, *restrict scale = work->scale + row.first;
+    const float *restrict fine[VALUES], *restrict coarse[VALUES];
+    float *restrict signal = work->signal + row.first, *restrict noise = work->noise + row.first;
+    for (int c = 0; c < VALUES; c++) {
+        fine[c] = work->fine[c] + row.first;
+        coarse[c] = work->coarse[c] + row.first;
+    }
+#pragma omp simd
+    for (size_t i = 0; i < work->width; i++) {
+        float weight = share_of(&row, kind[i]) * scale[i];
+        float band = fine[0][i] + fine[1][i] + fine[2][i];
+        band -= coarse[0][i] + coarse[1][i] + coarse[2][i];
+        float chance = fine[NOISE][i] - coarse[NOISE][i];
+        signal[i] = band * band * weight;
+        noise[i] = chance * chance * weight;
+    }
 }
 
 static void measure_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = user;
-    for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
-        if (!is_in_class(work, i)) {
-            work->signal[i] = work->noise[i] = 0.0f;
-            continue;
-        }
-        float noise = work->fine[NOISE][i] - work->coarse[NOISE][i];
-        float band = brightness_at(work->fine, i) - brightness_at(work->coarse, i);
-        work->signal[i] = band * band * work->scale[i];
-        work->noise[i] = noise * noise * work->scale[i];
-    }
+    measure(row_of(user, row));
+}
+
+PS_EVERY_ISA static void count(const struct row row)
+{
+    const float *restrict kind = row.work->kind + row.first;
+    float *restrict near_by = row.work->near_by + row.first;
+    float *restrict around = row.work->around + row.first;
+#pragma omp simd
+    for (size_t i = 0; i < row.work->width; i++)
+        near_by[i] = around[i] = share_of(&row, kind[i]);
 }
 
 static void count_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = user;
-    for (size_t x = 0; x < work->width; x++) {
-        size_t i = row * work->width + x;
-        bool shown = regression_shows_surface(&work->guides, (int)x, (int)row);
-        work->near_by[i] = work->around[i] = shown && is_in_class(work, i) ? 1.0f : 0.0f;
-    }
+    count(row_of(user, row));
 }
 
 /* Replaces values by their sums over a square around. */
@@ -70,46 +110,85 @@ static void sum_around(const struct work *work, int radius, float *plane)
     regression_box_sums(work->host, &box);
 }
 
+/* Sums over pixels that count for so much in all become means; where there are none, sums are 0. */
+static PS_INLINED float mean_of(float sum, float count)
+{
+    return sum / (count > 0.0f ? count : 1.0f);
+}
+
+/* What is kept of a band of mean square S, of which N is noise: 1 - (c N / S)^2. */
+static PS_INLINED float keep_of(float signal, float limit)
+{
+    bool some = signal > limit;
+    float share = (some ? limit : 1.0f) / (some ? signal : 1.0f);
+    return 1.0f - share * share;
+}
+
 /* Of a band of mean square S of which N is noise, and of which the share k is kept: k^2 N + (1 - k)^2 (S - N), Stein's
  * estimate of the risk. Of what S exceeds N by, as much as half of the caution is taken for chance. */
-static float risk_of_band(float signal, float noise, float caution, float keep)
+static PS_INLINED float risk_of_band(float signal, float noise, float caution, float keep)
 {
     float lost = ps_max(signal - 0.5f * caution * noise, 0.0f);
     return keep * keep * noise + (1.0f - keep) * (1.0f - keep) * lost;
 }
 
-static float one_over(float count)
+/* Of the kind's pixels, what is kept and the risk of that, in place of S and N; of others 0. */
+PS_EVERY_ISA static void judge(const struct row row)
 {
-    return count > 0.0f ? 1.0f / count : 0.0f;
+    const struct work *work = row.work;
+    const float *restrict kind = work->kind + row.first;
+    const float *restrict near_by = work->near_by + row.first;
+    const float *restrict around = work->around + row.first;
+    float *restrict kept = work->kept + row.first;
+    float *restrict signal = work->signal + row.first, *restrict noise = work->noise + row.first;
+    float least = work->caution, own = row.own;
+#pragma omp simd
+    for (size_t i = 0; i < work->width; i++) {
+        float squares = mean_of(signal[i], near_by[i]), chance = mean_of(noise[i], around[i]);
+        float caution = ALONE + (least - ALONE) * kept[i];
+        float keep = keep_of(squares, caution * chance);
+        float risk = risk_of_band(squares, chance, caution, keep);
+        bool is_own = kind[i] == own;
+        kept[i] = is_own ? keep : kept[i];
+        signal[i] = is_own ? keep : 0.0f;
+        noise[i] = is_own ? risk : 0.0f;
+    }
+}
+
+PS_EVERY_ISA static void add(const struct row row)
+{
+    const struct work *work = row.work;
+    const float *restrict keep = work->signal + row.first, *restrict risk = work->noise + row.first;
+    for (int c = 0; c < REGRESSION_COLOURS; c++) {
+        const float *restrict fine = work->fine[c] + row.first;
+        const float *restrict coarse = work->coarse[c] + row.first;
+        float *restrict sum = work->sum[c] + row.first;
+#pragma omp simd
+        for (size_t i = 0; i < work->width; i++)
+            sum[i] += keep[i] * (fine[i] - coarse[i]);
+    }
+    if (!work->error)
+        return;
+    float *restrict error = work->error + row.first;
+#pragma omp simd
+    for (size_t i = 0; i < work->width; i++)
+        error[i] += risk[i];
 }
 
 static void add_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = user;
-    for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
-        if (!is_in_class(work, i))
-            continue;
-        float signal = work->signal[i] * one_over(work->near_by[i]);
-        float noise = work->noise[i] * one_over(work->around[i]);
-        float caution = ALONE + (work->caution - ALONE) * work->kept[i], limit = caution * noise;
-        float share = signal > limit ? limit / signal : 1.0f, keep = 1.0f - share * share;
-        work->kept[i] = keep;
-        for (int c = 0; c < REGRESSION_COLOURS; c++)
-            work->sum[c][i] += keep * (work->fine[c][i] - work->coarse[c][i]);
-        if (work->error)
-            work->error[i] += risk_of_band(signal, noise, caution, keep);
-    }
+    judge(row_of(user, row));
+    add(row_of(user, row));
 }
 
-/* Adds the difference of `fine` and `coarse` of the first `count` images, to the pixels of one class: what gloss mirrors
- * has noise of its own, which says nothing about the walls around. One picture of the noise may have less of it than there
- * is: of that, more pixels are asked. */
-static void add_band_of_class(struct works *works, int count, int radius, bool glossy)
+/* Adds the difference of `fine` and `coarse` of the first `count` images, to the pixels of one kind. One picture of the
+ * noise may have less of it than there is: of that, more pixels are asked. */
+static void add_band_of_kind(struct works *works, int count, int radius, enum pixel_kind kind)
 {
     struct work *first = &works->of[0];
     for (int i = 0; i < count; i++)
-        works->of[i].glossy = glossy;
+        works->of[i].under_way = kind;
     first->host->parallel_for(first->host, first->height, count_row, first);
     sum_around(first, radius, first->near_by);
     sum_around(first, 2 * radius, first->around);
@@ -124,9 +203,9 @@ static void add_band_of_class(struct works *works, int count, int radius, bool g
 
 static void add_band(struct works *works, int count, int radius)
 {
-    add_band_of_class(works, count, radius, false);
-    if (works->of[0].image->gloss)
-        add_band_of_class(works, count, radius, true);
+    for (int kind = NO_KIND + 1; kind < KINDS; kind++)
+        if (works->has[kind])
+            add_band_of_kind(works, count, radius, (enum pixel_kind)kind);
 }
 
 static void copy_row(void *user, uint64_t row, uint32_t worker)
@@ -177,6 +256,7 @@ static void add_pixels(struct works *works)
 
 void regression_add_bands(struct works *works)
 {
+    regression_kinds_find(works);
     regression_fit_all(works, bandwidths[0], body_of, coarse_of);
     regression_for_each_row(works, begin_row);
     for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {

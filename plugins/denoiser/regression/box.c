@@ -1,22 +1,34 @@
 #include "box.h"
 
-#define COLUMNS 64 /* that a worker sums at a time */
+/* That a worker sums at a time. */
+#define ROWS 8
+#define COLUMNS 64
 
-static void sum_row(void *user, uint64_t row, uint32_t worker)
+/* Running sums of some rows at a time, each of which waits for its last addition. */
+static void sum_rows(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct regression_box *box = user;
-    size_t width = box->width, radius = box->radius;
-    const float *from = box->plane + row * width;
-    float *to = box->room + row * width;
-    double sum = 0.0; /* of floats: what was added leaves little rounding when it is subtracted */
-    for (size_t x = 0; x < radius && x < width; x++)
-        sum += (double)from[x];
-    for (size_t x = 0; x < width; x++) {
-        sum += x + radius < width ? (double)from[x + radius] : 0.0;
-        sum -= x > radius ? (double)from[x - radius - 1] : 0.0;
-        to[x] = (float)sum;
+    size_t width = box->width, radius = box->radius, first = index * ROWS;
+    size_t n = box->height - first < ROWS ? box->height - first : ROWS;
+    const float *from[ROWS];
+    float *to[ROWS];
+    double sums[ROWS] = {
+        0}; /* of floats: what was added leaves little rounding when it is subtracted */
+    for (size_t i = 0; i < ROWS; i++) {
+        size_t row = first + (i < n ? i : 0); /* what there is too much of is done twice */
+        from[i] = box->plane + row * width;
+        to[i] = box->room + row * width;
     }
+    for (size_t x = 0; x < radius && x < width; x++)
+        for (size_t i = 0; i < ROWS; i++)
+            sums[i] += (double)from[i][x];
+    for (size_t x = 0; x < width; x++)
+        for (size_t i = 0; i < ROWS; i++) {
+            sums[i] += x + radius < width ? (double)from[i][x + radius] : 0.0;
+            sums[i] -= x > radius ? (double)from[i][x - radius - 1] : 0.0;
+            to[i][x] = (float)sums[i];
+        }
 }
 
 static void sum_columns(void *user, uint64_t index, uint32_t worker)
@@ -43,6 +55,6 @@ static void sum_columns(void *user, uint64_t index, uint32_t worker)
 void regression_box_sums(const ps_host *host, const struct regression_box *box)
 {
     struct regression_box of = *box;
-    host->parallel_for(host, of.height, sum_row, &of);
+    host->parallel_for(host, (of.height + ROWS - 1) / ROWS, sum_rows, &of);
     host->parallel_for(host, (of.width + COLUMNS - 1) / COLUMNS, sum_columns, &of);
 }

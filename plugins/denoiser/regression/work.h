@@ -9,6 +9,10 @@
 
 enum { NOISE = REGRESSION_COLOURS, VALUES = REGRESSION_VALUES };
 
+/* Kinds of pixels (kinds.h): those that show gloss; of the others,
+ * those that few pixels near by are like, and the rest; no surface is seen in pixels of none. */
+enum pixel_kind { NO_KIND, BROAD, THIN, GLOSSY, KINDS };
+
 struct work {
     const ps_host *host;
     const ps_image_view *image;
@@ -21,17 +25,19 @@ struct work {
      * the bands `noise` holds N, where halves tell it. */
     float *fine[VALUES], *coarse[VALUES], *sum[REGRESSION_COLOURS];
     float *scale, *signal, *noise, *room;
-    float *near_by, *around; /* pixels of the class in the squares of B^2 and N^2, for all images */
+    float *near_by, *around; /* pixels of the kind in the squares of B^2 and N^2, for all images */
+    float *kind;             /* pixel_kind, for all images */
     float *kept;             /* k of the band before */
     float *error;            /* where it is asked for: its square, times `scale` */
     float caution;           /* with the band under way */
-    bool glossy;             /* the class of pixels under way */
-    float least;             /* brightness that counts as dark */
+    enum pixel_kind under_way;
+    float least; /* brightness that counts as dark */
 };
 
 struct works {
     struct work of[REGRESSION_IMAGES];
     int count, halved; /* so many, the first ones, have halves */
+    bool has[KINDS];   /* pixels of these */
 };
 
 static inline float brightness(const float colour[REGRESSION_COLOURS])
@@ -39,7 +45,7 @@ static inline float brightness(const float colour[REGRESSION_COLOURS])
     return colour[0] + colour[1] + colour[2];
 }
 
-/* Whether a pixel is of the class whose light is mostly mirrored. */
+/* Whether a pixel's light is mostly mirrored. */
 static inline bool shows_gloss(const struct work *work, size_t pixel)
 {
     const float share = 0.125f;

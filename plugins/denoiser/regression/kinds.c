@@ -1,0 +1,47 @@
+#include "kinds.h"
+
+/* A pixel is held against others in a square around it, in either direction up to so many times so many pixels away. It is thin
+ * if fewer of the 24 show its surface. */
+#define REACH 2
+#define STEP 3
+#define FEW 6
+
+static bool is_thin(const struct regression *guides, int x, int y)
+{
+    size_t at = regression_at(guides, x, y);
+    int like = 0;
+    for (int dy = -REACH; dy <= REACH; dy++)
+        for (int dx = -REACH; dx <= REACH; dx++) {
+            size_t other = regression_at(guides, x + STEP * dx, y + STEP * dy);
+            if (other == at || !regression_is_like(guides, at, other))
+                continue;
+            if (++like == FEW)
+                return false;
+        }
+    return true;
+}
+
+static enum pixel_kind kind_of(const struct work *work, int x, int y)
+{
+    if (!regression_shows_surface(&work->guides, x, y))
+        return NO_KIND;
+    if (shows_gloss(work, (size_t)y * work->width + (size_t)x))
+        return GLOSSY;
+    return is_thin(&work->guides, x, y) ? THIN : BROAD;
+}
+
+static void find_kinds_of_row(void *user, uint64_t row, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = user;
+    for (size_t x = 0; x < work->width; x++)
+        work->kind[row * work->width + x] = (float)kind_of(work, (int)x, (int)row);
+}
+
+void regression_kinds_find(struct works *works)
+{
+    const struct work *first = &works->of[0]; /* all show the same surfaces */
+    first->host->parallel_for(first->host, first->height, find_kinds_of_row, &works->of[0]);
+    for (size_t i = 0; i < first->width * first->height; i++)
+        works->has[(int)first->kind[i]] = true;
+}
