@@ -163,7 +163,7 @@ static ps_result gather(const struct state *state, struct work *work)
 {
     const struct gather_setting setting = {
         .paths = {work->host, work->pass, (uint32_t)state->roulette,
-                  work->pass->specular ? PATHS_ALL_CAUSTICS : 0.0f, false},
+                  work->pass->specular ? PATHS_ALL_CAUSTICS : 0.0f, 0.0f},
         .samples = (uint64_t)state->samples,
         .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
         .lookup = work->cache.irradiance ? look_up : NULL,

@@ -64,8 +64,9 @@ struct work {
 
 /* --- photons --- */
 
-/* Which photons are splatted where. Those for the surfels that some mirror, glass or gloss has sent on are kept, and splatted
- * when the others are corrected: paths would find a lamp behind glass seldom, and then far too much of it. */
+/* Which photons are splatted where. Those for the surfels that some mirror, glass or smooth gloss has sent on are kept, and
+ * splatted when the others are corrected: paths would find a lamp behind glass seldom, and then far too much of it. What rough
+ * gloss reflects is left to paths there, too: few photons with all of that light would make blotches. */
 struct splatting {
     const ps_host *host;
     bool onto_pixels, onto_surfels;
@@ -98,7 +99,7 @@ static bool is_diffuse_on_surfels(const void *opaque, const ps_photon *photon)
 
 static bool is_specular_on_surfels(const void *opaque, const ps_photon *photon)
 {
-    return photon->specular && belongs_on_surfels(opaque, photon);
+    return photon->specular == PS_SHARP_GLOSS && belongs_on_surfels(opaque, photon);
 }
 
 static ps_result keep(struct splatting *splatting, const ps_photon *photons, size_t n)
@@ -283,7 +284,7 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     struct work work = {
         .state = state,
         .setting = {.paths = {host, pass, (uint32_t)state->roulette,
-                              pass->specular ? PS_ROUGH_GLOSS : 0.0f, false},
+                              pass->specular ? PS_ROUGH_GLOSS : 0.0f, 0.0f},
                     .samples = (uint64_t)state->samples,
                     .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
                     .share_before = SURFEL_SHARE},

@@ -22,7 +22,7 @@ static const char scene[] =
     "materials: {white: {diffuse: 0.7}, metal: {metal: {color: 0.8, roughness: %g}},\n"
     "            mirror: {mirror: 0.8}}\n"
     "lights:\n"
-    "  - spotlight: {location: [2, 2.2, 0], point_at: [-1.2, 0.8, 0], radius: 14, falloff: 18, "
+    "  - spotlight: {location: [2, 2.2, 0], point_at: [-1.2, 0.8, 0], radius: %g, falloff: %g, "
     "intensity: 60}\n"
     "objects:\n"
     "  - quad: {corners: [[-3, 0, 3], [3, 0, 3], [3, 0, -3], [-3, 0, -3]], material: white}\n"
@@ -32,26 +32,29 @@ static const char scene[] =
     "material: %s}\n"
     "render: {bounces: %d, passes: 1, seed: %d}\n";
 
-static struct rendering render(double roughness, const char *wall, int bounces, int seed,
-                               const char *estimator, const char *injection)
+/* Half of the lamp's cone, in degrees. */
+static const double wide = 18, on_the_plate = 5;
+
+static struct rendering render(double cone, double roughness, const char *wall, int bounces,
+                               int seed, const char *estimator, const char *injection)
 {
     const char *const strategies[] = {estimator, injection, "denoiser=none", NULL};
     char text[2048];
-    snprintf(text, sizeof text, scene, roughness, wall, bounces, seed);
+    snprintf(text, sizeof text, scene, roughness, 0.8 * cone, cone, wall, bounces, seed);
     return render_text(text, 2, strategies);
 }
 
-/* Whether the picture of one bounce is the same for few photons and for many. */
-static bool needs_no_photons(double roughness)
+/* Whether the picture is the same for few photons and for many. */
+static bool needs_no_photons(double cone, double roughness, int bounces)
 {
-    struct rendering few =
-        render(roughness, "white", 1, 1, "estimator=gather:samples=8", "injection=photon:count=50");
-    struct rendering many = render(roughness, "white", 1, 1, "estimator=gather:samples=8",
-                                   "injection=photon:count=5000");
+    struct rendering few = render(cone, roughness, "white", bounces, 1,
+                                  "estimator=gather:samples=8", "injection=photon:count=50");
+    struct rendering many = render(cone, roughness, "white", bounces, 1,
+                                   "estimator=gather:samples=8", "injection=photon:count=5000");
     const float *a = image_channel(&few.image, "indirect.G");
     const float *b = image_channel(&many.image, "indirect.G");
     bool same = memcmp(a, b, few.image.width * few.image.height * sizeof *a) == 0;
-    assert_true(mean_of_all(&few.image, "indirect.G") > 0.01);
+    assert_true(mean_of_all(&few.image, "indirect.G") > 1e-4);
     rendering_release(&few);
     rendering_release(&many);
     return same;
@@ -60,9 +63,18 @@ static bool needs_no_photons(double roughness)
 static void test_rough_gloss_needs_no_photons(void **state)
 {
     (void)state;
-    assert_true(needs_no_photons(0.3));
-    assert_true(needs_no_photons(0.2));
-    assert_false(needs_no_photons(0.1));
+    assert_true(needs_no_photons(wide, 0.3, 1));
+    assert_true(needs_no_photons(wide, 0.2, 1));
+    assert_false(needs_no_photons(wide, 0.1, 1));
+}
+
+/* Nor do the surfels, where all light meets it first. */
+static void test_surfels_need_no_photons(void **state)
+{
+    (void)state;
+    assert_true(needs_no_photons(on_the_plate, 0.3, 2));
+    assert_false(needs_no_photons(on_the_plate, 0.1, 2));
+    assert_false(needs_no_photons(wide, 0.3, 2)); /* whose diffuse light they have */
 }
 
 static double mean_by(double roughness, const char *wall, const char *estimator)
@@ -70,7 +82,7 @@ static double mean_by(double roughness, const char *wall, const char *estimator)
     double mean = 0;
     for (int seed = 1; seed <= SEEDS; seed++) {
         struct rendering rendering =
-            render(roughness, wall, 2, seed, estimator, "injection=photon:count=20000");
+            render(wide, roughness, wall, 2, seed, estimator, "injection=photon:count=20000");
         mean += mean_of_all(&rendering.image, "indirect.G") / SEEDS;
         rendering_release(&rendering);
     }
@@ -99,6 +111,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rough_gloss_needs_no_photons),
+        cmocka_unit_test(test_surfels_need_no_photons),
         cmocka_unit_test(test_light_counts_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

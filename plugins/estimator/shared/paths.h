@@ -28,7 +28,8 @@ struct paths_setting {
     /* Somebody else adds the caustics on the points that paths start from: light that a surface smoother than this roughness
      * sends on, and perhaps others, none of them diffusely. 0: nobody does. */
     float caustics_below;
-    bool diffuse_only; /* only light that all surfaces on its way have scattered diffusely */
+    /* Only light that all surfaces on its way have scattered diffusely, or by gloss no smoother than this roughness. 0: any. */
+    float least_roughness;
 };
 
 /* The paths of one sample of a tile that are still under way; entry i belongs to pixel pixels[i]. */
@@ -210,8 +211,9 @@ static inline void paths_add_direct_without_caustics(const struct paths_setting 
     uint32_t flags[PS_TILE_PIXELS] = {0};
     for (size_t i = 0; i < paths->count; i++) {
         flags[i] = segment->hits[i].flags;
-        if (setting->diffuse_only ||
-            paths_is_caustic_after(setting, paths, i, segment->hits[i].roughness))
+        float roughness = segment->hits[i].roughness;
+        if (roughness < setting->least_roughness ||
+            paths_is_caustic_after(setting, paths, i, roughness))
             segment->hits[i].flags &= ~PS_HIT_SPECULAR;
     }
     paths_add_direct(setting, number, paths, groups, segment, sums);
@@ -234,16 +236,16 @@ static inline void paths_add_reflected(const struct paths_setting *setting, uint
                                        ps_rgb *sums)
 {
     paths_find_indices(samples, paths, segment);
-    if (setting->caustics_below > 0.0f || setting->diffuse_only)
+    if (setting->caustics_below > 0.0f || setting->least_roughness > 0.0f)
         paths_add_direct_without_caustics(setting, number, paths, groups, segment, sums);
     else
         paths_add_direct(setting, number, paths, groups, segment, sums);
 }
 
-/* Whether a path goes on after a surface that scatters like this. */
+/* Whether a path goes on after a surface of that roughness that scatters like this. */
 static inline int paths_goes_on(const struct paths_setting *setting,
-                                const ps_bsdf_sample *scattered, float number, struct paths *paths,
-                                size_t i)
+                                const ps_bsdf_sample *scattered, float roughness, float number,
+                                struct paths *paths, size_t i)
 {
     ps_rgb *throughput = &paths->throughput[i];
     *throughput = ps_rgb_multiply(*throughput, scattered->weight);
@@ -251,7 +253,7 @@ static inline int paths_goes_on(const struct paths_setting *setting,
     if (!(likelihood > 0.0f))
         return 0;
     if (scattered->lobe != PS_DIFFUSE)
-        return !setting->diffuse_only && ++paths->chain[i] <= PS_LONGEST_CHAIN;
+        return roughness >= setting->least_roughness && ++paths->chain[i] <= PS_LONGEST_CHAIN;
     if (paths_is_last(setting, paths, i))
         return 0;
     paths->chain[i] = 0;
@@ -267,8 +269,9 @@ static inline int paths_scatter(const struct paths_setting *setting,
                                 const ps_bsdf_sample *scattered,
                                 const struct paths_segment *segment, struct paths *paths, size_t i)
 {
-    int is_caustic = paths_is_caustic_after(setting, paths, i, segment->hits[i].roughness);
-    if (!paths_goes_on(setting, scattered, segment->numbers[i][2], paths, i))
+    float roughness = segment->hits[i].roughness;
+    int is_caustic = paths_is_caustic_after(setting, paths, i, roughness);
+    if (!paths_goes_on(setting, scattered, roughness, segment->numbers[i][2], paths, i))
         return 0;
     paths->caustic[i] = (uint8_t)(scattered->lobe != PS_DIFFUSE && is_caustic);
     paths->rays[i] = ps_leave_surface(segment->hits[i].position, scattered->normal,
