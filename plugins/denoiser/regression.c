@@ -8,11 +8,11 @@
  *     E' = F_48 + sum over R = 24, 12, 6, 3 of k_R B,   B = F_R - F_2R,   k_R = max(0, 1 - (c <N^2> / <B^2>)^2)
  *
  * The windows of the latter fits follow the edges of light (regression/steering.h). N is the band of a picture of the
- * noise alone, and <> a mean over a square around. So few blobs of noise fit into such a square that now and then
- * they seem to be signal. But edges of light show in all bands, and chance in one: the caution c is 2 where the band
- * before was kept, 4 where none of it was, and in proportion between (bivariate shrinkage does the same to wavelets:
- * Sendur and Selesnick 2002). In a single pass, whose noise is guessed with some of the light in it, 1.2 takes the
- * place of 2 past the first band.
+ * noise alone, and <> a mean over a square around, of pixels of one kind (regression/kinds.h). So few blobs of noise fit
+ * into such a square that now and then they seem to be signal. But edges of light show in all bands, and chance in one:
+ * the caution c is 2 where the band before was kept, 4 where none of it was, and in proportion between (bivariate
+ * shrinkage does the same to wavelets: Sendur and Selesnick 2002). In a single pass, whose noise is guessed with some of
+ * the light in it, 1.2 takes the place of 2 past the first band.
  *
  * Where two halves of the light are known, of passes or of shadow rays, their difference is the noise, and the pixels
  * themselves are a last band: light without noise stays as it is, with its hard shadows. Of a single pass of indirect

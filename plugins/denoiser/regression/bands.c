@@ -35,12 +35,12 @@ static void begin_row(void *user, uint64_t row, uint32_t worker)
     }
 }
 
-/* Pixels of a row of a kind, with their share in its means. */
+/* A row of pixels, and the kind under way. */
 struct row {
     const struct work *work;
     size_t first;
-    float own;
-    float other, others_share; /* what pixels of that kind count for */
+    float own;         /* its number */
+    float broad_share; /* of those of another kind, what BROAD ones count for */
 };
 
 static struct row row_of(const struct work *work, uint64_t row)
@@ -49,15 +49,14 @@ static struct row row_of(const struct work *work, uint64_t row)
         .work = work,
         .first = row * work->width,
         .own = (float)work->under_way,
-        .other = work->under_way == THIN ? (float)BROAD : (float)NO_KIND,
-        .others_share = BROAD_AMONG_THIN,
+        .broad_share = work->under_way == THIN ? BROAD_AMONG_THIN : 0.0f,
     };
 }
 
 /* What a pixel of that kind counts for in the means of the row's. */
 static PS_INLINED float share_of(const struct row *row, float kind)
 {
-    return kind == row->own ? 1.0f : kind == row->other ? row->others_share : 0.0f;
+    return kind == row->own ? 1.0f : kind == (float)BROAD ? row->broad_share : 0.0f;
 }
 
 PS_EVERY_ISA static void measure(const struct row row)
