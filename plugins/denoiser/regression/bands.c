@@ -11,10 +11,9 @@
 #define CAUTION 2.0f
 #define GUESSED_CAUTION 1.2f
 #define ALONE 4.0f
-#define PIXELS_CAUTION 1.5f /* in place of CAUTION for the last band, of the pixels themselves */
-#define PIXELS_WINDOW 4     /* R of the window of that band */
-#define BROAD_AMONG_THIN                                                                           \
-    0.03f            /* that a pixel of the one kind counts for among those of the other */
+#define PIXELS_CAUTION 1.5f    /* in place of CAUTION for the last band, of the pixels themselves */
+#define PIXELS_WINDOW 4        /* R of the window of that band */
+#define BROAD_AMONG_THIN 0.03f /* what a pixel of one kind counts for among the other's */
 #define AROUND 0.25f /* of a neighbourhood's light, by which dark pixels are measured at least */
 
 static const int bandwidths[] = {48, 24, 12, 6, 3}; /* of the bands */
@@ -53,7 +52,7 @@ static struct row row_of(const struct work *work, uint64_t row)
     };
 }
 
-/* What a pixel of that kind counts for in the means of the row's. */
+/* What a pixel of that kind counts for in the means of the kind under way. */
 static PS_INLINED float share_of(const struct row *row, float kind)
 {
     return kind == row->own ? 1.0f : kind == (float)BROAD ? row->broad_share : 0.0f;

@@ -13,8 +13,7 @@ static void sum_rows(void *user, uint64_t index, uint32_t worker)
     size_t n = box->height - first < ROWS ? box->height - first : ROWS;
     const float *from[ROWS];
     float *to[ROWS];
-    double sums[ROWS] = {
-        0}; /* of floats: what was added leaves little rounding when it is subtracted */
+    double sums[ROWS] = {0}; /* of floats: what was added leaves little when it is subtracted */
     for (size_t i = 0; i < ROWS; i++) {
         size_t row = first + (i < n ? i : 0); /* what there is too much of is done twice */
         from[i] = box->plane + row * width;

@@ -40,8 +40,8 @@ static void find_kinds_of_row(void *user, uint64_t row, uint32_t worker)
 
 void regression_kinds_find(struct works *works)
 {
-    const struct work *first = &works->of[0]; /* all show the same surfaces */
-    first->host->parallel_for(first->host, first->height, find_kinds_of_row, &works->of[0]);
+    struct work *first = &works->of[0]; /* all show the same surfaces */
+    first->host->parallel_for(first->host, first->height, find_kinds_of_row, first);
     for (size_t i = 0; i < first->width * first->height; i++)
         works->has[(int)first->kind[i]] = true;
 }

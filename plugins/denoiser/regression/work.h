@@ -9,8 +9,8 @@
 
 enum { NOISE = REGRESSION_COLOURS, VALUES = REGRESSION_VALUES };
 
-/* Kinds of pixels (kinds.h): those that show gloss; of the others,
- * those that few pixels near by are like, and the rest; no surface is seen in pixels of none. */
+/* Kinds of pixels (kinds.h): those that show gloss; of the others, those that few pixels near by are like, and the rest. No surface
+ * is seen in pixels of none. */
 enum pixel_kind { NO_KIND, BROAD, THIN, GLOSSY, KINDS };
 
 struct work {
