@@ -47,8 +47,8 @@ static inline void ps_collect_points(const ps_tile *tile, ps_points *points)
 #define PS_OWN_SURFACE_COSINE 0.25f
 
 /* Forgets the hits of rays that left points by a smoothed or bent normal, but into their own surface:
- * nothing shines on a point of its plane. In a crease a point lies on two planes, and the other one does. Ray i left point
- * targets[i]. `offset`: that of the rays (ps_pass.surface_offset). */
+ * nothing shines on a point of its plane. A point in a crease lies in the planes of two surfaces; hits of the other one stay, and their
+ * normals tell them. Ray i left point targets[i]. `offset`: that of the rays (ps_pass.surface_offset). */
 static inline void ps_forget_own_surface(const ps_points *points, const uint32_t *targets, size_t n,
                                          float offset, ps_hit *hits)
 {

@@ -33,6 +33,7 @@
 #include "regression/bands.h"
 #include "regression/body.h"
 #include "regression/bounds.h"
+#include "regression/kinds.h"
 
 #include <psplat/plugin.h>
 #include <stdbool.h>
@@ -104,6 +105,7 @@ static void denoise(struct works *works)
 {
     regression_for_each_row(works, regression_take_row);
     regression_bounds_find(&works->of[0].guides);
+    regression_kinds_find(works);
     regression_fit_all(works, FIRST, light_of, fine_of);
     for (int i = 0; i < works->count; i++)
         regression_make_body(&works->of[i]);

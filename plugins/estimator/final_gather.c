@@ -162,8 +162,10 @@ static bool look_up(const void *opaque, ps_vec3 position, ps_vec3 normal, float 
 static ps_result gather(const struct state *state, struct work *work)
 {
     const struct gather_setting setting = {
-        .paths = {work->host, work->pass, (uint32_t)state->roulette,
-                  work->pass->specular ? PATHS_ALL_CAUSTICS : 0.0f, 0.0f},
+        .paths = {.host = work->host,
+                  .pass = work->pass,
+                  .roulette = (uint32_t)state->roulette,
+                  .caustics_below = work->pass->specular ? PATHS_ALL_CAUSTICS : 0.0f},
         .samples = (uint64_t)state->samples,
         .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
         .lookup = work->cache.irradiance ? look_up : NULL,

@@ -283,8 +283,10 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     whole->surfels.host = host;
     struct work work = {
         .state = state,
-        .setting = {.paths = {host, pass, (uint32_t)state->roulette,
-                              pass->specular ? PS_ROUGH_GLOSS : 0.0f, 0.0f},
+        .setting = {.paths = {.host = host,
+                              .pass = pass,
+                              .roulette = (uint32_t)state->roulette,
+                              .caustics_below = pass->specular ? PS_ROUGH_GLOSS : 0.0f},
                     .samples = (uint64_t)state->samples,
                     .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
                     .share_before = SURFEL_SHARE},

@@ -221,8 +221,10 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
     struct work work = {
         .host = host,
         .pass = pass,
-        .setting = {.paths = {host, pass, (uint32_t)state->roulette,
-                              pass->specular ? PATHS_ALL_CAUSTICS : 0.0f, 0.0f},
+        .setting = {.paths = {.host = host,
+                              .pass = pass,
+                              .roulette = (uint32_t)state->roulette,
+                              .caustics_below = pass->specular ? PATHS_ALL_CAUSTICS : 0.0f},
                     .scale = (float)(state->spacing * state->spacing) * (float)pass->height,
                     .least = FEWEST_PIXELS,
                     .most = ps_max(MOST_OF_HEIGHT * (float)pass->height, FEWEST_PIXELS)},

@@ -1,7 +1,6 @@
 #include "bands.h"
 
 #include "box.h"
-#include "kinds.h"
 
 #include <psplat/isa.h>
 #include <psplat/math.h>
@@ -114,7 +113,7 @@ static PS_INLINED float mean_of(float sum, float count)
     return sum / (count > 0.0f ? count : 1.0f);
 }
 
-/* What is kept of a band of mean square S, of which N is noise: 1 - (c N / S)^2. */
+/* What is kept of a band of mean square S, of which N is noise: 1 - (c N / S)^2, with the limit c N. */
 static PS_INLINED float keep_of(float signal, float limit)
 {
     bool some = signal > limit;
@@ -254,7 +253,6 @@ static void add_pixels(struct works *works)
 
 void regression_add_bands(struct works *works)
 {
-    regression_kinds_find(works);
     regression_fit_all(works, bandwidths[0], body_of, coarse_of);
     regression_for_each_row(works, begin_row);
     for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {

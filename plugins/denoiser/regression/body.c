@@ -157,7 +157,7 @@ static bool is_alone(const struct work *work, size_t x, size_t y, float bright)
             size_t at = regression_at(&work->guides, (int)x + dx, (int)y + dy);
             like += brightness_at(work->light, at) > 0.5f * bright;
         }
-    return like <= (shows_gloss(work, y * work->width + x) ? FEW_IN_GLOSS : FEW);
+    return like <= (work->kind[y * work->width + x] == (float)GLOSSY ? FEW_IN_GLOSS : FEW);
 }
 
 /* From the first fit, in `fine`. What is bright without noise is no outlier, nor, where the noise is known, is what several

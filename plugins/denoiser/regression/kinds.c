@@ -6,6 +6,8 @@
 #define STEP 3
 #define FEW 6
 
+#define GLOSS 0.125f /* share of the reflectance, above which light is mostly mirrored */
+
 static bool is_thin(const struct regression *guides, int x, int y)
 {
     size_t at = regression_at(guides, x, y);
@@ -21,13 +23,13 @@ static bool is_thin(const struct regression *guides, int x, int y)
     return true;
 }
 
-static enum pixel_kind kind_of(const struct work *work, int x, int y)
+static enum pixel_kind kind_of(const struct regression *guides, int x, int y)
 {
-    if (!regression_shows_surface(&work->guides, x, y))
+    if (!regression_shows_surface(guides, x, y))
         return NO_KIND;
-    if (shows_gloss(work, (size_t)y * work->width + (size_t)x))
+    if (guides->gloss[regression_at(guides, x, y)] > GLOSS)
         return GLOSSY;
-    return is_thin(&work->guides, x, y) ? THIN : BROAD;
+    return is_thin(guides, x, y) ? THIN : BROAD;
 }
 
 static void find_kinds_of_row(void *user, uint64_t row, uint32_t worker)
@@ -35,7 +37,7 @@ static void find_kinds_of_row(void *user, uint64_t row, uint32_t worker)
     (void)worker;
     const struct work *work = user;
     for (size_t x = 0; x < work->width; x++)
-        work->kind[row * work->width + x] = (float)kind_of(work, (int)x, (int)row);
+        work->kind[row * work->width + x] = (float)kind_of(&work->guides, (int)x, (int)row);
 }
 
 void regression_kinds_find(struct works *works)

@@ -11,7 +11,7 @@
 
 #include "work.h"
 
-/* Fills in work->kind, and which kinds there are. */
+/* Fills in work->kind, and which kinds there are, when the guides are there. */
 void regression_kinds_find(struct works *works);
 
 #endif

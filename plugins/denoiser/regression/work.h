@@ -9,7 +9,7 @@
 
 enum { NOISE = REGRESSION_COLOURS, VALUES = REGRESSION_VALUES };
 
-/* Kinds of pixels (kinds.h): those that show gloss; of the others, those that few pixels near by are like, and the rest. No surface
+/* Kinds of pixels (kinds.h): those whose light is mostly mirrored; of the others, those that few pixels near by are like, and the rest. No surface
  * is seen in pixels of none. */
 enum pixel_kind { NO_KIND, BROAD, THIN, GLOSSY, KINDS };
 
@@ -43,14 +43,6 @@ struct works {
 static inline float brightness(const float colour[REGRESSION_COLOURS])
 {
     return colour[0] + colour[1] + colour[2];
-}
-
-/* Whether a pixel's light is mostly mirrored. */
-static inline bool shows_gloss(const struct work *work, size_t pixel)
-{
-    const float share = 0.125f;
-    const float *gloss = work->image->gloss;
-    return gloss && gloss[pixel] > share;
 }
 
 /* Sets of values. */

@@ -64,7 +64,8 @@ ps_result surfel_paths_correct(const ps_pass *pass, uint32_t roulette, uint64_t 
     uint64_t whole = asks ? paths / FOR_EACH_WHOLE : paths;
     if (asks && whole < FEWEST_WHOLE)
         whole = FEWEST_WHOLE;
-    const struct paths_setting setting = {host, &left, roulette, 0.0f, PS_ROUGH_GLOSS};
+    const struct paths_setting setting = {
+        .host = host, .pass = &left, .roulette = roulette, .least_roughness = PS_ROUGH_GLOSS};
     struct step first = {
         .setting = {.paths = setting, .samples = whole, .most = whole},
         .first_index = pass->tile_count,

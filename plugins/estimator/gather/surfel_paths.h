@@ -11,7 +11,7 @@
 
 /* Corrects the irradiance of surfels, of which there are some, by so many paths of one segment from each, after a quarter as many to their ends, from which
  * Russian roulette may take paths after `roulette` bounces. All go to their ends where they are few, and where bounces are counted: the
- * table would tell of one too many. Surfels then have the light that only diffuse surfaces have scattered. PS_ERROR_MEMORY
+ * table would tell of one too many. Surfels then have the light that only diffuse surfaces and rough gloss (PS_ROUGH_GLOSS) have scattered. PS_ERROR_MEMORY
  * or PS_CANCELLED: what they have means nothing. */
 ps_result surfel_paths_correct(const ps_pass *pass, uint32_t roulette, uint64_t paths,
                                struct surfels *surfels);

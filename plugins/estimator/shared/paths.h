@@ -201,8 +201,8 @@ static inline int paths_is_caustic_after(const struct paths_setting *setting,
     return paths->bounces[i] == 0 && (paths->caustic[i] || roughness < setting->caustics_below);
 }
 
-/* Adds what surfaces that were met reflect of the lights; diffusely alone on the way of caustics that somebody else adds, or on
- * all. */
+/* Adds what surfaces that were met reflect of the lights; diffusely alone on the way of caustics that somebody else adds, and
+ * where they are smoother than setting->least_roughness. */
 static inline void paths_add_direct_without_caustics(const struct paths_setting *setting,
                                                      uint32_t number, const struct paths *paths,
                                                      const uint8_t *groups,
@@ -229,7 +229,7 @@ static inline void paths_add_emitted(const struct paths_setting *setting, struct
     paths_drop_lost(paths, segment);
 }
 
-/* Adds what is reflected there, but for caustics; `groups` as in paths_add_direct(). */
+/* Adds what is reflected there, but for what the setting leaves out; `groups` as in paths_add_direct(). */
 static inline void paths_add_reflected(const struct paths_setting *setting, uint32_t number,
                                        const uint64_t *samples, const struct paths *paths,
                                        const uint8_t *groups, struct paths_segment *segment,
