@@ -12,7 +12,7 @@
 #define NEIGHBOURHOOD 2
 #define NEIGHBOURS 32 /* (2 * NEIGHBOURHOOD + 1)^2, and up to whole vectors */
 
-/* Where chance decides what is looked at, so many must know of it, or all of the tile are asked. */
+/* Where chance decides what is looked at, so many must know of it, or all of the tile are asked: elsewhere, one. */
 #define FEW 6.0f
 
 /* Seeds of scenes end before: random numbers of samples at edges are no pixel's. */
@@ -65,7 +65,7 @@ static void add_look(const struct edge_pass *pass, uint32_t tile, uint32_t lane,
     looks->light_runs.of_lane[to] = (uint8_t)to;
 }
 
-/* What a neighbour sees of what a sample sees. */
+/* How like what a neighbour sees is to what a sample sees. */
 enum { NO_SURFACE, ANOTHER_OBJECT, SAME_OBJECT, SAME_SURFACE };
 
 /* The pixels around one, which all of its samples look at. */
@@ -110,7 +110,19 @@ static void find_neighbours(const struct gbuffer *gbuffer, uint32_t x, uint32_t 
         }
 }
 
-/* How near each neighbour comes to what a sample sees. Returns the most of that. */
+/* What a point counts for another so far away: inverse distance weighting (Shepard 1968). Those in the same place have a weight, too. */
+static inline float nearness(ps_vec3 way)
+{
+    return 1.0f / (ps_dot(way, way) + 1e-20f);
+}
+
+static inline ps_vec3 way_to(const struct neighbours *neighbours, int i, ps_vec3 position)
+{
+    return (ps_vec3){neighbours->x[i] - position.x, neighbours->y[i] - position.y,
+                     neighbours->z[i] - position.z};
+}
+
+/* How like each neighbour is to what a sample sees. Returns the most of that. */
 static int compare(const struct neighbours *neighbours, const ps_tile *tile, uint32_t lane,
                    int likeness[NEIGHBOURS])
 {
@@ -119,11 +131,10 @@ static int compare(const struct neighbours *neighbours, const ps_tile *tile, uin
     int most = ANOTHER_OBJECT;
 #pragma omp simd reduction(max : most)
     for (int i = 0; i < NEIGHBOURS; i++) {
-        ps_vec3 way = {neighbours->x[i] - position.x, neighbours->y[i] - position.y,
-                       neighbours->z[i] - position.z};
         ps_vec3 other_normal = {neighbours->normal_x[i], neighbours->normal_y[i],
                                 neighbours->normal_z[i]};
-        int same_surface = gbuffer_same_surface(normal, other_normal, way);
+        int same_surface =
+            gbuffer_same_surface(normal, other_normal, way_to(neighbours, i, position));
         int any = neighbours->object[i] != PS_NO_OBJECT;
         int same_object = any & (neighbours->object[i] == object);
         likeness[i] = any + same_object + (same_object & same_surface);
@@ -132,63 +143,86 @@ static int compare(const struct neighbours *neighbours, const ps_tile *tile, uin
     return most;
 }
 
-/* Gives a sample the mean of the radiance of the neighbours that are as like as `most`. */
-static void borrow_radiance(const struct neighbours *neighbours, const int likeness[NEIGHBOURS],
-                            int most, float scale, ps_tile *tile, uint32_t lane)
+/* The share of each neighbour in a sample's light: of those that are most like it, by their nearness, or `evenly`. Returns how many
+ * of them see its surface. */
+static float find_shares(const struct neighbours *neighbours, const ps_tile *tile, uint32_t lane,
+                         bool evenly, float shares[NEIGHBOURS])
+{
+    int likeness[NEIGHBOURS];
+    int most = compare(neighbours, tile, lane, likeness);
+    ps_vec3 position = ps_tile_position(tile, lane);
+    float sum = 0.0f, count = 0.0f;
+#pragma omp simd reduction(+ : sum, count)
+    for (int i = 0; i < NEIGHBOURS; i++) {
+        float weight = evenly ? 1.0f : nearness(way_to(neighbours, i, position));
+        shares[i] = likeness[i] == most ? weight : 0.0f;
+        sum += shares[i];
+        count += likeness[i] == SAME_SURFACE ? 1.0f : 0.0f;
+    }
+    float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
+    for (int i = 0; i < NEIGHBOURS; i++)
+        shares[i] *= scale;
+    return count;
+}
+
+static void borrow_radiance(const struct neighbours *neighbours, const float shares[NEIGHBOURS],
+                            ps_tile *tile, uint32_t lane)
 {
     ps_rgb sum = {0, 0, 0};
     if (!tile->radiance_r)
         return;
     for (int i = 0; i < NEIGHBOURS; i++)
-        if (likeness[i] == most)
-            sum = ps_rgb_add(sum, neighbours->radiance[i]);
-    tile->radiance_r[lane] = scale * sum.r;
-    tile->radiance_g[lane] = scale * sum.g;
-    tile->radiance_b[lane] = scale * sum.b;
+        sum = ps_rgb_add(sum, ps_rgb_scale(neighbours->radiance[i], shares[i]));
+    tile->radiance_r[lane] = sum.r;
+    tile->radiance_g[lane] = sum.g;
+    tile->radiance_b[lane] = sum.b;
 }
 
-/* Gives a sample the mean of the indirect light that the pixels around found on its surface. Returns how many of them look at
- * that; of those that see none of it, all do. */
-static float borrow_indirect(const struct neighbours *neighbours, ps_tile *tile, uint32_t lane)
+/* Gives a sample the indirect light that the pixels around found. Returns how many of them see its surface. */
+static float borrow_from_neighbours(const struct neighbours *neighbours, bool evenly, ps_tile *tile,
+                                    uint32_t lane)
 {
-    int likeness[NEIGHBOURS];
-    int most = compare(neighbours, tile, lane, likeness);
-    float r = 0.0f, g = 0.0f, b = 0.0f, weight = 0.0f, count = 0.0f;
-#pragma omp simd reduction(+ : r, g, b, weight, count)
+    float shares[NEIGHBOURS];
+    float count = find_shares(neighbours, tile, lane, evenly, shares);
+    float r = 0.0f, g = 0.0f, b = 0.0f, weight = 0.0f;
+#pragma omp simd reduction(+ : r, g, b, weight)
     for (int i = 0; i < NEIGHBOURS; i++) {
-        float share = likeness[i] == most ? 1.0f : 0.0f;
-        r += share * neighbours->r[i];
-        g += share * neighbours->g[i];
-        b += share * neighbours->b[i];
-        weight += share * neighbours->weight[i];
-        count += share;
+        r += shares[i] * neighbours->r[i];
+        g += shares[i] * neighbours->g[i];
+        b += shares[i] * neighbours->b[i];
+        weight += shares[i] * neighbours->weight[i];
     }
-    float scale = count > 0.0f ? 1.0f / count : 0.0f;
-    tile->irradiance_r[lane] = scale * r;
-    tile->irradiance_g[lane] = scale * g;
-    tile->irradiance_b[lane] = scale * b;
-    tile->weight[lane] = scale * weight;
-    borrow_radiance(neighbours, likeness, most, scale, tile, lane);
-    return most == SAME_SURFACE ? count : NEIGHBOURS;
+    tile->irradiance_r[lane] = r;
+    tile->irradiance_g[lane] = g;
+    tile->irradiance_b[lane] = b;
+    tile->weight[lane] = weight;
+    borrow_radiance(neighbours, shares, tile, lane);
+    return count;
 }
 
-/* The same of those in a tile, if they are more than `count`. */
-static void borrow_from_tile(const ps_tile *from, float count, ps_tile *tile, uint32_t lane)
+/* The same of those in a tile that see the sample's surface, if they are more than `count`. */
+static void borrow_from_tile(const ps_tile *from, float count, bool evenly, ps_tile *tile,
+                             uint32_t lane)
 {
-    float alike[PS_TILE_PIXELS], r = 0.0f, g = 0.0f, b = 0.0f;
-    float found = gbuffer_alike(from, ps_tile_position(tile, lane), ps_tile_normal(tile, lane),
-                                tile->object[lane], alike);
+    float alike[PS_TILE_PIXELS], r = 0.0f, g = 0.0f, b = 0.0f, sum = 0.0f;
+    ps_vec3 position = ps_tile_position(tile, lane);
+    float found =
+        gbuffer_alike(from, position, ps_tile_normal(tile, lane), tile->object[lane], alike);
     if (!(found > count))
         return;
-#pragma omp simd reduction(+ : r, g, b)
+#pragma omp simd reduction(+ : r, g, b, sum)
     for (int i = 0; i < PS_TILE_PIXELS; i++) {
-        r += alike[i] * from->irradiance_r[i];
-        g += alike[i] * from->irradiance_g[i];
-        b += alike[i] * from->irradiance_b[i];
+        ps_vec3 way = {from->position_x[i] - position.x, from->position_y[i] - position.y,
+                       from->position_z[i] - position.z};
+        float share = alike[i] * (evenly ? 1.0f : nearness(way));
+        r += share * from->irradiance_r[i];
+        g += share * from->irradiance_g[i];
+        b += share * from->irradiance_b[i];
+        sum += share;
     }
-    tile->irradiance_r[lane] = r / found;
-    tile->irradiance_g[lane] = g / found;
-    tile->irradiance_b[lane] = b / found;
+    tile->irradiance_r[lane] = r / sum;
+    tile->irradiance_g[lane] = g / sum;
+    tile->irradiance_b[lane] = b / sum;
 }
 
 /* What gloss mirrors is seen by few of the pixels around, each by chance, and the noise of one would be that of all. */
@@ -196,11 +230,12 @@ static void light_look(const struct edge_pass *pass, const struct neighbours *ne
                        struct looks *looks, uint32_t look)
 {
     uint32_t lane;
-    float count = borrow_indirect(neighbours, &looks->tile, look);
-    if (!looks->by_chance[look] || count >= FEW)
+    bool by_chance = looks->by_chance[look];
+    float count = borrow_from_neighbours(neighbours, by_chance, &looks->tile, look);
+    if (count >= (by_chance ? FEW : 1.0f))
         return;
     uint32_t tile = gbuffer_tile_of(pass->gbuffer, looks->x[look], looks->y[look], &lane);
-    borrow_from_tile(&pass->gbuffer->tiles[tile], count, &looks->tile, look);
+    borrow_from_tile(&pass->gbuffer->tiles[tile], count, by_chance, &looks->tile, look);
 }
 
 static bool same_pixel(const struct looks *looks, uint32_t i, uint32_t j)

@@ -5,8 +5,10 @@
  * 1980, "An improved illumination model for shaded display", section 3) looks again only where a pixel
  * differs from a neighbour: in its surface, in its albedo, or in the light that comes from it straight
  * from the lights, if by more than the noise of its shadow rays. Each further sample has surface, emission and
- * direct light of its own. Its indirect light, which is smooth and dear, is the mean of what the pixels around found on the same surface, so that
- * estimators are not asked again (before that, fireflies.h). All pixels look at the same places in them. Tracing at a higher resolution would
+ * direct light of its own. Its indirect light, which is dear, comes from what the pixels around found on the same surface (before that,
+ * fireflies.h), so that estimators are not asked again: the mean of these by inverse square distance (Shepard 1968, "A two-dimensional
+ * interpolation function for irregularly-spaced data"), since light changes fast in corners and under eaves; where chance decides
+ * what a pixel shows, evenly, as few see the same. All pixels look at the same places in them. Tracing at a higher resolution would
  * cost everywhere.
  *
  * Pass 0 decides for all, whether it is rendered here or not. If each decided for itself, looks that are rare (at things thinner than a
@@ -15,8 +17,8 @@
  * lens, in gloss, or in a surface that mirrors and lets through. A single pass still misses things too thin
  * for the middle of any pixel, but beside an edge.
  *
- * Where no pixel around sees a sample's surface, it takes the mean of those that see its object, or else
- * of all that see any.
+ * Where no pixel around sees a sample's surface, it asks all of the tile; if none of these does, those around
+ * that see its object, or else all that see any.
  */
 #ifndef VIEW_EDGES_H
 #define VIEW_EDGES_H

@@ -154,6 +154,43 @@ static void test_passes_add_to_it(void **state)
     rendering_release(&sixteen);
 }
 
+/* A beam on posts before a lamp: its underside shows as four rows of pixels, brightest where it meets the posts. */
+static const char beam[] =
+    "psd: 1\n"
+    "camera: {location: [0, 1.2, 8.5], look_at: [-0.5, 2.7, -2], angle: 10}\n"
+    "image: {width: 96, height: 54}\n"
+    "materials: {stone: {diffuse: 0.8}}\n"
+    "lights:\n"
+    "  - point: {location: [0, 3.6, 0.5], intensity: 40}\n"
+    "objects:\n"
+    "  - quad: {corners: [[-6, 0, 7], [6, 0, 7], [6, 0, -4], [-6, 0, -4]], material: stone}\n"
+    "  - box: {corners: [[-1.25, 0, -2.3], [-0.75, 2.8, -1.9]], material: stone}\n"
+    "  - box: {corners: [[0.25, 0, -2.3], [0.75, 2.8, -1.9]], material: stone}\n"
+    "  - box: {corners: [[-3.6, 2.8, -2.4], [3.6, 3.2, -1.6]], material: stone}\n"
+    "render: {passes: %d, aa_samples: %d}\n";
+
+static struct rendering look_at_beam(const char *estimator, int passes, int aa_samples)
+{
+    const char *const choices[] = {estimator, NULL};
+    char text[2048];
+    snprintf(text, sizeof text, beam, passes, aa_samples);
+    return render_text(text, 2, choices);
+}
+
+/* Samples at edges have the light of pixels that are near to what they see, and see the same surface: the underside has no light of
+ * the front's. */
+static void test_light_at_edges_is_that_nearby(void **state)
+{
+    (void)state;
+    struct rendering reference = look_at_beam("estimator=pathtrace:samples=32", 256, 1);
+    struct rendering smooth = look_at_beam("estimator=pathtrace:samples=1024", 1, 16);
+    double error = error_of(&smooth, &reference, "indirect.G");
+    print_message("indirect light of the beam: %.2f %%\n", 100 * error);
+    assert_true(error < 0.045);
+    rendering_release(&reference);
+    rendering_release(&smooth);
+}
+
 /* How often a render asks whether it was cancelled, and when it is told so. */
 struct patience {
     int asked, most;
@@ -201,9 +238,8 @@ static void test_cancelled_at_the_edges(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_pass_comes_close_to_many),
-        SLOW_TEST(test_passes_add_to_it),
-        cmocka_unit_test(test_the_mean_stays),
+        cmocka_unit_test(test_one_pass_comes_close_to_many),  SLOW_TEST(test_passes_add_to_it),
+        cmocka_unit_test(test_light_at_edges_is_that_nearby), cmocka_unit_test(test_the_mean_stays),
         cmocka_unit_test(test_cancelled_at_the_edges),
     };
     return RUN_TESTS(tests);
