@@ -56,6 +56,31 @@ static void test_guided_rays_count_by_their_pdf(void **state)
     assert_true(shared_out < 0.38 * unguided);
 }
 
+/* A ball across the edge of its shade, in one tile: the patch of floor that lights it lies below the horizon of half of the pixels. */
+static const char ball[] =
+    "psd: 1\n"
+    "camera: {location: [0, 2, 6], look_at: [0.25, 1.75, 0.93], angle: 8}\n"
+    "image: {width: 32, height: 32}\n"
+    "materials: {white: {diffuse: 0.7}}\n"
+    "lights: [spotlight: {location: [2, 1, 0], point_at: [2, 0, 0], radius: 12, falloff: 14, "
+    "intensity: 100}]\n"
+    "objects:\n"
+    "  - quad: {corners: [[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], material: white}\n"
+    "  - sphere: {center: [0, 2, 0], radius: 1, material: white}\n"
+    "render: {bounces: 1, passes: 1}\n";
+
+/* Rays of a guide that faced as the first pixel does would find all light of some pixels by the cosine alone. */
+static void test_guides_of_bent_surfaces(void **state)
+{
+    (void)state;
+    static const char *const strategies[] = {"estimator=gather:samples=64", "denoiser=none", NULL};
+    struct rendering rendering = render_text(ball, 2, strategies);
+    double grain = grain_of(&rendering.image, "indirect.G", 1, 1, 30, 30);
+    print_message("noise at the edge of a ball's shade: %.3f\n", grain);
+    assert_true(grain < 2.2);
+    rendering_release(&rendering);
+}
+
 static double mean_by(const char *estimator, int seed)
 {
     struct rendering rendering = render_by(estimator, seed);
@@ -84,6 +109,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_guided_rays_count_by_their_pdf),
+        cmocka_unit_test(test_guides_of_bent_surfaces),
         cmocka_unit_test(test_weights_keep_the_mean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,13 +19,19 @@ static float light_of(ps_vec3 direction)
     return direction.x > 0.5f && direction.z > 0.5f ? 10.0f * direction.x : 0.0f;
 }
 
-static void learn(struct guide *guide, struct random *random, size_t rays)
+static void learn_from_a(ps_vec3 normal, struct guide *guide, struct random *random, size_t rays)
 {
     for (size_t i = 0; i < rays; i++) {
-        ps_vec3 direction = ps_cosine_direction(up, random_unit(random), random_unit(random));
-        guide_learn(guide, (int)(i % 2), guide_bin_of(guide, up, direction), light_of(direction));
+        ps_vec3 direction = ps_cosine_direction(normal, random_unit(random), random_unit(random));
+        guide_learn(guide, (int)(i % 2), guide_bin_of(guide, normal, direction),
+                    light_of(direction));
     }
     guide_update(guide);
+}
+
+static void learn(struct guide *guide, struct random *random, size_t rays)
+{
+    learn_from_a(up, guide, random, rays);
 }
 
 static void test_knows_nothing_at_first(void **state)
@@ -149,13 +155,41 @@ static void test_learns_from_another(void **state)
     }
 }
 
+/* Of a lesson by a guide that faces another way: as much light as the guide's own normal has, and from there. */
+static void test_learns_from_one_that_faces_another_way(void **state)
+{
+    (void)state;
+    struct guide guide, other, own;
+    struct random random = {13};
+    const ps_vec3 tilted = ps_normalize((ps_vec3){0.3f, 0.2f, 1.0f});
+    double all = 0, told = 0, there = 0;
+    guide_begin(&guide, up);
+    guide_begin(&own, up);
+    guide_begin(&other, tilted);
+    learn(&own, &random, RAYS);
+    learn_from_a(tilted, &other, &random, RAYS);
+    struct guide_lesson lesson = lesson_of(&other);
+    guide_learn_from(&guide, &lesson, 1.0f);
+    for (int i = 0; i < GUIDE_BINS; i++) {
+        int ring = i / GUIDE_SECTORS, sector = i % GUIDE_SECTORS;
+        double told_here =
+            (double)guide.found[0][ring][sector] + (double)guide.found[1][ring][sector];
+        all += (double)own.found[0][ring][sector] + (double)own.found[1][ring][sector];
+        told += told_here;
+        there += own.known[ring][sector] > 0.0f ? told_here : 0.0;
+    }
+    print_message("told %.3f of the light, %.3f of it where that is\n", told / all, there / told);
+    assert_float_equal(told / all, 1.0, 0.05);
+    assert_true(there / told > 0.9);
+}
+
 static void test_learns_nothing_from_another_side(void **state)
 {
     (void)state;
     struct guide guide, other;
     struct random random = {13};
     guide_begin(&guide, up);
-    guide_begin(&other, ps_normalize((ps_vec3){0.3f, 0.0f, 1.0f}));
+    guide_begin(&other, ps_normalize((ps_vec3){1.5f, 0.0f, 1.0f}));
     learn(&other, &random, 1000);
     struct guide_lesson lesson = lesson_of(&other);
     guide_learn_from(&guide, &lesson, 0.5f);
@@ -172,6 +206,7 @@ int main(void)
         cmocka_unit_test(test_smooth_ratio_is_a_pdf_s),
         cmocka_unit_test(test_the_other_half_weighs),
         cmocka_unit_test(test_learns_from_another),
+        cmocka_unit_test(test_learns_from_one_that_faces_another_way),
         cmocka_unit_test(test_learns_nothing_from_another_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -24,6 +24,25 @@ static uint8_t choose_guide(struct gather *gather, ps_vec3 normal)
     return (uint8_t)gather->guide_count++;
 }
 
+/* Turns guides to the mean of the normals that share them: of a bent surface, the horizon of one point would hide the light of another,
+ * which rays by the cosine alone would find. */
+static void face_mean_normals(struct gather *gather)
+{
+    ps_vec3 sums[GATHER_GUIDES] = {{0, 0, 0}};
+    bool is_bent[GATHER_GUIDES] = {false};
+    for (size_t i = 0; i < gather->points.count; i++) {
+        uint8_t which = gather->guide_of[i];
+        ps_vec3 normal = gather->points.normals[i], first = gather->guides[which].normal;
+        if (ps_dot(normal, first) < SAME_FACING)
+            continue;
+        sums[which] = ps_add(sums[which], normal);
+        is_bent[which] |= !ps_same(normal, first);
+    }
+    for (uint32_t i = 0; i < gather->guide_count; i++)
+        if (is_bent[i])
+            guide_begin(&gather->guides[i], ps_normalize(sums[i]));
+}
+
 void gather_begin(struct gather *gather)
 {
     gather->guide_count = 0;
@@ -32,6 +51,7 @@ void gather_begin(struct gather *gather)
         gather->first.shares[i] = 1.0f;
         gather->guide_of[i] = choose_guide(gather, gather->points.normals[i]);
     }
+    face_mean_normals(gather);
 }
 
 /* --- samples --- */

@@ -5,8 +5,9 @@
 
 _Static_assert(GUIDE_SECTORS == 16, "sector_of");
 
-#define BY_COSINE 0.25f  /* share of the rays */
-#define SAME_FRAME 0.99f /* cosine between axes */
+#define BY_COSINE 0.25f     /* share of the rays */
+#define SAME_FRAME 0.99f    /* cosine between axes */
+#define SIMILAR_FACING 0.7f /* cosine between normals of guides that tell each other */
 
 void guide_begin(struct guide *guide, ps_vec3 normal)
 {
@@ -43,17 +44,36 @@ void guide_learn(struct guide *guide, int half, struct guide_bin bin, float irra
         guide->found[half][bin.index / GUIDE_SECTORS][bin.index % GUIDE_SECTORS] += irradiance;
 }
 
+static void learn_both(struct guide *guide, struct guide_bin bin, float irradiance)
+{
+    guide_learn(guide, 0, bin, irradiance);
+    guide_learn(guide, 1, bin, irradiance);
+}
+
+/* The bin where the middle of one of another guide's lies, and `found` as the cosine to this one's normal has it. */
+static struct guide_bin bin_from(const struct guide *guide, ps_vec3 normal, int ring, int sector,
+                                 float *found)
+{
+    ps_vec3 direction = ps_cosine_direction(normal, ((float)ring + 0.5f) / GUIDE_RINGS,
+                                            ((float)sector + 0.5f) / GUIDE_SECTORS);
+    *found *= ps_dot(direction, guide->normal) / ps_dot(direction, normal);
+    return guide_bin_of(guide, guide->normal, direction);
+}
+
 void guide_learn_from(struct guide *guide, const struct guide_lesson *lesson, float share)
 {
-    if (!(ps_dot(guide->normal, lesson->normal) > SAME_FRAME &&
-          ps_dot(guide->u, lesson->u) > SAME_FRAME))
+    float facing = ps_dot(guide->normal, lesson->normal);
+    bool has_frame = facing > SAME_FRAME && ps_dot(guide->u, lesson->u) > SAME_FRAME;
+    if (!(facing > SIMILAR_FACING))
         return;
     for (int ring = 0; ring < GUIDE_RINGS; ring++)
         for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
+            struct guide_bin bin = {ring * GUIDE_SECTORS + sector, 1.0f};
             float found =
                 0.5f * share * (lesson->found[0][ring][sector] + lesson->found[1][ring][sector]);
-            guide->found[0][ring][sector] += found;
-            guide->found[1][ring][sector] += found;
+            if (found > 0.0f && !has_frame)
+                bin = bin_from(guide, lesson->normal, ring, sector, &found);
+            learn_both(guide, bin, found);
         }
 }
 

@@ -55,7 +55,7 @@ struct guide_bin guide_bin_of(const struct guide *guide, ps_vec3 normal, ps_vec3
 void guide_learn(struct guide *guide, int half, struct guide_bin bin, float irradiance);
 
 /* What `share` of the light that another guide's rays found, both halves, tells both halves of this one: as long as none of its own
- * rays is among them. Nothing where the other has another frame: a surface that is bent. */
+ * rays is among them. Of one that faces another way, by the directions of its bins; by more than 45 degrees, nothing. */
 void guide_learn_from(struct guide *guide, const struct guide_lesson *lesson, float share);
 
 /* From now on rays are drawn by what was learnt. */
