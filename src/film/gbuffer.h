@@ -171,6 +171,13 @@ static inline int gbuffer_same_surface(ps_vec3 normal, ps_vec3 other_normal, ps_
     return faces_alike & in_plane;
 }
 
+/* What a point counts for another that lies `way` from it: inverse distance weighting (Shepard 1968, "A two-dimensional interpolation
+ * function for irregularly-spaced data"). One in the same place counts, too. For loops of vectors. */
+static inline float gbuffer_nearness(ps_vec3 way)
+{
+    return 1.0f / (ps_dot(way, way) + 1e-20f);
+}
+
 /* Which lanes of a tile may show the surface of an object at that place: 1 or 0. Returns how many. */
 float gbuffer_alike(const ps_tile *tile, ps_vec3 position, ps_vec3 normal, uint32_t object,
                     float alike[PS_TILE_PIXELS]);

@@ -110,12 +110,6 @@ static void find_neighbours(const struct gbuffer *gbuffer, uint32_t x, uint32_t 
         }
 }
 
-/* What a point counts for another so far away: inverse distance weighting (Shepard 1968). Those in the same place have a weight, too. */
-static inline float nearness(ps_vec3 way)
-{
-    return 1.0f / (ps_dot(way, way) + 1e-20f);
-}
-
 static inline ps_vec3 way_to(const struct neighbours *neighbours, int i, ps_vec3 position)
 {
     return (ps_vec3){neighbours->x[i] - position.x, neighbours->y[i] - position.y,
@@ -143,10 +137,10 @@ static int compare(const struct neighbours *neighbours, const ps_tile *tile, uin
     return most;
 }
 
-/* The share of each neighbour in a sample's light: of those that are most like it, by their nearness, or `evenly`. Returns how many
- * of them see its surface. */
+/* The share of each neighbour in a sample's light: of those that are most like it, by their nearness. Returns how many of them see
+ * its surface. */
 static float find_shares(const struct neighbours *neighbours, const ps_tile *tile, uint32_t lane,
-                         bool evenly, float shares[NEIGHBOURS])
+                         float shares[NEIGHBOURS])
 {
     int likeness[NEIGHBOURS];
     int most = compare(neighbours, tile, lane, likeness);
@@ -154,8 +148,7 @@ static float find_shares(const struct neighbours *neighbours, const ps_tile *til
     float sum = 0.0f, count = 0.0f;
 #pragma omp simd reduction(+ : sum, count)
     for (int i = 0; i < NEIGHBOURS; i++) {
-        float weight = evenly ? 1.0f : nearness(way_to(neighbours, i, position));
-        shares[i] = likeness[i] == most ? weight : 0.0f;
+        shares[i] = likeness[i] == most ? gbuffer_nearness(way_to(neighbours, i, position)) : 0.0f;
         sum += shares[i];
         count += likeness[i] == SAME_SURFACE ? 1.0f : 0.0f;
     }
@@ -179,11 +172,11 @@ static void borrow_radiance(const struct neighbours *neighbours, const float sha
 }
 
 /* Gives a sample the indirect light that the pixels around found. Returns how many of them see its surface. */
-static float borrow_from_neighbours(const struct neighbours *neighbours, bool evenly, ps_tile *tile,
+static float borrow_from_neighbours(const struct neighbours *neighbours, ps_tile *tile,
                                     uint32_t lane)
 {
     float shares[NEIGHBOURS];
-    float count = find_shares(neighbours, tile, lane, evenly, shares);
+    float count = find_shares(neighbours, tile, lane, shares);
     float r = 0.0f, g = 0.0f, b = 0.0f, weight = 0.0f;
 #pragma omp simd reduction(+ : r, g, b, weight)
     for (int i = 0; i < NEIGHBOURS; i++) {
@@ -201,8 +194,7 @@ static float borrow_from_neighbours(const struct neighbours *neighbours, bool ev
 }
 
 /* The same of those in a tile that see the sample's surface, if they are more than `count`. */
-static void borrow_from_tile(const ps_tile *from, float count, bool evenly, ps_tile *tile,
-                             uint32_t lane)
+static void borrow_from_tile(const ps_tile *from, float count, ps_tile *tile, uint32_t lane)
 {
     float alike[PS_TILE_PIXELS], r = 0.0f, g = 0.0f, b = 0.0f, sum = 0.0f;
     ps_vec3 position = ps_tile_position(tile, lane);
@@ -214,7 +206,7 @@ static void borrow_from_tile(const ps_tile *from, float count, bool evenly, ps_t
     for (int i = 0; i < PS_TILE_PIXELS; i++) {
         ps_vec3 way = {from->position_x[i] - position.x, from->position_y[i] - position.y,
                        from->position_z[i] - position.z};
-        float share = alike[i] * (evenly ? 1.0f : nearness(way));
+        float share = alike[i] * gbuffer_nearness(way);
         r += share * from->irradiance_r[i];
         g += share * from->irradiance_g[i];
         b += share * from->irradiance_b[i];
@@ -230,12 +222,11 @@ static void light_look(const struct edge_pass *pass, const struct neighbours *ne
                        struct looks *looks, uint32_t look)
 {
     uint32_t lane;
-    bool by_chance = looks->by_chance[look];
-    float count = borrow_from_neighbours(neighbours, by_chance, &looks->tile, look);
-    if (count >= (by_chance ? FEW : 1.0f))
+    float count = borrow_from_neighbours(neighbours, &looks->tile, look);
+    if (count >= (looks->by_chance[look] ? FEW : 1.0f))
         return;
     uint32_t tile = gbuffer_tile_of(pass->gbuffer, looks->x[look], looks->y[look], &lane);
-    borrow_from_tile(&pass->gbuffer->tiles[tile], count, by_chance, &looks->tile, look);
+    borrow_from_tile(&pass->gbuffer->tiles[tile], count, &looks->tile, look);
 }
 
 static bool same_pixel(const struct looks *looks, uint32_t i, uint32_t j)

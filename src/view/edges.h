@@ -6,10 +6,9 @@
  * differs from a neighbour: in its surface, in its albedo, or in the light that comes from it straight
  * from the lights, if by more than the noise of its shadow rays. Each further sample has surface, emission and
  * direct light of its own. Its indirect light, which is dear, comes from what the pixels around found on the same surface (before that,
- * fireflies.h), so that estimators are not asked again: the mean of these by inverse square distance (Shepard 1968, "A two-dimensional
- * interpolation function for irregularly-spaced data"), since light changes fast in corners and under eaves; where chance decides
- * what a pixel shows, evenly, as few see the same. All pixels look at the same places in them. Tracing at a higher resolution would
- * cost everywhere.
+ * fireflies.h), so that estimators are not asked again: the mean of these by inverse square distance (gbuffer_nearness()), since light
+ * changes fast in corners and under eaves, and what two pixels find by chance may lie far apart. All pixels look at the same
+ * places in them. Tracing at a higher resolution would cost everywhere.
  *
  * Pass 0 decides for all, whether it is rendered here or not. If each decided for itself, looks that are rare (at things thinner than a
  * pixel, at what glass mirrors) would be replaced by a mean, and common ones kept: light would go missing,

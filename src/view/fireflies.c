@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define TOO_BRIGHT 2.0f /* times the mean of the others */
+#define TOO_BRIGHT 2.0f /* times the mean of the others, and that of those nearby */
 #define FEWEST 8.0f     /* of which there must be so many */
 
 /* What a tile's fireflies share out. */
@@ -28,12 +28,21 @@ static float find_others(const ps_tile *tile, uint32_t lane, float others[PS_TIL
     return count;
 }
 
-static float mean_brightness(const ps_tile *tile, const float others[PS_TILE_PIXELS], float count)
+/* The mean of the others, or that by their nearness if it is larger: light that is bright in a part of a surface is no firefly. */
+static float mean_brightness(const ps_tile *tile, uint32_t lane, const float others[PS_TILE_PIXELS],
+                             float count)
 {
-    float sum = 0.0f;
-    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++)
-        sum += others[i] * brightness(tile, i);
-    return sum / count;
+    ps_vec3 position = ps_tile_position(tile, lane);
+    float sum = 0.0f, nearby = 0.0f, weight = 0.0f;
+#pragma omp simd reduction(+ : sum, nearby, weight)
+    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
+        ps_vec3 way = ps_subtract(ps_tile_position(tile, i), position);
+        float near = others[i] * gbuffer_nearness(way), bright = brightness(tile, i);
+        sum += others[i] * bright;
+        nearby += near * bright;
+        weight += near;
+    }
+    return ps_max(sum / count, nearby / weight);
 }
 
 /* Whether a pixel is one: then it gives. */
@@ -43,7 +52,7 @@ static bool share_out(const ps_tile *tile, uint32_t lane, struct shares *shares)
     if (count < FEWEST)
         return false;
     float bright = brightness(tile, lane);
-    float limit = TOO_BRIGHT * mean_brightness(tile, others, count);
+    float limit = TOO_BRIGHT * mean_brightness(tile, lane, others, count);
     if (!(bright > limit))
         return false;
     shares->keep[lane] = limit / bright;

@@ -2,7 +2,7 @@
  *
  * Where pixels show what they do by chance (gbuffer.h), their samples share the mean of what the pixels around found (edges.h): a firefly
  * among these becomes a square as large as that mean, which no denoiser tells from light. So before that, what a pixel
- * has beyond a multiple of the mean of the others that are alike is shared out evenly to those. All within a tile: no light
+ * has beyond a multiple of the mean of the others that are alike, and of those nearby among them, is shared out evenly to all. All within a tile: no light
  * is lost, as clamping loses it, and nothing is seen of it, since they are many.
  */
 #ifndef VIEW_FIREFLIES_H

@@ -191,6 +191,44 @@ static void test_light_at_edges_is_that_nearby(void **state)
     rendering_release(&smooth);
 }
 
+/* Through a pane the foot of a bright wall is seen, and the floor before the pane, mirrored: what of it a sample has, chance decides. */
+static const char pane[] =
+    "psd: 1\n"
+    "camera: {location: [0, 1.2, -2], look_at: [0, 0.45, 0], angle: 12}\n"
+    "image: {width: 32, height: 32}\n"
+    "materials: {stone: {diffuse: 0.8}, glass: {dielectric: {ior: 1.5}}}\n"
+    "lights:\n"
+    "  - spotlight: {location: [0, 0.4, 1.2], point_at: [0, 0.3, 2], radius: 15, falloff: 20,\n"
+    "                intensity: 10}\n"
+    "objects:\n"
+    "  - quad: {corners: [[-9, 0, -9], [-9, 0, 2], [9, 0, 2], [9, 0, -9]], material: stone}\n"
+    "  - quad: {corners: [[-9, 0, 2], [-9, 1, 2], [9, 1, 2], [9, 0, 2]], material: stone}\n"
+    "  - quad: {corners: [[-2, 0.1, 0], [-2, 2, 0], [2, 2, 0], [2, 0.1, 0]], material: glass}\n"
+    "render: {passes: %d, aa_samples: %d}\n";
+
+static struct rendering look_through_pane(int passes, int aa_samples)
+{
+    static const char *const choices[] = {"estimator=pathtrace:samples=16", NULL};
+    char text[2048];
+    snprintf(text, sizeof text, pane, passes, aa_samples);
+    return render_text(text, 2, choices);
+}
+
+/* The light of the floor falls off steeply, and is no chance that a tile's pixels might share. */
+static void test_light_behind_glass_stays_where_it_is(void **state)
+{
+    (void)state;
+    struct rendering reference = look_through_pane(512, 1), smooth = look_through_pane(32, 16);
+    for (size_t y = 15; y < 28; y += 8) {
+        double expected = mean_of(&reference.image, "indirect.G", 0, y, 32, 4);
+        double mean = mean_of(&smooth.image, "indirect.G", 0, y, 32, 4);
+        print_message("rows from %zu on: %.3f of the light\n", y, mean / expected);
+        assert_float_equal(mean / expected, 1.0, 0.05);
+    }
+    rendering_release(&reference);
+    rendering_release(&smooth);
+}
+
 /* How often a render asks whether it was cancelled, and when it is told so. */
 struct patience {
     int asked, most;
@@ -238,8 +276,11 @@ static void test_cancelled_at_the_edges(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_pass_comes_close_to_many),  SLOW_TEST(test_passes_add_to_it),
-        cmocka_unit_test(test_light_at_edges_is_that_nearby), cmocka_unit_test(test_the_mean_stays),
+        cmocka_unit_test(test_one_pass_comes_close_to_many),
+        SLOW_TEST(test_passes_add_to_it),
+        cmocka_unit_test(test_light_at_edges_is_that_nearby),
+        cmocka_unit_test(test_light_behind_glass_stays_where_it_is),
+        cmocka_unit_test(test_the_mean_stays),
         cmocka_unit_test(test_cancelled_at_the_edges),
     };
     return RUN_TESTS(tests);
