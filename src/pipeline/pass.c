@@ -112,11 +112,16 @@ static void add_tile(void *user, uint64_t index, uint32_t worker)
     film_add_tile(&work->render->film, &work->render->gbuffer, (uint32_t)index, NULL);
 }
 
-static void spread_fireflies(void *user, uint64_t index, uint32_t worker)
+/* Adds a tile's pixels off the edges as they are; those at edges share what is left when fireflies are spread. */
+static void add_off_edges(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct tile_work *work = user;
-    fireflies_spread(&work->render->gbuffer, (uint32_t)index);
+    struct render *render = work->render;
+    const bool *edges = render->edges + index * PS_TILE_PIXELS;
+    if (film_has_tile(&render->film, &render->gbuffer, (uint32_t)index))
+        film_add_tile(&render->film, &render->gbuffer, (uint32_t)index, edges);
+    fireflies_spread(&render->gbuffer, (uint32_t)index);
 }
 
 static void smooth_tile(void *user, uint64_t index, uint32_t worker)
@@ -287,7 +292,7 @@ static ps_result end_pass(struct tile_work *work, struct error *error)
         add_tiles(work);
         return PS_OK;
     }
-    over_tiles(work, "edges", spread_fireflies);
+    over_tiles(work, "edges", add_off_edges);
     over_tiles(work, "edges", smooth_tile);
     film_end_pass(&render->film);
     if (!work->skipped)

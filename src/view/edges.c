@@ -317,9 +317,6 @@ void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *fi
 {
     assert(tile < pass->gbuffer->tile_count);
     const bool *edges = &pass->edges[(size_t)tile * PS_TILE_PIXELS];
-    if (!film_has_tile(film, pass->gbuffer, tile))
-        return;
-    film_add_tile(film, pass->gbuffer, tile, edges);
-    if (has_edges(edges))
+    if (film_has_tile(film, pass->gbuffer, tile) && has_edges(edges))
         look_again(pass, tile, edges, film);
 }

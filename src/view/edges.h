@@ -39,8 +39,8 @@ struct edge_pass {
  * chance. Reads neighbouring tiles. */
 void edges_find(const struct gbuffer *gbuffer, uint32_t tile, bool edges[PS_TILE_PIXELS]);
 
-/* Adds a tile to the film: pixels at edges by the mean of their samples, the others by what they hold. Any
- * thread, a tile each. */
+/* Adds a tile's pixels at edges to the film, by the mean of their samples. Any thread, a tile each, when fireflies_spread() is
+ * done for all tiles. */
 void edges_add_tile(const struct edge_pass *pass, uint32_t tile, struct film *film);
 
 #endif

@@ -4,18 +4,25 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define TOO_BRIGHT 2.0f /* times the mean of the others, and that of those nearby */
-#define FEWEST 8.0f     /* of which there must be so many */
+/* Times the mean of the others, and that of those nearby: where chance decides what a pixel shows, and elsewhere. */
+#define TOO_BRIGHT_BY_CHANCE 2.0f
+#define TOO_BRIGHT 4.0f
+#define FEWEST 8.0f /* of which there must be so many */
 
 /* What a tile's fireflies share out. */
 struct shares {
-    float keep[PS_TILE_PIXELS];                                    /* of their own light */
+    float bright[PS_TILE_PIXELS]; /* before that: sum of the colours */
+    float keep[PS_TILE_PIXELS];   /* of their own light */
     float r[PS_TILE_PIXELS], g[PS_TILE_PIXELS], b[PS_TILE_PIXELS]; /* what is added to each pixel */
 };
 
-static float brightness(const ps_tile *tile, uint32_t lane)
+static void begin(const ps_tile *tile, struct shares *shares)
 {
-    return tile->irradiance_r[lane] + tile->irradiance_g[lane] + tile->irradiance_b[lane];
+    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
+        shares->bright[i] = tile->irradiance_r[i] + tile->irradiance_g[i] + tile->irradiance_b[i];
+        shares->keep[i] = 1.0f;
+        shares->r[i] = shares->g[i] = shares->b[i] = 0.0f;
+    }
 }
 
 /* Those that show the surface of a pixel: 1 for each, and 0 for itself. Returns how many. */
@@ -29,30 +36,30 @@ static float find_others(const ps_tile *tile, uint32_t lane, float others[PS_TIL
 }
 
 /* The mean of the others, or that by their nearness if it is larger: light that is bright in a part of a surface is no firefly. */
-static float mean_brightness(const ps_tile *tile, uint32_t lane, const float others[PS_TILE_PIXELS],
-                             float count)
+static float mean_of_others(const ps_tile *tile, uint32_t lane, const float others[PS_TILE_PIXELS],
+                            float count, const struct shares *shares)
 {
     ps_vec3 position = ps_tile_position(tile, lane);
     float sum = 0.0f, nearby = 0.0f, weight = 0.0f;
 #pragma omp simd reduction(+ : sum, nearby, weight)
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
         ps_vec3 way = ps_subtract(ps_tile_position(tile, i), position);
-        float near = others[i] * gbuffer_nearness(way), bright = brightness(tile, i);
-        sum += others[i] * bright;
-        nearby += near * bright;
+        float near = others[i] * gbuffer_nearness(way);
+        sum += others[i] * shares->bright[i];
+        nearby += near * shares->bright[i];
         weight += near;
     }
     return ps_max(sum / count, nearby / weight);
 }
 
-/* Whether a pixel is one: then it gives. */
-static bool share_out(const ps_tile *tile, uint32_t lane, struct shares *shares)
+/* Whether a pixel is one, with more than so many times the mean: then it gives. */
+static bool share_out(const ps_tile *tile, uint32_t lane, float times, struct shares *shares)
 {
     float others[PS_TILE_PIXELS], count = find_others(tile, lane, others);
     if (count < FEWEST)
         return false;
-    float bright = brightness(tile, lane);
-    float limit = TOO_BRIGHT * mean_brightness(tile, lane, others, count);
+    float bright = shares->bright[lane];
+    float limit = times * mean_of_others(tile, lane, others, count, shares);
     if (!(bright > limit))
         return false;
     shares->keep[lane] = limit / bright;
@@ -65,6 +72,18 @@ static bool share_out(const ps_tile *tile, uint32_t lane, struct shares *shares)
     return true;
 }
 
+/* Whether a pixel is so many times as bright as two of the tile's beside it, as most fireflies are: which is soon told. */
+static bool stands_out(const float bright[PS_TILE_PIXELS], uint32_t lane, float times)
+{
+    uint32_t x = lane % PS_TILE_SIZE, y = lane / PS_TILE_SIZE, last = PS_TILE_SIZE - 1;
+    float own = bright[lane];
+    float left = x > 0 ? bright[lane - 1] : own, right = x < last ? bright[lane + 1] : own;
+    float above = y > 0 ? bright[lane - PS_TILE_SIZE] : own;
+    float below = y < last ? bright[lane + PS_TILE_SIZE] : own;
+    float darker = ps_max(ps_min(left, right), ps_min(above, below));
+    return own > times * ps_min(darker, ps_min(ps_max(left, right), ps_max(above, below)));
+}
+
 static void add(float *irradiance, const float *keep, const float *more)
 {
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++)
@@ -75,13 +94,14 @@ void fireflies_spread(struct gbuffer *gbuffer, uint32_t index)
 {
     ps_tile *tile = &gbuffer->tiles[index];
     const bool *by_chance = &gbuffer->by_chance[(size_t)index * PS_TILE_PIXELS];
-    struct shares shares = {.keep = {0.0f}};
+    struct shares shares;
     bool any = false;
-    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
-        shares.keep[lane] = 1.0f;
-    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
-        if (by_chance[lane] && tile->object[lane] != PS_NO_OBJECT)
-            any |= share_out(tile, lane, &shares);
+    begin(tile, &shares);
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        float times = by_chance[lane] ? TOO_BRIGHT_BY_CHANCE : TOO_BRIGHT;
+        if (tile->object[lane] != PS_NO_OBJECT && stands_out(shares.bright, lane, times))
+            any |= share_out(tile, lane, times, &shares);
+    }
     if (!any)
         return;
     add(tile->irradiance_r, shares.keep, shares.r);

@@ -69,21 +69,28 @@ static double sum(const float *plane)
     return total;
 }
 
-/* The firefly keeps twice what the others had, and these have the rest, with its colours. */
-static void test_shared_out(void **state)
+/* The firefly keeps so many times what the others had, and these have the rest, with its colours. */
+static void expect_shared_out(bool by_chance, double times)
 {
-    (void)state;
-    fill(true, 0.0f);
+    double rest = 100.0 - times;
+    fill(by_chance, 0.0f);
     brighten(BRIGHT, 100.0f);
     fireflies_spread(&gbuffer, 0);
-    assert_float_equal(tile()->irradiance_g[BRIGHT], 4.0, 1e-4);
+    assert_float_equal(tile()->irradiance_g[BRIGHT], 2.0 * times, 1e-4);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         if (lane != BRIGHT) {
-            assert_float_equal(tile()->irradiance_r[lane], 1.0 + 98.0 / 255.0, 1e-4);
-            assert_float_equal(tile()->irradiance_b[lane], 3.0 + 3 * 98.0 / 255.0, 1e-4);
+            assert_float_equal(tile()->irradiance_r[lane], 1.0 + rest / 255.0, 1e-4);
+            assert_float_equal(tile()->irradiance_b[lane], 3.0 + 3 * rest / 255.0, 1e-4);
         }
     assert_float_equal(sum(tile()->irradiance_r), 355.0, 1e-2);
     assert_float_equal(sum(tile()->irradiance_g), 710.0, 1e-2);
+}
+
+static void test_shared_out(void **state)
+{
+    (void)state;
+    expect_shared_out(true, 2.0);
+    expect_shared_out(false, 4.0);
 }
 
 /* Surfaces keep their light, each its own, whatever the other one has. */
@@ -107,24 +114,33 @@ static void test_other_surfaces(void **state)
     assert_float_equal(tile()->irradiance_r[BRIGHT], 1.0, 0.0);
 }
 
-/* So do pixels that denoisers see one by one, what is not bright enough, and what few others are like. */
+/* So does what is not bright enough, where chance decides and elsewhere, what few others are like, and the bright half of a surface. */
 static void test_left_alone(void **state)
 {
     (void)state;
-    fill(false, 0.0f);
-    brighten(BRIGHT, 100.0f);
-    fireflies_spread(&gbuffer, 0);
-    assert_float_equal(tile()->irradiance_r[BRIGHT], 100.0, 0.0);
     fill(true, 0.0f);
     brighten(BRIGHT, 1.9f);
     fireflies_spread(&gbuffer, 0);
     assert_float_equal(tile()->irradiance_r[BRIGHT], 1.9f, 0.0);
+    fill(false, 0.0f);
+    brighten(BRIGHT, 3.9f);
+    fireflies_spread(&gbuffer, 0);
+    assert_float_equal(tile()->irradiance_r[BRIGHT], 3.9f, 0.0);
     fill(true, 0.0f);
     brighten(0, 100.0f);
     for (uint32_t lane = 8; lane < PS_TILE_PIXELS; lane++)
         tile()->object[lane] = 1;
     fireflies_spread(&gbuffer, 0);
     assert_float_equal(tile()->irradiance_r[0], 100.0, 0.0);
+    fill(true, 0.0f);
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
+        if (lane % PS_TILE_SIZE >= 12)
+            brighten(lane, 100.0f);
+    fireflies_spread(&gbuffer, 0);
+    for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
+        double expected = lane % PS_TILE_SIZE >= 12 ? 100.0 : 1.0;
+        assert_float_equal(tile()->irradiance_r[lane], expected, 0.0);
+    }
 }
 
 int main(void)
