@@ -137,59 +137,58 @@ static int compare(const struct neighbours *neighbours, const ps_tile *tile, uin
     return most;
 }
 
-/* The share of each neighbour in a sample's light: of those that are most like it, by their nearness. Returns how many of them see
- * its surface. */
-static float find_shares(const struct neighbours *neighbours, const ps_tile *tile, uint32_t lane,
-                         float shares[NEIGHBOURS])
+/* What each neighbour counts for a sample: those that are most like it, by their nearness. Returns how many of them see its surface. */
+static float find_weights(const struct neighbours *neighbours, const ps_tile *tile, uint32_t lane,
+                          float weights[NEIGHBOURS])
 {
     int likeness[NEIGHBOURS];
     int most = compare(neighbours, tile, lane, likeness);
     ps_vec3 position = ps_tile_position(tile, lane);
-    float sum = 0.0f, count = 0.0f;
-#pragma omp simd reduction(+ : sum, count)
+    float count = 0.0f;
+#pragma omp simd reduction(+ : count)
     for (int i = 0; i < NEIGHBOURS; i++) {
-        shares[i] = likeness[i] == most ? gbuffer_nearness(way_to(neighbours, i, position)) : 0.0f;
-        sum += shares[i];
+        float nearness = gbuffer_nearness(way_to(neighbours, i, position));
+        weights[i] = likeness[i] == most ? nearness : 0.0f;
         count += likeness[i] == SAME_SURFACE ? 1.0f : 0.0f;
     }
-    float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
-    for (int i = 0; i < NEIGHBOURS; i++)
-        shares[i] *= scale;
     return count;
 }
 
-static void borrow_radiance(const struct neighbours *neighbours, const float shares[NEIGHBOURS],
-                            ps_tile *tile, uint32_t lane)
+static void borrow_radiance(const struct neighbours *neighbours, const float weights[NEIGHBOURS],
+                            float sum, ps_tile *tile, uint32_t lane)
 {
-    ps_rgb sum = {0, 0, 0};
+    ps_rgb radiance = {0, 0, 0};
     if (!tile->radiance_r)
         return;
     for (int i = 0; i < NEIGHBOURS; i++)
-        sum = ps_rgb_add(sum, ps_rgb_scale(neighbours->radiance[i], shares[i]));
-    tile->radiance_r[lane] = sum.r;
-    tile->radiance_g[lane] = sum.g;
-    tile->radiance_b[lane] = sum.b;
+        radiance = ps_rgb_add(radiance, ps_rgb_scale(neighbours->radiance[i], weights[i]));
+    tile->radiance_r[lane] = radiance.r / sum;
+    tile->radiance_g[lane] = radiance.g / sum;
+    tile->radiance_b[lane] = radiance.b / sum;
 }
 
 /* Gives a sample the indirect light that the pixels around found. Returns how many of them see its surface. */
 static float borrow_from_neighbours(const struct neighbours *neighbours, ps_tile *tile,
                                     uint32_t lane)
 {
-    float shares[NEIGHBOURS];
-    float count = find_shares(neighbours, tile, lane, shares);
-    float r = 0.0f, g = 0.0f, b = 0.0f, weight = 0.0f;
-#pragma omp simd reduction(+ : r, g, b, weight)
+    float weights[NEIGHBOURS];
+    float count = find_weights(neighbours, tile, lane, weights);
+    float r = 0.0f, g = 0.0f, b = 0.0f, weight = 0.0f, sum = 0.0f;
+#pragma omp simd reduction(+ : r, g, b, weight, sum)
     for (int i = 0; i < NEIGHBOURS; i++) {
-        r += shares[i] * neighbours->r[i];
-        g += shares[i] * neighbours->g[i];
-        b += shares[i] * neighbours->b[i];
-        weight += shares[i] * neighbours->weight[i];
+        r += weights[i] * neighbours->r[i];
+        g += weights[i] * neighbours->g[i];
+        b += weights[i] * neighbours->b[i];
+        weight += weights[i] * neighbours->weight[i];
+        sum += weights[i];
     }
-    tile->irradiance_r[lane] = r;
-    tile->irradiance_g[lane] = g;
-    tile->irradiance_b[lane] = b;
-    tile->weight[lane] = weight;
-    borrow_radiance(neighbours, shares, tile, lane);
+    if (!(sum > 0.0f)) /* none sees anything */
+        return count;
+    tile->irradiance_r[lane] = r / sum;
+    tile->irradiance_g[lane] = g / sum;
+    tile->irradiance_b[lane] = b / sum;
+    tile->weight[lane] = weight / sum;
+    borrow_radiance(neighbours, weights, sum, tile, lane);
     return count;
 }
 
@@ -204,13 +203,12 @@ static void borrow_from_tile(const ps_tile *from, float count, ps_tile *tile, ui
         return;
 #pragma omp simd reduction(+ : r, g, b, sum)
     for (int i = 0; i < PS_TILE_PIXELS; i++) {
-        ps_vec3 way = {from->position_x[i] - position.x, from->position_y[i] - position.y,
-                       from->position_z[i] - position.z};
-        float share = alike[i] * gbuffer_nearness(way);
-        r += share * from->irradiance_r[i];
-        g += share * from->irradiance_g[i];
-        b += share * from->irradiance_b[i];
-        sum += share;
+        ps_vec3 way = ps_subtract(ps_tile_position(from, (uint32_t)i), position);
+        float weight = alike[i] * gbuffer_nearness(way);
+        r += weight * from->irradiance_r[i];
+        g += weight * from->irradiance_g[i];
+        b += weight * from->irradiance_b[i];
+        sum += weight;
     }
     tile->irradiance_r[lane] = r / sum;
     tile->irradiance_g[lane] = g / sum;
