@@ -74,7 +74,7 @@ struct neighbours {
     float x[NEIGHBOURS], y[NEIGHBOURS], z[NEIGHBOURS];
     float normal_x[NEIGHBOURS], normal_y[NEIGHBOURS], normal_z[NEIGHBOURS];
     float r[NEIGHBOURS], g[NEIGHBOURS], b[NEIGHBOURS], weight[NEIGHBOURS]; /* indirect light */
-    ps_rgb radiance[NEIGHBOURS];
+    float radiance_r[NEIGHBOURS], radiance_g[NEIGHBOURS], radiance_b[NEIGHBOURS];
 };
 
 static void set_neighbour(const ps_tile *tile, uint32_t lane, struct neighbours *neighbours, int i)
@@ -90,9 +90,11 @@ static void set_neighbour(const ps_tile *tile, uint32_t lane, struct neighbours 
     neighbours->g[i] = tile->irradiance_g[lane];
     neighbours->b[i] = tile->irradiance_b[lane];
     neighbours->weight[i] = tile->weight[lane];
-    if (tile->radiance_r)
-        neighbours->radiance[i] =
-            (ps_rgb){tile->radiance_r[lane], tile->radiance_g[lane], tile->radiance_b[lane]};
+    if (!tile->radiance_r)
+        return;
+    neighbours->radiance_r[i] = tile->radiance_r[lane];
+    neighbours->radiance_g[i] = tile->radiance_g[lane];
+    neighbours->radiance_b[i] = tile->radiance_b[lane];
 }
 
 static void find_neighbours(const struct gbuffer *gbuffer, uint32_t x, uint32_t y,
@@ -154,17 +156,16 @@ static float find_weights(const struct neighbours *neighbours, const ps_tile *ti
     return count;
 }
 
-static void borrow_radiance(const struct neighbours *neighbours, const float weights[NEIGHBOURS],
-                            float sum, ps_tile *tile, uint32_t lane)
+/* The mean by weights: of values that are 1, 1 to the bit. 0 where nothing has weight. */
+static float mean_by(const float *weights, const float *values, int n)
 {
-    ps_rgb radiance = {0, 0, 0};
-    if (!tile->radiance_r)
-        return;
-    for (int i = 0; i < NEIGHBOURS; i++)
-        radiance = ps_rgb_add(radiance, ps_rgb_scale(neighbours->radiance[i], weights[i]));
-    tile->radiance_r[lane] = radiance.r / sum;
-    tile->radiance_g[lane] = radiance.g / sum;
-    tile->radiance_b[lane] = radiance.b / sum;
+    float sum = 0.0f, weight = 0.0f;
+#pragma omp simd reduction(+ : sum, weight)
+    for (int i = 0; i < n; i++) {
+        sum += weights[i] * values[i];
+        weight += weights[i];
+    }
+    return weight > 0.0f ? sum / weight : 0.0f;
 }
 
 /* Gives a sample the indirect light that the pixels around found. Returns how many of them see its surface. */
@@ -173,46 +174,33 @@ static float borrow_from_neighbours(const struct neighbours *neighbours, ps_tile
 {
     float weights[NEIGHBOURS];
     float count = find_weights(neighbours, tile, lane, weights);
-    float r = 0.0f, g = 0.0f, b = 0.0f, weight = 0.0f, sum = 0.0f;
-#pragma omp simd reduction(+ : r, g, b, weight, sum)
-    for (int i = 0; i < NEIGHBOURS; i++) {
-        r += weights[i] * neighbours->r[i];
-        g += weights[i] * neighbours->g[i];
-        b += weights[i] * neighbours->b[i];
-        weight += weights[i] * neighbours->weight[i];
-        sum += weights[i];
-    }
-    if (!(sum > 0.0f)) /* none sees anything */
+    tile->irradiance_r[lane] = mean_by(weights, neighbours->r, NEIGHBOURS);
+    tile->irradiance_g[lane] = mean_by(weights, neighbours->g, NEIGHBOURS);
+    tile->irradiance_b[lane] = mean_by(weights, neighbours->b, NEIGHBOURS);
+    tile->weight[lane] = mean_by(weights, neighbours->weight, NEIGHBOURS);
+    if (!tile->radiance_r)
         return count;
-    tile->irradiance_r[lane] = r / sum;
-    tile->irradiance_g[lane] = g / sum;
-    tile->irradiance_b[lane] = b / sum;
-    tile->weight[lane] = weight / sum;
-    borrow_radiance(neighbours, weights, sum, tile, lane);
+    tile->radiance_r[lane] = mean_by(weights, neighbours->radiance_r, NEIGHBOURS);
+    tile->radiance_g[lane] = mean_by(weights, neighbours->radiance_g, NEIGHBOURS);
+    tile->radiance_b[lane] = mean_by(weights, neighbours->radiance_b, NEIGHBOURS);
     return count;
 }
 
-/* The same of those in a tile that see the sample's surface, if they are more than `count`. */
+/* The irradiance of those in a tile that see the sample's surface, if they are more than `count`. */
 static void borrow_from_tile(const ps_tile *from, float count, ps_tile *tile, uint32_t lane)
 {
-    float alike[PS_TILE_PIXELS], r = 0.0f, g = 0.0f, b = 0.0f, sum = 0.0f;
+    float alike[PS_TILE_PIXELS], weights[PS_TILE_PIXELS];
     ps_vec3 position = ps_tile_position(tile, lane);
     float found =
         gbuffer_alike(from, position, ps_tile_normal(tile, lane), tile->object[lane], alike);
     if (!(found > count))
         return;
-#pragma omp simd reduction(+ : r, g, b, sum)
-    for (int i = 0; i < PS_TILE_PIXELS; i++) {
-        ps_vec3 way = ps_subtract(ps_tile_position(from, (uint32_t)i), position);
-        float weight = alike[i] * gbuffer_nearness(way);
-        r += weight * from->irradiance_r[i];
-        g += weight * from->irradiance_g[i];
-        b += weight * from->irradiance_b[i];
-        sum += weight;
-    }
-    tile->irradiance_r[lane] = r / sum;
-    tile->irradiance_g[lane] = g / sum;
-    tile->irradiance_b[lane] = b / sum;
+#pragma omp simd
+    for (uint32_t i = 0; i < PS_TILE_PIXELS; i++)
+        weights[i] = alike[i] * gbuffer_nearness(ps_subtract(ps_tile_position(from, i), position));
+    tile->irradiance_r[lane] = mean_by(weights, from->irradiance_r, PS_TILE_PIXELS);
+    tile->irradiance_g[lane] = mean_by(weights, from->irradiance_g, PS_TILE_PIXELS);
+    tile->irradiance_b[lane] = mean_by(weights, from->irradiance_b, PS_TILE_PIXELS);
 }
 
 /* What gloss mirrors is seen by few of the pixels around, each by chance, and the noise of one would be that of all. */

@@ -31,15 +31,27 @@ static const char scene[] =
     "  - quad: {corners: [[-4, 0, -3], [-4, 0, 3], [4, 0, 3], [4, 0, -3]], material: floor}\n"
     "  - sphere: {center: [0, 0.6, 0], radius: 0.6, material: ball}\n"
     "  - quad: {corners: [[0.5, 0, 2], [0.5, 2, 2], [2.5, 2, 1.5], [2.5, 0, 1.5]],\n"
-    "           material: mirror}\n"
-    "render: {passes: %d, aa_samples: %d}\n";
+    "           material: mirror}\n";
+
+enum { TEXT = 2048 };
+
+static void write_text(const char *objects, int passes, int aa_samples, char text[TEXT])
+{
+    snprintf(text, TEXT, "%srender: {passes: %d, aa_samples: %d}\n", objects, passes, aa_samples);
+}
+
+static struct rendering look_at(const char *objects, const char *estimator, int passes,
+                                int aa_samples)
+{
+    const char *const choices[] = {estimator, NULL};
+    char text[TEXT];
+    write_text(objects, passes, aa_samples, text);
+    return render_text(text, 2, choices);
+}
 
 static struct rendering look(int passes, int aa_samples)
 {
-    static const char *const choices[] = {"estimator=ambient:irradiance=2", NULL};
-    char text[2048];
-    snprintf(text, sizeof text, scene, passes, aa_samples);
-    return render_text(text, 2, choices);
+    return look_at(scene, "estimator=ambient:irradiance=2", passes, aa_samples);
 }
 
 /* Relative RMSE of a channel. Albedo is a mean over what samples saw: where they saw nothing there is none, however little of a
@@ -166,29 +178,38 @@ static const char beam[] =
     "  - quad: {corners: [[-6, 0, 7], [6, 0, 7], [6, 0, -4], [-6, 0, -4]], material: stone}\n"
     "  - box: {corners: [[-1.25, 0, -2.3], [-0.75, 2.8, -1.9]], material: stone}\n"
     "  - box: {corners: [[0.25, 0, -2.3], [0.75, 2.8, -1.9]], material: stone}\n"
-    "  - box: {corners: [[-3.6, 2.8, -2.4], [3.6, 3.2, -1.6]], material: stone}\n"
-    "render: {passes: %d, aa_samples: %d}\n";
-
-static struct rendering look_at_beam(const char *estimator, int passes, int aa_samples)
-{
-    const char *const choices[] = {estimator, NULL};
-    char text[2048];
-    snprintf(text, sizeof text, beam, passes, aa_samples);
-    return render_text(text, 2, choices);
-}
+    "  - box: {corners: [[-3.6, 2.8, -2.4], [3.6, 3.2, -1.6]], material: stone}\n";
 
 /* Samples at edges have the light of pixels that are near to what they see, and see the same surface: the underside has no light of
  * the front's. */
 static void test_light_at_edges_is_that_nearby(void **state)
 {
     (void)state;
-    struct rendering reference = look_at_beam("estimator=pathtrace:samples=32", 256, 1);
-    struct rendering smooth = look_at_beam("estimator=pathtrace:samples=1024", 1, 16);
+    struct rendering reference = look_at(beam, "estimator=pathtrace:samples=32", 256, 1);
+    struct rendering smooth = look_at(beam, "estimator=pathtrace:samples=1024", 1, 16);
     double error = error_of(&smooth, &reference, "indirect.G");
     print_message("indirect light of the beam: %.2f %%\n", 100 * error);
     assert_true(error < 0.045);
     rendering_release(&reference);
     rendering_release(&smooth);
+}
+
+/* Pixels off the edges keep the light that rays by chance found for them, for a denoiser to see. */
+static void test_noise_off_the_edges_stays(void **state)
+{
+    (void)state;
+    static const char noisy[] = "estimator=pathtrace:samples=1", even[] = "estimator=ambient";
+    struct rendering plain = look_at(beam, noisy, 1, 1), smooth = look_at(beam, noisy, 1, 8);
+    struct rendering light = look_at(beam, even, 1, 1), edges = look_at(beam, even, 1, 8);
+    double same = share_of_equal(&plain, &smooth, "indirect.G");
+    double off_edges = share_of_equal(&light, &edges, "R");
+    print_message("%.3f of the pixels are the same, %.3f are off the edges\n", same, off_edges);
+    assert_true(off_edges < 0.95);
+    assert_true(same >= off_edges);
+    rendering_release(&plain);
+    rendering_release(&smooth);
+    rendering_release(&light);
+    rendering_release(&edges);
 }
 
 /* Through a pane the foot of a bright wall is seen, and the floor before the pane, mirrored: what of it a sample has, chance decides. */
@@ -203,22 +224,14 @@ static const char pane[] =
     "objects:\n"
     "  - quad: {corners: [[-9, 0, -9], [-9, 0, 2], [9, 0, 2], [9, 0, -9]], material: stone}\n"
     "  - quad: {corners: [[-9, 0, 2], [-9, 1, 2], [9, 1, 2], [9, 0, 2]], material: stone}\n"
-    "  - quad: {corners: [[-2, 0.1, 0], [-2, 2, 0], [2, 2, 0], [2, 0.1, 0]], material: glass}\n"
-    "render: {passes: %d, aa_samples: %d}\n";
-
-static struct rendering look_through_pane(int passes, int aa_samples)
-{
-    static const char *const choices[] = {"estimator=pathtrace:samples=16", NULL};
-    char text[2048];
-    snprintf(text, sizeof text, pane, passes, aa_samples);
-    return render_text(text, 2, choices);
-}
+    "  - quad: {corners: [[-2, 0.1, 0], [-2, 2, 0], [2, 2, 0], [2, 0.1, 0]], material: glass}\n";
 
 /* The light of the floor falls off steeply, and is no chance that a tile's pixels might share. */
 static void test_light_behind_glass_stays_where_it_is(void **state)
 {
     (void)state;
-    struct rendering reference = look_through_pane(512, 1), smooth = look_through_pane(32, 16);
+    struct rendering reference = look_at(pane, "estimator=pathtrace:samples=16", 512, 1);
+    struct rendering smooth = look_at(pane, "estimator=pathtrace:samples=16", 32, 16);
     for (size_t y = 15; y < 28; y += 8) {
         double expected = mean_of(&reference.image, "indirect.G", 0, y, 32, 4);
         double mean = mean_of(&smooth.image, "indirect.G", 0, y, 32, 4);
@@ -243,11 +256,11 @@ static bool is_out(void *user)
 static ps_result look_until(struct patience *patience, struct rendering *rendering)
 {
     static const char *const choices[] = {"estimator=ambient:irradiance=2", NULL};
-    char text[2048];
+    char text[TEXT];
     struct prepared prepared;
     struct error error;
     const struct render_callbacks callbacks = {.user = patience, .cancelled = is_out};
-    snprintf(text, sizeof text, scene, 1, 64);
+    write_text(scene, 1, 64, text);
     prepare_text(text, 1, 100, choices, &prepared);
     statistics_init(&rendering->statistics);
     ps_result result = render_run(&prepared.scene, &prepared.settings, &callbacks,
@@ -279,6 +292,7 @@ int main(void)
         cmocka_unit_test(test_one_pass_comes_close_to_many),
         SLOW_TEST(test_passes_add_to_it),
         cmocka_unit_test(test_light_at_edges_is_that_nearby),
+        cmocka_unit_test(test_noise_off_the_edges_stays),
         cmocka_unit_test(test_light_behind_glass_stays_where_it_is),
         cmocka_unit_test(test_the_mean_stays),
         cmocka_unit_test(test_cancelled_at_the_edges),

@@ -19,7 +19,7 @@ static float light_of(ps_vec3 direction)
     return direction.x > 0.5f && direction.z > 0.5f ? 10.0f * direction.x : 0.0f;
 }
 
-static void learn_from_a(ps_vec3 normal, struct guide *guide, struct random *random, size_t rays)
+static void learn_facing(ps_vec3 normal, struct guide *guide, struct random *random, size_t rays)
 {
     for (size_t i = 0; i < rays; i++) {
         ps_vec3 direction = ps_cosine_direction(normal, random_unit(random), random_unit(random));
@@ -31,7 +31,7 @@ static void learn_from_a(ps_vec3 normal, struct guide *guide, struct random *ran
 
 static void learn(struct guide *guide, struct random *random, size_t rays)
 {
-    learn_from_a(up, guide, random, rays);
+    learn_facing(up, guide, random, rays);
 }
 
 static void test_knows_nothing_at_first(void **state)
@@ -167,7 +167,7 @@ static void test_learns_from_one_that_faces_another_way(void **state)
     guide_begin(&own, up);
     guide_begin(&other, tilted);
     learn(&own, &random, RAYS);
-    learn_from_a(tilted, &other, &random, RAYS);
+    learn_facing(tilted, &other, &random, RAYS);
     struct guide_lesson lesson = lesson_of(&other);
     guide_learn_from(&guide, &lesson, 1.0f);
     for (int i = 0; i < GUIDE_BINS; i++) {
