@@ -139,22 +139,29 @@ static ps_result fill_cache(struct work *work)
     return host->cancelled(host) ? PS_CANCELLED : PS_OK;
 }
 
-/* A gather_lookup. */
-static bool look_up(const void *opaque, ps_vec3 position, ps_vec3 normal, float length,
-                    const float numbers[2], struct gather_known *known)
+static bool look_up_one(const struct cache *cache, const struct gather_landing *landing,
+                        struct gather_known *known)
 {
-    const struct cache *cache = opaque;
     int nearest[CANDIDATES], n = cache->places.neighbours;
-    (void)numbers;
     n = n < CANDIDATES ? n : CANDIDATES;
-    photon_map_nearest(&cache->places, position, n, nearest);
+    photon_map_nearest(&cache->places, landing->position, n, nearest);
     for (int i = 0; i < n; i++) {
-        if (ps_dot(photon_map_normal(&cache->places, (size_t)nearest[i]), normal) < FACING)
+        if (ps_dot(photon_map_normal(&cache->places, (size_t)nearest[i]), landing->normal) < FACING)
             continue;
         *known = (struct gather_known){.indirect = cache->irradiance[nearest[i]]};
-        return length > cache->radii[nearest[i]];
+        return landing->length > cache->radii[nearest[i]];
     }
     return false;
+}
+
+/* A gather_lookup. */
+static void look_up(const void *cache, const struct gather_landing *landings, size_t n,
+                    struct gather_known *known, bool *is_known)
+{
+    for (size_t i = 0; i < n; i++) {
+        uint32_t path = landings[i].path;
+        is_known[path] = look_up_one(cache, &landings[i], &known[path]);
+    }
 }
 
 /* --- the picture --- */

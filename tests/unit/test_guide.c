@@ -43,10 +43,11 @@ static void test_knows_nothing_at_first(void **state)
     guide_update(&guide);
     assert_false(guide.ready);
     for (int i = 0; i < 100; i++) {
-        ps_vec3 direction = guide_sample(&guide, up, random_unit(&random), random_unit(&random));
-        assert_true(direction.z >= 0);
-        assert_true(guide_ratio(&guide, guide_bin_of(&guide, up, direction)) == 1.0f);
-        assert_true(guide_smooth_ratio(&guide, 0, guide_bin_of(&guide, up, direction)) == 1.0f);
+        struct guide_sample sample =
+            guide_sample(&guide, up, random_unit(&random), random_unit(&random));
+        assert_true(sample.direction.z >= 0);
+        assert_true(guide_ratio(&guide, sample.bin) == 1.0f);
+        assert_true(guide_smooth_ratio(&guide, 0, sample.bin) == 1.0f);
     }
 }
 
@@ -64,15 +65,15 @@ static void test_ratio_is_that_of_the_pdf(void **state)
         double whole = 0, by_cosine = 0, by_guide = 0, hits = 0;
         for (int i = 0; i < RAYS; i++) {
             float a = random_unit(&random), b = random_unit(&random);
-            ps_vec3 guided = guide_sample(&guide, normals[n], a, b);
+            struct guide_sample guided = guide_sample(&guide, normals[n], a, b);
             ps_vec3 even = ps_cosine_direction(normals[n], a, b);
             by_cosine += (double)light_of(even) / RAYS;
-            if (!(ps_dot(guided, normals[n]) > 0))
+            if (!(ps_dot(guided.direction, normals[n]) > 0))
                 continue;
-            float ratio = guide_ratio(&guide, guide_bin_of(&guide, normals[n], guided));
+            float ratio = guide_ratio(&guide, guided.bin);
             whole += 1.0 / (double)ratio / RAYS;
-            by_guide += (double)(light_of(guided) / ratio) / RAYS;
-            hits += light_of(guided) > 0 ? 1.0 / RAYS : 0;
+            by_guide += (double)(light_of(guided.direction) / ratio) / RAYS;
+            hits += light_of(guided.direction) > 0 ? 1.0 / RAYS : 0;
         }
         assert_true(fabs(whole - 1) < 0.02);
         assert_true(fabs(by_guide / by_cosine - 1) < 0.04);

@@ -2,10 +2,18 @@
 
 #include <string.h>
 
-#define LEVELS 8         /* of cubes */
-#define BY_LENGTH 0.075f /* side of a cube, in lengths of the ray */
+#define LEVELS 8          /* of cubes */
+#define MOST_CUBES 511.0f /* along an axis, of the largest ones */
+#define BY_LENGTH 0.075f  /* side of a cube, in lengths of the ray */
 #define MOST_BY_LENGTH 0.6f
-#define ENOUGH 2 /* surfels of a cube that is not the largest one */
+#define ENOUGH 2   /* surfels of a cube that is not one of the largest */
+#define SPARSITY 4 /* of the table: so many cells for each cube, or a search for no cube is long */
+
+#ifdef __GNUC__
+#define PREFETCH(address) __builtin_prefetch(address)
+#else
+#define PREFETCH(address) ((void)(address))
+#endif
 
 /* Half of a cache line: lookups go all over the table. */
 struct surfel_cell {
@@ -21,23 +29,38 @@ static uint64_t normal_key(ps_vec3 n)
     uint32_t face = surfel_facing(n);
     float most = ps_max(fabsf(n.x), ps_max(fabsf(n.y), fabsf(n.z)));
     float a = face < 2 ? n.y : n.x, b = face < 4 ? n.z : n.y, third = most * (1.0f / 3.0f);
-    uint32_t column = a < -third ? 0 : a > third ? 2 : 1, row = b < -third ? 0 : b > third ? 2 : 1;
+    uint32_t column = 1u - (a < -third) + (a > third), row = 1u - (b < -third) + (b > third);
     return face * 9 + row * 3 + column;
 }
 
-/* Index of a cube along an axis; what lies out of the scene's bounds counts as at its border. */
-static uint64_t cube_at(float place, float scale)
+/* A point, in sides of the largest cubes from the table's origin; what lies out of the scene's bounds counts as at its border.
+ * And which way its surface faces. */
+struct place {
+    ps_vec3 point;
+    uint64_t normal;
+};
+
+static float clamp_place(float place)
 {
-    return (uint64_t)ps_min(ps_max(place * scale, 0.0f), 65535.0f);
+    return ps_min(ps_max(place, 0.0f), MOST_CUBES);
 }
 
-static uint64_t cell_key(const struct surfels *surfels, ps_vec3 p, uint64_t normal, uint32_t level)
+static struct place place_of(const struct surfels *surfels, ps_vec3 position, ps_vec3 normal)
 {
-    float scale = (float)(1u << level) / surfels->largest;
-    uint64_t x = cube_at(p.x - surfels->origin.x, scale);
-    uint64_t y = cube_at(p.y - surfels->origin.y, scale);
-    uint64_t z = cube_at(p.z - surfels->origin.z, scale);
-    return UINT64_C(1) << 63 | x << 44 | y << 28 | z << 12 | normal << 4 | level;
+    ps_vec3 p = ps_scale(ps_subtract(position, surfels->origin), 1.0f / surfels->largest);
+    return (struct place){{clamp_place(p.x), clamp_place(p.y), clamp_place(p.z)},
+                          normal_key(normal)};
+}
+
+/* Of the cube of a level where a place lies when it is moved by so many sides, more than -1. */
+static uint64_t cell_key(const struct place *place, ps_vec3 moved, uint32_t level)
+{
+    float scale = (float)(1u << level);
+    uint32_t x = (uint32_t)(int32_t)(place->point.x * scale + moved.x);
+    uint32_t y = (uint32_t)(int32_t)(place->point.y * scale + moved.y);
+    uint32_t z = (uint32_t)(int32_t)(place->point.z * scale + moved.z);
+    return UINT64_C(1) << 63 | (uint64_t)x << 44 | (uint64_t)y << 28 | (uint64_t)z << 12 |
+           place->normal << 4 | level;
 }
 
 static uint32_t level_of_key(uint64_t key)
@@ -55,17 +78,26 @@ static size_t hash(uint64_t key)
 static struct surfel_cell *cell_at(const struct surfels *surfels, uint64_t key)
 {
     size_t place = hash(key) & (surfels->capacity - 1);
-    while (surfels->cells[place].key && surfels->cells[place].key != key)
+    /* Without a branch that depends on which of the two it is. */
+    while ((surfels->cells[place].key != 0) & (surfels->cells[place].key != key))
         place = (place + 1) & (surfels->capacity - 1);
     return &surfels->cells[place];
 }
 
+/* How often a number above 0 must be halved until it is at most 1; by its exponent, without a branch. */
+static uint32_t halvings(float number, uint32_t most)
+{
+    uint32_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    int32_t n = (int32_t)((bits + 0x7fffff) >> 23) - 127;
+    n = n < 0 ? 0 : n;
+    return (uint32_t)n < most ? (uint32_t)n : most;
+}
+
+/* The level of the cubes whose side is nearest to this one, by ratio. */
 static uint32_t level_of(const struct surfels *surfels, float side)
 {
-    uint32_t level = 0;
-    while (level + 1 < LEVELS && surfels->largest > side * (float)(1u << level) * 1.4142f)
-        level++;
-    return level;
+    return halvings(surfels->largest / (1.4142f * side), LEVELS - 1);
 }
 
 /* The smallest cubes that a surfel is put in: rays that are shorter than the one that found it are few there. */
@@ -80,11 +112,9 @@ static uint32_t finest_level(const struct surfels *surfels, size_t i)
 static void list_cubes(const struct surfels *surfels, ps_key_entry *entries)
 {
     for (size_t i = 0; i < surfels->count; i++) {
-        uint64_t normal = normal_key(surfels->normals[i]);
-        for (uint32_t level = 0; level <= finest_level(surfels, i); level++) {
-            uint64_t key = cell_key(surfels, surfels->positions[i], normal, level);
-            *entries++ = (ps_key_entry){key, i};
-        }
+        struct place place = place_of(surfels, surfels->positions[i], surfels->normals[i]);
+        for (uint32_t level = 0; level <= finest_level(surfels, i); level++)
+            *entries++ = (ps_key_entry){cell_key(&place, (ps_vec3){0, 0, 0}, level), i};
     }
 }
 
@@ -126,7 +156,7 @@ static ps_result fill(struct surfels *surfels, const ps_key_entry *sorted, size_
         kept += is_kept(sorted[i].key, count);
     }
     surfels->capacity = 16;
-    while (surfels->capacity < 2 * kept)
+    while (surfels->capacity < SPARSITY * kept)
         surfels->capacity *= 2;
     size_t bytes = surfels->capacity * sizeof *surfels->cells;
     host->release(host, surfels->cells);
@@ -160,36 +190,79 @@ ps_result surfel_table_build(struct surfels *surfels)
 
 /* --- asking it --- */
 
-/* Somewhere within a cube's side of a point, along the two axes that its surface faces least. */
-static ps_vec3 move(ps_vec3 p, ps_vec3 normal, float side, const float numbers[2])
+/* What is asked about a landing. */
+struct question {
+    struct place place;
+    ps_vec3 moved;          /* in sides of a cube */
+    uint32_t level, widest; /* of the cubes that are asked next, and last */
+    uint32_t path;          /* the landing's */
+};
+
+/* Those that no cube has answered yet. */
+struct questions {
+    struct question all[PS_TILE_PIXELS];
+    uint32_t open[PS_TILE_PIXELS];
+    size_t count;
+};
+
+/* Somewhere within half a cube's side of a point, along the two axes that its surface faces least. */
+static ps_vec3 jitter(ps_vec3 normal, const float numbers[2])
 {
     uint32_t axis = surfel_facing(normal) / 2;
-    float a = (numbers[0] - 0.5f) * side, b = (numbers[1] - 0.5f) * side;
-    return (ps_vec3){p.x + (axis == 0 ? 0.0f : a),
-                     p.y + (axis == 1   ? 0.0f
-                            : axis == 0 ? a
-                                        : b),
-                     p.z + (axis == 2 ? 0.0f : b)};
+    float a = numbers[0] - 0.5f, b = numbers[1] - 0.5f;
+    float y = axis == 0 ? a : b;
+    return (ps_vec3){axis == 0 ? 0.0f : a, axis == 1 ? 0.0f : y, axis == 2 ? 0.0f : b};
 }
 
-bool surfel_table_lookup(const void *opaque, ps_vec3 position, ps_vec3 normal, float length,
-                         const float numbers[2], struct gather_known *known)
+static void begin(const struct surfels *surfels, const struct gather_landing *landings, size_t n,
+                  struct questions *questions)
+{
+    questions->count = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const struct gather_landing *landing = &landings[i];
+        struct question *question = &questions->all[i];
+        question->place = place_of(surfels, landing->position, landing->normal);
+        question->moved = jitter(landing->normal, landing->numbers);
+        question->level = level_of(surfels, BY_LENGTH * landing->length);
+        question->widest = halvings(surfels->largest / (MOST_BY_LENGTH * landing->length), LEVELS);
+        question->path = landing->path;
+        questions->open[questions->count] = i;
+        questions->count += question->widest <= question->level; /* or the ray is too short */
+    }
+}
+
+/* Asks a cube for each landing. Those that find none ask a wider one next, if there is one. */
+static void ask(const struct surfels *surfels, struct questions *questions,
+                struct gather_known *known, bool *is_known)
+{
+    uint64_t keys[PS_TILE_PIXELS];
+    size_t left = 0;
+    for (size_t k = 0; k < questions->count; k++) {
+        const struct question *question = &questions->all[questions->open[k]];
+        keys[k] = cell_key(&question->place, question->moved, question->level);
+        PREFETCH(&surfels->cells[hash(keys[k]) & (surfels->capacity - 1)]);
+    }
+    for (size_t k = 0; k < questions->count; k++) {
+        uint32_t i = questions->open[k];
+        struct question *question = &questions->all[i];
+        const struct surfel_cell *cell = cell_at(surfels, keys[k]);
+        bool found = cell->key != 0;
+        known[question->path] = (struct gather_known){cell->indirect, cell->sky};
+        is_known[question->path] = found;
+        questions->open[left] = i;
+        left += !found & (question->level > question->widest);
+        question->level--;
+    }
+    questions->count = left;
+}
+
+/* All ask their first cube, then some the next: so a processor waits less for memory. */
+void surfel_table_lookup(const void *opaque, const struct gather_landing *landings, size_t n,
+                         struct gather_known *known, bool *is_known)
 {
     const struct surfels *surfels = opaque;
-    uint64_t direction = normal_key(normal);
-    uint32_t level = level_of(surfels, BY_LENGTH * length);
-    for (;; level--) {
-        float side = surfels->largest / (float)(1u << level);
-        if (side > MOST_BY_LENGTH * length)
-            return false;
-        ps_vec3 moved = move(position, normal, side, numbers);
-        const struct surfel_cell *cell =
-            cell_at(surfels, cell_key(surfels, moved, direction, level));
-        if (cell->key) {
-            *known = (struct gather_known){cell->indirect, cell->sky};
-            return true;
-        }
-        if (level == 0)
-            return false;
-    }
+    struct questions questions;
+    begin(surfels, landings, n, &questions);
+    while (questions.count > 0)
+        ask(surfels, &questions, known, is_known);
 }

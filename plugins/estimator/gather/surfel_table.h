@@ -15,7 +15,7 @@
 ps_result surfel_table_build(struct surfels *surfels);
 
 /* As a gather_lookup; `surfels` is a struct surfels. */
-bool surfel_table_lookup(const void *surfels, ps_vec3 position, ps_vec3 normal, float length,
-                         const float numbers[2], struct gather_known *known);
+void surfel_table_lookup(const void *surfels, const struct gather_landing *landings, size_t n,
+                         struct gather_known *known, bool *is_known);
 
 #endif

@@ -66,11 +66,9 @@ void surfels_release(struct surfels *surfels);
 static inline uint32_t surfel_facing(ps_vec3 n)
 {
     float x = fabsf(n.x), y = fabsf(n.y), z = fabsf(n.z);
-    if (x >= y && x >= z)
-        return n.x < 0.0f ? 0 : 1;
-    if (y >= z)
-        return n.y < 0.0f ? 2 : 3;
-    return n.z < 0.0f ? 4 : 5;
+    uint32_t axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    float along = axis == 0 ? n.x : axis == 1 ? n.y : n.z;
+    return 2 * axis + !(along < 0.0f);
 }
 
 #endif

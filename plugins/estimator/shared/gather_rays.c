@@ -98,15 +98,10 @@ int gather_half_of(const struct gather *gather, size_t point)
     return ps_lane_along_curve(gather->points.lanes[point]) >= PS_TILE_PIXELS / 2;
 }
 
-static float expected_of(const struct gather *gather, size_t i)
-{
-    return (float)guided_of(gather, i, gather->expected[gather_half_of(gather, i)]);
-}
-
 /* p_c / (c p_c + g q), where q is `ratio` of p_c and g the guided rays that are expected. */
 static float balanced(const struct gather *gather, size_t i, float ratio)
 {
-    return 1.0f / ((float)GATHER_FIRST + expected_of(gather, i) * ratio);
+    return 1.0f / ((float)GATHER_FIRST + gather->guided_expected[i] * ratio);
 }
 
 static void learn(struct gather *gather, size_t i, struct guide_bin bin, ps_rgb found)
@@ -133,23 +128,22 @@ static void end_sample(struct gather *gather, const struct batch *batch, size_t 
         add(gather, i, found, 1.0f / (float)gather->taken[i], half);
     } else {
         float ratio = smooth_ratio(gather, i, batch->bins[k]);
-        float each = 1.0f / (float)guided_of(gather, i, round->samples);
-        add(gather, i, found, each * expected_of(gather, i) * ratio * balanced(gather, i, ratio),
-            half);
+        float guided = gather->guided_expected[i] * ratio * balanced(gather, i, ratio);
+        add(gather, i, found, gather->guided_share[i] * guided, half);
     }
     if (round->learns)
         learn(gather, i, batch->bins[k], found);
 }
 
 /* Weighs the rays of the first round by the guides of the round that begins, for its share of the guided rays. */
-static void add_first(struct gather *gather, const struct round *round)
+static void add_first(struct gather *gather)
 {
     for (size_t number = 0; number < GATHER_FIRST; number++)
         for (size_t i = 0; i < gather->points.count; i++) {
             ps_rgb found = gather->first.found[number][i];
             if (gather->taken[i] == 0 || !(ps_luminance(found) > 0.0f))
                 continue;
-            float share = (float)gather->taken[i] / (float)guided_of(gather, i, round->samples);
+            float share = (float)gather->taken[i] * gather->guided_share[i];
             float ratio = smooth_ratio(gather, i, gather->first.bins[number][i]);
             add(gather, i, found, share * balanced(gather, i, ratio), number < GATHER_FIRST / 2);
         }
@@ -166,34 +160,43 @@ static void start_paths(const struct gather *gather, struct batch *batch, struct
                            segment->numbers);
     paths->count = 0;
     for (uint32_t k = 0; k < points->count; k++) {
-        ps_vec3 normal = points->normals[k];
+        const ps_vec3 *normal = &points->normals[k];
         const struct guide *guide = &gather->guides[gather->guide_of[batch->of[k]]];
-        ps_vec3 direction =
-            guide_sample(guide, normal, segment->numbers[k][0], segment->numbers[k][1]);
-        batch->bins[k] = guide_bin_of(guide, normal, direction);
+        struct guide_sample sample =
+            guide_sample(guide, *normal, segment->numbers[k][0], segment->numbers[k][1]);
+        batch->bins[k] = sample.bin;
         batch->places[k][0] = segment->numbers[k][2];
         batch->places[k][1] = segment->numbers[k][3];
         batch->found[k] = (ps_rgb){0, 0, 0};
-        if (!(ps_dot(direction, normal) > 0.0f))
+        if (!(ps_dot(sample.direction, *normal) > 0.0f))
             continue;
         paths_add(paths, k,
-                  ps_leave_surface(points->positions[k], normal, direction,
+                  ps_leave_surface(points->positions[k], *normal, sample.direction,
                                    setting->pass->surface_offset),
-                  PS_PI / guide_ratio(guide, batch->bins[k]));
+                  PS_PI / sample.ratio);
     }
 }
 
-/* What the cache knows of the light where a path's ray landed. */
-static bool look_up(const struct gather_setting *setting, const struct batch *batch,
-                    const struct paths *paths, const struct paths_segment *segment, size_t i,
-                    struct gather_known *known)
+/* Looks up what the cache knows where the rays of some paths landed: of those that are marked. */
+static void look_up(const struct gather_setting *setting, const struct batch *batch,
+                    const struct paths *paths, const struct paths_segment *segment,
+                    const bool *marked, struct gather_known *known, bool *is_known)
 {
-    const ps_hit *hit = &segment->hits[i];
     /* Where bounces are counted, the cache knows those that are left after one surface. */
     bool counted = setting->paths.pass->bounces != PS_ALL_BOUNCES;
-    return setting->lookup && !(counted && paths->bounces[i] > 0) &&
-           setting->lookup(setting->cache, hit->position, hit->normal, hit->distance,
-                           batch->places[paths->pixels[i]], known);
+    struct gather_landing landings[PS_TILE_PIXELS];
+    size_t n = 0;
+    for (uint32_t i = 0; i < paths->count; i++) {
+        const ps_hit *hit = &segment->hits[i];
+        const float *numbers = batch->places[paths->pixels[i]];
+        is_known[i] = false;
+        if (!marked[i] || (counted && paths->bounces[i] > 0))
+            continue;
+        landings[n++] = (struct gather_landing){
+            hit->position, hit->normal, hit->distance, {numbers[0], numbers[1]}, i};
+    }
+    if (setting->lookup && n > 0)
+        setting->lookup(setting->cache, landings, n, known, is_known);
 }
 
 /* Adds what a diffuse surface of that reflectance sends back along a path's ray of irradiance. */
@@ -210,14 +213,14 @@ static void light_paths(const struct gather_setting *setting, struct batch *batc
                         struct paths *paths, struct paths_segment *segment)
 {
     struct gather_known known[PS_TILE_PIXELS];
-    bool is_known[PS_TILE_PIXELS];
+    bool marked[PS_TILE_PIXELS], is_known[PS_TILE_PIXELS];
     uint8_t groups[PS_TILE_PIXELS];
     size_t left = 0;
-    for (size_t i = 0; i < paths->count; i++) {
-        is_known[i] = !(segment->hits[i].flags & PS_HIT_SPECULAR) &&
-                      look_up(setting, batch, paths, segment, i, &known[i]);
+    for (size_t i = 0; i < paths->count; i++)
+        marked[i] = !(segment->hits[i].flags & PS_HIT_SPECULAR);
+    look_up(setting, batch, paths, segment, marked, known, is_known);
+    for (size_t i = 0; i < paths->count; i++)
         groups[i] = is_known[i] && setting->knows_sky ? PS_LIGHTS_OTHERS : PS_LIGHTS_ALL;
-    }
     paths_add_reflected(&setting->paths, number, batch->indices, paths, groups, segment,
                         batch->found);
     for (size_t i = 0; i < paths->count; i++) {
@@ -238,14 +241,18 @@ static void scatter_paths(const struct gather_setting *setting, struct batch *ba
 {
     const ps_host *host = setting->paths.host;
     ps_bsdf_sample scattered[PS_TILE_PIXELS];
+    struct gather_known known[PS_TILE_PIXELS];
+    bool marked[PS_TILE_PIXELS], is_known[PS_TILE_PIXELS];
+    size_t alive = 0;
     host->sample_bsdf(host, PS_FROM_CAMERA, paths->rays, segment->hits,
                       (const float(*)[4])segment->numbers, paths->count, scattered);
-    size_t alive = 0;
+    for (size_t i = 0; i < paths->count; i++)
+        marked[i] = setting->knows_indirect && segment->hits[i].flags & PS_HIT_SPECULAR &&
+                    scattered[i].lobe == PS_DIFFUSE;
+    look_up(setting, batch, paths, segment, marked, known, is_known);
     for (size_t i = 0; i < paths->count; i++) {
-        struct gather_known known;
-        if (setting->knows_indirect && segment->hits[i].flags & PS_HIT_SPECULAR &&
-            scattered[i].lobe == PS_DIFFUSE && look_up(setting, batch, paths, segment, i, &known)) {
-            add_known(batch, paths, i, scattered[i].weight, known.indirect);
+        if (is_known[i]) {
+            add_known(batch, paths, i, scattered[i].weight, known[i].indirect);
             continue;
         }
         if (paths_scatter(&setting->paths, &scattered[i], segment, paths, i))
@@ -368,7 +375,7 @@ static void take_round(struct gather *gather, const struct round *round)
         memset(gather->half, 0, sizeof gather->half);
     }
     if (!round->is_first)
-        add_first(gather, round);
+        add_first(gather);
     number_samples(gather, (gather->index << 32) + before * PS_TILE_PIXELS);
     take_samples(gather, round);
     gather->done += round->longest;
@@ -382,7 +389,10 @@ static bool begin_round(struct gather *gather, uint64_t most, struct round *roun
         uint64_t guided = guided_of(gather, i, round->samples);
         uint64_t total = guided > 0 ? GATHER_FIRST + guided : round->samples;
         uint64_t left = total > gather->done ? total - gather->done : 0;
+        uint64_t expected = gather->expected[gather_half_of(gather, i)];
         last &= left <= most;
+        gather->guided_share[i] = guided > 0 ? 1.0f / (float)guided : 0.0f;
+        gather->guided_expected[i] = (float)guided_of(gather, i, expected);
         gather->taken[i] = left < most ? left : most;
         if (gather->taken[i] > round->longest)
             round->longest = gather->taken[i];

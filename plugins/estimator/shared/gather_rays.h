@@ -33,10 +33,18 @@ struct gather_known {
     ps_rgb sky;      /* that of PS_LIGHTS_SOFT which met none; 0 but with setting->knows_sky */
 };
 
-/* Looks that up for a ray of that length, with two random numbers of [0, 1); false where the cache knows nothing, or the
+/* Where a ray landed. */
+struct gather_landing {
+    ps_vec3 position, normal;
+    float length;     /* of the ray */
+    float numbers[2]; /* random ones, of [0, 1) */
+    uint32_t path;    /* whose ray it is: known[path] is what the cache knows */
+};
+
+/* Looks up what the cache knows for up to PS_TILE_PIXELS landings. is_known[path] is false where it knows nothing, or where the
  * ray is too short for it: the path goes on. Any thread. */
-typedef bool (*gather_lookup)(const void *cache, ps_vec3 position, ps_vec3 normal, float length,
-                              const float numbers[2], struct gather_known *known);
+typedef void (*gather_lookup)(const void *cache, const struct gather_landing *landings, size_t n,
+                              struct gather_known *known, bool *is_known);
 
 struct gather_setting {
     struct paths_setting paths;
@@ -73,6 +81,8 @@ struct gather {
     struct gather_first first;
     /* Of the round under way, for each point: its samples, and the index of the first. */
     uint64_t taken[PS_TILE_PIXELS], starts[PS_TILE_PIXELS];
+    /* What one of a point's guided samples is of all, and how many of them rays of its half are weighed by. */
+    float guided_share[PS_TILE_PIXELS], guided_expected[PS_TILE_PIXELS];
     uint8_t guide_of[PS_TILE_PIXELS];
     uint32_t guide_count;
     struct guide guides[GATHER_GUIDES];

@@ -6,6 +6,7 @@
 _Static_assert(GUIDE_SECTORS == 16, "sector_of");
 
 #define BY_COSINE 0.25f     /* share of the rays */
+#define LEAST_LIGHT 1e-30f  /* or a guide knows of none: W/m^2 */
 #define SAME_FRAME 0.99f    /* cosine between axes */
 #define SIMILAR_FACING 0.7f /* cosine between normals of guides that tell each other */
 
@@ -27,15 +28,23 @@ static int sector_of(float x, float y)
     return y < 0.0f ? GUIDE_SECTORS - 1 - sector : sector;
 }
 
+/* A direction's cosine to the guide's normal, over that to the surface's. */
+static float tilt_of(const struct guide *guide, ps_vec3 normal, ps_vec3 direction)
+{
+    if (ps_same(normal, guide->normal))
+        return 1.0f;
+    return ps_dot(direction, guide->normal) / ps_max(ps_dot(direction, normal), 1e-6f);
+}
+
 struct guide_bin guide_bin_of(const struct guide *guide, ps_vec3 normal, ps_vec3 direction)
 {
-    float cosine = ps_dot(direction, normal), guided = ps_dot(direction, guide->normal);
+    float guided = ps_dot(direction, guide->normal);
     if (!(guided > 0.0f))
         return (struct guide_bin){NO_GUIDE_BIN, 0.0f};
     int ring = (int)((1.0f - guided * guided) * GUIDE_RINGS);
     ring = ring < 0 ? 0 : ring < GUIDE_RINGS ? ring : GUIDE_RINGS - 1;
     int sector = sector_of(ps_dot(direction, guide->u), ps_dot(direction, guide->v));
-    return (struct guide_bin){ring * GUIDE_SECTORS + sector, guided / ps_max(cosine, 1e-6f)};
+    return (struct guide_bin){ring * GUIDE_SECTORS + sector, tilt_of(guide, normal, direction)};
 }
 
 void guide_learn(struct guide *guide, int half, struct guide_bin bin, float irradiance)
@@ -115,14 +124,20 @@ static float smooth(guide_bins from, guide_bins to)
     return sum;
 }
 
+/* The factor by which the light of a bin becomes a density over that of the cosine; `total`: of all bins. */
+static float scale_of(float total)
+{
+    return total > LEAST_LIGHT ? (1.0f - BY_COSINE) * (float)GUIDE_BINS / total : 0.0f;
+}
+
 void guide_update(struct guide *guide)
 {
     guide_bins once[2];
     for (int half = 0; half < 2; half++) {
         smooth(guide->found[half], once[half]);
-        guide->smooth_total[half] = smooth(once[half], guide->smooth[half]);
+        guide->smooth_scale[half] = scale_of(smooth(once[half], guide->smooth[half]));
     }
-    guide->total = 0.0f;
+    float total = 0.0f;
     for (int ring = 0; ring < GUIDE_RINGS; ring++) {
         float sectors = 0.0f;
         for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
@@ -130,61 +145,84 @@ void guide_update(struct guide *guide)
             sectors += guide->known[ring][sector];
             guide->sector_ends[ring][sector] = sectors;
         }
-        guide->total += sectors;
-        guide->ring_ends[ring] = guide->total;
+        total += sectors;
+        guide->ring_ends[ring] = total;
     }
-    guide->ready = guide->total > 0.0f;
+    guide->scale = scale_of(total);
+    guide->ready = guide->scale > 0.0f;
 }
 
-/* Which of n cumulative ends a number of [0, 1) falls before, and where in its part. */
-static int choose(const float *ends, int n, float number, float *within)
+/* --- directions --- */
+
+/* Inverts a cumulative distribution over n bins at a number of [0, 1). In bins: 2.25 is a quarter into the third one. */
+static inline float invert(const float *ends, int n, float number)
 {
     float at = number * ends[n - 1];
     int i = 0;
-    for (int k = 0; k < n - 1; k++) /* without a branch that depends on the number */
+    for (int k = 0; k < n; k++) /* without a branch that depends on the number */
         i += at >= ends[k];
+    i = i < n ? i : n - 1;
     float before = i > 0 ? ends[i - 1] : 0.0f;
     float part = ends[i] - before;
-    *within = part > 0.0f ? ps_min((at - before) / part, 0.999999f) : 0.5f;
-    return i;
+    return (float)i + (part > 0.0f ? ps_min((at - before) / part, 0.999998f) : 0.5f);
 }
 
-static ps_vec3 guided_direction(const struct guide *guide, float a, float b)
+/* The direction at a position in the histogram, in bins: ps_cosine_direction() by the guide's frame. */
+static inline struct guide_sample direction_at(const struct guide *guide, float ring, float sector)
 {
-    float in_ring, in_sector;
-    int ring = choose(guide->ring_ends, GUIDE_RINGS, a, &in_ring);
-    int sector = choose(guide->sector_ends[ring], GUIDE_SECTORS, b, &in_sector);
-    return ps_cosine_direction(guide->normal, ((float)ring + in_ring) / GUIDE_RINGS,
-                               ((float)sector + in_sector) / GUIDE_SECTORS);
+    float sine2 = ring / GUIDE_RINGS, phi = sector * (2.0f * PS_PI / GUIDE_SECTORS);
+    float sine = sqrtf(sine2), cosine = sqrtf(ps_max(1.0f - sine2, 0.0f));
+    ps_vec3 in_plane =
+        ps_add_scaled(ps_scale(guide->u, sine * cosf(phi)), sine * sinf(phi), guide->v);
+    return (struct guide_sample){ps_add_scaled(in_plane, cosine, guide->normal),
+                                 {(int32_t)ring * GUIDE_SECTORS + (int32_t)sector, 1.0f},
+                                 1.0f};
 }
 
-ps_vec3 guide_sample(const struct guide *guide, ps_vec3 normal, float a, float b)
+static float ratio_of(const float (*light)[GUIDE_SECTORS], float scale, struct guide_bin bin)
 {
-    if (!guide->ready)
-        return ps_cosine_direction(normal, a, b);
-    if (a < BY_COSINE)
-        return ps_cosine_direction(normal, a / BY_COSINE, b);
-    return guided_direction(guide, (a - BY_COSINE) / (1.0f - BY_COSINE), b);
-}
-
-/* By the light that is known; `total`: of all bins. */
-static float ratio_of(const float (*light)[GUIDE_SECTORS], float total, struct guide_bin bin)
-{
-    if (!(total > 0.0f))
+    if (!(scale > 0.0f))
         return 1.0f;
     if (bin.index == NO_GUIDE_BIN) /* rays go there by the cosine alone */
         return BY_COSINE;
-    float share = light[bin.index / GUIDE_SECTORS][bin.index % GUIDE_SECTORS] / total;
-    return BY_COSINE + (1.0f - BY_COSINE) * share * (float)GUIDE_BINS * bin.tilt;
+    return BY_COSINE +
+           scale * light[bin.index / GUIDE_SECTORS][bin.index % GUIDE_SECTORS] * bin.tilt;
 }
 
 float guide_ratio(const struct guide *guide, struct guide_bin bin)
 {
-    return guide->ready ? ratio_of(guide->known, guide->total, bin) : 1.0f;
+    return ratio_of(guide->known, guide->scale, bin);
 }
 
 float guide_smooth_ratio(const struct guide *guide, int half, struct guide_bin bin)
 {
-    int other = 1 - half;
-    return guide->ready ? ratio_of(guide->smooth[other], guide->smooth_total[other], bin) : 1.0f;
+    return ratio_of(guide->smooth[1 - half], guide->smooth_scale[1 - half], bin);
+}
+
+static struct guide_sample by_cosine(const struct guide *guide, ps_vec3 normal, float a, float b)
+{
+    if (ps_same(normal, guide->normal))
+        return direction_at(guide, a * GUIDE_RINGS, b * GUIDE_SECTORS);
+    ps_vec3 direction = ps_cosine_direction(normal, a, b);
+    return (struct guide_sample){direction, guide_bin_of(guide, normal, direction), 1.0f};
+}
+
+static struct guide_sample by_light(const struct guide *guide, ps_vec3 normal, float a, float b)
+{
+    float ring = invert(guide->ring_ends, GUIDE_RINGS, a);
+    float sector = invert(guide->sector_ends[(int)ring], GUIDE_SECTORS, b);
+    struct guide_sample sample = direction_at(guide, ring, sector);
+    sample.bin.tilt = tilt_of(guide, normal, sample.direction);
+    return sample;
+}
+
+struct guide_sample guide_sample(const struct guide *guide, ps_vec3 normal, float a, float b)
+{
+    if (!guide->ready)
+        return by_cosine(guide, normal, a, b);
+    struct guide_sample sample =
+        a < BY_COSINE ? by_cosine(guide, normal, a / BY_COSINE, b)
+                      : by_light(guide, normal, (a - BY_COSINE) / (1.0f - BY_COSINE), b);
+    sample.ratio = guide_ratio(guide, sample.bin);
+    return sample;
 }

@@ -25,9 +25,9 @@ struct guide {
     ps_vec3 normal, u, v;         /* a frame, of ps_frame */
     guide_bins found[2];          /* sums of the light that rays of either half found */
     int ready;                    /* whether the rest is set */
-    guide_bins known;             /* both, smoothed: the density, but for a factor */
+    guide_bins known;             /* both, smoothed: the density, but for `scale` */
     guide_bins smooth[2];         /* each, smoothed twice */
-    float total, smooth_total[2]; /* of these */
+    float scale, smooth_scale[2]; /* those of `known` and `smooth`; 0: nothing was found */
     float ring_ends[GUIDE_RINGS]; /* cumulative */
     guide_bins sector_ends;
 };
@@ -61,8 +61,14 @@ void guide_learn_from(struct guide *guide, const struct guide_lesson *lesson, fl
 /* From now on rays are drawn by what was learnt. */
 void guide_update(struct guide *guide);
 
-/* A direction from a surface of that normal by two numbers of [0, 1). It may lie below the surface. */
-ps_vec3 guide_sample(const struct guide *guide, ps_vec3 normal, float a, float b);
+struct guide_sample {
+    ps_vec3 direction;
+    struct guide_bin bin; /* where it lies */
+    float ratio;          /* guide_ratio() there */
+};
+
+/* Draws a direction from a surface of that normal by two numbers of [0, 1). It may lie below the surface. */
+struct guide_sample guide_sample(const struct guide *guide, ps_vec3 normal, float a, float b);
 
 /* The pdf of a direction above its surface, over that of the cosine. */
 float guide_ratio(const struct guide *guide, struct guide_bin bin);
