@@ -39,13 +39,13 @@
         {'t', "threads", "N", "threads; the picture does not depend on them"},                     \
         {0, "isa", "NAME",                                                                         \
          "instruction set: baseline, avx2 or avx512; default: the best there is"},                 \
-        {0, "batch", "N", "splats held in memory at a time; nor on these"},                        \
+        {0, "batch", "N", "splats held in memory at a time; the picture does not depend on it"},   \
         {0, "direct", "rays|shadowmap",                                                            \
          "how direct light finds shadows; area lights: by rays alone"},                            \
         {0, "direct-resolution", "N", "pixels along the side of each of these shadow maps"},       \
         {0, "exposure", "STOPS", "brightness of what is shown: a factor of 2^STOPS"},              \
     {                                                                                              \
-        'q', "quiet", NULL, "print nothing but errors"                                             \
+        'q', "quiet", NULL, "print only warnings and errors"                                       \
     }
 
 #endif

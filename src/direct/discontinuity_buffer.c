@@ -25,8 +25,8 @@ void discontinuity_buffer(struct gbuffer *gbuffer, struct workers *workers)
                                    .occlusion = gbuffer->occlusion,
                                    .radius = REACH,
                                    .from = found,
-                                   .to = gbuffer->joined};
+                                   .to = gbuffer->direct_scratch};
     geometry_filter_take(&mean, workers);
-    gbuffer->direct = gbuffer->joined;
-    gbuffer->joined = found;
+    gbuffer->direct = gbuffer->direct_scratch;
+    gbuffer->direct_scratch = found;
 }

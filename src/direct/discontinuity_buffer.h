@@ -24,7 +24,7 @@ void discontinuity_buffer_runs(const struct gbuffer *gbuffer, uint32_t tile, uin
                                uint32_t samples, struct light_runs *runs);
 
 /* Puts joined direct irradiance in the place of what each lane found by itself; after
- * gbuffer_prepare_join. */
+ * gbuffer_prepare_discontinuity_buffer. */
 void discontinuity_buffer(struct gbuffer *gbuffer, struct workers *workers);
 
 #endif

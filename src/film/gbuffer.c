@@ -90,77 +90,84 @@ ps_result gbuffer_create(struct gbuffer layout, struct gbuffer *gbuffer, struct 
     gbuffer->tiles = aligned_alloc(64, gbuffer->tile_count * sizeof(ps_tile));
     gbuffer->direct = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(ps_rgb));
     gbuffer->emitted = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(ps_rgb));
-    gbuffer->by_chance = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(bool));
-    if (gbuffer->tiles && gbuffer->direct && gbuffer->emitted && gbuffer->by_chance)
+    gbuffer->stochastic = malloc((size_t)gbuffer->tile_count * PS_TILE_PIXELS * sizeof(bool));
+    if (gbuffer->tiles && gbuffer->direct && gbuffer->emitted && gbuffer->stochastic)
         return PS_OK;
     size_t bytes = gbuffer_bytes(gbuffer);
     gbuffer_release(gbuffer);
     return error_memory(error, bytes, "the G-buffer");
 }
 
-ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error)
+/* An array that is there, or a new one of zeros. */
+static void *old_or_new(void *array, size_t count, size_t size)
 {
-    size_t lanes = (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
-    gbuffer->occlusion = calloc(lanes, sizeof *gbuffer->occlusion);
-    gbuffer->joined = calloc(lanes, sizeof *gbuffer->joined);
-    if (gbuffer->occlusion && gbuffer->joined)
-        return PS_OK;
-    return error_memory(error, lanes * (sizeof *gbuffer->occlusion + sizeof *gbuffer->joined),
-                        "direct light");
+    return array ? array : calloc(count, size);
+}
+
+static ps_result check(const void *array, size_t bytes, const char *what, struct error *error)
+{
+    return array ? PS_OK : error_memory(error, bytes, what);
+}
+
+static size_t lanes_of(const struct gbuffer *gbuffer)
+{
+    return (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
+}
+
+ps_result gbuffer_prepare_discontinuity_buffer(struct gbuffer *gbuffer, struct error *error)
+{
+    size_t count = lanes_of(gbuffer);
+    gbuffer->occlusion = old_or_new(gbuffer->occlusion, count, sizeof *gbuffer->occlusion);
+    gbuffer->direct_scratch =
+        old_or_new(gbuffer->direct_scratch, count, sizeof *gbuffer->direct_scratch);
+    size_t bytes = count * (sizeof *gbuffer->occlusion + sizeof *gbuffer->direct_scratch);
+    return check(gbuffer->occlusion ? gbuffer->direct_scratch : NULL, bytes, "direct light", error);
 }
 
 ps_result gbuffer_prepare_direct_half(struct gbuffer *gbuffer, struct error *error)
 {
-    size_t count = (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
-    if (gbuffer->direct_half)
-        return PS_OK;
-    gbuffer->direct_half = calloc(count, sizeof *gbuffer->direct_half);
-    return gbuffer->direct_half
-               ? PS_OK
-               : error_memory(error, count * sizeof *gbuffer->direct_half, "direct light");
+    size_t count = lanes_of(gbuffer);
+    gbuffer->direct_half = old_or_new(gbuffer->direct_half, count, sizeof *gbuffer->direct_half);
+    return check(gbuffer->direct_half, count * sizeof *gbuffer->direct_half, "direct light", error);
 }
 
 ps_result gbuffer_prepare_hard(struct gbuffer *gbuffer, struct error *error)
 {
-    size_t count = (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
-    if (!gbuffer->hard)
-        gbuffer->hard = calloc(count, sizeof *gbuffer->hard);
-    if (gbuffer->direct_half && !gbuffer->hard_half)
-        gbuffer->hard_half = calloc(count, sizeof *gbuffer->hard_half);
-    return gbuffer->hard && (gbuffer->hard_half || !gbuffer->direct_half)
-               ? PS_OK
-               : error_memory(error, count * sizeof *gbuffer->hard, "direct light");
+    size_t count = lanes_of(gbuffer), bytes = count * sizeof *gbuffer->hard;
+    gbuffer->hard = old_or_new(gbuffer->hard, count, sizeof *gbuffer->hard);
+    if (!gbuffer->direct_half)
+        return check(gbuffer->hard, bytes, "direct light", error);
+    gbuffer->hard_half = old_or_new(gbuffer->hard_half, count, sizeof *gbuffer->hard_half);
+    return check(gbuffer->hard ? gbuffer->hard_half : NULL, 2 * bytes, "direct light", error);
 }
 
 ps_result gbuffer_prepare_glossy(struct gbuffer *gbuffer, struct error *error)
 {
-    gbuffer->glossy = calloc(gbuffer->tile_count, sizeof *gbuffer->glossy);
-    return gbuffer->glossy ? PS_OK
-                           : error_memory(error, gbuffer->tile_count * sizeof *gbuffer->glossy,
-                                          "glossy surfaces");
+    size_t count = gbuffer->tile_count;
+    gbuffer->glossy = old_or_new(gbuffer->glossy, count, sizeof *gbuffer->glossy);
+    return check(gbuffer->glossy, count * sizeof *gbuffer->glossy, "glossy surfaces", error);
 }
 
 ps_result gbuffer_prepare_geometric_normals(struct gbuffer *gbuffer, struct error *error)
 {
-    size_t count = (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
-    gbuffer->geometric_normals = calloc(count, sizeof *gbuffer->geometric_normals);
-    return gbuffer->geometric_normals
-               ? PS_OK
-               : error_memory(error, count * sizeof *gbuffer->geometric_normals, "normals");
+    size_t count = lanes_of(gbuffer);
+    gbuffer->geometric_normals =
+        old_or_new(gbuffer->geometric_normals, count, sizeof *gbuffer->geometric_normals);
+    return check(gbuffer->geometric_normals, count * sizeof *gbuffer->geometric_normals, "normals",
+                 error);
 }
 
 ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error)
 {
-    size_t count = 3 * (size_t)gbuffer->tile_count * PS_TILE_PIXELS;
-    gbuffer->radiance = calloc(count, sizeof *gbuffer->radiance);
-    return gbuffer->radiance ? PS_OK
-                             : error_memory(error, count * sizeof(float), "indirect radiance");
+    size_t count = 3 * lanes_of(gbuffer);
+    gbuffer->radiance = old_or_new(gbuffer->radiance, count, sizeof *gbuffer->radiance);
+    return check(gbuffer->radiance, count * sizeof *gbuffer->radiance, "indirect radiance", error);
 }
 
 void gbuffer_release(struct gbuffer *gbuffer)
 {
     free(gbuffer->occlusion);
-    free(gbuffer->joined);
+    free(gbuffer->direct_scratch);
     free(gbuffer->radiance);
     free(gbuffer->tiles);
     free(gbuffer->direct);
@@ -168,7 +175,7 @@ void gbuffer_release(struct gbuffer *gbuffer)
     free(gbuffer->hard);
     free(gbuffer->hard_half);
     free(gbuffer->emitted);
-    free(gbuffer->by_chance);
+    free(gbuffer->stochastic);
     free(gbuffer->glossy);
     free(gbuffer->geometric_normals);
     *gbuffer = (struct gbuffer){.tiles = NULL};
@@ -176,9 +183,9 @@ void gbuffer_release(struct gbuffer *gbuffer)
 
 size_t gbuffer_bytes_with(const struct gbuffer *layout, struct gbuffer_parts parts)
 {
-    size_t lane = sizeof *layout->direct + sizeof *layout->emitted + sizeof *layout->by_chance;
-    if (parts.joined)
-        lane += sizeof *layout->occlusion + sizeof *layout->joined;
+    size_t lane = sizeof *layout->direct + sizeof *layout->emitted + sizeof *layout->stochastic;
+    if (parts.discontinuity_buffer)
+        lane += sizeof *layout->occlusion + sizeof *layout->direct_scratch;
     if (parts.direct_half)
         lane += sizeof *layout->direct_half;
     if (parts.hard)
@@ -194,7 +201,7 @@ size_t gbuffer_bytes_with(const struct gbuffer *layout, struct gbuffer_parts par
 size_t gbuffer_bytes(const struct gbuffer *gbuffer)
 {
     return gbuffer_bytes_with(gbuffer, (struct gbuffer_parts){
-                                           .joined = gbuffer->joined != NULL,
+                                           .discontinuity_buffer = gbuffer->direct_scratch != NULL,
                                            .direct_half = gbuffer->direct_half != NULL,
                                            .hard = gbuffer->hard != NULL,
                                            .glossy = gbuffer->glossy != NULL,
@@ -350,7 +357,7 @@ void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t index)
     memset(tile, 0, sizeof *tile);
     clear_radiance(gbuffer, index);
     memset(&gbuffer->emitted[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(ps_rgb));
-    memset(&gbuffer->by_chance[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(bool));
+    memset(&gbuffer->stochastic[(size_t)index * PS_TILE_PIXELS], 0, PS_TILE_PIXELS * sizeof(bool));
     if (gbuffer->glossy) {
         memset(gbuffer->glossy[index].depth, 0, sizeof gbuffer->glossy[index].depth);
         memset(gbuffer->glossy[index].sharp, 0, sizeof gbuffer->glossy[index].sharp);

@@ -18,9 +18,9 @@
 /* Where lanes that see no surface lie: outside of any scene, yet its square is finite. */
 #define GBUFFER_NOWHERE 1e18f
 
-/* Of the lanes of a tile whose paths met gloss, or a surface that mirrors by chance: the first such surface. What a
- * pixel finds behind it differs from look to look; this is what neighbouring pixels have in common. Of those that mirror
- * sharply and meet nothing behind: the first mirror, since there is nothing else that the pixel sees. */
+/* The surface that stands for a lane in denoisers, where its camera path met gloss or a partly mirroring surface: the first such
+ * surface. What lies behind it differs from sample to sample; this surface is what neighbouring pixels have in common. A path that met
+ * sharp mirrors only, and no surface behind them, has its first mirror (`sharp`). */
 struct glossy_tile {
     float reflectance_r[PS_TILE_PIXELS], reflectance_g[PS_TILE_PIXELS],
         reflectance_b[PS_TILE_PIXELS]; /* by all lobes, and of the way from there to the camera */
@@ -37,22 +37,18 @@ struct gbuffer {
     uint32_t first_column, first_row;              /* where the window begins, in tiles */
     uint32_t tiles_across, tiles_down, tile_count; /* of the window */
     ps_tile *tiles;                                /* 64-byte aligned, owned */
-    ps_rgb *direct; /* direct irradiance, tile_count * PS_TILE_PIXELS, owned */
-    /* The same by the second half of the shadow rays, likewise; NULL where nobody asks. */
-    ps_rgb *direct_half;
-    /* What of both comes from lights that cast hard shadows, likewise; NULL where nobody asks. */
-    ps_rgb *hard, *hard_half;
-    ps_rgb *emitted; /* radiance collected on the way there, of the same size, owned */
-    bool *by_chance; /* whether another look would take another way (lens, gloss, glass) */
-    struct glossy_tile *glossy; /* of each tile, owned; NULL where the scene has no such surface */
-    /* What shadow rays met (see gbuffer_occlusion_alike), and room for direct light that is joined; likewise,
-     * or NULL where nobody joins it. */
-    uint64_t *occlusion;
-    ps_rgb *joined;
-    /* Of the surface itself, where shading normals are smoothed or bent; likewise, or NULL where nobody asks. */
-    ps_vec3 *geometric_normals;
-    float *
-        radiance; /* what ps_tile.radiance_r, _g and _b point into, owned; NULL where nobody adds to it */
+    /* Arrays with a value for each lane of each tile, owned. */
+    ps_rgb *direct;   /* direct irradiance, W/m^2 */
+    ps_rgb *emitted;  /* radiance collected along the camera path, W/(m^2 sr) */
+    bool *stochastic; /* another sample's path may end elsewhere: lens, gloss, glass */
+    /* The same, but NULL where they are not prepared. */
+    ps_rgb *direct_half;      /* direct irradiance by the second half of the shadow rays */
+    ps_rgb *hard, *hard_half; /* the part of both of lights that cast hard shadows */
+    uint64_t *occlusion;      /* what shadow rays met, see gbuffer_occlusion_alike */
+    ps_rgb *direct_scratch;   /* the discontinuity buffer writes here, and swaps it with `direct` */
+    ps_vec3 *geometric_normals; /* where shading normals are smoothed or bent */
+    struct glossy_tile *glossy; /* one for each tile */
+    float *radiance;            /* ps_tile.radiance_r, _g and _b point into it; W/(m^2 sr) */
 };
 
 /* Tiles of a picture of that size, and no memory for them. */
@@ -70,27 +66,18 @@ struct rectangle gbuffer_window(const struct gbuffer *gbuffer);
 ps_result gbuffer_create(struct gbuffer layout, struct gbuffer *gbuffer, struct error *error);
 void gbuffer_release(struct gbuffer *gbuffer);
 
-/* Makes room for what discontinuity_buffer.h needs. */
-ps_result gbuffer_prepare_join(struct gbuffer *gbuffer, struct error *error);
-
-/* Makes room for direct light by half of the shadow rays, where there is none yet. */
+/* The optional arrays; those that are there stay as they are. PS_ERROR_MEMORY: release the buffer all the same. */
+ps_result gbuffer_prepare_discontinuity_buffer(struct gbuffer *gbuffer, struct error *error);
 ps_result gbuffer_prepare_direct_half(struct gbuffer *gbuffer, struct error *error);
-
-/* Makes room for light that casts hard shadows, and half of it if there are halves. */
+/* And half of it, if `direct_half` is there. */
 ps_result gbuffer_prepare_hard(struct gbuffer *gbuffer, struct error *error);
-
-/* Makes room for the first glossy surfaces. */
 ps_result gbuffer_prepare_glossy(struct gbuffer *gbuffer, struct error *error);
-
-/* Makes room for geometric normals. */
 ps_result gbuffer_prepare_geometric_normals(struct gbuffer *gbuffer, struct error *error);
-
-/* Makes room for indirect radiance. */
 ps_result gbuffer_prepare_radiance(struct gbuffer *gbuffer, struct error *error);
 
-/* What a buffer has besides tiles, direct and emitted light, and by_chance. */
+/* What a buffer has besides tiles, direct and emitted light, and stochastic. */
 struct gbuffer_parts {
-    bool joined, direct_half, hard, glossy, geometric_normals, radiance;
+    bool discontinuity_buffer, direct_half, hard, glossy, geometric_normals, radiance;
 };
 
 /* Bytes that the tiles of a layout take with such parts, and that the buffer takes. */
@@ -125,12 +112,12 @@ bool gbuffer_picture_pixel(const struct gbuffer *gbuffer, uint32_t number, uint3
 /* The other way: tile and lane of a pixel of the window. */
 uint32_t gbuffer_tile_of(const struct gbuffer *gbuffer, uint32_t x, uint32_t y, uint32_t *lane);
 
-/* The same for a neighbour, which may lie outside of the window: false, and nothing told, then. */
+/* The same for a neighbour, which may lie outside of the window: false, and neither is set. */
 bool gbuffer_find(const struct gbuffer *gbuffer, int64_t x, int64_t y, uint32_t *tile,
                   uint32_t *lane);
 
 /* Makes all lanes of a tile see nothing, meet no glossy surface, and zeroes its accumulators, emitted radiance and
- * by_chance. */
+ * stochastic. */
 void gbuffer_clear_tile(struct gbuffer *gbuffer, uint32_t tile);
 
 /* Lets a lane see what was hit, at the end of a way of length `travelled` that leaves `throughput` of

@@ -127,16 +127,16 @@ static void host_tile_hits(const ps_host *host, uint32_t index, ps_ray *rays, ps
 static void trace_surfaces(const struct render *render, uint32_t index, ps_tile *tile)
 {
     ps_rgb emitted[PS_TILE_PIXELS];
-    bool by_chance[PS_TILE_PIXELS];
+    bool stochastic[PS_TILE_PIXELS];
     struct gbuffer alone = gbuffer_layout(PS_TILE_SIZE, PS_TILE_SIZE);
     alone.tiles = tile;
     alone.emitted = emitted;
-    alone.by_chance = by_chance;
+    alone.stochastic = stochastic;
     struct view_pass pass = {
         .lighting = {.scene = render->scene, .trace = render->trace},
         .gbuffer = &alone,
         .seed = render->settings->seed,
-        .surfaces_alone = true,
+        .without_light = true,
     };
     struct view_points points;
     view_pixels(&render->gbuffer, index, render->pass.number, render->jitter[0], render->jitter[1],

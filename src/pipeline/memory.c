@@ -65,8 +65,9 @@ static double gbuffer_part(const struct gbuffer *layout, const struct planes *pl
     struct interleaved interleaved = interleaved_layout(layout, 1);
     interleaved.has_geometric_normals = planes->geometric;
     size_t bytes = gbuffer_bytes_with(
-        layout, (struct gbuffer_parts){planes->joined, planes->direct_half, planes->hard,
-                                       planes->gloss, planes->geometric, planes->radiance});
+        layout,
+        (struct gbuffer_parts){planes->discontinuity_buffer, planes->direct_half, planes->hard,
+                               planes->gloss, planes->geometric, planes->radiance});
     if (planes->edges)
         bytes += layout->tile_count * PS_TILE_PIXELS * sizeof(bool);
     if (planes->splats || planes->caustics)

@@ -31,7 +31,7 @@ static void add_of_scene(struct planes *planes, const struct render_settings *se
     planes->gloss = scene->microfacets && planes->surfaces;
     planes->caustics = scene->microfacets && !planes->splats;
     planes->geometric = (planes->splats || planes->caustics) && scene_has_shading_normals(scene);
-    planes->joined = settings->discontinuity_buffer && scene->has_area_lights;
+    planes->discontinuity_buffer = settings->discontinuity_buffer && scene->has_area_lights;
     /* Halves of the direct light tell its noise from an edge, of which hard shadows have some. */
     planes->direct_half = planes->edges && scene_samples_lights(scene) && scene->light_samples > 1;
     planes->hard = planes->direct_half && scene_has_hard_shadows_apart(scene);

@@ -11,13 +11,13 @@
 #include "scene/scene.h"
 
 struct planes {
-    bool sums;        /* of several passes, or of the caller's film */
-    bool surfaces;    /* film: FILM_ALBEDO_R to FILM_VISIBLE */
-    bool gloss;       /* the first glossy surfaces, and FILM_GLOSS */
-    bool joined;      /* G-buffer: room for the discontinuity buffer */
-    bool edges;       /* pixels that take several samples */
-    bool splats;      /* what pixels get by splats, with short-range light */
-    bool caustics;    /* what they get by splats of caustics alone */
+    bool sums;                 /* of several passes, or of the caller's film */
+    bool surfaces;             /* film: FILM_ALBEDO_R to FILM_VISIBLE */
+    bool gloss;                /* the first glossy surfaces, and FILM_GLOSS */
+    bool discontinuity_buffer; /* G-buffer: room for it */
+    bool edges;                /* pixels that take several samples */
+    bool splats;               /* what pixels get by splats, with short-range light */
+    bool caustics;             /* what they get by splats of caustics alone */
     bool geometric;   /* G-buffer: geometric normals beside smoothed or bent ones, for splats */
     bool direct_half; /* G-buffer: direct light by half of the shadow rays */
     bool hard;        /* G-buffer: light that casts hard shadows */

@@ -73,8 +73,8 @@ static ps_result add_to_gbuffer(struct render *render, const struct planes *plan
         result = gbuffer_prepare_glossy(gbuffer, error);
     if (result == PS_OK && planes->geometric)
         result = gbuffer_prepare_geometric_normals(gbuffer, error);
-    if (result == PS_OK && planes->joined)
-        result = gbuffer_prepare_join(gbuffer, error);
+    if (result == PS_OK && planes->discontinuity_buffer)
+        result = gbuffer_prepare_discontinuity_buffer(gbuffer, error);
     if (result == PS_OK && planes->direct_half)
         result = gbuffer_prepare_direct_half(gbuffer, error);
     if (result == PS_OK && planes->hard)

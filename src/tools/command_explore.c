@@ -15,7 +15,7 @@ static const struct option options[] = {
     {0, "no-browser", NULL, "print the address, and don't open it"},
     {0, "passes", "N", "passes of a picture; default: 64"},
     RENDER_OPTIONS,
-    {0, "memory-limit", "SIZE", "refuse what takes more, as 500M or 8G; default: the machine's"},
+    {0, "memory-limit", "SIZE", "refuse to use more memory, as 500M or 8G; default: the machine's"},
 };
 
 static bool take_number(const struct argument *argument, double minimum, double maximum,

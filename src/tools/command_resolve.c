@@ -25,7 +25,7 @@ static const struct option options[] = {
      "another normalization, denoiser, bloom or tone map, or other parameters"},
     {0, "exposure", "STOPS", "brightness of what is shown: a factor of 2^STOPS"},
     {'t', "threads", "N", "threads; the picture does not depend on them"},
-    {'q', "quiet", NULL, "print nothing but errors"},
+    {'q', "quiet", NULL, "print only warnings and errors"},
 };
 
 struct job {

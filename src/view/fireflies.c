@@ -4,10 +4,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Times the mean of the others, and that of those nearby: where chance decides what a pixel shows, and elsewhere. */
-#define TOO_BRIGHT_BY_CHANCE 2.0f
-#define TOO_BRIGHT 4.0f
-#define FEWEST 8.0f /* of which there must be so many */
+/* t of the limit. */
+#define TIMES_STOCHASTIC 2.0f
+#define TIMES 4.0f
+#define FEWEST 8.0f /* other pixels of the surface */
 
 /* What a tile's fireflies share out. */
 struct shares {
@@ -52,7 +52,7 @@ static float mean_of_others(const ps_tile *tile, uint32_t lane, const float othe
     return ps_max(sum / count, nearby / weight);
 }
 
-/* Whether a pixel is one, with more than so many times the mean: then it gives. */
+/* If a pixel exceeds `times` the mean of the others, notes what it keeps and what these get. Returns whether it does. */
 static bool share_out(const ps_tile *tile, uint32_t lane, float times, struct shares *shares)
 {
     float others[PS_TILE_PIXELS], count = find_others(tile, lane, others);
@@ -72,7 +72,8 @@ static bool share_out(const ps_tile *tile, uint32_t lane, float times, struct sh
     return true;
 }
 
-/* Whether a pixel is so many times as bright as two of the tile's beside it, as most fireflies are: which is soon told. */
+/* A cheap first test: whether at least two of the four neighbours in the tile are darker by that factor (the second darkest one, by minima and
+ * maxima). Neighbours outside of the tile count as equally bright. */
 static bool stands_out(const float bright[PS_TILE_PIXELS], uint32_t lane, float times)
 {
     uint32_t x = lane % PS_TILE_SIZE, y = lane / PS_TILE_SIZE, last = PS_TILE_SIZE - 1;
@@ -93,12 +94,12 @@ static void add(float *irradiance, const float *keep, const float *more)
 void fireflies_spread(struct gbuffer *gbuffer, uint32_t index)
 {
     ps_tile *tile = &gbuffer->tiles[index];
-    const bool *by_chance = &gbuffer->by_chance[(size_t)index * PS_TILE_PIXELS];
+    const bool *stochastic = &gbuffer->stochastic[(size_t)index * PS_TILE_PIXELS];
     struct shares shares;
     bool any = false;
     begin(tile, &shares);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
-        float times = by_chance[lane] ? TOO_BRIGHT_BY_CHANCE : TOO_BRIGHT;
+        float times = stochastic[lane] ? TIMES_STOCHASTIC : TIMES;
         if (tile->object[lane] != PS_NO_OBJECT && stands_out(shares.bright, lane, times))
             any |= share_out(tile, lane, times, &shares);
     }

@@ -1,19 +1,21 @@
-/* fireflies.h: single pixels that rays by chance found too much light for.
+/* fireflies.h: pixels that are far too bright because a rare path met a bright light.
  *
- * Samples of pixels at edges share the mean of what the pixels around found (edges.h): a firefly among these becomes a square as large
- * as that mean, which no denoiser tells from light. So before that, what a pixel has beyond a multiple of the mean of the
- * others that are alike, and of those nearby among them, is shared out evenly to all. The multiple is smaller where pixels show
- * what they do by chance (gbuffer.h). All within a tile: no light is lost, as clamping loses it, and nothing is seen of it, since they
- * are many. Pixels off the edges show what they found themselves: what these give to those at edges is as much as they would get, in
- * the mean alone.
+ * Edge pixels interpolate indirect light over 5x5 pixels (edge_interpolation.h): a firefly among these would become a square of 5x5
+ * pixels, which no denoiser recognizes. So before that, with B the sum of the irradiance's channels, what a pixel has beyond
+ *
+ *     limit = t max(mean of B, mean of B weighted by inverse squared distance)
+ *
+ * over the other pixels of the tile that see its surface (at least 8) is distributed evenly among them. t is 4, or 2 where the
+ * pixel's sample is stochastic (lens, gloss, glass). Clamping would lose the light. Pixels off the edges are in the film already, as
+ * they were: so light is conserved on average, not pixel by pixel.
  */
 #ifndef VIEW_FIREFLIES_H
 #define VIEW_FIREFLIES_H
 
 #include "film/gbuffer.h"
 
-/* Shares out the indirect light of a tile's fireflies, when all of it is there, and pixels off the edges have been added to the
- * film as they are. Any thread, a tile each. */
+/* Distributes the excess irradiance of a tile's fireflies, when its pixels off the edges have been added to the film. Different
+ * tiles may run on different threads. */
 void fireflies_spread(struct gbuffer *gbuffer, uint32_t tile);
 
 #endif

@@ -6,11 +6,11 @@
 #include <psplat/path.h>
 #include <psplat/tile.h>
 
-/* Set of the numbers that choose a point of the lens; surfaces on the way take 0, 1, 2, ... */
+/* Set of the numbers that choose a point of the lens; surfaces along the path take sets 0, 1, 2, ... */
 #define LENS_SET 0x10000u
 
-/* Of a pixel's side, over which pictures are averaged: what is left of their finer detail passes average, which look at
- * other points of the pixel each. */
+/* The width of a camera ray's cone over the pixel's side (scene/ray_cone.h): textures are averaged over it. Finer detail is averaged by
+ * the passes, which sample other points of the pixel. */
 #define CONE_SIDE 0.125f
 
 /* Paths of a tile that are still under way. */
@@ -26,7 +26,19 @@ struct camera_paths {
     const uint64_t *indices;               /* of each lane's random numbers */
 };
 
-static ps_ray look(const struct view_pass *pass, const struct view_points *points, uint32_t lane)
+static void move_path(struct camera_paths *paths, size_t from, size_t to)
+{
+    paths->lanes[to] = paths->lanes[from];
+    paths->rays[to] = paths->rays[from];
+    paths->throughput[to] = paths->throughput[from];
+    paths->travelled[to] = paths->travelled[from];
+    paths->pdfs[to] = paths->pdfs[from];
+    paths->spreads[to] = paths->spreads[from];
+    paths->strata[to] = paths->strata[from];
+}
+
+static ps_ray camera_ray_at(const struct view_pass *pass, const struct view_points *points,
+                            uint32_t lane)
 {
     const struct camera *camera = &pass->lighting.scene->camera;
     float lens[4] = {0, 0, 0, 0};
@@ -38,20 +50,21 @@ static ps_ray look(const struct view_pass *pass, const struct view_points *point
 static void start(const struct view_pass *pass, const struct view_points *points, uint32_t tile,
                   struct camera_paths *paths)
 {
-    bool *by_chance = pass->hits ? NULL : &pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS];
+    bool *stochastic =
+        pass->hits ? NULL : &pass->gbuffer->stochastic[(size_t)tile * PS_TILE_PIXELS];
     paths->count = points->count;
     paths->indices = points->indices;
     for (size_t i = 0; i < points->count; i++) {
         paths->lanes[i] = points->lanes[i];
-        paths->rays[i] = look(pass, points, points->lanes[i]);
+        paths->rays[i] = camera_ray_at(pass, points, points->lanes[i]);
         paths->throughput[i] = (ps_rgb){1, 1, 1};
         paths->travelled[i] = 0.0f;
-        paths->strata[i].paths = points->of_pixel;
+        paths->strata[i].paths = points->samples_of_pixel;
         paths->pdfs[i] = 0.0f;
         paths->spreads[i] = CONE_SIDE * camera_pixel_spread(&pass->lighting.scene->camera,
                                                             paths->rays[i].direction);
-        if (by_chance)
-            by_chance[points->lanes[i]] = pass->lighting.scene->camera.aperture > 0.0f;
+        if (stochastic)
+            stochastic[points->lanes[i]] = pass->lighting.scene->camera.aperture > 0.0f;
     }
 }
 
@@ -106,11 +119,7 @@ static void end_at_diffuse(const struct view_pass *pass, uint32_t tile, struct c
             continue;
         }
         hits[left] = hits[i];
-        paths->lanes[left] = paths->lanes[i];
-        paths->rays[left] = paths->rays[i];
-        paths->throughput[left] = paths->throughput[i];
-        paths->spreads[left] = paths->spreads[i];
-        paths->strata[left] = paths->strata[i];
+        move_path(paths, i, left);
         paths->travelled[left++] = travelled;
     }
     paths->count = left;
@@ -135,8 +144,8 @@ static void collect_gloss(const struct view_pass *pass, uint32_t tile, uint32_t 
                     ps_rgb_multiply(paths->throughput[i], radiance[i]));
 }
 
-/* Path i goes on from gloss, or from a surface that is diffuse as well, by chance; or from a mirror (`sharp`), which stands
- * for the pixel until the path ends at a surface. */
+/* Stores the surface that stands for the pixel: the first glossy or partly diffuse one that path i leaves; or a mirror (`sharp`), until
+ * the path ends at a surface. */
 static void note_gloss(const struct view_pass *pass, uint32_t tile,
                        const struct camera_paths *paths, size_t i, const ps_hit *hit, bool sharp)
 {
@@ -157,18 +166,18 @@ static void note_gloss(const struct view_pass *pass, uint32_t tile,
                              paths->travelled[i]);
 }
 
-/* Several samples of a pixel tell more where its path goes on by chance. What glass shows is as sharp as without it: its
- * surface says nothing about that, as that of gloss does. */
-static void note_chance(const struct view_pass *pass, uint32_t tile,
-                        const struct camera_paths *paths, size_t i, const ps_hit *hit,
-                        const ps_bsdf_sample *on)
+/* Marks pixels whose path goes on stochastically, which take several samples. Glass does not stand for the pixel, as gloss does:
+ * what is seen through it is sharp. */
+static void note_scattering(const struct view_pass *pass, uint32_t tile,
+                            const struct camera_paths *paths, size_t i, const ps_hit *hit,
+                            const ps_bsdf_sample *on)
 {
     bool gloss = on->probability < 1.0f || on->lobe == PS_GLOSSY;
     bool refracts = material_refracts(&pass->lighting.scene->materials[hit->material]);
     if (pass->hits)
         return;
     if (gloss || refracts)
-        pass->gbuffer->by_chance[(size_t)tile * PS_TILE_PIXELS + paths->lanes[i]] = true;
+        pass->gbuffer->stochastic[(size_t)tile * PS_TILE_PIXELS + paths->lanes[i]] = true;
     if (gloss || !refracts)
         note_gloss(pass, tile, paths, i, hit, !gloss);
 }
@@ -188,7 +197,7 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
         ps_bsdf_sample on =
             material_scatter(&scene->materials[hits[i].material], scene->microfacets,
                              PS_FROM_CAMERA, &paths->rays[i], &hits[i], numbers, &paths->strata[i]);
-        note_chance(pass, tile, paths, i, &hits[i], &on);
+        note_scattering(pass, tile, paths, i, &hits[i], &on);
         if (on.lobe == PS_DIFFUSE) {
             ps_rgb throughput = ps_rgb_scale(paths->throughput[i], 1.0f / on.probability);
             if (ps_rgb_maximum(hits[i].albedo) > 0.0f)
@@ -197,12 +206,10 @@ static void scatter(const struct view_pass *pass, uint32_t tile, uint32_t depth,
         }
         if (!(ps_rgb_maximum(on.weight) > 0.0f))
             continue;
-        paths->lanes[left] = paths->lanes[i];
-        paths->throughput[left] = ps_rgb_multiply(paths->throughput[i], on.weight);
-        paths->travelled[left] = paths->travelled[i];
-        paths->strata[left] = paths->strata[i];
+        move_path(paths, i, left);
+        paths->throughput[left] = ps_rgb_multiply(paths->throughput[left], on.weight);
         paths->pdfs[left] = on.pdf;
-        paths->spreads[left] = ps_max(paths->spreads[i], ps_cone_spread(on.pdf));
+        paths->spreads[left] = ps_max(paths->spreads[left], ps_cone_spread(on.pdf));
         paths->rays[left++] =
             ps_leave_surface(hits[i].position, on.normal, on.direction, scene->surface_offset);
     }
@@ -214,7 +221,7 @@ void view_pixels(const struct gbuffer *gbuffer, uint32_t tile_number, uint32_t n
                  float jitter_x, float jitter_y, struct view_points *points)
 {
     points->count = 0;
-    points->of_pixel = 1;
+    points->samples_of_pixel = 1;
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
         uint32_t x, y, lane = gbuffer_block_lane(i);
         if (!gbuffer_picture_pixel(gbuffer, tile_number, lane, &x, &y))
@@ -230,7 +237,7 @@ void view_trace(const struct view_pass *pass, const struct view_points *points, 
 {
     struct camera_paths paths;
     ps_hit hits[PS_TILE_PIXELS];
-    bool collects = !pass->hits && !pass->surfaces_alone;
+    bool collects = !pass->hits && !pass->without_light;
     if (!pass->hits)
         gbuffer_clear_tile(pass->gbuffer, index);
     start(pass, points, index, &paths);

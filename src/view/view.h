@@ -1,9 +1,11 @@
 /* view.h: what the camera sees: fills the G-buffer.
  *
- * From each pixel a path runs over mirrors, gloss and glass to the first diffuse surface, where it
- * ends and indirect light is gathered; a surface of several lobes chooses one by chance, anew in each
- * pass, so that passes average over all. On the way the path collects what is emitted, and what gloss
- * reflects of the lights.
+ * From each pixel a path runs over mirrors, gloss and glass to the first diffuse surface, where it ends. Its radiance is
+ *
+ *     L = sum over the surfaces of the path of T_i (L_e + direct light reflected by gloss) + T albedo / pi (E_direct + E_indirect)
+ *
+ * with T_i and T the throughput from there to the camera. The sum is collected here; estimators find E_indirect where the path
+ * ends. A surface of several lobes chooses one at random, anew in each pass, so that passes average over all.
  */
 #ifndef VIEW_VIEW_H
 #define VIEW_VIEW_H
@@ -15,18 +17,19 @@ struct view_pass {
         lighting; /* scene and rays; and for what is emitted, and what gloss reflects of the lights */
     struct gbuffer *gbuffer;
     uint64_t seed;
-    /* Instead of the G-buffer: the rays that paths end with and what they met, for each lane; lanes whose
-     * paths end nowhere are left as they are. NULL: the G-buffer is filled. */
+    /* Output: either the G-buffer (both NULL), or for each lane the last ray of its path and what it met; lanes that meet no
+     * surface keep their values. */
     ps_ray *rays;
     ps_hit *hits;
-    bool surfaces_alone; /* the G-buffer is filled without the light that is collected on the way */
+    bool
+        without_light; /* the G-buffer is filled without the radiance that is collected along the path */
 };
 
-/* Where lanes of a tile look. */
+/* The camera samples of a tile. */
 struct view_points {
-    size_t count;                   /* of lanes that look anywhere */
-    uint32_t of_pixel;              /* so many that follow each other look at one pixel */
-    uint32_t lanes[PS_TILE_PIXELS]; /* these, compact ones next to each other */
+    size_t count;                               /* of lanes that have one */
+    uint32_t samples_of_pixel;                  /* so many consecutive lanes belong to one pixel */
+    uint32_t lanes[PS_TILE_PIXELS];             /* those that have one, neighbours close together */
     float x[PS_TILE_PIXELS], y[PS_TILE_PIXELS]; /* of each lane, in pixels of the picture */
     uint64_t indices[PS_TILE_PIXELS];           /* of each lane's random numbers */
 };

@@ -19,7 +19,7 @@ static int open_gbuffer(void **state)
     (void)state;
     struct error error;
     return gbuffer_create(gbuffer_layout(WIDTH, HEIGHT), &gbuffer, &error) != PS_OK ||
-           gbuffer_prepare_join(&gbuffer, &error) != PS_OK;
+           gbuffer_prepare_discontinuity_buffer(&gbuffer, &error) != PS_OK;
 }
 
 static int close_gbuffer(void **state)

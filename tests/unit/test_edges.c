@@ -125,7 +125,7 @@ static void test_pixels_that_show_something_by_chance(void **state)
     (void)state;
     bool edges[PS_TILE_PIXELS];
     fill(7, &grey, one, none);
-    gbuffer.by_chance[5] = true;
+    gbuffer.stochastic[5] = true;
     edges_find(&gbuffer, 0, edges);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++)
         assert_int_equal(edges[lane], lane == 5);

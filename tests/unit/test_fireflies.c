@@ -40,7 +40,7 @@ static bool is_right(uint32_t lane)
 }
 
 /* All have the irradiance 1, 2, 3, and show what they do by chance or not. The right half is `height` above the left one. */
-static void fill(bool by_chance, float height)
+static void fill(bool stochastic, float height)
 {
     gbuffer_clear_tile(&gbuffer, 0);
     for (uint32_t lane = 0; lane < PS_TILE_PIXELS; lane++) {
@@ -49,7 +49,7 @@ static void fill(bool by_chance, float height)
         hit.position.y = (float)(lane / PS_TILE_SIZE);
         hit.position.z = is_right(lane) ? height : 0.0f;
         gbuffer_store(tile(), lane, &hit, (ps_rgb){1, 1, 1}, 1);
-        gbuffer.by_chance[lane] = by_chance;
+        gbuffer.stochastic[lane] = stochastic;
         ps_add_irradiance(tile(), lane, (ps_rgb){1, 2, 3});
     }
 }
@@ -70,10 +70,10 @@ static double sum(const float *plane)
 }
 
 /* The firefly keeps so many times what the others had, and these have the rest, with its colours. */
-static void expect_shared_out(bool by_chance, double times)
+static void expect_shared_out(bool stochastic, double times)
 {
     double rest = 100.0 - times;
-    fill(by_chance, 0.0f);
+    fill(stochastic, 0.0f);
     brighten(BRIGHT, 100.0f);
     fireflies_spread(&gbuffer, 0);
     assert_float_equal(tile()->irradiance_g[BRIGHT], 2.0 * times, 1e-4);

@@ -1,11 +1,11 @@
-# Includes between the rooms of the source tree go one way, as tests/cli/rooms.txt has them.
+# Includes between the modules of the source tree go one way, as tests/cli/modules.txt has them.
 . "$PSPLAT_SOURCE/tests/cli/lib.sh"
 
-# rooms_problems TREE: what is wrong with the includes of that tree, a line each.
-rooms_problems() {
+# module_problems TREE: what is wrong with the includes of that tree, a line each.
+module_problems() {
     (cd "$1" && grep -r --include='*.[ch]' '^#include' src parser plugins) |
         sed 's|^\([^:]*\):#include \(["<][^">]*\).*|\1 \2|' | awk '
-        function room_of(path, parts, depth) {
+        function module_of(path, parts, depth) {
             sub(/^src\//, "", path)
             depth = split(path, parts, "/")
             return parts[1] == "parser" && depth > 2 ? "parser/" parts[2] : parts[1]
@@ -17,7 +17,7 @@ rooms_problems() {
             if (name ~ /^</) { home[name] = $2; next }
             known[name] = 1
             for (i = 2; i <= NF; i++) {
-                if (!($i in known)) print "rooms.txt: " name " names " $i ", which is not above it"
+                if (!($i in known)) print "modules.txt: " name " names " $i ", which is not above it"
                 allowed[name, $i] = 1
                 edges[name " " $i] = 1
             }
@@ -30,21 +30,21 @@ rooms_problems() {
             next
         }
         {
-            from = room_of($1)
-            to = room_of(substr($2, 2))
+            from = module_of($1)
+            to = module_of(substr($2, 2))
             split($1, parts, "/")
             sub(/\.c$/, "", parts[3]) # plugins/KIND/NAME.c may have a folder NAME, and share plugins/KIND/shared
             if (from == "plugins" && (index($2, "\"" parts[3] "/") == 1 || index($2, "\"shared/") == 1 || (parts[4] != "" && index($2, "\"../shared/") == 1) || $2 !~ /\//)) next
             if (from == "plugins") { print $1 " includes " $2 "\": plugins include <psplat/...> and their own folder"; next }
-            if (!(from in known)) print "rooms.txt: no room " from
+            if (!(from in known)) print "modules.txt: no module " from
             used[from " " to] = 1
             if (from != to && !((from, to) in allowed)) print $1 " includes " $2 "\": " from " may not use " to
         }
-        END { for (edge in edges) if (!(edge in used)) print "rooms.txt: nothing uses " edge }
-    ' "$PSPLAT_SOURCE/tests/cli/rooms.txt" - | sort -u
+        END { for (edge in edges) if (!(edge in used)) print "modules.txt: nothing uses " edge }
+    ' "$PSPLAT_SOURCE/tests/cli/modules.txt" - | sort -u
 }
 
-rooms_problems "$PSPLAT_SOURCE" >problems
+module_problems "$PSPLAT_SOURCE" >problems
 expect_empty problems
 
 # It finds what is wrong.
@@ -54,7 +54,7 @@ wrong() {
     last="#include $2 in $1"
     cp "tree/$1" kept
     printf '#include %s\n' "$2" >>"tree/$1"
-    rooms_problems tree >problems
+    module_problems tree >problems
     mv kept "tree/$1"
     [ "$(wc -l <problems)" -eq 1 ] || fail "$(wc -l <problems) problems"
     expect_text problems "$3"
