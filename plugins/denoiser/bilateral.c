@@ -24,7 +24,7 @@
 
 #define LARGEST 33
 #define BLOCK 64      /* pixels of a row at a time: their sums stay in the first-level cache */
-#define DARKEST 1e-3f /* albedo below which light is not judged by */
+#define DARKEST 1e-3f /* albedo below which a channel tells nothing about the irradiance */
 
 static const char *const automatic[] = {"auto", NULL};
 

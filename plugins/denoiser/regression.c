@@ -8,31 +8,30 @@
  *     E' = F_48 + sum over R = 24, 12, 6, 3 of k_R B,   B = F_R - F_2R,   k_R = max(0, 1 - (c <N^2> / <B^2>)^2)
  *
  * The windows of the latter fits follow the edges of light (regression/steering.h). N is the band of a picture of the
- * noise alone, and <> a mean over a square around, of pixels of one kind (regression/kinds.h). So few blobs of noise fit
- * into such a square that now and then they seem to be signal. But edges of light show in all bands, and chance in one:
- * the caution c is 2 where the band before was kept, 4 where none of it was, and in proportion between (bivariate
- * shrinkage does the same to wavelets: Sendur and Selesnick 2002). In a single pass, whose noise is guessed with some of
- * the light in it, 1.2 takes the place of 2 past the first band.
+ * noise alone, and <> a mean over a square around, of pixels of one kind (regression/kinds.h). Such a square holds only a
+ * few blobs of noise, so noise sometimes passes for signal. Edges of light show in all bands, noise seldom in two: so the factor c
+ * is 2 where the wider band was kept, 4 where it was not, and in between in proportion (bivariate shrinkage, Sendur and
+ * Selesnick 2002). In a single pass, whose noise is estimated from the light itself, 1.2 takes the place of 2 past the
+ * first band.
  *
  * Where two halves of the light are known, of passes or of shadow rays, their difference is the noise, and the pixels
  * themselves are a last band: light without noise stays as it is, with its hard shadows. Of a single pass of indirect
- * light the noise is what pixels differ from a first fit, with signs drawn by lot (the wild bootstrap, Wu 1986). That
+ * light the noise is what pixels differ from a first fit, with random signs (the wild bootstrap, Wu 1986). That
  * needs noise that is independent from pixel to pixel, as that of paths is and that of splats is not. At edges, in gloss
  * and behind a lens, where samples of a pixel share the light of those around it (src/view/edges.h), blocks of pixels
  * take one sign (the dependent wild bootstrap, Shao 2010).
  *
- * Bright samples that few pixels found would leave speckles in narrow bands. So what exceeds twice the first fit, and
- * may be noise, is left out of the bands; where halves are known, only if few pixels near by are like it. At last the
- * rest, E - E', gets a fit as wide as possible, and is added: with it what was left out, so that nothing is lost as
- * clamping loses it, and what all fits are too dark or too bright by (twicing, Tukey 1977).
+ * Bright samples of few pixels would leave speckles in narrow bands. So each pixel is limited to twice the first fit (if the excess may
+ * be noise and, where halves are known, few pixels near it are as bright). At the end the residual E - E' is fitted with
+ * the widest bandwidth and added. It contains what was cut off, so no light is lost, and the bias of the fits (twicing, Tukey 1977).
  *
  * E is radiance over albedo, so that colours of surfaces stay sharp. A channel that a surface hardly reflects says
  * nothing about the light, and is taken for the mean of its other channels. What gloss mirrors is fitted along
  * the glossy surface, as if it were irradiance, and is blurred as far as noise asks.
  */
 #include "regression/bands.h"
-#include "regression/body.h"
 #include "regression/bounds.h"
+#include "regression/clamp.h"
 #include "regression/kinds.h"
 
 #include <psplat/plugin.h>
@@ -42,8 +41,8 @@
 #define FIRST 24                  /* bandwidth of the first fit */
 #define WIDEST REGRESSION_LARGEST /* of the rest */
 
-/* Errors of the bands are not independent, and what is finer than the narrowest fit is none of them: against path-traced
- * references of seven scenes errors are larger than the sum over bands by so much. */
+/* From the sum over bands to the error: errors of the bands are correlated, and detail finer than the narrowest fit is in no band.
+ * Calibrated with path-traced references of seven scenes. */
 #define UNSEEN 1.4f
 
 static const char *const automatic[] = {"auto", NULL};
@@ -58,27 +57,27 @@ struct state {
 static void take_rest_of_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = user;
-    for (size_t x = 0; x < work->width; x++) {
-        size_t at = regression_at(&work->guides, (int)x, (int)row);
-        for (int c = 0; c < REGRESSION_COLOURS && work->guides.size[at] > 0.0f; c++)
-            work->body[c][at] = work->light[c][at] - work->sum[c][row * work->width + x];
+    const struct denoised_image *image = user;
+    for (size_t x = 0; x < image->width; x++) {
+        size_t at = regression_at(&image->guides, (int)x, (int)row);
+        for (int c = 0; c < REGRESSION_COLOURS && image->guides.size[at] > 0.0f; c++)
+            image->clamped[c][at] = image->light[c][at] - image->sum[c][row * image->width + x];
     }
 }
 
 static void store_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = user;
-    const ps_image_view *image = work->image;
-    float *const out[3] = {image->r, image->g, image->b};
-    const float *const albedo[3] = {image->albedo_r, image->albedo_g, image->albedo_b};
-    for (size_t x = 0; x < work->width; x++) {
-        size_t i = row * work->width + x;
-        if (!regression_shows_surface(&work->guides, (int)x, (int)row))
+    const struct denoised_image *image = user;
+    const ps_image_view *view = image->view;
+    float *const out[3] = {view->r, view->g, view->b};
+    const float *const albedo[3] = {view->albedo_r, view->albedo_g, view->albedo_b};
+    for (size_t x = 0; x < image->width; x++) {
+        size_t i = row * image->width + x;
+        if (!regression_shows_surface(&image->guides, (int)x, (int)row))
             continue;
         for (int c = 0; c < 3; c++)
-            out[c][i] = albedo[c][i] * ps_max(work->sum[c][i] + work->fine[c][i], 0.0f);
+            out[c][i] = albedo[c][i] * ps_max(image->sum[c][i] + image->fine[c][i], 0.0f);
     }
 }
 
@@ -86,37 +85,36 @@ static void store_row(void *user, uint64_t row, uint32_t worker)
 static void store_error_of_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = user;
-    const ps_image_view *image = work->image;
-    for (size_t x = 0; x < work->width; x++) {
-        size_t i = row * work->width + x;
-        if (!regression_shows_surface(&work->guides, (int)x, (int)row))
+    const struct denoised_image *image = user;
+    const ps_image_view *view = image->view;
+    for (size_t x = 0; x < image->width; x++) {
+        size_t i = row * image->width + x;
+        if (!regression_shows_surface(&image->guides, (int)x, (int)row))
             continue;
-        float off = UNSEEN * sqrtf(work->error[i] / work->scale[i]);
-        float irradiance = brightness_at(work->sum, i) + brightness_at(work->fine, i);
-        float radiance = (image->r[i] + image->g[i] + image->b[i]) * (1.0f / 3.0f);
-        float albedo =
-            (image->albedo_r[i] + image->albedo_g[i] + image->albedo_b[i]) * (1.0f / 9.0f);
-        image->error[i] = off * (irradiance > 0.0f ? radiance / irradiance : albedo);
+        float off = UNSEEN * sqrtf(image->error[i] / image->inverse_square[i]);
+        float irradiance = brightness_at(image->sum, i) + brightness_at(image->fine, i);
+        float radiance = (view->r[i] + view->g[i] + view->b[i]) * (1.0f / 3.0f);
+        float albedo = (view->albedo_r[i] + view->albedo_g[i] + view->albedo_b[i]) * (1.0f / 9.0f);
+        view->error[i] = off * (irradiance > 0.0f ? radiance / irradiance : albedo);
     }
 }
 
-static void denoise(struct works *works)
+static void denoise(struct denoised_images *images)
 {
-    regression_for_each_row(works, regression_take_row);
-    regression_bounds_find(&works->of[0].guides);
-    regression_kinds_find(works);
-    regression_fit_all(works, FIRST, light_of, fine_of);
-    for (int i = 0; i < works->count; i++)
-        regression_make_body(&works->of[i]);
-    regression_add_bands(works);
-    regression_for_each_row(works, take_rest_of_row);
-    regression_fit_all(works, WIDEST, body_of, fine_of);
-    regression_for_each_row(works, store_row);
-    for (int i = 0; i < works->count; i++)
-        if (works->of[i].error)
-            works->of[i].host->parallel_for(works->of[i].host, works->of[i].height,
-                                            store_error_of_row, &works->of[i]);
+    regression_for_each_row(images, regression_take_row);
+    regression_bounds_find(&images->of[0].guides);
+    regression_kinds_find(images);
+    regression_fit_all(images, FIRST, light_of, fine_of);
+    for (int i = 0; i < images->count; i++)
+        regression_clamp_outliers(&images->of[i]);
+    regression_add_bands(images);
+    regression_for_each_row(images, take_rest_of_row);
+    regression_fit_all(images, WIDEST, clamped_of, fine_of);
+    regression_for_each_row(images, store_row);
+    for (int i = 0; i < images->count; i++)
+        if (images->of[i].error)
+            images->of[i].host->parallel_for(images->of[i].host, images->of[i].height,
+                                             store_error_of_row, &images->of[i]);
 }
 
 /* --- the strategy --- */
@@ -149,32 +147,32 @@ enum { IMAGE_WITH_MARGIN = 2 * VALUES, IMAGE = 2 * VALUES + REGRESSION_COLOURS +
 
 #define IMAGE_BYTES ((IMAGE_WITH_MARGIN + IMAGE) * sizeof(float) + REGRESSION_PLANES_PIXEL)
 
-static void lay_out_shared(struct work *work, struct room *room)
+static void lay_out_shared(struct denoised_image *image, struct room *room)
 {
-    lay_out_with_margin(room, 3, work->guides.normal);
-    lay_out_with_margin(room, 3, work->guides.position);
-    lay_out_with_margin(room, 1, &work->guides.gloss);
-    lay_out_with_margin(room, 1, &work->guides.size);
-    lay_out_without(room, 1, &work->signal);
-    lay_out_without(room, 1, &work->room);
-    lay_out_without(room, 1, &work->near_by);
-    lay_out_without(room, 1, &work->around);
-    lay_out_without(room, 1, &work->kind);
+    lay_out_with_margin(room, 3, image->guides.normal);
+    lay_out_with_margin(room, 3, image->guides.position);
+    lay_out_with_margin(room, 1, &image->guides.gloss);
+    lay_out_with_margin(room, 1, &image->guides.size);
+    lay_out_without(room, 1, &image->signal);
+    lay_out_without(room, 1, &image->scratch);
+    lay_out_without(room, 1, &image->signal_weight);
+    lay_out_without(room, 1, &image->noise_weight);
+    lay_out_without(room, 1, &image->kind);
 }
 
-static void lay_out_image(struct work *work, struct room *room)
+static void lay_out_image(struct denoised_image *image, struct room *room)
 {
     float *error;
-    lay_out_with_margin(room, VALUES, work->light);
-    lay_out_with_margin(room, VALUES, work->body);
-    lay_out_without(room, VALUES, work->fine);
-    lay_out_without(room, VALUES, work->coarse);
-    lay_out_without(room, REGRESSION_COLOURS, work->sum);
-    lay_out_without(room, 1, &work->scale);
-    lay_out_without(room, 1, &work->noise);
-    lay_out_without(room, 1, &work->kept);
+    lay_out_with_margin(room, VALUES, image->light);
+    lay_out_with_margin(room, VALUES, image->clamped);
+    lay_out_without(room, VALUES, image->fine);
+    lay_out_without(room, VALUES, image->coarse);
+    lay_out_without(room, REGRESSION_COLOURS, image->sum);
+    lay_out_without(room, 1, &image->inverse_square);
+    lay_out_without(room, 1, &image->noise);
+    lay_out_without(room, 1, &image->shrinkage);
     lay_out_without(room, 1, &error);
-    work->error = work->image->error ? error : NULL;
+    image->error = image->view->error ? error : NULL;
 }
 
 static size_t planes_with_margin(int images)
@@ -194,34 +192,34 @@ static size_t floats_of(size_t width, size_t height, int images)
 }
 
 /* Images with halves may show means over several passes, and come first. The first one's guides are all of them's. */
-static void lay_out_all(struct works *works, const struct work *shared, float *memory,
-                        const ps_image_view *images)
+static void lay_out_all(struct denoised_images *images, const struct denoised_image *shared,
+                        float *memory, const ps_image_view *views)
 {
-    int count = works->count;
+    int count = images->count;
     size_t width = shared->width, height = shared->height;
     struct room room = {memory, memory + floats_with_margin(width, height, count), width * height};
-    struct work each = *shared;
+    struct denoised_image each = *shared;
     lay_out_shared(&each, &room);
     for (int i = 0; i < count; i++)
-        works->halved += images[i].even_r != NULL;
+        images->halved += views[i].even_r != NULL;
     each.guides.runs_apart = planes_with_margin(count) * REGRESSION_LANES;
-    each.guides.narrow = works->halved * VALUES;
-    for (int i = 0, with = 0, without = works->halved; i < count; i++) {
-        struct work *work = &works->of[images[i].even_r ? with++ : without++];
-        *work = each;
-        work->image = &images[i];
-        lay_out_image(work, &room);
+    each.guides.narrow = images->halved * VALUES;
+    for (int i = 0, with = 0, without = images->halved; i < count; i++) {
+        struct denoised_image *image = &images->of[views[i].even_r ? with++ : without++];
+        *image = each;
+        image->view = &views[i];
+        lay_out_image(image, &room);
     }
 }
 
-static ps_result filter_all(const void *opaque, const ps_host *host, const ps_image_view *images,
+static ps_result filter_all(const void *opaque, const ps_host *host, const ps_image_view *views,
                             uint32_t count)
 {
     const struct state *state = opaque;
-    struct works works = {.count = (int)count};
-    struct work shared = {.host = host, .width = images->width, .height = images->height};
+    struct denoised_images images = {.count = (int)count};
+    struct denoised_image shared = {.host = host, .width = views->width, .height = views->height};
     size_t width = shared.width, height = shared.height;
-    size_t floats = floats_of(width, height, works.count);
+    size_t floats = floats_of(width, height, images.count);
     float *memory = host->allocate(host, floats * sizeof *memory, "denoiser");
     shared.guides = (struct regression){
         .host = host,
@@ -232,8 +230,8 @@ static ps_result filter_all(const void *opaque, const ps_host *host, const ps_im
         .distance = state->distance.choice >= 0 ? 0.0f : (float)state->distance.number,
         .bounds = host->allocate(host, regression_bounds_bytes(width, height), "denoiser"),
         .fits = host->allocate(host, regression_fits_bytes(width, height), "denoiser"),
-        .planes = host->allocate(host, regression_planes_bytes(width, height, works.count * VALUES),
-                                 "denoiser"),
+        .planes = host->allocate(
+            host, regression_planes_bytes(width, height, images.count * VALUES), "denoiser"),
     };
     const struct regression *guides = &shared.guides;
     bool good = memory && guides->bounds && guides->fits && guides->planes;
@@ -242,8 +240,8 @@ static ps_result filter_all(const void *opaque, const ps_host *host, const ps_im
         memset(memory, 0, floats * sizeof *memory);
         shared.camera = (ps_camera){.size = sizeof shared.camera};
         host->camera(host, &shared.camera);
-        lay_out_all(&works, &shared, memory, images);
-        denoise(&works);
+        lay_out_all(&images, &shared, memory, views);
+        denoise(&images);
         result = host->cancelled(host) ? PS_CANCELLED : PS_OK;
     }
     host->release(host, shared.guides.planes);
@@ -253,9 +251,9 @@ static ps_result filter_all(const void *opaque, const ps_host *host, const ps_im
     return result;
 }
 
-static ps_result filter(const void *opaque, const ps_host *host, const ps_image_view *image)
+static ps_result filter(const void *opaque, const ps_host *host, const ps_image_view *view)
 {
-    return filter_all(opaque, host, image, 1);
+    return filter_all(opaque, host, view, 1);
 }
 
 static const ps_param params[] = {

@@ -1,3 +1,5 @@
+/* bands.c: B = F_R - F_2R of each bandwidth, multiplied by k = max(0, 1 - (c <N^2> / <B^2>)^2) and added up; regression.c has the formula
+ * and its papers. */
 #include "bands.h"
 
 #include "box.h"
@@ -5,49 +7,53 @@
 #include <psplat/isa.h>
 #include <psplat/math.h>
 
-/* Times the noise that a band must exceed where the band before was kept; past the first one, where the noise is guessed of a
- * single pass: that has some of the light in it; and where nothing was kept. */
-#define CAUTION 2.0f
-#define GUESSED_CAUTION 1.2f
-#define ALONE 4.0f
-#define PIXELS_CAUTION 1.5f    /* in place of CAUTION for the last band, of the pixels themselves */
-#define PIXELS_WINDOW 4        /* R of the window of that band */
-#define BROAD_AMONG_THIN 0.03f /* what a pixel of one kind counts for among the other's */
-#define AROUND 0.25f /* of a neighbourhood's light, by which dark pixels are measured at least */
+/* c of that formula: where the wider band was kept, and where it was not. Past the first band of a single pass, whose noise contains some of
+ * the light, GUESSED_THRESHOLD takes the place of THRESHOLD; in the last band, of the pixels themselves, PIXELS_THRESHOLD. */
+#define THRESHOLD 2.0f
+#define THRESHOLD_ALONE 4.0f
+#define GUESSED_THRESHOLD 1.2f
+#define PIXELS_THRESHOLD 1.5f
+
+#define PIXELS_WINDOW 4        /* R of the window of the last band */
+#define BROAD_AMONG_THIN 0.03f /* weight of a BROAD pixel in the means of THIN ones */
+#define SURROUNDINGS                                                                               \
+    0.25f /* of F_48, relative to which a pixel of the last band is measured at least */
 
 static const int bandwidths[] = {48, 24, 12, 6, 3}; /* of the bands */
 
-/* The widest fit, by whose square all is measured: a neighbourhood's dark corner must not be ruled by its lamp. */
+/* Starts with the widest fit, F_48. Squares of bands are weighted by 1 / (F_48^2 + least^2), that is, relative to the light: else the bright
+ * pixels of a window would decide about its dark ones. */
 static void begin_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = user;
-    for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
-        float bright = brightness_at(work->coarse, i);
-        work->scale[i] = 1.0f / (bright * bright + work->least * work->least);
-        work->kept[i] = 1.0f;
-        if (work->error)
-            work->error[i] = work->coarse[NOISE][i] * work->coarse[NOISE][i] * work->scale[i];
+    const struct denoised_image *image = user;
+    for (size_t i = row * image->width; i < (row + 1) * image->width; i++) {
+        float bright = brightness_at(image->coarse, i);
+        image->inverse_square[i] = 1.0f / (bright * bright + image->least * image->least);
+        image->shrinkage[i] = 1.0f;
+        if (image->error)
+            image->error[i] =
+                image->coarse[NOISE][i] * image->coarse[NOISE][i] * image->inverse_square[i];
         for (int c = 0; c < REGRESSION_COLOURS; c++)
-            work->sum[c][i] = work->coarse[c][i];
+            image->sum[c][i] = image->coarse[c][i];
     }
 }
 
 /* A row of pixels, and the kind under way. */
 struct row {
-    const struct work *work;
+    const struct denoised_image *image;
     size_t first;
     float own;         /* its number */
     float broad_share; /* of those of another kind, what BROAD ones count for */
 };
 
-static struct row row_of(const struct work *work, uint64_t row)
+static struct row row_of(const struct denoised_image *image, uint64_t row)
 {
     return (struct row){
-        .work = work,
-        .first = row * work->width,
-        .own = (float)work->under_way,
-        .broad_share = work->under_way == THIN ? BROAD_AMONG_THIN : 0.0f,
+        .image = image,
+        .first = row * image->width,
+        .own = (float)image->current_kind,
+        .broad_share = image->current_kind == THIN ? BROAD_AMONG_THIN : 0.0f,
     };
 }
 
@@ -59,17 +65,18 @@ static PS_INLINED float share_of(const struct row *row, float kind)
 
 PS_EVERY_ISA static void measure(const struct row row)
 {
-    const struct work *work = row.work;
-    const float *restrict kind = work->kind + row.first, *restrict scale = work->scale + row.first;
+    const struct denoised_image *image = row.image;
+    const float *restrict kind = image->kind + row.first, *restrict inverse_square =
+                                                              image->inverse_square + row.first;
     const float *restrict fine[VALUES], *restrict coarse[VALUES];
-    float *restrict signal = work->signal + row.first, *restrict noise = work->noise + row.first;
+    float *restrict signal = image->signal + row.first, *restrict noise = image->noise + row.first;
     for (int c = 0; c < VALUES; c++) {
-        fine[c] = work->fine[c] + row.first;
-        coarse[c] = work->coarse[c] + row.first;
+        fine[c] = image->fine[c] + row.first;
+        coarse[c] = image->coarse[c] + row.first;
     }
 #pragma omp simd
-    for (size_t i = 0; i < work->width; i++) {
-        float weight = share_of(&row, kind[i]) * scale[i];
+    for (size_t i = 0; i < image->width; i++) {
+        float weight = share_of(&row, kind[i]) * inverse_square[i];
         float band = fine[0][i] + fine[1][i] + fine[2][i];
         band -= coarse[0][i] + coarse[1][i] + coarse[2][i];
         float chance = fine[NOISE][i] - coarse[NOISE][i];
@@ -86,12 +93,12 @@ static void measure_row(void *user, uint64_t row, uint32_t worker)
 
 PS_EVERY_ISA static void count(const struct row row)
 {
-    const float *restrict kind = row.work->kind + row.first;
-    float *restrict near_by = row.work->near_by + row.first;
-    float *restrict around = row.work->around + row.first;
+    const float *restrict kind = row.image->kind + row.first;
+    float *restrict signal_weight = row.image->signal_weight + row.first;
+    float *restrict noise_weight = row.image->noise_weight + row.first;
 #pragma omp simd
-    for (size_t i = 0; i < row.work->width; i++)
-        near_by[i] = around[i] = share_of(&row, kind[i]);
+    for (size_t i = 0; i < row.image->width; i++)
+        signal_weight[i] = noise_weight[i] = share_of(&row, kind[i]);
 }
 
 static void count_row(void *user, uint64_t row, uint32_t worker)
@@ -101,10 +108,11 @@ static void count_row(void *user, uint64_t row, uint32_t worker)
 }
 
 /* Replaces values by their sums over a square around. */
-static void sum_around(const struct work *work, int radius, float *plane)
+static void sum_over_square(const struct denoised_image *image, int radius, float *plane)
 {
-    struct regression_box box = {work->width, work->height, (size_t)radius, plane, work->room};
-    regression_box_sums(work->host, &box);
+    struct regression_box box = {image->width, image->height, (size_t)radius, plane,
+                                 image->scratch};
+    regression_box_sums(image->host, &box);
 }
 
 /* Sums over pixels that count for so much in all become means; where there are none, sums are 0. */
@@ -122,31 +130,32 @@ static PS_INLINED float keep_of(float signal, float limit)
 }
 
 /* Of a band of mean square S of which N is noise, and of which the share k is kept: k^2 N + (1 - k)^2 (S - N), Stein's
- * estimate of the risk. Of what S exceeds N by, as much as half of the caution is taken for chance. */
-static PS_INLINED float risk_of_band(float signal, float noise, float caution, float keep)
+ * estimate of the risk. Of what S exceeds N by, as much as half of the threshold is taken for chance. */
+static PS_INLINED float risk_of_band(float signal, float noise, float threshold, float keep)
 {
-    float lost = ps_max(signal - 0.5f * caution * noise, 0.0f);
+    float lost = ps_max(signal - 0.5f * threshold * noise, 0.0f);
     return keep * keep * noise + (1.0f - keep) * (1.0f - keep) * lost;
 }
 
-/* Of the kind's pixels, what is kept and the risk of that, in place of S and N; of others 0. */
-PS_EVERY_ISA static void judge(const struct row row)
+/* Replaces S and N by k and its risk for pixels of the current kind, by 0 for the others. */
+PS_EVERY_ISA static void shrink(const struct row row)
 {
-    const struct work *work = row.work;
-    const float *restrict kind = work->kind + row.first;
-    const float *restrict near_by = work->near_by + row.first;
-    const float *restrict around = work->around + row.first;
-    float *restrict kept = work->kept + row.first;
-    float *restrict signal = work->signal + row.first, *restrict noise = work->noise + row.first;
-    float least = work->caution, own = row.own;
+    const struct denoised_image *image = row.image;
+    const float *restrict kind = image->kind + row.first;
+    const float *restrict signal_weight = image->signal_weight + row.first;
+    const float *restrict noise_weight = image->noise_weight + row.first;
+    float *restrict shrinkage = image->shrinkage + row.first;
+    float *restrict signal = image->signal + row.first, *restrict noise = image->noise + row.first;
+    float least = image->threshold, own = row.own;
 #pragma omp simd
-    for (size_t i = 0; i < work->width; i++) {
-        float squares = mean_of(signal[i], near_by[i]), chance = mean_of(noise[i], around[i]);
-        float caution = ALONE + (least - ALONE) * kept[i];
-        float keep = keep_of(squares, caution * chance);
-        float risk = risk_of_band(squares, chance, caution, keep);
+    for (size_t i = 0; i < image->width; i++) {
+        float squares = mean_of(signal[i], signal_weight[i]),
+              chance = mean_of(noise[i], noise_weight[i]);
+        float threshold = THRESHOLD_ALONE + (least - THRESHOLD_ALONE) * shrinkage[i];
+        float keep = keep_of(squares, threshold * chance);
+        float risk = risk_of_band(squares, chance, threshold, keep);
         bool is_own = kind[i] == own;
-        kept[i] = is_own ? keep : kept[i];
+        shrinkage[i] = is_own ? keep : shrinkage[i];
         signal[i] = is_own ? keep : 0.0f;
         noise[i] = is_own ? risk : 0.0f;
     }
@@ -154,114 +163,117 @@ PS_EVERY_ISA static void judge(const struct row row)
 
 PS_EVERY_ISA static void add(const struct row row)
 {
-    const struct work *work = row.work;
-    const float *restrict keep = work->signal + row.first, *restrict risk = work->noise + row.first;
+    const struct denoised_image *image = row.image;
+    const float *restrict keep = image->signal + row.first, *restrict risk =
+                                                                image->noise + row.first;
     for (int c = 0; c < REGRESSION_COLOURS; c++) {
-        const float *restrict fine = work->fine[c] + row.first;
-        const float *restrict coarse = work->coarse[c] + row.first;
-        float *restrict sum = work->sum[c] + row.first;
+        const float *restrict fine = image->fine[c] + row.first;
+        const float *restrict coarse = image->coarse[c] + row.first;
+        float *restrict sum = image->sum[c] + row.first;
 #pragma omp simd
-        for (size_t i = 0; i < work->width; i++)
+        for (size_t i = 0; i < image->width; i++)
             sum[i] += keep[i] * (fine[i] - coarse[i]);
     }
-    if (!work->error)
+    if (!image->error)
         return;
-    float *restrict error = work->error + row.first;
+    float *restrict error = image->error + row.first;
 #pragma omp simd
-    for (size_t i = 0; i < work->width; i++)
+    for (size_t i = 0; i < image->width; i++)
         error[i] += risk[i];
 }
 
 static void add_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    judge(row_of(user, row));
+    shrink(row_of(user, row));
     add(row_of(user, row));
 }
 
 /* Adds the difference of `fine` and `coarse` of the first `count` images, to the pixels of one kind. One picture of the
- * noise may have less of it than there is: of that, more pixels are asked. */
-static void add_band_of_kind(struct works *works, int count, int radius, enum pixel_kind kind)
+ * noise is a poor estimate, so its square is averaged over a window of twice the radius. */
+static void add_band_of_kind(struct denoised_images *images, int count, int radius,
+                             enum pixel_kind kind)
 {
-    struct work *first = &works->of[0];
+    struct denoised_image *first = &images->of[0];
     for (int i = 0; i < count; i++)
-        works->of[i].under_way = kind;
+        images->of[i].current_kind = kind;
     first->host->parallel_for(first->host, first->height, count_row, first);
-    sum_around(first, radius, first->near_by);
-    sum_around(first, 2 * radius, first->around);
+    sum_over_square(first, radius, first->signal_weight);
+    sum_over_square(first, 2 * radius, first->noise_weight);
     for (int i = 0; i < count; i++) {
-        struct work *work = &works->of[i];
-        work->host->parallel_for(work->host, work->height, measure_row, work);
-        sum_around(work, radius, work->signal);
-        sum_around(work, 2 * radius, work->noise);
-        work->host->parallel_for(work->host, work->height, add_row, work);
+        struct denoised_image *image = &images->of[i];
+        image->host->parallel_for(image->host, image->height, measure_row, image);
+        sum_over_square(image, radius, image->signal);
+        sum_over_square(image, 2 * radius, image->noise);
+        image->host->parallel_for(image->host, image->height, add_row, image);
     }
 }
 
-static void add_band(struct works *works, int count, int radius)
+static void add_band(struct denoised_images *images, int count, int radius)
 {
     for (int kind = NO_KIND + 1; kind < KINDS; kind++)
-        if (works->has[kind])
-            add_band_of_kind(works, count, radius, (enum pixel_kind)kind);
+        if (images->has[kind])
+            add_band_of_kind(images, count, radius, (enum pixel_kind)kind);
 }
 
 static void copy_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = user;
-    for (size_t x = 0; x < work->width; x++)
+    const struct denoised_image *image = user;
+    for (size_t x = 0; x < image->width; x++)
         for (int c = 0; c < VALUES; c++)
-            work->fine[c][row * work->width + x] =
-                work->body[c][regression_at(&work->guides, (int)x, (int)row)];
+            image->fine[c][row * image->width + x] =
+                image->clamped[c][regression_at(&image->guides, (int)x, (int)row)];
 }
 
-static void swap_fits(struct work *work)
+static void swap_fits(struct denoised_image *image)
 {
     for (int c = 0; c < VALUES; c++) {
-        float *plane = work->fine[c];
-        work->fine[c] = work->coarse[c];
-        work->coarse[c] = plane;
+        float *plane = image->fine[c];
+        image->fine[c] = image->coarse[c];
+        image->coarse[c] = plane;
     }
 }
 
-/* Pixels are measured by the light that narrow fits found there: the dark side of an edge by its own, of which an error there may be
- * a multiple, and only as far as it is dark by that of its neighbourhood. */
+/* The last band is measured relative to F_3, the light at the pixel itself: on the dark side of an edge F_48 is mostly the bright side's.
+ * A part of F_48 counts at least, since F_3 may be wrong where it is dark. */
 static void rescale_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = user;
-    for (size_t i = row * work->width; i < (row + 1) * work->width; i++) {
-        float bright = ps_max(brightness_at(work->coarse, i), 0.0f), before = work->scale[i];
-        work->scale[i] = 1.0f / (bright * bright + AROUND * AROUND / before);
-        if (work->error)
-            work->error[i] *= work->scale[i] / before;
+    const struct denoised_image *image = user;
+    for (size_t i = row * image->width; i < (row + 1) * image->width; i++) {
+        float bright = ps_max(brightness_at(image->coarse, i), 0.0f),
+              before = image->inverse_square[i];
+        image->inverse_square[i] = 1.0f / (bright * bright + SURROUNDINGS * SURROUNDINGS / before);
+        if (image->error)
+            image->error[i] *= image->inverse_square[i] / before;
     }
 }
 
 /* The pixels themselves, of images whose noise is known. */
-static void add_pixels(struct works *works)
+static void add_pixels(struct denoised_images *images)
 {
-    for (int i = 0; i < works->halved; i++) {
-        struct work *work = &works->of[i];
-        work->host->parallel_for(work->host, work->height, copy_row, work);
-        work->host->parallel_for(work->host, work->height, rescale_row, work);
-        work->caution = PIXELS_CAUTION;
+    for (int i = 0; i < images->halved; i++) {
+        struct denoised_image *image = &images->of[i];
+        image->host->parallel_for(image->host, image->height, copy_row, image);
+        image->host->parallel_for(image->host, image->height, rescale_row, image);
+        image->threshold = PIXELS_THRESHOLD;
     }
-    if (works->halved > 0)
-        add_band(works, works->halved, PIXELS_WINDOW);
+    if (images->halved > 0)
+        add_band(images, images->halved, PIXELS_WINDOW);
 }
 
-void regression_add_bands(struct works *works)
+void regression_add_bands(struct denoised_images *images)
 {
-    regression_fit_all(works, bandwidths[0], body_of, coarse_of);
-    regression_for_each_row(works, begin_row);
+    regression_fit_all(images, bandwidths[0], clamped_of, coarse_of);
+    regression_for_each_row(images, begin_row);
     for (size_t k = 1; k < sizeof bandwidths / sizeof bandwidths[0]; k++) {
-        regression_fit_steered(works, bandwidths[k], body_of, fine_of);
-        for (int i = 0; i < works->count; i++)
-            works->of[i].caution = k > 1 && i >= works->halved ? GUESSED_CAUTION : CAUTION;
-        add_band(works, works->count, bandwidths[k]);
-        for (int i = 0; i < works->count; i++)
-            swap_fits(&works->of[i]);
+        regression_fit_steered(images, bandwidths[k], clamped_of, fine_of);
+        for (int i = 0; i < images->count; i++)
+            images->of[i].threshold = k > 1 && i >= images->halved ? GUESSED_THRESHOLD : THRESHOLD;
+        add_band(images, images->count, bandwidths[k]);
+        for (int i = 0; i < images->count; i++)
+            swap_fits(&images->of[i]);
     }
-    add_pixels(works);
+    add_pixels(images);
 }

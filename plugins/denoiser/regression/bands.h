@@ -2,9 +2,9 @@
 #ifndef PSPLAT_DENOISER_REGRESSION_BANDS_H
 #define PSPLAT_DENOISER_REGRESSION_BANDS_H
 
-#include "work.h"
+#include "images.h"
 
-/* Fills work->sum in, from the bodies, and work->error. Runs on all workers. */
-void regression_add_bands(struct works *works);
+/* Fills image->sum in, from the bodies, and image->error. Runs on all workers. */
+void regression_add_bands(struct denoised_images *images);
 
 #endif

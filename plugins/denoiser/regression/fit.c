@@ -18,7 +18,7 @@ enum { NARROW = 24, WIDE = 48 };
 #define FEW 4.0f
 #define SLACK 4.0f
 
-struct work {
+struct fit_job {
     struct regression_light light;
     int first, end;                             /* values that are fitted */
     const struct regression_steering *steering; /* of each image, or NULL */
@@ -41,27 +41,27 @@ size_t regression_runs(size_t width, size_t height)
 /* --- fits --- */
 
 /* Of the values that are fitted, all together. */
-static void make_round_fit(const struct work *work, int x, int y, float slack, float (*plane)[3],
+static void make_round_fit(const struct fit_job *job, int x, int y, float slack, float (*plane)[3],
                            struct regression_fit *fit)
 {
     const struct regression_parts all = {
-        1, {{regression_round_window(work->light.bandwidth), work->first, work->end}}};
-    regression_make_fit(&work->light, &all, x, y, slack, plane, fit);
+        1, {{regression_round_window(job->light.bandwidth), job->first, job->end}}};
+    regression_make_fit(&job->light, &all, x, y, slack, plane, fit);
 }
 
 /* Of each image by a window of its own. */
-static void make_steered_fit(const struct work *work, int x, int y, float (*plane)[3],
+static void make_steered_fit(const struct fit_job *job, int x, int y, float (*plane)[3],
                              struct regression_fit *fit)
 {
-    struct regression_parts images = {.count = work->end / REGRESSION_VALUES};
+    struct regression_parts images = {.count = job->end / REGRESSION_VALUES};
     for (int i = 0; i < images.count; i++)
         images.of[i] = (struct regression_part){
-            .window = regression_steered_window(work->light.on, &work->steering[i],
-                                                work->light.bandwidth, x, y),
+            .window = regression_steered_window(job->light.on, &job->steering[i],
+                                                job->light.bandwidth, x, y),
             .first = i * REGRESSION_VALUES,
             .end = (i + 1) * REGRESSION_VALUES,
         };
-    regression_make_fit(&work->light, &images, x, y, 1.0f, plane, fit);
+    regression_make_fit(&job->light, &images, x, y, 1.0f, plane, fit);
 }
 
 /* --- the grid of fits --- */
@@ -96,34 +96,35 @@ size_t regression_planes_bytes(size_t width, size_t height, int count)
     return most_centres(width, height) * (size_t)count * sizeof(float[3]);
 }
 
-static int centre_at(const struct work *work, size_t index, size_t size)
+static int centre_at(const struct fit_job *job, size_t index, size_t size)
 {
-    int apart = spacing(work->light.bandwidth), place = apart / 2 + (int)index * apart;
+    int apart = spacing(job->light.bandwidth), place = apart / 2 + (int)index * apart;
     return place < (int)size ? place : (int)size - 1;
 }
 
 static void make_row_of_fits(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = user;
-    const struct regression *to = work->light.on;
+    const struct fit_job *job = user;
+    const struct regression *to = job->light.on;
     if (to->host->cancelled(to->host))
         return;
-    for (size_t i = 0; i < work->columns; i++) {
-        size_t index = row * work->columns + i;
-        int x = centre_at(work, i, to->width), y = centre_at(work, row, to->height);
-        float(*plane)[3] = to->planes + index * (size_t)work->end;
-        if (work->steering)
-            make_steered_fit(work, x, y, plane, &to->fits[index]);
+    for (size_t i = 0; i < job->columns; i++) {
+        size_t index = row * job->columns + i;
+        int x = centre_at(job, i, to->width), y = centre_at(job, row, to->height);
+        float(*plane)[3] = to->planes + index * (size_t)job->end;
+        if (job->steering)
+            make_steered_fit(job, x, y, plane, &to->fits[index]);
         else
-            make_round_fit(work, x, y, 1.0f, plane, &to->fits[index]);
+            make_round_fit(job, x, y, 1.0f, plane, &to->fits[index]);
     }
 }
 
 /* --- what fits say, blended --- */
 
-/* Sums over the fits that reach into a square of pixels. Weights of values that ask for narrow fits, and of the others. */
-enum { NARROW_ONES, OTHERS, GROUPS };
+/* Sums over the fits that reach into a square of pixels, with weights for each group of values: images with halves, and those
+ * without. */
+enum { WITH_HALVES, WITHOUT_HALVES, GROUPS };
 
 struct block {
     int x, y, columns, rows;
@@ -134,22 +135,22 @@ struct block {
 
 /* What a fit says of a run of pixels, in proportion to its weight there: one by geometry, times a tent that ends at
  * the centres next to it. */
-static PS_INLINED void add_prediction(const struct work *work, const struct regression_fit *fit,
+static PS_INLINED void add_prediction(const struct fit_job *job, const struct regression_fit *fit,
                                       size_t run, int x, int y, struct block *block)
 {
     _Alignas(64) float w[LANES], u[LANES], v[LANES];
     int at = (x - block->x) / LANES, row = y - block->y;
-    float scale = 1.0f / (float)spacing(work->light.bandwidth);
+    float scale = 1.0f / (float)spacing(job->light.bandwidth);
     float down = 1.0f - fabsf((float)(y - fit->y)) * scale;
     float *restrict weight = block->weights[block->group][row][at];
-    if (!take_pixels(work->light.on, fit, run, w, u, v))
+    if (!take_pixels(job->light.on, fit, run, w, u, v))
         return;
 #pragma omp simd
     for (int i = 0; i < LANES; i++) {
         w[i] *= down * above_zero(1.0f - fabsf((float)(x + i - fit->x)) * scale);
         weight[i] += w[i];
     }
-    for (int c = work->first; c < work->end; c++) {
+    for (int c = job->first; c < job->end; c++) {
         float a = fit->plane[c][0], b = fit->plane[c][1], d = fit->plane[c][2];
         float *restrict sum = block->values[c][row][at];
 #pragma omp simd
@@ -158,97 +159,98 @@ static PS_INLINED void add_prediction(const struct work *work, const struct regr
     }
 }
 
-PS_EVERY_ISA static void blend(const struct work *work, const struct regression_fit *fit,
+PS_EVERY_ISA static void blend(const struct fit_job *job, const struct regression_fit *fit,
                                struct block *block)
 {
-    int reach = spacing(work->light.bandwidth) - 1;
+    int reach = spacing(job->light.bandwidth) - 1;
     int left = larger(fit->x - reach, block->x);
     int right = smaller(fit->x + reach, block->x + block->columns - 1);
     int top = larger(fit->y - reach, block->y);
     int bottom = smaller(fit->y + reach, block->y + block->rows - 1);
     for (int y = top; y <= bottom; y++) {
-        size_t run = regression_run(work->light.on, left, y);
+        size_t run = regression_run(job->light.on, left, y);
         for (int x = regression_start_of_run(left); x <= right; x += LANES)
-            add_prediction(work, fit, run++, x, y, block);
+            add_prediction(job, fit, run++, x, y, block);
     }
 }
 
 /* A centre at or before the first one that reaches a pixel. */
-static size_t first_centre(const struct work *work, int pixel)
+static size_t first_centre(const struct fit_job *job, int pixel)
 {
-    int apart = spacing(work->light.bandwidth), index = (pixel - apart / 2) / apart - 1;
+    int apart = spacing(job->light.bandwidth), index = (pixel - apart / 2) / apart - 1;
     return index > 0 ? (size_t)index : 0;
 }
 
-static void blend_grid(const struct work *work, struct block *block)
+static void blend_grid(const struct fit_job *job, struct block *block)
 {
-    int apart = spacing(work->light.bandwidth);
-    for (size_t row = first_centre(work, block->y); row < work->rows; row++) {
-        if (centre_at(work, row, work->light.on->height) - apart >= block->y + block->rows)
+    int apart = spacing(job->light.bandwidth);
+    for (size_t row = first_centre(job, block->y); row < job->rows; row++) {
+        if (centre_at(job, row, job->light.on->height) - apart >= block->y + block->rows)
             break;
-        for (size_t column = first_centre(work, block->x); column < work->columns; column++) {
-            const struct regression_fit *fit = &work->light.on->fits[row * work->columns + column];
+        for (size_t column = first_centre(job, block->x); column < job->columns; column++) {
+            const struct regression_fit *fit = &job->light.on->fits[row * job->columns + column];
             if (fit->x - apart >= block->x + block->columns)
                 break;
             if (fit->valid)
-                blend(work, fit, block);
+                blend(job, fit, block);
         }
     }
 }
 
-/* What values of a group ask for beyond a narrow fit, blended. */
-static void blend_for(const struct work *narrow, int bandwidth, struct regression_fit fit,
+/* Blends the narrow fit of a group, or a wider or looser one where it needs that. */
+static void blend_for(const struct fit_job *narrow, int bandwidth, struct regression_fit fit,
                       struct block *block)
 {
-    struct work rest = *narrow;
+    struct fit_job rest = *narrow;
     if (fit.weight < FEW && rest.light.bandwidth == NARROW) {
         make_round_fit(&rest, fit.x, fit.y, SLACK, fit.plane, &fit);
-    } else if (fit.weight < THIN && bandwidth > NARROW && block->group != NARROW_ONES) {
+    } else if (fit.weight < THIN && bandwidth > NARROW && block->group != WITH_HALVES) {
         rest.light.bandwidth = smaller(bandwidth, WIDE);
         make_round_fit(&rest, fit.x, fit.y, 1.0f, fit.plane, &fit);
     }
     blend(&rest, &fit, block);
 }
 
-/* A fit around a pixel that no centre is like. By creases, where a surface ends, a narrow window is best. What is thin has few
- * pixels in it, and needs a wide one; but several passes mix what pixels show at edges, and more of a wide window seems to
- * be like them than is. Pixels that are like hardly any other learn more about their light from what is about as far away
- * and about as steep than from their own few samples. */
-static void blend_one(const struct work *work, int x, int y, const bool asks[GROUPS],
+/* A fit of its own for a pixel that the fits of the grid do not cover. Near creases, where a surface ends, a narrow window is best. On
+ * thin surfaces (weight below THIN) it holds too few pixels, so images without halves, which are of one pass, take a WIDE one;
+ * several passes mix surfaces at edges, and a wide window would take in pixels that only seem to be alike. Pixels with hardly
+ * any match (weight below FEW) are fitted with looser limits (SLACK). */
+static void blend_one(const struct fit_job *job, int x, int y, const bool needs_fit[GROUPS],
                       struct block *block)
 {
-    const int ends[GROUPS] = {work->light.on->narrow, work->end};
+    const int ends[GROUPS] = {job->light.on->narrow, job->end};
     struct regression_fit fit;
     float plane[REGRESSION_MOST][3];
-    struct work rest = *work;
-    rest.light.bandwidth = smaller(work->light.bandwidth, NARROW);
-    rest.first = asks[NARROW_ONES] ? 0 : ends[NARROW_ONES];
-    rest.end = asks[OTHERS] ? ends[OTHERS] : ends[NARROW_ONES];
+    struct fit_job rest = *job;
+    rest.light.bandwidth = smaller(job->light.bandwidth, NARROW);
+    rest.first = needs_fit[WITH_HALVES] ? 0 : ends[WITH_HALVES];
+    rest.end = needs_fit[WITHOUT_HALVES] ? ends[WITHOUT_HALVES] : ends[WITH_HALVES];
     make_round_fit(&rest, x, y, 1.0f, plane, &fit);
     for (int group = 0; group < GROUPS; group++) {
-        rest.first = group == NARROW_ONES ? 0 : ends[NARROW_ONES];
+        rest.first = group == WITH_HALVES ? 0 : ends[WITH_HALVES];
         rest.end = ends[group];
         block->group = group;
-        if (asks[group])
-            blend_for(&rest, work->light.bandwidth, fit, block);
+        if (needs_fit[group])
+            blend_for(&rest, job->light.bandwidth, fit, block);
     }
 }
 
 /* A group is blended as if it were alone. */
-static void blend_rest(const struct work *work, struct block *block)
+static void blend_rest(const struct fit_job *job, struct block *block)
 {
-    int narrow = work->light.on->narrow;
-    memcpy(block->weights[OTHERS], block->weights[NARROW_ONES], sizeof block->weights[OTHERS]);
+    int narrow = job->light.on->narrow;
+    memcpy(block->weights[WITHOUT_HALVES], block->weights[WITH_HALVES],
+           sizeof block->weights[WITHOUT_HALVES]);
     for (int row = 0; row < block->rows; row++)
         for (int column = 0; column < block->columns; column++) {
             int x = block->x + column, y = block->y + row, run = column / LANES, i = column % LANES;
-            const bool asks[GROUPS] = {
-                narrow > 0 && block->weights[NARROW_ONES][row][run][i] < LEAST_FIT,
-                narrow < work->end && block->weights[OTHERS][row][run][i] < LEAST_FIT,
+            const bool needs_fit[GROUPS] = {
+                narrow > 0 && block->weights[WITH_HALVES][row][run][i] < LEAST_FIT,
+                narrow < job->end && block->weights[WITHOUT_HALVES][row][run][i] < LEAST_FIT,
             };
-            if ((asks[NARROW_ONES] || asks[OTHERS]) &&
-                regression_shows_surface(work->light.on, x, y))
-                blend_one(work, x, y, asks, block);
+            if ((needs_fit[WITH_HALVES] || needs_fit[WITHOUT_HALVES]) &&
+                regression_shows_surface(job->light.on, x, y))
+                blend_one(job, x, y, needs_fit, block);
         }
 }
 
@@ -260,15 +262,15 @@ static void store_run(const struct block *block, int row, int run, int c, int gr
         out[i] = weights[i] > 0.0f ? values[i] / weights[i] : 0.0f;
 }
 
-static void store_block(const struct work *work, const struct block *block)
+static void store_block(const struct fit_job *job, const struct block *block)
 {
     for (int row = 0; row < block->rows; row++)
-        for (int c = work->first; c < work->end; c++) {
-            size_t first = (size_t)(block->y + row) * work->light.on->width + (size_t)block->x;
-            int group = c < work->light.on->narrow ? NARROW_ONES : OTHERS;
+        for (int c = job->first; c < job->end; c++) {
+            size_t first = (size_t)(block->y + row) * job->light.on->width + (size_t)block->x;
+            int group = c < job->light.on->narrow ? WITH_HALVES : WITHOUT_HALVES;
             for (int run = 0; run * LANES < block->columns; run++)
                 store_run(block, row, run, c, group,
-                          work->fitted[c] + first + (size_t)(run * LANES));
+                          job->fitted[c] + first + (size_t)(run * LANES));
         }
 }
 
@@ -280,21 +282,21 @@ static size_t blocks_along(size_t size)
 static void fill_block(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = user;
-    const struct regression *to = work->light.on;
+    const struct fit_job *job = user;
+    const struct regression *to = job->light.on;
     struct block block;
     if (to->host->cancelled(to->host))
         return;
-    block.group = NARROW_ONES; /* until the grid is blended, which is the same for all */
+    block.group = WITH_HALVES; /* until the grid is blended, which is the same for all */
     memset(block.weights[0], 0, sizeof block.weights[0]);
-    memset(block.values, 0, (size_t)work->end * sizeof block.values[0]);
+    memset(block.values, 0, (size_t)job->end * sizeof block.values[0]);
     block.x = (int)(index % blocks_along(to->width)) * BLOCK;
     block.y = (int)(index / blocks_along(to->width)) * BLOCK;
     block.columns = smaller((int)to->width - block.x, BLOCK);
     block.rows = smaller((int)to->height - block.y, BLOCK);
-    blend_grid(work, &block);
-    blend_rest(work, &block);
-    store_block(work, &block);
+    blend_grid(job, &block);
+    blend_rest(job, &block);
+    store_block(job, &block);
 }
 
 void regression_fit(const struct regression *regression, int bandwidth, int count,
@@ -302,7 +304,7 @@ void regression_fit(const struct regression *regression, int bandwidth, int coun
                     float *const fitted[])
 {
     const ps_host *host = regression->host;
-    struct work work = {
+    struct fit_job job = {
         .light = {regression, bandwidth, values},
         .end = count,
         .steering = steering,
@@ -310,7 +312,7 @@ void regression_fit(const struct regression *regression, int bandwidth, int coun
         .columns = centres_along(regression->width, bandwidth),
         .rows = centres_along(regression->height, bandwidth),
     };
-    host->parallel_for(host, work.rows, make_row_of_fits, &work);
+    host->parallel_for(host, job.rows, make_row_of_fits, &job);
     host->parallel_for(host, blocks_along(regression->width) * blocks_along(regression->height),
-                       fill_block, &work);
+                       fill_block, &job);
 }

@@ -1,14 +1,14 @@
 /* fit.h: planes fitted to a picture along the surfaces that it shows.
  *
- * Around a centre c, a pixel, a plane over the tangent plane of c is fitted to the values E of the pixels p near by
+ * Around a centre p, a pixel, a plane over the tangent plane of p is fitted to the values E of the pixels q near it
  * (Moon et al. 2014, "Adaptive rendering based on weighted local regression"; Bitterli et al. 2016, "Nonlinearly
  * weighted first-order regression for denoising Monte Carlo renderings"):
  *
- *     minimize  sum_p w(c, p) (E(p) - a - b u(p) - c v(p))^2
- *     w = b(r^2 / R^2) b((1 - n_c.n_p) / (1 - cos(normal))) b(h^2 / D^2 + (g_c - g_p)^2 / G^2)
- *     b(s) = max(0, 1 - s)^2
+ *     minimize  sum over q of w(p, q) (E(q) - e_0 - e_u u(q) - e_v v(q))^2
+ *     w = T(r^2 / R^2) T((1 - n_p.n_q) / (1 - cos(normal))) T(h^2 / D^2 + (g_p - g_q)^2 / G^2)
+ *     T(s) = max(0, 1 - s)^2   (Tukey's biweight)
  *
- * with u, v the place of p in the tangent plane of c, r its distance in pixels, R the bandwidth, h^2 the sum of
+ * with u, v the position of q in the tangent plane of p, r its distance in pixels, R the bandwidth, h^2 the sum of
  * squares of either point's distance from the other's tangent plane, and g the share of the reflectance that is
  * gloss. A slope of E costs no bias, as it would a mean. Where light steers the windows, they are ellipses in place of
  * discs of radius R (steering.h).

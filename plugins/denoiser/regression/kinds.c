@@ -1,7 +1,7 @@
 #include "kinds.h"
 
-/* A pixel is held against others in a square around it, in either direction up to so many times so many pixels away. It is thin
- * if fewer of the 24 show its surface. */
+/* A pixel is compared with 24 others on a grid of STEP pixels, up to REACH steps away. It is THIN if fewer than FEW of them show its
+ * surface. */
 #define REACH 2
 #define STEP 3
 #define FEW 6
@@ -35,15 +35,15 @@ static enum pixel_kind kind_of(const struct regression *guides, int x, int y)
 static void find_kinds_of_row(void *user, uint64_t row, uint32_t worker)
 {
     (void)worker;
-    const struct work *work = user;
-    for (size_t x = 0; x < work->width; x++)
-        work->kind[row * work->width + x] = (float)kind_of(&work->guides, (int)x, (int)row);
+    const struct denoised_image *image = user;
+    for (size_t x = 0; x < image->width; x++)
+        image->kind[row * image->width + x] = (float)kind_of(&image->guides, (int)x, (int)row);
 }
 
-void regression_kinds_find(struct works *works)
+void regression_kinds_find(struct denoised_images *images)
 {
-    struct work *first = &works->of[0]; /* all show the same surfaces */
+    struct denoised_image *first = &images->of[0]; /* all show the same surfaces */
     first->host->parallel_for(first->host, first->height, find_kinds_of_row, first);
     for (size_t i = 0; i < first->width * first->height; i++)
-        works->has[(int)first->kind[i]] = true;
+        images->has[(int)first->kind[i]] = true;
 }

@@ -9,9 +9,9 @@
 #ifndef PSPLAT_DENOISER_REGRESSION_KINDS_H
 #define PSPLAT_DENOISER_REGRESSION_KINDS_H
 
-#include "work.h"
+#include "images.h"
 
-/* Fills in work->kind, and which kinds there are, when the guides are there. */
-void regression_kinds_find(struct works *works);
+/* Fills in image->kind, and which kinds there are, when the guides are there. */
+void regression_kinds_find(struct denoised_images *images);
 
 #endif

@@ -27,7 +27,8 @@ static void set_tangent_plane(const struct regression_light *light, size_t at, f
         fit->v[i] = vs[i];
     }
     fit->height_scale = 1.0f / (distance * distance);
-    fit->bend_scale = ps_max(to->bend_scale / slack, 1.0f); /* normals of no surface are upright */
+    fit->bend_scale = ps_max(to->bend_scale / slack,
+                             1.0f); /* normals of no surface, which are 0, have no weight */
     fit->gloss = to->gloss[at];
 }
 
