@@ -140,7 +140,7 @@ static ps_result fill_cache(struct work *work)
 }
 
 static bool look_up_one(const struct cache *cache, const struct gather_landing *landing,
-                        struct gather_known *known)
+                        struct cached_irradiance *known)
 {
     int nearest[CANDIDATES], n = cache->places.neighbours;
     n = n < CANDIDATES ? n : CANDIDATES;
@@ -148,7 +148,7 @@ static bool look_up_one(const struct cache *cache, const struct gather_landing *
     for (int i = 0; i < n; i++) {
         if (ps_dot(photon_map_normal(&cache->places, (size_t)nearest[i]), landing->normal) < FACING)
             continue;
-        *known = (struct gather_known){.indirect = cache->irradiance[nearest[i]]};
+        *known = (struct cached_irradiance){.indirect = cache->irradiance[nearest[i]]};
         return landing->length > cache->radii[nearest[i]];
     }
     return false;
@@ -156,7 +156,7 @@ static bool look_up_one(const struct cache *cache, const struct gather_landing *
 
 /* A gather_lookup. */
 static void look_up(const void *cache, const struct gather_landing *landings, size_t n,
-                    struct gather_known *known, bool *is_known)
+                    struct cached_irradiance *known, bool *is_known)
 {
     for (size_t i = 0; i < n; i++) {
         uint32_t path = landings[i].path;
@@ -177,10 +177,10 @@ static ps_result gather(const struct state *state, struct work *work)
         .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
         .lookup = work->cache.irradiance ? look_up : NULL,
         .cache = &work->cache,
-        .knows_indirect = true,
+        .cache_has_indirect = true,
     };
-    struct gather_shares shares = {.are_known = false};
-    ps_result result = gather_picture(&setting, state->adaptive, &shares);
+    struct gather_allocation allocation = {.is_known = false};
+    ps_result result = gather_picture(&setting, state->adaptive, &allocation);
     if (result == PS_OK && work->caustics.index)
         result = photon_map_light_pixels(&work->caustics, &work->how);
     return result;

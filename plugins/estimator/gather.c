@@ -1,7 +1,7 @@
 /* gather.c: a final gather over surfels that photons were splatted onto.
  *
- * Photons find light that is hard to find, but a splat is dear, and its blur and its blotches are seen. Paths are cheap
- * and their noise can be filtered, but most of their length goes into light that has met many surfaces.
+ * Photons find light that is hard to find, but splats are expensive, and their blur and low-frequency noise are visible. Paths are
+ * cheap and their noise can be denoised, but most of their segments go to light that has been reflected many times.
  * A final gather has the best of both (Reichert 1992; Jensen 1996; Christensen 1999): rays from the pixels' points
  * find the last surface,
  *
@@ -14,8 +14,8 @@
  * short for it, the path goes on by another segment. Mirrors, glass and gloss on the way are as path tracing has them
  * (paths.h).
  *
- * Light that only mirrors, glass and smooth gloss have sent from a lamp to x, a caustic, rays would find by chance alone: it
- * stays with photons, which are splatted onto the pixels. What rough gloss reflects (PS_ROUGH_GLOSS) is wide and faint: next-event
+ * Caustics at x, light from a source by mirrors, glass and smooth gloss alone, are left to photons, which are splatted onto the pixels:
+ * gather rays would hit the source by chance only. What rough gloss reflects (PS_ROUGH_GLOSS) is wide and faint: next-event
  * estimation finds it where rays end, without the blotches of few photons.
  *
  * Rays are drawn where those before them found light (guide.h), in rounds, and more of them in tiles whose first round
@@ -33,17 +33,17 @@
 #define FEWEST_SURFELS 2000 /* of a picture */
 #define THINNED_TOGETHER 4  /* paths */
 
-#define MOST_KEPT 4 /* passes */
+#define MOST_CACHED_PASSES 4 /* passes */
 
 #define SURFEL_SHARE 0.2 /* of a pass's time, about */
 
 /* What a pass found of the whole picture, for the next part of it. */
-struct whole {
+struct pass_cache {
     bool is_taken;
     uint32_t pass;
-    bool has_cache; /* of surfels, if there are any */
+    bool has_surfels; /* of surfels, if there are any */
     struct surfels surfels;
-    struct gather_shares shares;
+    struct gather_allocation allocation;
 };
 
 struct state {
@@ -53,7 +53,7 @@ struct state {
     ps_number_or_choice paths;
     int64_t roulette;
     int32_t adaptive;
-    struct whole kept[MOST_KEPT]; /* of the passes of a picture in parts */
+    struct pass_cache caches[MOST_CACHED_PASSES]; /* of the passes of a picture in parts */
 };
 
 struct work {
@@ -64,19 +64,17 @@ struct work {
 
 /* --- photons --- */
 
-/* Which photons are splatted where. Those for the surfels that some mirror, glass or smooth gloss has sent on are kept, and
- * splatted when the others are corrected: paths would find a lamp behind glass seldom, and then far too much of it. What rough
+/* Which photons are splatted where. Photons for the surfels whose light came through mirrors, glass or smooth gloss are collected, and
+ * splatted after the correction by paths: paths find a light behind glass seldom, and then with far too much weight. What rough
  * gloss reflects is left to paths there, too: few photons with all of that light would make blotches. */
 struct splatting {
     const ps_host *host;
     bool onto_pixels, onto_surfels;
     uint32_t most_bounces; /* of those onto surfels, which are one surface on */
     uint64_t thinning;
-    ps_photon *kept; /* with the power of all that they stand for */
-    size_t kept_count, kept_capacity;
+    ps_photon *specular; /* with the power of all that they stand for */
+    size_t specular_count, specular_capacity;
 };
-
-typedef ps_result (*splatter)(const ps_host *host, const ps_photon *photons, size_t n);
 
 static bool belongs_on_pixels(const void *opaque, const ps_photon *photon)
 {
@@ -102,33 +100,24 @@ static bool is_specular_on_surfels(const void *opaque, const ps_photon *photon)
     return photon->specular == PS_SHARP_GLOSS && belongs_on_surfels(opaque, photon);
 }
 
-static ps_result keep(struct splatting *splatting, const ps_photon *photons, size_t n)
+static ps_result collect_specular(struct splatting *splatting, const ps_photon *photons, size_t n)
 {
     const ps_host *host = splatting->host;
-    if (splatting->kept_count + n > splatting->kept_capacity) {
-        size_t capacity = 2 * (splatting->kept_count + n);
-        ps_photon *kept = host->allocate(host, capacity * sizeof *kept, "photons kept");
+    if (splatting->specular_count + n > splatting->specular_capacity) {
+        size_t capacity = 2 * (splatting->specular_count + n);
+        ps_photon *kept = host->allocate(host, capacity * sizeof *kept, "specular photons");
         if (!kept)
             return PS_ERROR_MEMORY;
-        if (splatting->kept_count > 0)
-            memcpy(kept, splatting->kept, splatting->kept_count * sizeof *kept);
-        host->release(host, splatting->kept);
-        splatting->kept = kept;
-        splatting->kept_capacity = capacity;
+        if (splatting->specular_count > 0)
+            memcpy(kept, splatting->specular, splatting->specular_count * sizeof *kept);
+        host->release(host, splatting->specular);
+        splatting->specular = kept;
+        splatting->specular_capacity = capacity;
     }
-    splatting->kept_count +=
+    splatting->specular_count +=
         photons_choose(photons, n, is_specular_on_surfels, splatting, (float)splatting->thinning,
-                       splatting->kept + splatting->kept_count);
+                       splatting->specular + splatting->specular_count);
     return PS_OK;
-}
-
-/* Splats those of n photons that are chosen, with `scale` times their power; `chosen` is room for n. */
-static ps_result splat_chosen(const struct splatting *splatting, photons_belong belong,
-                              splatter splat, float scale, const ps_photon *photons, size_t n,
-                              ps_photon *chosen)
-{
-    size_t count = photons_choose(photons, n, belong, splatting, scale, chosen);
-    return count > 0 ? splat(splatting->host, chosen, count) : PS_OK;
 }
 
 /* A photons_take. */
@@ -136,16 +125,12 @@ static ps_result splat_batch(void *opaque, const ps_photon *photons, size_t n)
 {
     struct splatting *splatting = opaque;
     const ps_host *host = splatting->host;
-    ps_photon *chosen = host->allocate(host, n * sizeof *chosen, "photons chosen");
-    if (!chosen)
-        return PS_ERROR_MEMORY;
-    ps_result result = splat_chosen(splatting, is_diffuse_on_surfels, host->splat_points,
-                                    (float)splatting->thinning, photons, n, chosen);
+    ps_result result = photons_splat(host, host->splat_points, photons, n, is_diffuse_on_surfels,
+                                     splatting, (float)splatting->thinning);
     if (result == PS_OK && splatting->onto_surfels)
-        result = keep(splatting, photons, n);
+        result = collect_specular(splatting, photons, n);
     if (result == PS_OK)
-        result = splat_chosen(splatting, belongs_on_pixels, host->splat, 1.0f, photons, n, chosen);
-    host->release(host, chosen);
+        result = photons_splat(host, host->splat, photons, n, belongs_on_pixels, splatting, 1.0f);
     return result;
 }
 
@@ -159,18 +144,18 @@ static uint64_t paths_of_surfel(const struct state *state)
     return state->samples < MOST_PATHS / 2 ? 2 * (uint64_t)state->samples : MOST_PATHS;
 }
 
-/* Adds the light of the photons that were kept to the surfels. */
-static ps_result add_kept(const struct splatting *splatting, struct surfels *surfels)
+/* Adds the light of the photons that were collected to the surfels. */
+static ps_result splat_specular(const struct splatting *splatting, struct surfels *surfels)
 {
     const ps_host *host = splatting->host;
-    if (splatting->kept_count == 0)
+    if (splatting->specular_count == 0)
         return PS_OK;
     ps_rgb *more = host->allocate(host, surfels->count * sizeof *more, "surfels");
     ps_result result = more ? PS_OK : PS_ERROR_MEMORY;
     if (result == PS_OK)
         result = host->begin_points(host, surfels->positions, surfels->normals, surfels->count);
     if (result == PS_OK)
-        result = host->splat_points(host, splatting->kept, splatting->kept_count);
+        result = host->splat_points(host, splatting->specular, splatting->specular_count);
     if (result == PS_OK)
         result = host->end_points(host, more);
     for (size_t i = 0; result == PS_OK && i < surfels->count; i++)
@@ -189,7 +174,7 @@ static ps_result light_surfels(struct work *work, const struct splatting *splatt
     ps_result result = host->end_points(host, surfels->irradiance);
     if (result == PS_OK && paths > 0)
         result = surfel_paths_correct(setting->pass, setting->roulette, paths, surfels);
-    return result == PS_OK ? add_kept(splatting, surfels) : result;
+    return result == PS_OK ? splat_specular(splatting, surfels) : result;
 }
 
 /* Splats the pass's photons onto pixels, and onto surfels that lack their light. */
@@ -213,7 +198,7 @@ static ps_result splat(struct work *work, bool onto_surfels)
         result = photons_for_each_batch(host, splat_batch, &splatting);
     if (result == PS_OK && splatting.onto_surfels)
         result = light_surfels(work, &splatting);
-    host->release(host, splatting.kept);
+    host->release(host, splatting.specular);
     return result;
 }
 
@@ -225,21 +210,22 @@ static uint32_t surfels_of_tile(const struct state *state, const ps_pass *pass)
     return (uint32_t)(rays < PS_TILE_PIXELS ? rays : PS_TILE_PIXELS);
 }
 
-static void forget(struct whole *whole)
+static void clear_cache(struct pass_cache *cache)
 {
-    surfels_release(&whole->surfels);
-    *whole = (struct whole){.surfels = {.host = whole->surfels.host}};
+    surfels_release(&cache->surfels);
+    *cache = (struct pass_cache){.surfels = {.host = cache->surfels.host}};
 }
 
 /* What is known of a pass's whole picture, or room for it: in the state where another part may ask for it. */
-static struct whole *whole_of(struct state *state, const ps_pass *pass, struct whole *own)
+static struct pass_cache *cache_of_pass(struct state *state, const ps_pass *pass,
+                                        struct pass_cache *own)
 {
-    struct whole *room = own;
-    for (int i = 0; pass->parts > 1 && i < MOST_KEPT; i++) {
-        if (state->kept[i].is_taken && state->kept[i].pass == pass->number)
-            return &state->kept[i];
-        if (!state->kept[i].is_taken && room == own)
-            room = &state->kept[i];
+    struct pass_cache *room = own;
+    for (int i = 0; pass->parts > 1 && i < MOST_CACHED_PASSES; i++) {
+        if (state->caches[i].is_taken && state->caches[i].pass == pass->number)
+            return &state->caches[i];
+        if (!state->caches[i].is_taken && room == own)
+            room = &state->caches[i];
     }
     room->is_taken = true;
     room->pass = pass->number;
@@ -247,14 +233,14 @@ static struct whole *whole_of(struct state *state, const ps_pass *pass, struct w
 }
 
 /* The cache, where it is wanted, and the light that rays do not find. */
-static ps_result splat_pass(struct work *work, struct whole *whole)
+static ps_result splat_pass(struct work *work, struct pass_cache *cache)
 {
     const ps_pass *pass = work->setting.paths.pass;
     const ps_host *host = work->setting.paths.host;
     const struct state *state = work->state;
-    struct surfels *surfels = &whole->surfels;
+    struct surfels *surfels = &cache->surfels;
     uint64_t paths = paths_of_surfel(state);
-    bool for_indirect = pass->bounces > 1, is_missing = state->surfels > 0 && !whole->has_cache;
+    bool for_indirect = pass->bounces > 1, is_missing = state->surfels > 0 && !cache->has_surfels;
     bool for_sky = is_missing && paths > 0 && skylight_is_there(host);
     bool finds = is_missing && (for_indirect || for_sky);
     ps_result result = PS_OK;
@@ -266,12 +252,12 @@ static ps_result splat_pass(struct work *work, struct whole *whole)
         result = splat(work, finds && for_indirect);
     if (result == PS_OK && finds && surfels->count > 0)
         result = surfel_table_build(surfels);
-    whole->has_cache |= finds;
+    cache->has_surfels |= finds;
     if (surfels->count > 0) {
         work->setting.lookup = surfel_table_lookup;
         work->setting.cache = surfels;
-        work->setting.knows_indirect = for_indirect;
-        work->setting.knows_sky = surfels->sky != NULL;
+        work->setting.cache_has_indirect = for_indirect;
+        work->setting.cache_has_sky = surfels->sky != NULL;
     }
     return result;
 }
@@ -279,8 +265,8 @@ static ps_result splat_pass(struct work *work, struct whole *whole)
 static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pass)
 {
     struct state *state = opaque;
-    struct whole own = {.surfels = {.host = host}}, *whole = whole_of(state, pass, &own);
-    whole->surfels.host = host;
+    struct pass_cache own = {.surfels = {.host = host}}, *cache = cache_of_pass(state, pass, &own);
+    cache->surfels.host = host;
     struct work work = {
         .state = state,
         .setting = {.paths = {.host = host,
@@ -290,24 +276,24 @@ static ps_result accumulate(void *opaque, const ps_host *host, const ps_pass *pa
                     .samples = (uint64_t)state->samples,
                     .most = GATHER_MOST_OF_SAMPLES * (uint64_t)state->samples,
                     .share_before = SURFEL_SHARE},
-        .surfels = &whole->surfels,
+        .surfels = &cache->surfels,
     };
     host->progress_part(host, 0.0, SURFEL_SHARE);
-    ps_result result = splat_pass(&work, whole);
-    host->count(host, "surfels", (double)whole->surfels.count);
+    ps_result result = splat_pass(&work, cache);
+    host->count(host, "surfels", (double)cache->surfels.count);
     if (result == PS_OK)
-        result = gather_picture(&work.setting, state->adaptive, &whole->shares);
-    if (whole == &own || result != PS_OK)
-        forget(whole);
+        result = gather_picture(&work.setting, state->adaptive, &cache->allocation);
+    if (cache == &own || result != PS_OK)
+        clear_cache(cache);
     return result;
 }
 
 static void destroy(void *opaque, const ps_host *host)
 {
     struct state *state = opaque;
-    for (int i = 0; i < MOST_KEPT; i++) {
-        state->kept[i].surfels.host = host;
-        forget(&state->kept[i]);
+    for (int i = 0; i < MOST_CACHED_PASSES; i++) {
+        state->caches[i].surfels.host = host;
+        clear_cache(&state->caches[i]);
     }
 }
 

@@ -1,7 +1,7 @@
 /* test_allocation.c: how samples are shared out among tiles, and among the points of one
- * (plugins/estimator/shared/allocation.h, point_shares.h). */
+ * (plugins/estimator/shared/allocation.h, sample_factors.h). */
 #include "plugins/estimator/shared/allocation.h"
-#include "plugins/estimator/shared/point_shares.h"
+#include "plugins/estimator/shared/sample_factors.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@ static void make_pilots(struct tile_pilot pilots[TILES])
     for (int i = 0; i < TILES; i++)
         pilots[i] = (struct tile_pilot){
             .points = 256,
-            .shares = 256.0f,
+            .factors = 256.0f,
             .brightness = 1.0f,
             .noise = 0.01f * (float)(1 + i * i),
             .variation = 0.01f,
@@ -36,7 +36,7 @@ static double mean_samples(const struct allocation *allocation, const struct til
         uint32_t samples = allocated_samples(allocation, &pilots[i]);
         assert_in_range(samples, allocation->limits.least, allocation->limits.most);
         sum += (double)allocation->limits.first * (double)pilots[i].points;
-        sum += (double)(samples - allocation->limits.first) * (double)pilots[i].shares;
+        sum += (double)(samples - allocation->limits.first) * (double)pilots[i].factors;
         points += (double)pilots[i].points;
     }
     return sum / points;
@@ -54,7 +54,7 @@ static void test_tiles_share_out_what_there_is(void **state)
                 allocated_samples(&even, &pilots[TILES / 2]));
 
     for (int i = TILES / 2; i < TILES; i++)
-        pilots[i].shares = 2.0f * 256.0f;
+        pilots[i].factors = 2.0f * 256.0f;
     struct allocation uneven = allocation_for(&limits, pilots, TILES);
     mean = mean_samples(&uneven, pilots);
     assert_true(mean > 15.0 && mean <= 16.0);
@@ -65,8 +65,8 @@ static void test_tiles_share_out_what_there_is(void **state)
 static void test_tiles_without_noise_have_as_many_each(void **state)
 {
     (void)state;
-    struct tile_pilot pilots[2] = {{.points = 256, .shares = 256.0f, .brightness = 1.0f},
-                                   {.points = 3, .shares = 3.0f, .brightness = 2.0f}};
+    struct tile_pilot pilots[2] = {{.points = 256, .factors = 256.0f, .brightness = 1.0f},
+                                   {.points = 3, .factors = 3.0f, .brightness = 2.0f}};
     struct allocation allocation = allocation_for(&limits, pilots, 2);
     assert_int_equal(allocated_samples(&allocation, &pilots[0]), limits.samples);
     assert_int_equal(allocated_samples(&allocation, &pilots[1]), limits.samples);
@@ -91,24 +91,24 @@ static void test_points_of_one_surface_have_the_same(void **state)
 {
     (void)state;
     ps_points points;
-    float shares[PS_TILE_PIXELS];
+    float factors[PS_TILE_PIXELS];
     make_points(&points, false);
-    point_shares(&points, shares);
+    sample_factors(&points, factors);
     for (size_t i = 0; i < points.count; i++)
-        assert_true(shares[i] == 1.0f);
+        assert_true(factors[i] == 1.0f);
 }
 
 static void test_points_of_what_is_thin_have_more(void **state)
 {
     (void)state;
     ps_points points;
-    float shares[PS_TILE_PIXELS];
+    float factors[PS_TILE_PIXELS];
     make_points(&points, true);
-    point_shares(&points, shares);
+    sample_factors(&points, factors);
     for (size_t i = 0; i < points.count; i++) {
         bool is_post = points.lanes[i] % PS_TILE_SIZE == 5;
-        assert_true(is_post ? shares[i] >= 2.0f : shares[i] < 1.2f);
-        assert_true(shares[i] <= (float)POINT_SHARES_MOST);
+        assert_true(is_post ? factors[i] >= 2.0f : factors[i] < 1.2f);
+        assert_true(factors[i] <= (float)SAMPLE_FACTOR_MOST);
     }
 }
 
@@ -117,12 +117,12 @@ static void test_a_point_alone_has_most(void **state)
 {
     (void)state;
     ps_points points;
-    float shares[PS_TILE_PIXELS];
+    float factors[PS_TILE_PIXELS];
     make_points(&points, false);
     points.count = 1;
     points.lanes[0] = 137;
-    point_shares(&points, shares);
-    assert_true(shares[0] == (float)POINT_SHARES_MOST);
+    sample_factors(&points, factors);
+    assert_true(factors[0] == (float)SAMPLE_FACTOR_MOST);
 }
 
 int main(void)

@@ -23,8 +23,7 @@ static void learn_facing(ps_vec3 normal, struct guide *guide, struct random *ran
 {
     for (size_t i = 0; i < rays; i++) {
         ps_vec3 direction = ps_cosine_direction(normal, random_unit(random), random_unit(random));
-        guide_learn(guide, (int)(i % 2), guide_bin_of(guide, normal, direction),
-                    light_of(direction));
+        guide_add(guide, (int)(i % 2), guide_bin_of(guide, normal, direction), light_of(direction));
     }
     guide_update(guide);
 }
@@ -109,11 +108,11 @@ static void test_the_other_half_weighs(void **state)
     guide_begin(&even, up);
     guide_begin(&lucky, up);
     for (int half = 0; half < 2; half++) {
-        guide_learn(&even, half, guide_bin_of(&even, up, direction), 2.0f);
-        guide_learn(&even, half, guide_bin_of(&even, up, elsewhere), 1.0f);
+        guide_add(&even, half, guide_bin_of(&even, up, direction), 2.0f);
+        guide_add(&even, half, guide_bin_of(&even, up, elsewhere), 1.0f);
     }
-    guide_learn(&lucky, 1, guide_bin_of(&lucky, up, direction), 20.0f);
-    guide_learn(&lucky, 1, guide_bin_of(&lucky, up, elsewhere), 1.0f);
+    guide_add(&lucky, 1, guide_bin_of(&lucky, up, direction), 20.0f);
+    guide_add(&lucky, 1, guide_bin_of(&lucky, up, elsewhere), 1.0f);
     guide_update(&even);
     guide_update(&lucky);
     float of_even = guide_smooth_ratio(&even, 0, guide_bin_of(&even, up, direction));
@@ -124,11 +123,11 @@ static void test_the_other_half_weighs(void **state)
     assert_true(guide_smooth_ratio(&lucky, 1, guide_bin_of(&lucky, up, direction)) == 1.0f);
 }
 
-static struct guide_lesson lesson_of(const struct guide *guide)
+static struct guide_histogram histogram_of(const struct guide *guide)
 {
-    struct guide_lesson lesson = {.normal = guide->normal, .u = guide->u};
-    memcpy(lesson.found, guide->found, sizeof lesson.found);
-    return lesson;
+    struct guide_histogram histogram = {.normal = guide->normal};
+    memcpy(histogram.found, guide->found, sizeof histogram.found);
+    return histogram;
 }
 
 /* Both halves learn half of all that the other guide found, times the share. */
@@ -142,13 +141,13 @@ static void test_learns_from_another(void **state)
     guide_begin(&other, ps_normalize((ps_vec3){0.01f, 0.0f, 1.0f}));
     learn(&guide, &random, 100);
     learn(&other, &random, 1000);
-    struct guide_lesson lesson = lesson_of(&other);
+    struct guide_histogram histogram = histogram_of(&other);
     for (int half = 0; half < 2; half++)
         for (int i = 0; i < GUIDE_BINS; i++) {
             own[half] += (double)guide.found[half][i / GUIDE_SECTORS][i % GUIDE_SECTORS];
             all += (double)other.found[half][i / GUIDE_SECTORS][i % GUIDE_SECTORS];
         }
-    guide_learn_from(&guide, &lesson, 0.5f);
+    guide_add_histogram(&guide, &histogram, 0.5f);
     for (int half = 0; half < 2; half++) {
         for (int i = 0; i < GUIDE_BINS; i++)
             sums[half] += (double)guide.found[half][i / GUIDE_SECTORS][i % GUIDE_SECTORS];
@@ -156,7 +155,7 @@ static void test_learns_from_another(void **state)
     }
 }
 
-/* Of a lesson by a guide that faces another way: as much light as the guide's own normal has, and from there. */
+/* Of a histogram by a guide that faces another way: as much light as the guide's own normal has, and from there. */
 static void test_learns_from_one_that_faces_another_way(void **state)
 {
     (void)state;
@@ -169,8 +168,8 @@ static void test_learns_from_one_that_faces_another_way(void **state)
     guide_begin(&other, tilted);
     learn(&own, &random, RAYS);
     learn_facing(tilted, &other, &random, RAYS);
-    struct guide_lesson lesson = lesson_of(&other);
-    guide_learn_from(&guide, &lesson, 1.0f);
+    struct guide_histogram histogram = histogram_of(&other);
+    guide_add_histogram(&guide, &histogram, 1.0f);
     for (int i = 0; i < GUIDE_BINS; i++) {
         int ring = i / GUIDE_SECTORS, sector = i % GUIDE_SECTORS;
         double told_here =
@@ -192,8 +191,8 @@ static void test_learns_nothing_from_another_side(void **state)
     guide_begin(&guide, up);
     guide_begin(&other, ps_normalize((ps_vec3){1.5f, 0.0f, 1.0f}));
     learn(&other, &random, 1000);
-    struct guide_lesson lesson = lesson_of(&other);
-    guide_learn_from(&guide, &lesson, 0.5f);
+    struct guide_histogram histogram = histogram_of(&other);
+    guide_add_histogram(&guide, &histogram, 0.5f);
     for (int half = 0; half < 2; half++)
         for (int i = 0; i < GUIDE_BINS; i++)
             assert_true(guide.found[half][i / GUIDE_SECTORS][i % GUIDE_SECTORS] == 0.0f);

@@ -113,7 +113,7 @@ static void test_finds_the_light_of_a_place(void **state)
     enum { LOOKUPS = 40 * PS_TILE_PIXELS };
     for (int batch = 0; batch < LOOKUPS / PS_TILE_PIXELS; batch++) {
         struct gather_landing landings[PS_TILE_PIXELS];
-        struct gather_known known[PS_TILE_PIXELS];
+        struct cached_irradiance known[PS_TILE_PIXELS];
         bool is_known[PS_TILE_PIXELS] = {false};
         for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {
             landings[i] = landing_at(position, up, LENGTH, &random);
@@ -136,7 +136,7 @@ static bool is_known_at(const struct floor *floor, ps_vec3 position, ps_vec3 nor
 {
     struct random random = {23};
     struct gather_landing landing = landing_at(position, normal, length, &random);
-    struct gather_known known;
+    struct cached_irradiance known;
     bool is_known = false;
     surfel_table_lookup(&floor->surfels, &landing, 1, &known, &is_known);
     return is_known;
@@ -170,7 +170,7 @@ static void test_answers_each_by_itself(void **state)
     const struct floor *floor = *state;
     struct random random = {29};
     struct gather_landing landings[PS_TILE_PIXELS];
-    struct gather_known known[PS_TILE_PIXELS], alone;
+    struct cached_irradiance known[PS_TILE_PIXELS], alone;
     bool is_known[PS_TILE_PIXELS] = {false};
     size_t answered = 0;
     for (uint32_t i = 0; i < PS_TILE_PIXELS; i++) {

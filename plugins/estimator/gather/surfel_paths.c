@@ -2,9 +2,9 @@
 
 #include "surfel_table.h"
 
-#define FEWEST_ASKING 4  /* paths of a surfel that ask the table, or none do */
-#define FOR_EACH_WHOLE 4 /* so many ask it for each that goes on to its end */
-#define FEWEST_WHOLE 2
+#define FEWEST_ONE_SEGMENT 4   /* paths of a surfel: with fewer there is no second step */
+#define ONE_SEGMENT_PER_FULL 4 /* paths of one segment for each that goes to its end */
+#define FEWEST_FULL 2
 
 /* One step: paths from all surfels. */
 struct step {
@@ -60,14 +60,14 @@ ps_result surfel_paths_correct(const ps_pass *pass, uint32_t roulette, uint64_t 
     const ps_host *host = surfels->host;
     ps_pass left = *pass; /* for surfels, which are one surface on */
     left.bounces -= left.bounces != PS_ALL_BOUNCES;
-    bool asks = paths >= FEWEST_ASKING && pass->bounces == PS_ALL_BOUNCES;
-    uint64_t whole = asks ? paths / FOR_EACH_WHOLE : paths;
-    if (asks && whole < FEWEST_WHOLE)
-        whole = FEWEST_WHOLE;
+    bool has_second_step = paths >= FEWEST_ONE_SEGMENT && pass->bounces == PS_ALL_BOUNCES;
+    uint64_t full = has_second_step ? paths / ONE_SEGMENT_PER_FULL : paths;
+    if (has_second_step && full < FEWEST_FULL)
+        full = FEWEST_FULL;
     const struct paths_setting setting = {
         .host = host, .pass = &left, .roulette = roulette, .least_roughness = PS_ROUGH_GLOSS};
     struct step first = {
-        .setting = {.paths = setting, .samples = whole, .most = whole},
+        .setting = {.paths = setting, .samples = full, .most = full},
         .first_index = pass->tile_count,
     };
     struct step second = {
@@ -76,12 +76,12 @@ ps_result surfel_paths_correct(const ps_pass *pass, uint32_t roulette, uint64_t 
                     .most = paths,
                     .lookup = surfel_table_lookup,
                     .cache = surfels,
-                    .knows_indirect = true,
-                    .knows_sky = surfels->sky != NULL},
+                    .cache_has_indirect = true,
+                    .cache_has_sky = surfels->sky != NULL},
         .first_index = pass->tile_count + surfels_group_count(surfels),
     };
     ps_result result = take_step(&first, surfels);
-    if (result == PS_OK && asks)
+    if (result == PS_OK && has_second_step)
         result = surfel_table_build(surfels);
-    return result == PS_OK && asks ? take_step(&second, surfels) : result;
+    return result == PS_OK && has_second_step ? take_step(&second, surfels) : result;
 }

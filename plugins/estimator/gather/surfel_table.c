@@ -33,34 +33,34 @@ static uint64_t normal_key(ps_vec3 n)
     return face * 9 + row * 3 + column;
 }
 
-/* A point, in sides of the largest cubes from the table's origin; what lies out of the scene's bounds counts as at its border.
- * And which way its surface faces. */
-struct place {
+/* A point, in sides of the largest cubes from the table's origin (what lies out of the scene's bounds counts as at its border), and which
+ * way its surface faces. */
+struct cube_position {
     ps_vec3 point;
     uint64_t normal;
 };
 
-static float clamp_place(float place)
+static float clamp(float along)
 {
-    return ps_min(ps_max(place, 0.0f), MOST_CUBES);
+    return ps_min(ps_max(along, 0.0f), MOST_CUBES);
 }
 
-static struct place place_of(const struct surfels *surfels, ps_vec3 position, ps_vec3 normal)
+static struct cube_position cube_position_of(const struct surfels *surfels, ps_vec3 position,
+                                             ps_vec3 normal)
 {
     ps_vec3 p = ps_scale(ps_subtract(position, surfels->origin), 1.0f / surfels->largest);
-    return (struct place){{clamp_place(p.x), clamp_place(p.y), clamp_place(p.z)},
-                          normal_key(normal)};
+    return (struct cube_position){{clamp(p.x), clamp(p.y), clamp(p.z)}, normal_key(normal)};
 }
 
-/* Of the cube of a level where a place lies when it is moved by so many sides, more than -1. */
-static uint64_t cell_key(const struct place *place, ps_vec3 moved, uint32_t level)
+/* The key of the cube of a level that holds a position moved by so many sides, more than -1. */
+static uint64_t cell_key(const struct cube_position *position, ps_vec3 moved, uint32_t level)
 {
     float scale = (float)(1u << level);
-    uint32_t x = (uint32_t)(int32_t)(place->point.x * scale + moved.x);
-    uint32_t y = (uint32_t)(int32_t)(place->point.y * scale + moved.y);
-    uint32_t z = (uint32_t)(int32_t)(place->point.z * scale + moved.z);
+    uint32_t x = (uint32_t)(int32_t)(position->point.x * scale + moved.x);
+    uint32_t y = (uint32_t)(int32_t)(position->point.y * scale + moved.y);
+    uint32_t z = (uint32_t)(int32_t)(position->point.z * scale + moved.z);
     return UINT64_C(1) << 63 | (uint64_t)x << 44 | (uint64_t)y << 28 | (uint64_t)z << 12 |
-           place->normal << 4 | level;
+           position->normal << 4 | level;
 }
 
 static uint32_t level_of_key(uint64_t key)
@@ -112,9 +112,10 @@ static uint32_t finest_level(const struct surfels *surfels, size_t i)
 static void list_cubes(const struct surfels *surfels, ps_key_entry *entries)
 {
     for (size_t i = 0; i < surfels->count; i++) {
-        struct place place = place_of(surfels, surfels->positions[i], surfels->normals[i]);
+        struct cube_position position =
+            cube_position_of(surfels, surfels->positions[i], surfels->normals[i]);
         for (uint32_t level = 0; level <= finest_level(surfels, i); level++)
-            *entries++ = (ps_key_entry){cell_key(&place, (ps_vec3){0, 0, 0}, level), i};
+            *entries++ = (ps_key_entry){cell_key(&position, (ps_vec3){0, 0, 0}, level), i};
     }
 }
 
@@ -127,7 +128,7 @@ static size_t surfels_of(const ps_key_entry *entries, size_t n)
     return count;
 }
 
-/* A cube is kept if there are enough surfels, or if none larger could be asked. */
+/* A cube is kept if it has enough surfels, or if there is no larger one. */
 static bool is_kept(uint64_t key, size_t count)
 {
     return count >= ENOUGH || level_of_key(key) == 0;
@@ -188,19 +189,19 @@ ps_result surfel_table_build(struct surfels *surfels)
     return result;
 }
 
-/* --- asking it --- */
+/* --- lookups --- */
 
-/* What is asked about a landing. */
-struct question {
-    struct place place;
+/* The search for a landing's cell, from small cubes to wide ones. */
+struct query {
+    struct cube_position position;
     ps_vec3 moved;          /* in sides of a cube */
-    uint32_t level, widest; /* of the cubes that are asked next, and last */
+    uint32_t level, widest; /* of the next cube, and of the last one */
     uint32_t path;          /* the landing's */
 };
 
-/* Those that no cube has answered yet. */
-struct questions {
-    struct question all[PS_TILE_PIXELS];
+/* Those that have found none yet are `open`. */
+struct queries {
+    struct query all[PS_TILE_PIXELS];
     uint32_t open[PS_TILE_PIXELS];
     size_t count;
 };
@@ -214,55 +215,55 @@ static ps_vec3 jitter(ps_vec3 normal, const float numbers[2])
     return (ps_vec3){axis == 0 ? 0.0f : a, axis == 1 ? 0.0f : y, axis == 2 ? 0.0f : b};
 }
 
-static void begin(const struct surfels *surfels, const struct gather_landing *landings, size_t n,
-                  struct questions *questions)
+static void begin_queries(const struct surfels *surfels, const struct gather_landing *landings,
+                          size_t n, struct queries *queries)
 {
-    questions->count = 0;
+    queries->count = 0;
     for (uint32_t i = 0; i < n; i++) {
         const struct gather_landing *landing = &landings[i];
-        struct question *question = &questions->all[i];
-        question->place = place_of(surfels, landing->position, landing->normal);
-        question->moved = jitter(landing->normal, landing->numbers);
-        question->level = level_of(surfels, BY_LENGTH * landing->length);
-        question->widest = halvings(surfels->largest / (MOST_BY_LENGTH * landing->length), LEVELS);
-        question->path = landing->path;
-        questions->open[questions->count] = i;
-        questions->count += question->widest <= question->level; /* or the ray is too short */
+        struct query *query = &queries->all[i];
+        query->position = cube_position_of(surfels, landing->position, landing->normal);
+        query->moved = jitter(landing->normal, landing->numbers);
+        query->level = level_of(surfels, BY_LENGTH * landing->length);
+        query->widest = halvings(surfels->largest / (MOST_BY_LENGTH * landing->length), LEVELS);
+        query->path = landing->path;
+        queries->open[queries->count] = i;
+        queries->count += query->widest <= query->level; /* or the ray is too short */
     }
 }
 
-/* Asks a cube for each landing. Those that find none ask a wider one next, if there is one. */
-static void ask(const struct surfels *surfels, struct questions *questions,
-                struct gather_known *known, bool *is_known)
+/* Looks up one cube for each open query. Those that find none look for a wider one next, if there is one. */
+static void look_up(const struct surfels *surfels, struct queries *queries,
+                    struct cached_irradiance *known, bool *is_known)
 {
     uint64_t keys[PS_TILE_PIXELS];
     size_t left = 0;
-    for (size_t k = 0; k < questions->count; k++) {
-        const struct question *question = &questions->all[questions->open[k]];
-        keys[k] = cell_key(&question->place, question->moved, question->level);
+    for (size_t k = 0; k < queries->count; k++) {
+        const struct query *query = &queries->all[queries->open[k]];
+        keys[k] = cell_key(&query->position, query->moved, query->level);
         PREFETCH(&surfels->cells[hash(keys[k]) & (surfels->capacity - 1)]);
     }
-    for (size_t k = 0; k < questions->count; k++) {
-        uint32_t i = questions->open[k];
-        struct question *question = &questions->all[i];
+    for (size_t k = 0; k < queries->count; k++) {
+        uint32_t i = queries->open[k];
+        struct query *query = &queries->all[i];
         const struct surfel_cell *cell = cell_at(surfels, keys[k]);
         bool found = cell->key != 0;
-        known[question->path] = (struct gather_known){cell->indirect, cell->sky};
-        is_known[question->path] = found;
-        questions->open[left] = i;
-        left += !found & (question->level > question->widest);
-        question->level--;
+        known[query->path] = (struct cached_irradiance){cell->indirect, cell->sky};
+        is_known[query->path] = found;
+        queries->open[left] = i;
+        left += !found & (query->level > query->widest);
+        query->level--;
     }
-    questions->count = left;
+    queries->count = left;
 }
 
-/* All ask their first cube, then some the next: so a processor waits less for memory. */
+/* Level by level for all landings together, not landing by landing: a processor then waits for several cells of the table at a time. */
 void surfel_table_lookup(const void *opaque, const struct gather_landing *landings, size_t n,
-                         struct gather_known *known, bool *is_known)
+                         struct cached_irradiance *known, bool *is_known)
 {
     const struct surfels *surfels = opaque;
-    struct questions questions;
-    begin(surfels, landings, n, &questions);
-    while (questions.count > 0)
-        ask(surfels, &questions, known, is_known);
+    struct queries queries;
+    begin_queries(surfels, landings, n, &queries);
+    while (queries.count > 0)
+        look_up(surfels, &queries, known, is_known);
 }

@@ -2,8 +2,8 @@
  *
  * A hash table holds the mean of the surfels in each cube of space, with surfaces of like normal (after Binder et al. 2019,
  * "Massively parallel path space filtering"). Cubes have a side in proportion to the length of the ray, as wide as
- * neighbouring rays are apart there, in powers of two; where one has too few surfels, the next larger ones are asked. The
- * point is moved by lot within a cube, which turns steps between cubes into noise.
+ * neighbouring rays are apart there, in powers of two; where one has too few surfels, the next larger ones are looked up. The
+ * lookup point is jittered within a cube: steps between cubes become noise.
  */
 #ifndef PSPLAT_ESTIMATOR_GATHER_SURFEL_TABLE_H
 #define PSPLAT_ESTIMATOR_GATHER_SURFEL_TABLE_H
@@ -16,6 +16,6 @@ ps_result surfel_table_build(struct surfels *surfels);
 
 /* As a gather_lookup; `surfels` is a struct surfels. */
 void surfel_table_lookup(const void *surfels, const struct gather_landing *landings, size_t n,
-                         struct gather_known *known, bool *is_known);
+                         struct cached_irradiance *known, bool *is_known);
 
 #endif

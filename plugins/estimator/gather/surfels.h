@@ -20,7 +20,7 @@ struct surfels {
     const ps_cells *extension; /* by which they are sorted */
     size_t count;
     ps_vec3 *positions, *normals;
-    float *lengths;     /* of the rays that found them */
+    float *lengths;     /* of the rays that found them, in scene units */
     ps_rgb *irradiance; /* W/m^2, of light that met other surfaces before; set by the caller */
     ps_rgb *sky;        /* of light straight from soft skies; NULL: lookups know none */
     /* The table's cubes begin at `origin`; `largest` is the side of the largest ones. */
@@ -30,8 +30,8 @@ struct surfels {
     size_t capacity;
 };
 
-/* Finds surfels with so many rays from each tile of the pass, or of some where the picture is large: there are at most
- * about MOST_SURFELS. What a surfel stands for is told by the rays' lengths, so more pixels do not need more.
+/* Finds surfels with so many rays from each tile of the pass, or from a random subset of the tiles if the picture is large: there are
+ * at most about MOST_SURFELS. What a surfel stands for is told by the rays' lengths, so more pixels do not need more.
  * PS_ERROR_MEMORY or PS_CANCELLED: release all the same. */
 ps_result surfels_find(const ps_host *host, const ps_pass *pass, uint32_t rays,
                        struct surfels *surfels);

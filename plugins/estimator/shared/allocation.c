@@ -83,7 +83,7 @@ static double cost_of(const struct allocation *allocation, const struct tile_pil
 {
     double sum = 0.0;
     for (size_t i = 0; i < n; i++)
-        sum += (double)pilots[i].shares *
+        sum += (double)pilots[i].factors *
                (double)(samples_by(allocation, pilots[i].error) - allocation->limits.first);
     return sum;
 }

@@ -1,11 +1,11 @@
 /* allocation.h: how the samples of a pass are shared out among tiles (adaptive sampling, Zwicker et al. 2015, "Recent
  * advances in adaptive sampling and reconstruction").
  *
- * After a first round of samples, all tiles alike, a tile's error behind a denoiser is told from their noise and from how
- * the light varies over the tile: of noise of variance s^2 and light that bends by c, a fit of the best bandwidth h has
- * variance s^2 / h^2 and bias c h^2, so an error in proportion to (s^2 c)^(1/3). Over the square root of the brightness:
- * what counts is neither the absolute error alone, by which dark walls would stay noisy, nor the relative one.
- * The other samples go where that is large.
+ * After a first round of samples, all tiles alike, the error that each tile will have after denoising is estimated. With noise of
+ * variance s^2 and light of second derivative c, a fit of bandwidth h has the variance s^2 / h^2 and the bias c h^2; at the best
+ * h its error is in proportion to (s^2 c)^(1/3). For c the standard deviation of the means of 4x4 blocks is used. The error is
+ * divided by the square root of the brightness, a compromise between the absolute error, by which dark walls would stay noisy, and the
+ * relative one. The other samples go where that is large.
  */
 #ifndef PSPLAT_ESTIMATOR_ALLOCATION_H
 #define PSPLAT_ESTIMATOR_ALLOCATION_H
@@ -15,7 +15,7 @@
 /* What the first round told of a tile, in radiance of no special unit. */
 struct tile_pilot {
     uint32_t points;
-    float shares;     /* sum over them (point_shares.h) */
+    float factors;    /* sum over them (sample_factors.h) */
     float brightness; /* mean */
     float noise;      /* variance of a point's noise */
     float variation;  /* variance of the means of its blocks of 4x4 pixels, without their noise */
@@ -31,7 +31,7 @@ struct tile_pilot tile_pilot(const uint32_t *lanes, const float *found, const fl
 struct allocation_limits {
     uint64_t first;       /* of each point, which are taken */
     uint64_t samples;     /* of a point in the mean, those among them */
-    uint64_t least, most; /* of a point whose share is 1 */
+    uint64_t least, most; /* of a point whose factor is 1 */
 };
 
 /* By what tiles of a picture are given samples. */
@@ -45,7 +45,7 @@ struct allocation {
 struct allocation allocation_for(const struct allocation_limits *limits, struct tile_pilot *pilots,
                                  size_t n);
 
-/* Samples of a point of a tile whose share is 1. */
+/* Samples of a point of a tile whose factor is 1. */
 uint32_t allocated_samples(const struct allocation *allocation, const struct tile_pilot *pilot);
 
 #endif

@@ -10,13 +10,7 @@ static bool is_caustic(const void *user, const ps_photon *photon)
 
 ps_result caustics_splat_photons(const ps_host *host, const ps_photon *photons, size_t n)
 {
-    ps_photon *chosen = host->allocate(host, n * sizeof *chosen, "photons chosen");
-    if (!chosen)
-        return PS_ERROR_MEMORY;
-    size_t count = photons_choose(photons, n, is_caustic, NULL, 1.0f, chosen);
-    ps_result result = count > 0 ? host->splat(host, chosen, count) : PS_OK;
-    host->release(host, chosen);
-    return result;
+    return photons_splat(host, host->splat, photons, n, is_caustic, NULL, 1.0f);
 }
 
 /* A photons_take. */

@@ -4,21 +4,20 @@
 #include "sampled_tiles.h"
 #include <string.h>
 
-#define MOST_PILOTS 8192 /* tiles by which the picture's need is told */
+#define MOST_PILOTS 8192 /* tiles by which the error of the picture is estimated */
 
 struct work {
     const struct gather_setting *setting;
-    /* When tiles take samples by their need: what the first round found in each tile that is there, in those around these, and in
-     * those that stand for the picture. It is kept for the former two, `places` being their places. */
-    const struct gather_shares *shares; /* NULL: they do not */
+    const struct gather_allocation *allocation; /* NULL: all tiles take as many samples */
+    /* What the first round found in each tile that is there and in those around, by `slots`, of all tiles of the picture. */
     struct gather_first *first_rounds;
     struct tile_pilot
         *pilots; /* of the picture's tiles; of those that were not looked at, without points */
-    uint32_t *places;
+    uint32_t *slots;
 };
 
-#define NO_PLACE UINT32_MAX
-#define IS_THERE 0u /* before places are numbered */
+#define NO_SLOT UINT32_MAX
+#define IS_THERE 0u /* before slots are numbered */
 #define IS_WANTED 1u
 
 static bool begin_tile(const struct work *work, uint64_t index, const ps_tile *tile,
@@ -57,11 +56,11 @@ static struct tile_pilot pilot_of(const struct gather *gather, const ps_tile *ti
     return tile_pilot(lanes, found, half, count);
 }
 
-static float sum_of_shares(const struct gather *gather)
+static float sum_of_factors(const struct gather *gather)
 {
     float sum = 0.0f;
     for (size_t i = 0; i < gather->points.count; i++)
-        sum += gather->first.shares[i];
+        sum += gather->first.factors[i];
     return sum;
 }
 
@@ -74,25 +73,25 @@ static void take_first_round(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
-    uint32_t place = work->places[index];
-    if (place == NO_PLACE && (work->shares->are_known || !stands_for_picture(work, index)))
+    uint32_t slot = work->slots[index];
+    if (slot == NO_SLOT && (work->allocation->is_known || !stands_for_picture(work, index)))
         return;
     const ps_host *host = work->setting->paths.host;
     ps_tile tile;
     struct gather gather;
     host->tile_surfaces(host, (uint32_t)index, sizeof tile, &tile);
-    if (place != NO_PLACE)
-        work->first_rounds[place].guide_count = 0; /* also of a tile that sees nothing */
+    if (slot != NO_SLOT)
+        work->first_rounds[slot].guide_count = 0; /* also of a tile that sees nothing */
     if (!begin_tile(work, index, &tile, &gather))
         return;
     gather_samples(&gather, GATHER_FIRST);
-    point_shares(&gather.points, gather.first.shares);
+    sample_factors(&gather.points, gather.first.factors);
     work->pilots[index] = pilot_of(&gather, &tile, BOTH_HALVES);
-    work->pilots[index].shares = sum_of_shares(&gather);
-    if (place == NO_PLACE)
+    work->pilots[index].factors = sum_of_factors(&gather);
+    if (slot == NO_SLOT)
         return;
-    gather_teach(&gather);
-    work->first_rounds[place] = gather.first;
+    gather_keep_first_round(&gather);
+    work->first_rounds[slot] = gather.first;
 }
 
 /* The tiles of the picture next to one, up to eight. */
@@ -116,8 +115,8 @@ static void resume(const struct work *work, uint64_t index, struct gather *gathe
     const struct gather_first *around[8];
     size_t count = tiles_around(work->setting->paths.pass, index, tiles);
     for (size_t i = 0; i < count; i++)
-        around[i] = &work->first_rounds[work->places[tiles[i]]];
-    gather_resume(gather, &work->first_rounds[work->places[index]], around, count);
+        around[i] = &work->first_rounds[work->slots[tiles[i]]];
+    gather_resume(gather, &work->first_rounds[work->slots[index]], around, count);
 }
 
 static void gather_tile(void *user, uint64_t index, uint32_t worker)
@@ -126,19 +125,19 @@ static void gather_tile(void *user, uint64_t index, uint32_t worker)
     const struct work *work = user;
     const ps_host *host = work->setting->paths.host;
     ps_tile *tile = host->tile(host, (uint32_t)index);
-    uint64_t samples = work->shares
-                           ? allocated_samples(&work->shares->allocation, &work->pilots[index])
+    uint64_t samples = work->allocation
+                           ? allocated_samples(&work->allocation->by_error, &work->pilots[index])
                            : work->setting->samples;
     struct gather gather;
     if (!begin_tile(work, index, tile, &gather))
         return;
-    if (work->shares) {
-        const struct allocation *allocation = &work->shares->allocation;
+    if (work->allocation) {
+        const struct allocation *allocation = &work->allocation->by_error;
         resume(work, index, &gather);
         struct tile_pilot first = pilot_of(&gather, tile, FIRST_HALF);
         struct tile_pilot second = pilot_of(&gather, tile, SECOND_HALF);
-        gather.expected[0] = allocated_samples(allocation, &second);
-        gather.expected[1] = allocated_samples(allocation, &first);
+        gather.expected_samples[0] = allocated_samples(allocation, &second);
+        gather.expected_samples[1] = allocated_samples(allocation, &first);
     }
     gather_samples(&gather, samples);
     for (size_t i = 0; i < gather.points.count; i++)
@@ -149,40 +148,40 @@ static void mark_tile(void *user, uint64_t index, uint32_t worker)
 {
     (void)worker;
     const struct work *work = user;
-    work->places[index] = IS_THERE;
+    work->slots[index] = IS_THERE;
 }
 
-/* Gives a place to each tile that is there (IS_THERE) and to those around it. Returns how many. */
-static uint32_t number_places(const struct work *work)
+/* Gives a slot to each tile that is there (IS_THERE) and to those around it. Returns how many. */
+static uint32_t number_slots(const struct work *work)
 {
     const ps_pass *pass = work->setting->paths.pass;
     uint32_t count = 0, tiles[8];
     for (uint32_t tile = 0; tile < pass->tile_count; tile++) {
-        size_t around = work->places[tile] == IS_THERE ? tiles_around(pass, tile, tiles) : 0;
+        size_t around = work->slots[tile] == IS_THERE ? tiles_around(pass, tile, tiles) : 0;
         for (size_t i = 0; i < around; i++)
-            if (work->places[tiles[i]] == NO_PLACE)
-                work->places[tiles[i]] = IS_WANTED;
+            if (work->slots[tiles[i]] == NO_SLOT)
+                work->slots[tiles[i]] = IS_WANTED;
     }
     for (uint32_t tile = 0; tile < pass->tile_count; tile++)
-        if (work->places[tile] != NO_PLACE)
-            work->places[tile] = count++;
+        if (work->slots[tile] != NO_SLOT)
+            work->slots[tile] = count++;
     return count;
 }
 
 /* Finds the tiles that are there, and makes room for what the first round finds in them and around. */
-static ps_result make_places(struct work *work)
+static ps_result make_slots(struct work *work)
 {
     const ps_host *host = work->setting->paths.host;
     size_t tiles = work->setting->paths.pass->tile_count;
     double before = work->setting->share_before;
     host->progress_part(host, before, before);
-    work->places = host->allocate(host, tiles * sizeof *work->places, "first round");
-    if (!work->places)
+    work->slots = host->allocate(host, tiles * sizeof *work->slots, "first round");
+    if (!work->slots)
         return PS_ERROR_MEMORY;
     for (size_t i = 0; i < tiles; i++)
-        work->places[i] = NO_PLACE;
+        work->slots[i] = NO_SLOT;
     ps_result result = host->for_each_tile(host, mark_tile, work);
-    size_t bytes = number_places(work) * sizeof *work->first_rounds;
+    size_t bytes = number_slots(work) * sizeof *work->first_rounds;
     work->first_rounds = host->allocate(host, bytes, "first round");
     return work->first_rounds || result != PS_OK ? result : PS_ERROR_MEMORY;
 }
@@ -206,23 +205,23 @@ static struct allocation allocation_of(const struct work *work, struct tile_pilo
     return allocation_for(&limits, pilots, count);
 }
 
-/* Takes the first round of tiles, and finds the shares, where they are not known, by those that stand for the picture. */
-static ps_result find_shares(struct work *work, struct gather_shares *shares)
+/* Takes the first round of tiles, and finds the allocation, where it is not known, by those that stand for the picture. */
+static ps_result find_allocation(struct work *work, struct gather_allocation *allocation)
 {
     const ps_host *host = work->setting->paths.host;
     size_t bytes = work->setting->paths.pass->tile_count * sizeof *work->pilots;
     ps_result result = host->for_each_picture_tile(host, take_first_round, work);
-    if (result != PS_OK || shares->are_known)
+    if (result != PS_OK || allocation->is_known)
         return result;
     struct tile_pilot *chosen = host->allocate(host, bytes, "first round");
     if (!chosen)
         return PS_ERROR_MEMORY;
-    *shares = (struct gather_shares){true, allocation_of(work, chosen)};
+    *allocation = (struct gather_allocation){true, allocation_of(work, chosen)};
     host->release(host, chosen);
     return PS_OK;
 }
 
-static ps_result share_out_samples(struct work *work, struct gather_shares *shares)
+static ps_result allocate_samples(struct work *work, struct gather_allocation *allocation)
 {
     const ps_host *host = work->setting->paths.host;
     size_t bytes = work->setting->paths.pass->tile_count * sizeof *work->pilots;
@@ -230,29 +229,29 @@ static ps_result share_out_samples(struct work *work, struct gather_shares *shar
     if (!work->pilots)
         return PS_ERROR_MEMORY;
     memset(work->pilots, 0, bytes);
-    work->shares = shares;
-    ps_result result = make_places(work);
+    work->allocation = allocation;
+    ps_result result = make_slots(work);
     double before = work->setting->share_before;
     double first = before + (1.0 - before) * (double)GATHER_FIRST / (double)work->setting->samples;
     host->progress_part(host, before, first);
     if (result == PS_OK)
-        result = find_shares(work, shares);
+        result = find_allocation(work, allocation);
     host->progress_part(host, first, 1.0);
     return result;
 }
 
 ps_result gather_picture(const struct gather_setting *setting, bool adaptive,
-                         struct gather_shares *shares)
+                         struct gather_allocation *allocation)
 {
     const ps_host *host = setting->paths.host;
     struct work work = {.setting = setting};
     host->progress_part(host, setting->share_before, 1.0);
     ps_result result =
-        adaptive && setting->samples > GATHER_FIRST ? share_out_samples(&work, shares) : PS_OK;
+        adaptive && setting->samples > GATHER_FIRST ? allocate_samples(&work, allocation) : PS_OK;
     if (result == PS_OK)
         result = host->for_each_tile(host, gather_tile, &work);
     host->release(host, work.first_rounds);
-    host->release(host, work.places);
+    host->release(host, work.slots);
     host->release(host, work.pilots);
     return result;
 }

@@ -46,9 +46,9 @@ static void face_mean_normals(struct gather *gather)
 void gather_begin(struct gather *gather)
 {
     gather->guide_count = 0;
-    gather->expected[0] = gather->expected[1] = gather->setting->samples;
+    gather->expected_samples[0] = gather->expected_samples[1] = gather->setting->samples;
     for (size_t i = 0; i < gather->points.count; i++) {
-        gather->first.shares[i] = 1.0f;
+        gather->first.factors[i] = 1.0f;
         gather->guide_of[i] = choose_guide(gather, gather->points.normals[i]);
     }
     face_mean_normals(gather);
@@ -58,9 +58,9 @@ void gather_begin(struct gather *gather)
 
 /* Samples that points take one after the other, before guides learn from them. */
 struct round {
-    uint64_t samples;      /* of the group in all */
-    uint64_t longest;      /* of the point that takes most in this round */
-    bool is_first, learns; /* more rays will be drawn by what these find */
+    uint64_t samples;       /* of the group in all */
+    uint64_t longest;       /* of the point that takes most in this round */
+    bool is_first, teaches; /* more rays will be drawn by what these find */
 };
 
 /* Some of a round's, whose paths advance together. */
@@ -81,7 +81,7 @@ static uint64_t guided_of(const struct gather *gather, size_t point, uint64_t sa
 {
     if (samples <= GATHER_FIRST)
         return 0;
-    float wanted = (float)(samples - GATHER_FIRST) * gather->first.shares[point];
+    float wanted = (float)(samples - GATHER_FIRST) * gather->first.factors[point];
     return wanted > 1.0f ? (uint64_t)(wanted + 0.5f) : 1;
 }
 
@@ -104,10 +104,10 @@ static float balanced(const struct gather *gather, size_t i, float ratio)
     return 1.0f / ((float)GATHER_FIRST + gather->guided_expected[i] * ratio);
 }
 
-static void learn(struct gather *gather, size_t i, struct guide_bin bin, ps_rgb found)
+static void add_to_guide(struct gather *gather, size_t i, struct guide_bin bin, ps_rgb found)
 {
-    guide_learn(&gather->guides[gather->guide_of[i]], gather_half_of(gather, i), bin,
-                found.r + found.g + found.b);
+    guide_add(&gather->guides[gather->guide_of[i]], gather_half_of(gather, i), bin,
+              found.r + found.g + found.b);
 }
 
 static float smooth_ratio(const struct gather *gather, size_t i, struct guide_bin bin)
@@ -131,8 +131,8 @@ static void end_sample(struct gather *gather, const struct batch *batch, size_t 
         float guided = gather->guided_expected[i] * ratio * balanced(gather, i, ratio);
         add(gather, i, found, gather->guided_share[i] * guided, half);
     }
-    if (round->learns)
-        learn(gather, i, batch->bins[k], found);
+    if (round->teaches)
+        add_to_guide(gather, i, batch->bins[k], found);
 }
 
 /* Weighs the rays of the first round by the guides of the round that begins, for its share of the guided rays. */
@@ -180,7 +180,7 @@ static void start_paths(const struct gather *gather, struct batch *batch, struct
 /* Looks up what the cache knows where the rays of some paths landed: of those that are marked. */
 static void look_up(const struct gather_setting *setting, const struct batch *batch,
                     const struct paths *paths, const struct paths_segment *segment,
-                    const bool *marked, struct gather_known *known, bool *is_known)
+                    const bool *marked, struct cached_irradiance *known, bool *is_known)
 {
     /* Where bounces are counted, the cache knows those that are left after one surface. */
     bool counted = setting->paths.pass->bounces != PS_ALL_BOUNCES;
@@ -212,7 +212,7 @@ static void add_known(struct batch *batch, const struct paths *paths, size_t i, 
 static void light_paths(const struct gather_setting *setting, struct batch *batch, uint32_t number,
                         struct paths *paths, struct paths_segment *segment)
 {
-    struct gather_known known[PS_TILE_PIXELS];
+    struct cached_irradiance known[PS_TILE_PIXELS];
     bool marked[PS_TILE_PIXELS], is_known[PS_TILE_PIXELS];
     uint8_t groups[PS_TILE_PIXELS];
     size_t left = 0;
@@ -220,14 +220,14 @@ static void light_paths(const struct gather_setting *setting, struct batch *batc
         marked[i] = !(segment->hits[i].flags & PS_HIT_SPECULAR);
     look_up(setting, batch, paths, segment, marked, known, is_known);
     for (size_t i = 0; i < paths->count; i++)
-        groups[i] = is_known[i] && setting->knows_sky ? PS_LIGHTS_OTHERS : PS_LIGHTS_ALL;
+        groups[i] = is_known[i] && setting->cache_has_sky ? PS_LIGHTS_OTHERS : PS_LIGHTS_ALL;
     paths_add_reflected(&setting->paths, number, batch->indices, paths, groups, segment,
                         batch->found);
     for (size_t i = 0; i < paths->count; i++) {
         if (is_known[i])
             add_known(batch, paths, i, segment->hits[i].albedo,
                       ps_rgb_add(known[i].indirect, known[i].sky));
-        if (is_known[i] && setting->knows_indirect)
+        if (is_known[i] && setting->cache_has_indirect)
             continue;
         segment->hits[left] = segment->hits[i];
         paths_move(paths, i, left++);
@@ -241,13 +241,13 @@ static void scatter_paths(const struct gather_setting *setting, struct batch *ba
 {
     const ps_host *host = setting->paths.host;
     ps_bsdf_sample scattered[PS_TILE_PIXELS];
-    struct gather_known known[PS_TILE_PIXELS];
+    struct cached_irradiance known[PS_TILE_PIXELS];
     bool marked[PS_TILE_PIXELS], is_known[PS_TILE_PIXELS];
     size_t alive = 0;
     host->sample_bsdf(host, PS_FROM_CAMERA, paths->rays, segment->hits,
                       (const float(*)[4])segment->numbers, paths->count, scattered);
     for (size_t i = 0; i < paths->count; i++)
-        marked[i] = setting->knows_indirect && segment->hits[i].flags & PS_HIT_SPECULAR &&
+        marked[i] = setting->cache_has_indirect && segment->hits[i].flags & PS_HIT_SPECULAR &&
                     scattered[i].lobe == PS_DIFFUSE;
     look_up(setting, batch, paths, segment, marked, known, is_known);
     for (size_t i = 0; i < paths->count; i++) {
@@ -314,29 +314,28 @@ static void update_guides(struct gather *gather)
         guide_update(&gather->guides[i]);
 }
 
-void gather_teach(struct gather *gather)
+void gather_keep_first_round(struct gather *gather)
 {
     struct gather_first *first = &gather->first;
     for (size_t number = 0; number < GATHER_FIRST; number++)
         for (size_t i = 0; i < gather->points.count; i++)
-            learn(gather, i, first->bins[number][i], first->found[number][i]);
+            add_to_guide(gather, i, first->bins[number][i], first->found[number][i]);
     first->guide_count = gather->guide_count;
     for (uint32_t i = 0; i < gather->guide_count; i++) {
         const struct guide *guide = &gather->guides[i];
-        first->lessons[i].normal = guide->normal;
-        first->lessons[i].u = guide->u;
-        memcpy(first->lessons[i].found, guide->found, sizeof guide->found);
+        first->histograms[i].normal = guide->normal;
+        memcpy(first->histograms[i].found, guide->found, sizeof guide->found);
     }
 }
 
 /* Neighbours know of light that the few rays here have missed, and where these were lucky, do not point there because of it. */
-static void learn_from_around(struct gather *gather, const struct gather_first *const around[],
-                              size_t count)
+static void add_from_around(struct gather *gather, const struct gather_first *const around[],
+                            size_t count)
 {
     for (size_t k = 0; k < count; k++)
         for (uint32_t i = 0; i < gather->guide_count; i++)
             for (uint32_t j = 0; j < around[k]->guide_count; j++)
-                guide_learn_from(&gather->guides[i], &around[k]->lessons[j], FROM_AROUND);
+                guide_add_histogram(&gather->guides[i], &around[k]->histograms[j], FROM_AROUND);
 }
 
 void gather_resume(struct gather *gather, const struct gather_first *first,
@@ -345,8 +344,9 @@ void gather_resume(struct gather *gather, const struct gather_first *first,
     gather->first = *first;
     gather->done = GATHER_FIRST;
     for (uint32_t i = 0; i < gather->guide_count; i++)
-        memcpy(gather->guides[i].found, first->lessons[i].found, sizeof first->lessons[i].found);
-    learn_from_around(gather, around, count);
+        memcpy(gather->guides[i].found, first->histograms[i].found,
+               sizeof first->histograms[i].found);
+    add_from_around(gather, around, count);
     update_guides(gather);
 }
 
@@ -368,7 +368,7 @@ static void number_samples(struct gather *gather, uint64_t first)
 static void take_round(struct gather *gather, const struct round *round)
 {
     const struct gather_setting *setting = gather->setting;
-    uint64_t most = POINT_SHARES_MOST * setting->most;
+    uint64_t most = SAMPLE_FACTOR_MOST * setting->most;
     uint64_t before = (uint64_t)setting->paths.pass->number * most + gather->done;
     if (gather->done == GATHER_FIRST) { /* what was added without guides is weighed anew */
         memset(gather->irradiance, 0, sizeof gather->irradiance);
@@ -389,7 +389,7 @@ static bool begin_round(struct gather *gather, uint64_t most, struct round *roun
         uint64_t guided = guided_of(gather, i, round->samples);
         uint64_t total = guided > 0 ? GATHER_FIRST + guided : round->samples;
         uint64_t left = total > gather->done ? total - gather->done : 0;
-        uint64_t expected = gather->expected[gather_half_of(gather, i)];
+        uint64_t expected = gather->expected_samples[gather_half_of(gather, i)];
         last &= left <= most;
         gather->guided_share[i] = guided > 0 ? 1.0f / (float)guided : 0.0f;
         gather->guided_expected[i] = (float)guided_of(gather, i, expected);
@@ -407,7 +407,7 @@ void gather_samples(struct gather *gather, uint64_t samples)
     for (bool last = false; !last;) {
         struct round round = {.samples = samples, .is_first = gather->done == 0};
         last = begin_round(gather, gather->done == 0 ? GATHER_FIRST : 3 * gather->done, &round);
-        round.learns = !last;
+        round.teaches = !last;
         if (round.longest > 0)
             take_round(gather, &round);
         if (!last)

@@ -3,15 +3,15 @@
  * Paths leave the points (paths.h) and go on until a cache of irradiance knows the rest, or to their end. Their first
  * directions are drawn where those before them found light (guide.h).
  *
- * Rays of the first round, by the cosine, have much more noise than guided ones where the light comes from a small part
- * of the hemisphere. So both are combined by multiple importance sampling (Veach and Guibas 1995, balance heuristic): with
- * c rays by the cosine and g guided ones, the former have the share c p_c / (c p_c + g q) of each direction and the latter
- * the rest. That needs no pdf: q is smoother than that of the guided rays (guide.h). Where there are guides of several
- * rounds, this is done with each, and the mean over all guided rays is taken.
+ * The first round's rays, c of them with the cosine's density p_c, are much noisier than the g guided ones where light comes from a
+ * small part of the hemisphere. Both are combined by the balance heuristic (Veach and Guibas 1995): with a density q, rays by
+ * the cosine have the weight c p_c / (c p_c + g q) and guided ones g q / (c p_c + g q). For each direction the weights add up to 1
+ * whatever q is, so q may be smoother than the density that was sampled (guide_smooth_ratio()). Where there are guides of
+ * several rounds, this is done with each, and the mean over all guided rays is taken.
  *
- * Neither q nor g may come from what the weighed rays found, or bright ones count for less than they should. So the points
- * of a group are two halves, and rays from either are weighed by the guide that the other half and the groups around taught, and by as many rays
- * as that would ask for.
+ * Neither q nor g may depend on the rays that they weigh, or bright rays count for too little. So the points of a group are two
+ * halves, and each half is weighed by the guide and the number of samples that the other half and the groups around give
+ * (cross-fitting).
  */
 #ifndef PSPLAT_ESTIMATOR_GATHER_RAYS_H
 #define PSPLAT_ESTIMATOR_GATHER_RAYS_H
@@ -19,7 +19,7 @@
 #include "guide.h"
 
 #include "paths.h"
-#include "point_shares.h"
+#include "sample_factors.h"
 
 /* Guides of a group, one for each way that its surfaces face. */
 enum { GATHER_GUIDES = 4 };
@@ -27,10 +27,11 @@ enum { GATHER_GUIDES = 4 };
 /* Samples of the first round, after which rays are guided. */
 enum { GATHER_FIRST = 4 };
 
-/* What a cache knows of the light where a ray landed: irradiance, W/m^2. */
-struct gather_known {
-    ps_rgb indirect; /* light that met other surfaces before; 0 but with setting->knows_indirect */
-    ps_rgb sky;      /* that of PS_LIGHTS_SOFT which met none; 0 but with setting->knows_sky */
+/* What a cache has of the irradiance where a ray landed, W/m^2. */
+struct cached_irradiance {
+    ps_rgb
+        indirect; /* light that met other surfaces before; 0 but with setting->cache_has_indirect */
+    ps_rgb sky;   /* that of PS_LIGHTS_SOFT which met none; 0 but with setting->cache_has_sky */
 };
 
 /* Where a ray landed. */
@@ -44,28 +45,28 @@ struct gather_landing {
 /* Looks up what the cache knows for up to PS_TILE_PIXELS landings. is_known[path] is false where it knows nothing, or where the
  * ray is too short for it: the path goes on. Any thread. */
 typedef void (*gather_lookup)(const void *cache, const struct gather_landing *landings, size_t n,
-                              struct gather_known *known, bool *is_known);
+                              struct cached_irradiance *known, bool *is_known);
 
 struct gather_setting {
     struct paths_setting paths;
     uint64_t samples;     /* from each point, in the mean over groups */
-    uint64_t most;        /* from a point whose share is 1: random numbers are counted by it */
+    uint64_t most;        /* from a point whose factor is 1: random numbers are counted by it */
     gather_lookup lookup; /* NULL: there is no cache, and paths go on to their ends */
     const void *cache;
-    bool knows_indirect; /* by the cache: paths end there */
-    bool knows_sky;      /* light of PS_LIGHTS_SOFT: they ask other lights alone there */
-    double share_before; /* of a pass's time, which what comes before the picture takes */
+    bool cache_has_indirect; /* paths end there */
+    bool cache_has_sky;      /* light of PS_LIGHTS_SOFT: paths sample only the other lights there */
+    double share_before;     /* of a pass's time, which what comes before the picture takes */
 };
 
-/* What the rays of the first round found, by the cosine, and where: to be weighed when there are guides. And what they taught
- * those: found when the round has been taken as all there is (gather_teach()). */
+/* What the rays of the first round found, by the cosine, and where: to be weighed when there are guides. And the guides'
+ * histograms of that (gather_keep_first_round()). */
 struct gather_first {
-    /* Times the samples of the group after this round, that each point takes: set by gather_begin() to 1. */
-    float shares[PS_TILE_PIXELS];
+    /* Factors on the number of guided samples of each point (sample_factors.h): set by gather_begin() to 1. */
+    float factors[PS_TILE_PIXELS];
     ps_rgb found[GATHER_FIRST][PS_TILE_PIXELS];
     struct guide_bin bins[GATHER_FIRST][PS_TILE_PIXELS];
     uint32_t guide_count;
-    struct guide_lesson lessons[GATHER_GUIDES];
+    struct guide_histogram histograms[GATHER_GUIDES];
 };
 
 struct gather {
@@ -74,7 +75,7 @@ struct gather {
     ps_points points;
     uint64_t done; /* samples, of a point that has most */
     /* Samples in all by which rays of either half are weighed: set by gather_begin() to the mean. */
-    uint64_t expected[2];
+    uint64_t expected_samples[2];
     /* Estimates of the irradiance, W/m^2, at each point, when all samples are done; `half` is what the first half of each
      * round has of it. */
     ps_rgb irradiance[PS_TILE_PIXELS], half[PS_TILE_PIXELS];
@@ -94,13 +95,13 @@ int gather_half_of(const struct gather *gather, size_t point);
 /* Chooses guides, when setting, index and points are given and the rest is 0. */
 void gather_begin(struct gather *gather);
 
-/* Takes samples in rounds, until `samples` are done of a point whose share is 1. Any thread. */
+/* Takes samples in rounds, until `samples` are done of a point whose factor is 1. Any thread. */
 void gather_samples(struct gather *gather, uint64_t samples);
 
-/* After a first round that no other is to follow, for now. */
-void gather_teach(struct gather *gather);
+/* After a first round that no other follows for now: adds it to the guides, and keeps their histograms in gather->first. */
+void gather_keep_first_round(struct gather *gather);
 
-/* Goes on after the first round of a gather of the same points, which has taught; more samples are to follow, by first->shares.
+/* Goes on after the first round of a gather of the same points, which was kept; more samples are to follow, by first->factors.
  * They are also guided by what those of `count` gathers around found. */
 void gather_resume(struct gather *gather, const struct gather_first *first,
                    const struct gather_first *const around[], size_t count);

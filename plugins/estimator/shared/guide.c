@@ -47,16 +47,16 @@ struct guide_bin guide_bin_of(const struct guide *guide, ps_vec3 normal, ps_vec3
     return (struct guide_bin){ring * GUIDE_SECTORS + sector, tilt_of(guide, normal, direction)};
 }
 
-void guide_learn(struct guide *guide, int half, struct guide_bin bin, float irradiance)
+void guide_add(struct guide *guide, int half, struct guide_bin bin, float irradiance)
 {
     if (bin.index != NO_GUIDE_BIN)
         guide->found[half][bin.index / GUIDE_SECTORS][bin.index % GUIDE_SECTORS] += irradiance;
 }
 
-static void learn_both(struct guide *guide, struct guide_bin bin, float irradiance)
+static void add_to_both(struct guide *guide, struct guide_bin bin, float irradiance)
 {
-    guide_learn(guide, 0, bin, irradiance);
-    guide_learn(guide, 1, bin, irradiance);
+    guide_add(guide, 0, bin, irradiance);
+    guide_add(guide, 1, bin, irradiance);
 }
 
 /* The bin where the middle of one of another guide's lies, and `found` as the cosine to this one's normal has it. */
@@ -69,20 +69,22 @@ static struct guide_bin bin_from(const struct guide *guide, ps_vec3 normal, int 
     return guide_bin_of(guide, guide->normal, direction);
 }
 
-void guide_learn_from(struct guide *guide, const struct guide_lesson *lesson, float share)
+void guide_add_histogram(struct guide *guide, const struct guide_histogram *histogram, float share)
 {
-    float facing = ps_dot(guide->normal, lesson->normal);
-    bool has_frame = facing > SAME_FRAME && ps_dot(guide->u, lesson->u) > SAME_FRAME;
+    float facing = ps_dot(guide->normal, histogram->normal);
+    ps_vec3 u, v;
+    ps_frame(histogram->normal, &u, &v);
+    bool has_frame = facing > SAME_FRAME && ps_dot(guide->u, u) > SAME_FRAME;
     if (!(facing > SIMILAR_FACING))
         return;
     for (int ring = 0; ring < GUIDE_RINGS; ring++)
         for (int sector = 0; sector < GUIDE_SECTORS; sector++) {
             struct guide_bin bin = {ring * GUIDE_SECTORS + sector, 1.0f};
-            float found =
-                0.5f * share * (lesson->found[0][ring][sector] + lesson->found[1][ring][sector]);
+            float found = 0.5f * share *
+                          (histogram->found[0][ring][sector] + histogram->found[1][ring][sector]);
             if (found > 0.0f && !has_frame)
-                bin = bin_from(guide, lesson->normal, ring, sector, &found);
-            learn_both(guide, bin, found);
+                bin = bin_from(guide, histogram->normal, ring, sector, &found);
+            add_to_both(guide, bin, found);
         }
 }
 

@@ -7,8 +7,8 @@
  * what the histogram has missed is found (defensive sampling, Hesterberg 1995), and each ray is weighed by the
  * pdf of both together.
  *
- * Rays that a guide learnt from may be weighed by it, too (multiple importance sampling). Where a ray was lucky, the guide
- * points there because of it, so that such weights would lose light. So rays are of two halves, and those of either are
+ * Rays whose light is in a guide may be weighed by it, too (multiple importance sampling). A guide that knows of a bright ray points
+ * to it, so weighing that ray by this guide would lose light. So rays are of two halves, and those of either are
  * weighed by what the other half found (cross-fitting, Chernozhukov et al. 2018): by guide_smooth_ratio(), which is smoother
  * than the pdf, since half of the rays tell less.
  */
@@ -32,9 +32,9 @@ struct guide {
     guide_bins sector_ends;
 };
 
-/* What a guide's rays found, in the frame of its normal. */
-struct guide_lesson {
-    ps_vec3 normal, u;
+/* What a guide's rays found, in the frame of its normal (ps_frame). */
+struct guide_histogram {
+    ps_vec3 normal;
     guide_bins found[2];
 };
 
@@ -51,12 +51,12 @@ struct guide_bin {
 
 struct guide_bin guide_bin_of(const struct guide *guide, ps_vec3 normal, ps_vec3 direction);
 
-/* A ray of that half, 0 or 1, found so much irradiance. */
-void guide_learn(struct guide *guide, int half, struct guide_bin bin, float irradiance);
+/* Adds what a ray of that half, 0 or 1, found: so much irradiance. */
+void guide_add(struct guide *guide, int half, struct guide_bin bin, float irradiance);
 
-/* What `share` of the light that another guide's rays found, both halves, tells both halves of this one: as long as none of its own
- * rays is among them. Of one that faces another way, by the directions of its bins; by more than 45 degrees, nothing. */
-void guide_learn_from(struct guide *guide, const struct guide_lesson *lesson, float share);
+/* Adds `share` times the mean of another guide's two histograms to each half of this one; none of its own rays may be in it. If the
+ * normals differ, bins are mapped by their directions; beyond 45 degrees nothing is added. */
+void guide_add_histogram(struct guide *guide, const struct guide_histogram *histogram, float share);
 
 /* From now on rays are drawn by what was learnt. */
 void guide_update(struct guide *guide);

@@ -40,4 +40,20 @@ static inline size_t photons_choose(const ps_photon *photons, size_t n, photons_
     return count;
 }
 
+typedef ps_result (*photons_splatter)(const ps_host *host, const ps_photon *photons, size_t n);
+
+/* Splats those of n > 0 photons that belong, with `scale` times their power: by host->splat or host->splat_points. Main thread. */
+static inline ps_result photons_splat(const ps_host *host, photons_splatter splat,
+                                      const ps_photon *photons, size_t n, photons_belong belong,
+                                      const void *user, float scale)
+{
+    ps_photon *chosen = host->allocate(host, n * sizeof *chosen, "photons chosen");
+    if (!chosen)
+        return PS_ERROR_MEMORY;
+    size_t count = photons_choose(photons, n, belong, user, scale, chosen);
+    ps_result result = count > 0 ? splat(host, chosen, count) : PS_OK;
+    host->release(host, chosen);
+    return result;
+}
+
 #endif

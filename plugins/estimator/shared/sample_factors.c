@@ -1,8 +1,8 @@
-#include "point_shares.h"
+#include "sample_factors.h"
 
 #include <stdbool.h>
 
-/* A point is held against others of its tile in a square around it, every second one in either direction. */
+/* A point is compared with others of its tile in a square around it, every second one in either direction. */
 #define REACH 8
 #define STEP 2
 
@@ -48,7 +48,7 @@ static void count(struct comparison *comparison, int32_t point, bool is_alike)
     comparison->alike[point] += is_alike;
 }
 
-/* Holds each place against the one that is so far away. */
+/* Compares each point with the one that is so far away. */
 static void compare(struct comparison *comparison, int dx, int dy)
 {
     int first = dx < 0 ? -dx : 0, end = dx < 0 ? PS_TILE_SIZE : PS_TILE_SIZE - dx;
@@ -61,7 +61,7 @@ static void compare(struct comparison *comparison, int dx, int dy)
         }
 }
 
-static void compare_all(const ps_points *points, float *shares)
+static void compare_all(const ps_points *points, float *factors)
 {
     struct comparison comparison = {.points = points};
     for (int y = 0; y < PS_TILE_SIZE; y++)
@@ -77,16 +77,16 @@ static void compare_all(const ps_points *points, float *shares)
             compare(&comparison, dx, dy);
     for (size_t i = 0; i < points->count; i++) {
         float share = (float)comparison.alike[i] / (float)comparison.all[i];
-        shares[i] = ps_min(sqrtf(1.0f / share), POINT_SHARES_MOST);
+        factors[i] = ps_min(sqrtf(1.0f / share), SAMPLE_FACTOR_MOST);
     }
 }
 
-void point_shares(const ps_points *points, float *shares)
+void sample_factors(const ps_points *points, float *factors)
 {
     if (!are_flat(points)) {
-        compare_all(points, shares);
+        compare_all(points, factors);
         return;
     }
     for (size_t i = 0; i < points->count; i++)
-        shares[i] = 1.0f;
+        factors[i] = 1.0f;
 }
