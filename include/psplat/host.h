@@ -43,7 +43,7 @@ typedef struct ps_pass {
     uint32_t thread_count;
     float surface_offset;   /* how far to move a ray's origin off the surface it leaves, along the
                              normal */
-    uint32_t specular;      /* 1: some surface mirrors, shines by gloss or refracts */
+    uint32_t specular;      /* 1: some surface mirrors, reflects glossily or refracts */
     uint32_t shares_places; /* 1: several photons may leave one place without much harm */
     uint32_t bounces;       /* diffuse surfaces that light may meet before the one that is seen: at
                                least 1; PS_ALL_BOUNCES: as many as it likes */
@@ -98,7 +98,7 @@ struct ps_host {
 
     /* Four numbers in [0,1) for each index, from the Owen-scrambled Sobol sequence of `stream`
      * (values of ps_stream); `set` chooses independent groups of four dimensions, for example the
-     * bounce. A pure function of (seed, stream, set, index): the pass belongs into the index. [any
+     * bounce. A pure function of (seed, stream, set, index): the caller makes the pass number part of the index. [any
      * thread] */
     void (*samples)(const ps_host *host, uint32_t stream, uint32_t set, const uint64_t *indices,
                     size_t n, float (*samples)[4]);
@@ -149,8 +149,8 @@ struct ps_host {
 
     /* --- lights --- */
 
-    /* Starts light paths: chooses lights by power, and photons' also by what each light gives to the picture; for each
-     * gives the ray and the power (W) that it would carry if it were the only one; divide by the number of paths. The first two
+    /* Starts light paths. A light is chosen by its power or, where a pilot of camera paths has run, also by its contribution to the
+     * picture. Each ray carries the power (W) that it would have if it were the only one: divide by the number of paths. The first two
      * numbers choose the direction, the others the light and the point on it. Zero power where there
      * are no lights. [any thread] */
     void (*emit_light)(const ps_host *host, const float (*samples)[4], size_t n, ps_ray *rays,
@@ -175,9 +175,10 @@ struct ps_host {
     void (*emit_from)(const ps_host *host, uint32_t index, const float (*samples)[4], size_t n,
                       ps_ray *rays, ps_rgb *power);
 
-    /* For each of n places, a light chosen with the third of four numbers, and a point of it by the first two, looked
-     * at from there; nothing is traced. Few lights are chosen by power, many by what they may give to the place; then
-     * irradiance was divided by others than probability and pdf, which are for weights (light_densities) alone.
+    /* For each of n places, a light chosen with the third of four numbers, and a point of it by the first two, as
+     * seen from there; nothing is traced. Few lights are chosen by power, many by the light BVH, from bounds on their contribution at
+     * the place (suns and skies by power). With many lights `irradiance` is divided by the exact probabilities of that choice;
+     * `probability` and `pdf` are then stand-ins that only MIS weights may use (light_densities).
      * Irradiance 0 where there is no light, or the point does not shine there. [any thread] */
     void (*sample_light)(const ps_host *host, const ps_vec3 *places, const float (*samples)[4],
                          size_t n, ps_light_sample *sampled);

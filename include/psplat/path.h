@@ -24,13 +24,13 @@ static inline int ps_russian_roulette(float probability, float number, ps_rgb *c
     return 1;
 }
 
-/* Directions of which the one that was drawn is one: the cone around it has a part of their solid angle. So many that what
- * is seen in it has about one colour of light, and so few that pictures need not be looked up texel by texel. */
+/* Ray cones (Amanatides 1984, "Ray tracing with cones"): a ray drawn with density p (1/sr) stands for a cone of solid angle 1 / (PS_CONES p).
+ * More cones would look up textures texel by texel, fewer would mix light of different colours. */
 #define PS_CONES 800.0f
 #define PS_WIDEST_CONE 0.125f
 
-/* For intersect_cones: how much wider the cone of a direction gets with distance, that was drawn by this density (1/sr). 0,
- * a ray, for a mirror's, 0. */
+/* For intersect_cones: the width of the cone of a direction drawn with density `pdf` (1/sr), over the distance. A pdf of 0, a mirror's, gives
+ * 0: a ray without width. */
 static inline float ps_cone_spread(float pdf)
 {
     return pdf > 0.0f ? ps_min(sqrtf(1.0f / (PS_CONES * pdf)), PS_WIDEST_CONE) : 0.0f;
@@ -43,7 +43,7 @@ static inline uint8_t ps_gloss_after(uint8_t before, float roughness)
     return is_rough ? PS_ONLY_ROUGH_GLOSS : PS_SHARP_GLOSS;
 }
 
-/* Of directions by the cosine, in the mean: sqrt(pi / PS_CONES). */
+/* The spread of a diffuse bounce, at its typical density 1 / pi: sqrt(pi / PS_CONES). */
 #define PS_DIFFUSE_SPREAD 0.0627f
 
 /* Traces n rays, and moves those that meet something to the front, with their hits; returns how many.

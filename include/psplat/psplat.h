@@ -16,8 +16,8 @@
  *
  * Threads: the library has no state but in the handles. A handle may be passed between threads. Functions that take it
  * const may run in several threads at once, all others need it alone. So several threads render at once, different
- * scenes or the same; each render starts threads of its own. While one runs, Embree, which needs none, holds oneTBB to
- * one thread in the whole process, so that a program's own work with oneTBB takes longer.
+ * scenes or the same; each render starts threads of its own. While one runs, Embree limits oneTBB to one thread in the whole
+ * process: a program's own work with oneTBB is slower meanwhile.
  *
  * Texts are UTF-8, end in NUL, and are copied where they are kept. Texts and samples that are returned stay valid until
  * the handle that they come from is destroyed.
@@ -70,8 +70,8 @@ void psplat_scene_destroy(psplat_scene *scene); /* NULL is nothing */
 ps_result psplat_scene_set(psplat_scene *scene, const char *option, const char *value,
                            psplat_error *error);
 
-/* Who is told of warnings, and of remarks such as which file was written, one a call: while scenes are loaded and
- * rendered. Calls come from any thread, of one render not two at once. NULL: nobody, as from the start. */
+/* Sets the function that receives warnings and remarks (such as the name of a written file), one for each call, while scenes are
+ * loaded and rendered. Calls come from any thread, of one render not two at once. NULL: nobody, as from the start. */
 #define PSPLAT_REMARK 0
 #define PSPLAT_WARNING 1
 #define PSPLAT_WARNING_WITH_PLACE 2 /* begins with its place in a text, and shows that in lines */

@@ -136,8 +136,8 @@ typedef struct ps_filter_vtable {
 typedef struct ps_estimator_vtable {
     uint32_t size;
     uint32_t flags; /* PS_ESTIMATOR_... */
-    /* Adds the pass's indirect light and its weight to the tiles, as a function of the pass alone: others may be made
-     * elsewhere, or in another order. What is kept in the state lasts through the render. [main thread] */
+    /* Adds the pass's indirect light and its weight to the tiles. The result must depend on this pass alone: other passes may be
+     * rendered on other machines, or in another order. What is kept in the state lasts through the render. [main thread] */
     ps_result (*accumulate)(void *state, const ps_host *host, const ps_pass *pass);
     /* Optional. Once, before the first pass; `pass` describes it. [main thread] */
     ps_result (*begin)(void *state, const ps_host *host, const ps_pass *pass);
@@ -182,9 +182,9 @@ typedef struct ps_image_view {
     uint32_t width, height;
     uint32_t passes;
     float *r, *g, *b; /* indirect radiance, or direct (PS_DENOISER_DIRECT), to change in place */
-    /* Diffuse reflectance times the throughput of mirrors and glass before it: what radiance is of
-     * irradiance / pi. Where a path met gloss, or a surface that mirrors by chance, that surface's reflectance by all
-     * its lobes, and normal, position and depth are its own: what lies behind differs from look to look. */
+    /* radiance = albedo / pi * irradiance: the diffuse reflectance times the throughput of mirrors and glass before it. Where the path
+     * met a glossy or partly mirroring surface: that surface's reflectance over all lobes, and its normal, position and
+     * depth, since what it mirrors differs from sample to sample. */
     const float *albedo_r, *albedo_g, *albedo_b;
     const float *normal_x, *normal_y, *normal_z;
     const float *position_x, *position_y, *position_z;

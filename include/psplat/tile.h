@@ -15,7 +15,7 @@ static inline ps_vec3 ps_tile_normal(const ps_tile *tile, uint32_t lane)
     return (ps_vec3){tile->normal_x[lane], tile->normal_y[lane], tile->normal_z[lane]};
 }
 
-/* Diffuse reflectance times what the way to the camera leaves: what a pixel's radiance is of irradiance / pi. */
+/* albedo * throughput: the radiance in the picture is this * irradiance / pi. */
 static inline ps_rgb ps_tile_reflectance(const ps_tile *tile, uint32_t lane)
 {
     return (ps_rgb){tile->albedo_r[lane] * tile->throughput_r[lane],

@@ -223,7 +223,7 @@ typedef struct ps_camera {
 #define PS_TILE_PIXELS 256
 
 /* One 16x16 tile of the G-buffer and of the pass's accumulators, structure of arrays, 64-byte
- * aligned; it may grow at its end. Lanes that are no pixel of the picture, or whose pixel sees nothing, have depth
+ * aligned; it may grow at its end. Lane i is the pixel in column i % PS_TILE_SIZE and row i / PS_TILE_SIZE of the tile. Lanes that are no pixel of the picture, or whose pixel sees nothing, have depth
  * INFINITY, object PS_NO_OBJECT, a normal of 0 and a position far outside of any scene. */
 typedef struct ps_tile {
     _Alignas(64) float position_x[PS_TILE_PIXELS], position_y[PS_TILE_PIXELS],

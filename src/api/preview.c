@@ -9,7 +9,7 @@
 static void set_wishes(const psplat_scene *scene, struct render_settings *settings)
 {
     const char *layers = output_options_layers(&scene->options.output.options);
-    settings->picture_alone = !layers_are_some(layers);
+    settings->picture_alone = !layers_any(layers);
     settings->no_error_layer = !layers_have_error(layers);
     settings->display = true;
     settings->exposure = scene->input.description.image.exposure;

@@ -123,7 +123,7 @@ static ps_result resolve(psplat_rendering *rendering, psplat_error *error)
         render_options_resolve(&scene->options, &description, sink, &rendering->settings);
     rendering->settings.trace = scene->trace;
     if (result == PS_OK)
-        render_options_suit_scene(&scene->options, &scene->scene, &rendering->settings);
+        render_options_adapt_preview(&scene->options, &scene->scene, &rendering->settings);
     else
         report_problems(error, result, sink);
     diagnostics_destroy(sink);

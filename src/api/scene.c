@@ -81,7 +81,8 @@ static ps_result try_settings(psplat_scene *scene)
     if (result != PS_OK)
         return result;
     settings.display = true;
-    result = layers_suit(output_options_layers(&scene->options.output.options), &settings, &error);
+    result = layers_check_denoiser(output_options_layers(&scene->options.output.options), &settings,
+                                   &error);
     if (result == PS_OK)
         result = render_options_check_size(&scene->options, &input->description.image, &settings,
                                            &error);
@@ -125,7 +126,7 @@ static ps_result spare_scene(psplat_scene *scene)
     struct error error;
     ps_result result = PS_OK;
     if (writes(scene))
-        result = render_options_spare_scene(&scene->options, &scene->input.description, &error);
+        result = render_options_check_not_input(&scene->options, &scene->input.description, &error);
     return report_to(scene->input.sink, result, &error);
 }
 
@@ -135,7 +136,7 @@ static ps_result finish_loading(psplat_scene *scene, ps_result result, psplat_er
     struct scene_input *input = &scene->input;
     double start = clock_seconds();
     if (result == PS_OK)
-        result = render_options_lay_over(&scene->options, input);
+        result = render_options_apply(&scene->options, input);
     if (result == PS_OK)
         result = try_settings(scene);
     if (result == PS_OK)

@@ -26,7 +26,7 @@ void discontinuity_buffer(struct gbuffer *gbuffer, struct workers *workers)
                                    .radius = REACH,
                                    .from = found,
                                    .to = gbuffer->direct_scratch};
-    geometry_filter_take(&mean, workers);
+    geometry_filter_apply(&mean, workers);
     gbuffer->direct = gbuffer->direct_scratch;
     gbuffer->direct_scratch = found;
 }

@@ -10,7 +10,7 @@
 enum film_plane {
     FILM_DIRECT_R,
     FILM_DIRECT_G,
-    FILM_DIRECT_B, /* radiance that is emitted, or direct light reflected */
+    FILM_DIRECT_B, /* emitted radiance and reflected direct light, W/(m^2 sr) */
     FILM_COLOR_R,
     FILM_COLOR_G,
     FILM_COLOR_B, /* reflected indirect radiance */
@@ -25,15 +25,15 @@ enum film_plane {
     FILM_POSITION_Y,
     FILM_POSITION_Z,
     FILM_DEPTH,
-    FILM_VISIBLE, /* passes, or shares of them, in which albedo to depth are those of a surface; see film_add.c, presence() */
-    FILM_COVERAGE, /* those in which there is a surface at the end of the pixel's path */
+    FILM_VISIBLE,  /* sum of presence() (film_add.c): how often albedo to depth have been added */
+    FILM_COVERAGE, /* passes, or shares of them, in which the camera path ended at a surface */
     /* From here on NULL where nobody asks. */
     FILM_ON_REQUEST,
     FILM_REFLECTED_R = FILM_ON_REQUEST,
     FILM_REFLECTED_G,
     FILM_REFLECTED_B, /* direct light that is reflected, or that gloss mirrors: what has noise */
-    /* Not in that, where it is denoised apart: direct light of lights that cast hard shadows
-     * (scene_has_hard_shadows_apart). */
+    /* Direct light of lights that cast hard shadows, where these are denoised separately (scene_has_hard_shadows_apart): then it is
+     * not in FILM_REFLECTED. */
     FILM_HARD_R,
     FILM_HARD_G,
     FILM_HARD_B,
@@ -49,14 +49,14 @@ struct film {
     float *planes[FILM_PLANES];   /* each width * height, owned */
     bool has[FILM_PLANES];        /* which of them it has, or had before they were taken */
     uint32_t *object, *material;  /* what pixels see in pass 0; owned, NULL where nobody asks */
-    /* Parts of it, owned; NULL where nobody asks: the light of the odd passes alone; and the direct light by the second
-     * half of each pass's shadow rays, or, where they met gloss, of its samples of a pixel. */
+    /* Parts of the film, owned, or NULL: `odd`, the odd passes alone; `half`, direct light by the second half of each pass's shadow
+     * rays or, in gloss, of its camera samples. Their difference from the whole tells the noise. */
     struct film *odd, *half;
     bool is_half; /* this is such a half */
 };
 
-/* A film of no pass, of a whole picture; who sets another window does so before any part is added. Without `surfaces` it
- * keeps the light alone: planes from FILM_ALBEDO_R to FILM_DEPTH stay NULL. */
+/* Makes an empty film of the whole picture. To film a window, set `window` before adding tiles. Without `surfaces` it keeps the
+ * light alone: planes from FILM_ALBEDO_R to FILM_DEPTH stay NULL. */
 ps_result film_create(size_t width, size_t height, bool surfaces, struct film *film,
                       struct error *error);
 /* Makes room for objects and materials. */

@@ -58,9 +58,9 @@ static void add_seen(struct film *film, int plane, const struct tile_row *row, c
     add_shares(film, plane, row, seen);
 }
 
-/* What a pixel counts for where planes tell surfaces apart. A mirror with nothing behind hardly counts, so that it is told
- * where no sample saw anything else, and otherwise not: its light has no noise, and denoisers leave it out. A power of 2,
- * which keeps sums exact. */
+/* The weight of a sample in the planes albedo to depth: 1 where it saw a surface or gloss, 2^-20 for a mirror with nothing behind, 0 for
+ * nothing. So a mirror is recorded only where no other sample of the pixel saw a surface, and denoisers skip it: its light has no
+ * noise. A power of two keeps sums exact. */
 static float presence(const struct tile_row *row, size_t i)
 {
     const float mirror = 0x1p-20f;
@@ -105,7 +105,7 @@ struct row_channel {
     float emitted[PS_TILE_SIZE];                   /* radiance */
 };
 
-/* What of the direct light a denoiser may smooth: all, where the path is one of chance. */
+/* The direct light that a denoiser may smooth: what surfaces reflect and, where the path met gloss, all that it collected. */
 static void add_denoised(struct film *film, const struct tile_row *row, int channel,
                          const struct row_channel *from, const float albedo[PS_TILE_SIZE])
 {
@@ -121,9 +121,8 @@ static void add_denoised(struct film *film, const struct tile_row *row, int chan
     add_shares(film, FILM_REFLECTED_R + channel, row, rest);
 }
 
-/* Adds the share of the light that arrives where a pixel looks, and that its albedo and the way to the
- * camera leave; and the light that this reflects. What the way leaves makes up for the chance by which glass let light
- * through, and for radiance that is squeezed in glass: with it the albedo can be more than 1, which no reflectance is. */
+/* Adds one channel of direct and indirect light: albedo throughput / pi * irradiance. The throughput includes 1 / probability of the lobes
+ * and 1 / eta^2 in glass, so albedo times throughput can exceed 1; the albedo plane is limited to 1. */
 static void add_reflected(struct film *film, const struct tile_row *row, int channel,
                           const struct row_channel *from)
 {
@@ -312,7 +311,7 @@ void film_keep_ids(struct film *film, const struct gbuffer *gbuffer, uint32_t in
     }
 }
 
-/* Samples that differ by what they look at, at the edge of a glossy surface, do not differ by chance. */
+/* Only where all samples met gloss does their difference tell noise: at the edge of a glossy surface they see different surfaces. */
 static bool all_met_gloss(const struct gbuffer *gbuffer, uint32_t first, uint32_t count)
 {
     bool all = gbuffer->glossy != NULL;

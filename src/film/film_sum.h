@@ -12,8 +12,8 @@
 #include "film/film.h"
 #include "film/pass_set.h"
 
-/* Values that a pixel has in the sum: those of the film, of the odd passes, and of halves of the passes; and the
- * squares of the indirect light's three channels in each pass, which tell its variance. */
+/* Values that a pixel has in the sum: those of the film, of the odd passes, and of halves of the passes; and
+ * r^2 + g^2 + b^2 of each pass's indirect light, which gives its variance. */
 enum {
     FILM_SUM_OF_ODD = FILM_PLANES,
     FILM_SUM_OF_HALF = 2 * FILM_PLANES,

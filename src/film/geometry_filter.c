@@ -176,7 +176,7 @@ static void mean_of_tile(void *user, uint64_t tile, uint32_t worker)
         mean_of_row(mean, &apron, row, tile * PS_TILE_PIXELS + (size_t)(row * SIDE));
 }
 
-void geometry_filter_take(struct geometry_filter *mean, struct workers *workers)
+void geometry_filter_apply(struct geometry_filter *mean, struct workers *workers)
 {
     parallel_for(workers, mean->gbuffer->tile_count, mean_of_tile, mean);
 }

@@ -1,16 +1,15 @@
-/* geometry_filter.h: pixels take in what the pixels around them found, where it may be the same.
+/* geometry_filter.h: the mean over a square window, restricted to the same surface (a joint box filter; interleaved sampling,
+ * Keller and Heidrich 2001, section 4).
  *
- * A few rays tell a pixel's light badly; those of its neighbours tell nearly the same light (interleaved
- * sampling: Keller and Heidrich 2001, section 4). So what a pixel found becomes a mean over a window. Of it
- * count
+ * Few rays tell a pixel's light badly; its neighbours find nearly the same light. The mean takes
  *
  * - pixels on the same surface, all but flat: bumps keep their shading;
- * - those that see the lights alike (gbuffer_occlusion_alike), where that was asked for: nothing crosses the edge
+ * - those that see the lights alike (gbuffer_occlusion_alike), where `occlusion` is given: nothing crosses the edge
  *   of a hard shadow;
- * - pairs that lie opposite each other, both or none. A mean over pairs keeps what falls off evenly, where
+ * - pairs that lie opposite each other, both or none. A mean over pairs keeps what falls off linearly, where
  *   one over part of a window would flatten what lies along the rims of surfaces.
  *
- * What bends within the window is blurred, which is a bias.
+ * Light that does not vary linearly within the window is blurred (bias).
  */
 #ifndef FILM_GEOMETRY_FILTER_H
 #define FILM_GEOMETRY_FILTER_H
@@ -34,6 +33,8 @@ static inline int geometry_filter_window(int radius)
     return (2 * radius + 1) * (2 * radius + 1);
 }
 
-void geometry_filter_take(struct geometry_filter *mean, struct workers *workers);
+/* Writes to `to` the mean of `from` over each lane's window, and to `counts` the number of pixels in it. Arrays must not overlap. Runs on
+ * all workers. */
+void geometry_filter_apply(struct geometry_filter *mean, struct workers *workers);
 
 #endif

@@ -3,10 +3,10 @@
 
 #include "base/clock.h"
 #include "base/parallel.h"
-#include "gather/gather.h"
 #include "host/host.h"
 #include "host/splats.h"
 #include "placement/radius.h"
+#include "short_range/short_range_gather.h"
 #include <psplat/math.h>
 
 /* --- placing ---------------------------------------------------------------------------------------- */

@@ -2,7 +2,7 @@
  * (step 6 of placement.h).
  *
  * Splats blur light; rays that are shot from pixels find it as it is, with more noise, and only so far
- * (gather/gather.h). At distance t from the photon's plane splats give the share
+ * (short_range/short_range_gather.h). At distance t from the photon's plane splats give the share
  *
  *     s^2 (3 - 2 s),   s = min(t / blend_distance, 1)
  *

@@ -36,7 +36,7 @@
  *    each ray of the bundle lights what it meets first (Herzog et al. 2007). Where a wall stands on that plane,
  *    rays would start behind it: the kernel is divided by the part before it (boundary.h, Jones 1993).
  *
- * 6. share(t) < 1 near to the photon's plane where gather rays find the rest (gather_share.h, gather/gather.h;
+ * 6. share(t) < 1 near to the photon's plane where gather rays find the rest (gather_share.h, short_range/short_range_gather.h;
  *    after Kollig and Keller 2006). They reach 2.5 R, of the R of pass 0 and at most 100,000 paths: if that
  *    shrank with more, what lies just past it would stay as blurred as it was.
  *

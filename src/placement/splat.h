@@ -20,7 +20,7 @@ struct splat {
     float photon_depth, bandwidth_scale, narrowest, widest;
     /* Of full bundles that follow the distance: what lies this far from the photon's plane, or farther, gets all
      * of the light; what lies nearer, the less of it, the nearer. The rest is gathered otherwise
-     * (gather/gather.h). 0: all gets all. */
+     * (short_range/short_range_gather.h). 0: all gets all. */
     float blend_distance;
     /* Lit where t <= map + constant + slope * tan(theta), slope >= 0, theta between the light and the
      * receiver's normal. */

@@ -5,11 +5,11 @@
 #include "base/statistics.h"
 #include "direct/shadow_maps.h"
 #include "film/film_sum.h"
-#include "gather/gathered_light.h"
 #include "importance/importance.h"
 #include "render/callbacks.h"
 #include "render/photons.h"
 #include "render/settings.h"
+#include "short_range/short_range_light.h"
 #include "splat/splatter.h"
 #include "view/view.h"
 #include <stdatomic.h>

@@ -23,7 +23,7 @@ static bool make_settings(void *user, const struct scene *scene, enum quality qu
     if (!good)
         return false;
     render_job_set_wishes(job, settings);
-    render_options_suit_scene(job->options, scene, settings);
+    render_options_adapt_preview(job->options, scene, settings);
     return true;
 }
 

@@ -12,7 +12,7 @@ void render_job_set_wishes(const struct render_job *job, struct render_settings 
     const char *layers = output_options_layers(&outputs->options);
     bool error = job->options->job.error > 0.0;
     bool is_seen = job->wants_picture || job->callbacks->show || job->callbacks->tile;
-    bool sees_layers = is_seen && layers_are_some(layers);
+    bool sees_layers = is_seen && layers_any(layers);
     settings->picture_alone = !output_list_wants_layers(outputs) && !sees_layers && !error;
     settings->no_error_layer = !output_list_wants_error(outputs) && !error;
     settings->display = is_seen || output_list_wants_display(outputs);

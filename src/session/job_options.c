@@ -32,12 +32,13 @@ bool job_options_have_budget(const struct job_options *options)
 
 ps_result job_options_check(const struct job_options *options, struct error *error)
 {
-    const char *lonely = options->checkpoint             ? NULL
-                         : options->resume               ? "resume"
-                         : options->checkpoint_every > 0 ? "checkpoint-every"
-                                                         : NULL;
-    if (lonely)
-        return error_set(error, PS_ERROR_INVALID, "--%s: which film? Name it with --checkpoint.",
-                         lonely);
+    const char *needs_checkpoint = options->checkpoint             ? NULL
+                                   : options->resume               ? "resume"
+                                   : options->checkpoint_every > 0 ? "checkpoint-every"
+                                                                   : NULL;
+    if (needs_checkpoint)
+        return error_set(error, PS_ERROR_INVALID,
+                         "--%s needs --checkpoint FILE.exr, which names the film",
+                         needs_checkpoint);
     return PS_OK;
 }

@@ -40,25 +40,26 @@ static bool is_named(const char *list, const char *layer, size_t length)
     return false;
 }
 
-bool layers_name(const char *list, const char *layer)
+bool layers_contain(const char *list, const char *layer)
 {
     return is_named(list, layer, strlen(layer));
 }
 
-bool layers_are_some(const char *list)
+bool layers_any(const char *list)
 {
     return strcmp(list, "none") != 0;
 }
 
 bool layers_have_error(const char *list)
 {
-    return layers_name(list, "all") || layers_name(list, "error");
+    return layers_contain(list, "all") || layers_contain(list, "error");
 }
 
-ps_result layers_suit(const char *list, const struct render_settings *settings, struct error *error)
+ps_result layers_check_denoiser(const char *list, const struct render_settings *settings,
+                                struct error *error)
 {
     const struct strategy_type *denoiser = settings->strategies[PS_DENOISER].type;
-    if (!layers_name(list, "error") || denoiser->table.denoiser.flags & PS_DENOISER_ERROR)
+    if (!layers_contain(list, "error") || denoiser->table.denoiser.flags & PS_DENOISER_ERROR)
         return PS_OK;
     return error_set(error, PS_ERROR_INVALID,
                      "--layers: denoiser '%.100s' does not estimate its error; denoiser=regression "
@@ -72,5 +73,5 @@ bool layers_keep(const char *list, const char *channel)
     size_t length = strcspn(channel, ".");
     bool is_display = strncmp(channel, "display.", length + 1) == 0;
     return !render_makes_layer(channel, length) || is_named(list, channel, length) ||
-           (layers_name(list, "all") && !is_display);
+           (layers_contain(list, "all") && !is_display);
 }

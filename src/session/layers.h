@@ -14,14 +14,14 @@
 ps_result layers_check(const char *list, struct error *error);
 
 /* Whether a list has that name; `all` is a name as the others. */
-bool layers_name(const char *list, const char *layer);
+bool layers_contain(const char *list, const char *layer);
 
 /* PS_ERROR_INVALID where the list has the layer `error` and the denoiser does not make it. */
-ps_result layers_suit(const char *list, const struct render_settings *settings,
-                      struct error *error);
+ps_result layers_check_denoiser(const char *list, const struct render_settings *settings,
+                                struct error *error);
 
 /* Whether a list, checked before, has any layer; and that which tells the denoiser's error. */
-bool layers_are_some(const char *list);
+bool layers_any(const char *list);
 bool layers_have_error(const char *list);
 
 /* Whether a channel such as "N.X" stays in a picture by the list. */

@@ -150,8 +150,8 @@ static const char *role_in(const struct scene_description *description, const st
     return NULL;
 }
 
-bool output_spares(const char *path, const char *option,
-                   const struct scene_description *description, struct error *error)
+bool output_check_not_input(const char *path, const char *option,
+                            const struct scene_description *description, struct error *error)
 {
     struct stat file;
     const char *role = stat(path, &file) == 0 ? role_in(description, &file) : NULL;

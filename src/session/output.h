@@ -43,7 +43,7 @@ bool output_check(const char *path, struct error *error);
 
 /* Whether a file that is to be written, as `option` says or would have said, is none of those that the scene was read
  * from, under whatever name: scene, mesh and picture files, but not what a mesh file names beside pictures. */
-bool output_spares(const char *path, const char *option,
-                   const struct scene_description *description, struct error *error);
+bool output_check_not_input(const char *path, const char *option,
+                            const struct scene_description *description, struct error *error);
 
 #endif

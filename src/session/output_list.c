@@ -24,11 +24,12 @@ ps_result output_list_check(const struct output_list *list, struct error *error)
     return PS_OK;
 }
 
-ps_result output_list_spares(const struct output_list *list,
-                             const struct scene_description *description, struct error *error)
+ps_result output_list_check_not_input(const struct output_list *list,
+                                      const struct scene_description *description,
+                                      struct error *error)
 {
     for (size_t i = 0; i < list->paths.count; i++)
-        if (!output_spares(list->paths.words[i], "--output", description, error))
+        if (!output_check_not_input(list->paths.words[i], "--output", description, error))
             return PS_ERROR_INVALID;
     return PS_OK;
 }
@@ -43,7 +44,7 @@ bool output_list_wants_layers(const struct output_list *list)
     bool wanted = false;
     for (size_t i = 0; i < list->paths.count; i++)
         wanted |= output_holds_layers(list->paths.words[i]);
-    return wanted && layers_are_some(layers(list));
+    return wanted && layers_any(layers(list));
 }
 
 bool output_list_wants_error(const struct output_list *list)
@@ -56,7 +57,7 @@ bool output_list_wants_display(const struct output_list *list)
     bool wanted = false;
     for (size_t i = 0; i < list->paths.count; i++)
         wanted |=
-            !output_holds_layers(list->paths.words[i]) || layers_name(layers(list), "display");
+            !output_holds_layers(list->paths.words[i]) || layers_contain(layers(list), "display");
     return wanted;
 }
 

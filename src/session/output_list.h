@@ -15,12 +15,13 @@ struct output_list {
 ps_result output_list_add(struct output_list *list, const char *path, struct error *error);
 void output_list_release(struct output_list *list);
 
-/* Finds out before the work what can be told by then: PS_ERROR_IO. */
+/* Checks before rendering that the files can be written: PS_ERROR_IO. */
 ps_result output_list_check(const struct output_list *list, struct error *error);
 
 /* PS_ERROR_INVALID where one of them is a file that the scene was read from. */
-ps_result output_list_spares(const struct output_list *list,
-                             const struct scene_description *description, struct error *error);
+ps_result output_list_check_not_input(const struct output_list *list,
+                                      const struct scene_description *description,
+                                      struct error *error);
 
 /* Whether layers beside the picture are asked for; and that which tells the denoiser's error. */
 bool output_list_wants_layers(const struct output_list *list);

@@ -1,4 +1,4 @@
-/* preview.h: a quick look at a scene, as the options that it stands for.
+/* preview.h: the option --preview: the options that it sets.
  *
  * One pass of few light paths with large splats and coarse maps: noise and small shadows are given up,
  * the light's amount and colour are not.
@@ -8,7 +8,7 @@
 
 #include "session/render_options.h"
 
-/* Lays what a preview stands for under what the options say. */
+/* Sets those options, except where the user gave a value. */
 ps_result preview_apply(struct render_options *options, struct error *error);
 
 /* Makes a picture that is larger fit into 640x360 pixels, in its own proportions. */

@@ -11,7 +11,7 @@
 #define DEFAULT_BATCH 4096
 
 /* It was tried before. */
-static void lay_word(const char *key, const char *word, struct render_description *render)
+static void apply_word(const char *key, const char *word, struct render_description *render)
 {
     struct error error;
     struct param_table table = schema_table(schema_only("render"));
@@ -43,14 +43,15 @@ ps_result render_options_check_files(const struct render_options *options, struc
     return good ? PS_OK : PS_ERROR_IO;
 }
 
-ps_result render_options_spare_scene(const struct render_options *options,
-                                     const struct scene_description *description,
-                                     struct error *error)
+ps_result render_options_check_not_input(const struct render_options *options,
+                                         const struct scene_description *description,
+                                         struct error *error)
 {
-    ps_result result = output_list_spares(&options->output, description, error);
+    ps_result result = output_list_check_not_input(&options->output, description, error);
     if (result != PS_OK || !options->stats)
         return result;
-    return output_spares(options->stats, "--stats", description, error) ? PS_OK : PS_ERROR_INVALID;
+    return output_check_not_input(options->stats, "--stats", description, error) ? PS_OK
+                                                                                 : PS_ERROR_INVALID;
 }
 
 bool render_options_keep_film(const struct render_options *options)
@@ -58,7 +59,7 @@ bool render_options_keep_film(const struct render_options *options)
     return options->job.checkpoint || options->job.mpi;
 }
 
-ps_result render_options_lay_over(const struct render_options *options, struct scene_input *input)
+ps_result render_options_apply(const struct render_options *options, struct scene_input *input)
 {
     struct scene_description *description = &input->description;
     for (size_t i = 0; i < options->plugins.count; i++) {
@@ -78,8 +79,8 @@ ps_result render_options_lay_over(const struct render_options *options, struct s
     }
     if (!isnan(options->exposure))
         description->image.exposure = options->exposure;
-    lay_word("bounces", options->bounces, &description->render);
-    lay_word("quality", options->quality, &description->render);
+    apply_word("bounces", options->bounces, &description->render);
+    apply_word("quality", options->quality, &description->render);
     if (options->direct >= 0)
         description->render.direct = options->direct;
     return PS_OK;
@@ -116,8 +117,8 @@ ps_result render_options_resolve(const struct render_options *options,
     return PS_OK;
 }
 
-void render_options_suit_scene(const struct render_options *options, const struct scene *scene,
-                               struct render_settings *settings)
+void render_options_adapt_preview(const struct render_options *options, const struct scene *scene,
+                                  struct render_settings *settings)
 {
     if (options->preview && scene_chooses_lights(scene))
         settings->discontinuity_buffer = false;

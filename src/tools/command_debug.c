@@ -218,7 +218,7 @@ static int load_and_draw(struct job *job)
     struct error error;
     int status = STATUS_USAGE;
     if (render_arguments_load(&job->taken, &input, &settings)) {
-        if (output_spares(job->output, "--output", &input.description, &error))
+        if (output_check_not_input(job->output, "--output", &input.description, &error))
             status = draw_job(job, &input, &settings);
         else
             print_error(error.text);

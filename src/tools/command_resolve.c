@@ -259,7 +259,7 @@ static ps_result resolve(struct job *job, struct error *error)
     settings.no_error_layer = !output_list_wants_error(&job->outputs);
     settings.display = output_list_wants_display(&job->outputs);
     settings.exposure = job->exposure;
-    result = layers_suit(output_options_layers(&job->outputs.options), &settings, error);
+    result = layers_check_denoiser(output_options_layers(&job->outputs.options), &settings, error);
     if (result == PS_OK)
         result = resolve_with(job, &settings, error);
     settings_release(&settings);

@@ -46,7 +46,7 @@ bool render_arguments_read(const struct render_arguments *taken, const char *pat
     }
     ps_result result = scene_input_read(input, path, &taken->options.scene);
     if (result == PS_OK)
-        result = render_options_lay_over(&taken->options, input);
+        result = render_options_apply(&taken->options, input);
     if (result != PS_OK)
         print_problems(input);
     return result == PS_OK;

@@ -9,8 +9,8 @@
  *
  * Splats of half-width h and more smear that over the crease; short rays find it.
  */
-#include "gather/gather_pilot.h"
 #include "render/state.h"
+#include "short_range/short_range_pilot.h"
 #include "support/render_scene.h"
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* test_pipeline.c: the driver: photons pass through, dark pixels are filled and counted, layers
  * join, and the picture depends on neither threads nor batches. */
-#include "gather/gathered_light.h"
+#include "short_range/short_range_light.h"
 #include "support/render_scene.h"
 
 #include <math.h>

@@ -220,8 +220,8 @@ static void compare(struct group *group, int c)
 }
 
 /* The weight of splats in the mean of both, each weighted by the other's variance: what they differ by, of which the
- * paths' noise is known. From the groups around, too: a group whose paths have found a light by luck must not be told
- * from its noise alone, or such light would be lost. */
+ * paths' noise is known. From the groups around, too: a group's own estimate of the noise depends on whether its paths happened to
+ * hit a light, and weights by it alone would lose that light. */
 static float weight_of_splats(const struct group *groups, size_t count, size_t index)
 {
     size_t from = index > GROUPS_AROUND ? index - GROUPS_AROUND : 0;

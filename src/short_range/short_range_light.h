@@ -1,6 +1,6 @@
-/* gathered_light.h: the light that splats of a pass leave out, pixel by pixel.
+/* short_range_light.h: the light that splats of a pass leave out, pixel by pixel.
  *
- * It is gathered with few rays a pixel (gather.h), and becomes a mean over the window that splats are
+ * It is gathered with few rays a pixel (short_range_gather.h), and becomes a mean over the window that splats are
  * interleaved over, or would be if they were fewer and larger (geometry_filter.h). Beside a thing no larger than a
  * pixel, and along contacts, that is too wide. So a pixel whose own rays found something else than the mean, by
  * D with a variance of s^2 (both of the sum of its channels), goes from the mean to its own by the part
@@ -10,8 +10,8 @@
  * which is next to 1 where they surely differ, and 0 where that may be chance (the garrote of Gao 1998, "Wavelet
  * shrinkage denoising using the non-negative garrote").
  */
-#ifndef GATHER_GATHERED_LIGHT_H
-#define GATHER_GATHERED_LIGHT_H
+#ifndef SHORT_RANGE_SHORT_RANGE_LIGHT_H
+#define SHORT_RANGE_SHORT_RANGE_LIGHT_H
 
 #include "base/parallel.h"
 #include "film/gbuffer.h"
@@ -22,7 +22,7 @@ struct gathered_light {
     float *variances;  /* of that, of its channels' sum; likewise */
     ps_rgb *joined;    /* room for its means, likewise */
     uint8_t *averaged; /* how many pixels they are taken over, likewise */
-    /* For gather_pilot.h, a value for each tile of the picture; likewise. */
+    /* For short_range_pilot.h, a value for each tile of the picture; likewise. */
     float *ray_variances; /* of what single rays find there */
     float *noises;        /* its root, there and around */
     double mean_noise;

@@ -1,8 +1,8 @@
-/* gather_rays.h: short rays from pixels, and the light that what they meet gets straight from the lights. */
-#ifndef GATHER_GATHER_RAYS_H
-#define GATHER_GATHER_RAYS_H
+/* short_range_rays.h: short rays from pixels, and the light that what they meet gets straight from the lights. */
+#ifndef SHORT_RANGE_SHORT_RANGE_RAYS_H
+#define SHORT_RANGE_SHORT_RANGE_RAYS_H
 
-#include "gather/gathered_light.h"
+#include "short_range/short_range_light.h"
 #include <psplat/host.h>
 #include <psplat/tile.h>
 

@@ -1,4 +1,4 @@
-#include "gather/gathered_light.h"
+#include "short_range/short_range_light.h"
 
 #include "base/parallel.h"
 #include "film/geometry_filter.h"
@@ -56,7 +56,7 @@ ps_result gathered_light_begin(struct gathered_light *near, const struct gbuffer
     memset(near->found, 0, lanes * sizeof *near->found);
     struct geometry_filter count = {
         .gbuffer = gbuffer, .radius = near->radius, .counts = near->averaged};
-    geometry_filter_take(&count, workers);
+    geometry_filter_apply(&count, workers);
     return PS_OK;
 }
 
@@ -74,7 +74,7 @@ void gathered_light_release(struct gathered_light *near)
 /* So many standard deviations may be chance; squared. */
 #define CHANCE2 4.0f
 
-/* From the mean of a window to what the pixel found itself, as far as that is no chance (gathered_light.h). */
+/* From the mean of a window to what the pixel found itself, as far as that is no chance (short_range_light.h). */
 static ps_rgb between(ps_rgb mean, ps_rgb own, float variance)
 {
     ps_rgb apart = {own.r - mean.r, own.g - mean.g, own.b - mean.b};
@@ -112,7 +112,7 @@ void gathered_light_end(struct gathered_light *near, struct gbuffer *gbuffer,
         return;
     struct geometry_filter mean = {
         .gbuffer = gbuffer, .radius = near->radius, .from = near->found, .to = near->joined};
-    geometry_filter_take(&mean, workers);
+    geometry_filter_apply(&mean, workers);
     struct adding adding = {gbuffer, near};
     parallel_for(workers, gbuffer->tile_count, add_tile, &adding);
 }

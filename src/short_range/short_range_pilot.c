@@ -1,4 +1,4 @@
-#include "gather/gather_pilot.h"
+#include "short_range/short_range_pilot.h"
 
 #include "film/geometry_filter.h"
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "gather/gather_rays.h"
+#include "short_range/short_range_rays.h"
 
 #include "placement/gather_share.h"
 #include <math.h>

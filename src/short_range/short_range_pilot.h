@@ -1,4 +1,4 @@
-/* gather_pilot.h: how gather rays are shared out among tiles, by their noise (Neyman 1934, "On the two different aspects
+/* short_range_pilot.h: how gather rays are shared out among tiles, by their noise (Neyman 1934, "On the two different aspects
  * of the representative method").
  *
  * A part of the rays goes ahead as a pilot, which tells the noise: where the sun shines on what is near it is hundreds
@@ -8,10 +8,10 @@
  * Shares are of the whole picture, and so is the pilot, where a window of it is rendered: tiles are known by their
  * numbers in the picture here.
  */
-#ifndef GATHER_GATHER_PILOT_H
-#define GATHER_GATHER_PILOT_H
+#ifndef SHORT_RANGE_SHORT_RANGE_PILOT_H
+#define SHORT_RANGE_SHORT_RANGE_PILOT_H
 
-#include "gather/gather_rays.h"
+#include "short_range/short_range_rays.h"
 
 /* The largest part of the rays that a tile may have, of 1 on average. */
 #define GATHER_PILOT_LARGEST_SHARE 16.0

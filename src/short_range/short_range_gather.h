@@ -1,4 +1,4 @@
-/* gather.h: finds the light from closer than splats are wide, by short rays from the pixels.
+/* short_range_gather.h: finds the light from closer than splats are wide, by short rays from the pixels.
  *
  * A kernel blurs what is smaller than itself: light that comes from nearer than a radius, along creases
  * and under what stands close to a wall. There splats would have to be as small as the gaps, and would be so
@@ -9,12 +9,12 @@
  * other surfaces threw there is smooth, and caustics are found by light paths alone: both are splatted all the
  * way.
  *
- * Rays are shared out among tiles by their noise (gather_pilot.h).
+ * Rays are shared out among tiles by their noise (short_range_pilot.h).
  */
-#ifndef GATHER_GATHER_H
-#define GATHER_GATHER_H
+#ifndef SHORT_RANGE_SHORT_RANGE_GATHER_H
+#define SHORT_RANGE_SHORT_RANGE_GATHER_H
 
-#include "gather/gathered_light.h"
+#include "short_range/short_range_light.h"
 #include <psplat/host.h>
 
 /* Fills near->found, which gathered_light_begin zeroed. `rays`: of a pixel in the middle of a surface and those

@@ -1,7 +1,7 @@
-#include "gather/gather.h"
+#include "short_range/short_range_gather.h"
 
 #include "film/geometry_filter.h"
-#include "gather/gather_pilot.h"
+#include "short_range/short_range_pilot.h"
 #include <math.h>
 
 /* Rays of each pixel that tell whether anything is near to the block that it lies in. Where none of the
